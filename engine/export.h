@@ -1,0 +1,8 @@
+// Which symbols leave the library. Everything else is hidden.
+#pragma once
+
+#if defined(TESSERA_STATIC)
+#define TESSERA_API
+#else
+#define TESSERA_API __attribute__((visibility("default")))
+#endif

@@ -1,0 +1,308 @@
+// Tessera: a multithreaded, tile-based software rasterizer. This is the only header that users include.
+//
+//   tessera::Renderer renderer;                                     // all cores, best instruction set
+//   tessera::FrameBuffer buffer({.width = 640, .height = 480});     // 24-bit colour, 24-bit depth
+//   tessera::Frame frame(buffer);
+//   frame.clear({.color = tessera::Color{0, 0, 0, 1}, .depth = 1.0});
+//   frame.set_camera({.view = look_at(...), .projection = perspective(...)});
+//   frame.draw(mesh, {.material = red, .shading = tessera::Shading::phong});
+//   renderer.finish(frame, {.pixels = pixels, .width = 640, .height = 480, .stride_bytes = 640 * 4});
+//
+// Conventions are OpenGL's: right-handed, camera looks along -z, column vectors, matrices written in rows as on paper,
+// counter-clockwise fronts, angles in degrees, window origin at the lower left. No transfer curve: 0.5 is 128 of 255.
+// Images and planes handed over start with the top row.
+//
+// Errors. Whatever the caller or the world got wrong throws tessera::Error before a pixel is touched; its message says
+// what was found and what was needed. Odd data (NaN vertices, triangles without area) is dropped and counted in FrameStats.
+//
+// Threads. Distinct objects may be used on distinct threads at the same time; one object by one thread at a time. There is
+// no global state. The same frame gives the same bits for any number of threads, tile size and instruction set.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/export.h"
+
+namespace tessera {
+
+/// The one exception type of the library.
+class TESSERA_API Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+};
+/// Red, green, blue, alpha; 1 is full. Any finite number, except where a range is named.
+struct Color {
+  float r = 0, g = 0, b = 0, a = 1;
+};
+/// A rectangle of pixels; x, y is its lower left corner in window coordinates (origin lower left).
+struct Rect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+/// 4x4, in rows as on paper: m[4 * row + column]; applies to column vectors.
+struct Matrix {
+  std::array<double, 16> m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+};
+TESSERA_API Matrix operator*(const Matrix& left, const Matrix& right);
+TESSERA_API Matrix translate(double x, double y, double z);
+TESSERA_API Matrix rotate(double degrees, double x, double y, double z);  ///< about an axis, counter-clockwise; throws Error for an axis of length 0
+TESSERA_API Matrix scale(double x, double y, double z);
+TESSERA_API Matrix look_at(Vec3 eye, Vec3 target, Vec3 up);               ///< world to eye; throws Error where the three do not span a frame
+
+// ---- frame buffer -------------------------------------------------------------------------------------------------
+
+enum class ColorMode : std::uint8_t { rgb, index };
+enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32 };
+
+inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height, in pixels
+
+struct FrameBufferFormat {
+  int width = 640, height = 480;            ///< 1 .. kMaxFrameBufferSize
+  ColorMode color_mode = ColorMode::rgb;
+  int color_bits = 24;                      ///< colour planes, 1 .. 24: RGB split, or bits of a palette index
+  std::vector<Color> palette;               ///< index mode: at most 2^color_bits entries, 0..1 each; empty: default_palette(color_bits)
+  DepthFormat depth = DepthFormat::unorm24;
+  int stencil_bits = 8;                     ///< 0 .. 8
+};
+
+/// Built-in palettes: "bw", "gray", "ega16", "vga256", "web216". Throws Error for another name, or more entries than 2^color_bits.
+TESSERA_API std::vector<Color> named_palette(std::string_view name, int color_bits);
+/// bw at 1 bit, greys at 2 and 3, ega16 at 4 to 7, vga256 at 8 and more.
+TESSERA_API std::vector<Color> default_palette(int color_bits);
+
+enum class Buffer : std::uint8_t { color, depth, stencil };
+
+/// One plane of the stack as a 1-bit image: rows from the top, bit 7 of a byte is the leftmost pixel. Borrowed from the
+/// frame buffer; valid until it is drawn to or destroyed.
+struct PlaneView {
+  const std::uint8_t* bits = nullptr;
+  int width = 0, height = 0;
+  std::ptrdiff_t stride_bytes = 0;
+};
+
+enum class PixelOrder : std::uint8_t { rgba8, bgra8 };
+
+/// The caller's memory for a scan-out: 4 bytes a pixel, alpha 255. The first row is the top of the picture, `pixels` points
+/// at it; stride_bytes may be negative (then rows go upwards in memory) or larger than 4 * width.
+struct ImageTarget {
+  void* pixels = nullptr;
+  int width = 0, height = 0;                ///< must equal the frame buffer's
+  std::ptrdiff_t stride_bytes = 0;
+  PixelOrder order = PixelOrder::rgba8;
+};
+
+/// A stack of bitplanes: colour, depth and stencil, one bit for each pixel in each plane. New buffers hold colour 0,
+/// depth 1, stencil 0. A buffer is allocated when a frame first stores something else in it.
+class TESSERA_API FrameBuffer {
+ public:
+  /// Throws Error for sizes, bits or palettes out of range, and where memory runs out.
+  explicit FrameBuffer(FrameBufferFormat format);
+  ~FrameBuffer();
+  FrameBuffer(FrameBuffer&&) noexcept;
+  FrameBuffer& operator=(FrameBuffer&&) noexcept;
+
+  const FrameBufferFormat& format() const noexcept;
+  /// Planes of a buffer: colour bits, depth bits (0, 16, 24, 32), stencil bits.
+  int plane_count(Buffer buffer) const noexcept;
+  /// Bytes that the planes of a buffer take now; 0 while it is not allocated.
+  std::size_t allocated_bytes(Buffer buffer) const noexcept;
+  /// Plane k of a buffer, 0 the lowest bit (of blue, of the index, of depth). Allocates it if need be. Throws Error for a
+  /// plane that does not exist or a buffer that the last frame did not keep.
+  PlaneView plane(Buffer buffer, int k) const;
+
+  // Reading back, rows from the top; throws Error for a wrong size or a buffer that the last frame did not keep.
+  void read_color(const ImageTarget& target) const;                ///< what a display would show, through the palette
+  void read_color_words(std::span<std::uint32_t> words) const;     ///< stored words R:G:B or indices, width * height
+  void read_depth(std::span<float> depth) const;                   ///< 0 near .. 1 far
+  void read_depth_words(std::span<std::uint32_t> words) const;     ///< stored levels; the bits of the float for float32
+  void read_stencil(std::span<std::uint8_t> stencil) const;
+
+ private:
+  friend class Renderer;
+  friend class Frame;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// ---- scene description --------------------------------------------------------------------------------------------
+
+/// Triangles, borrowed from the caller until the frame is finished. Spans other than positions may be empty.
+struct Mesh {
+  std::span<const float> positions;         ///< x y z, or x y z w with position_components 4
+  int position_components = 3;
+  std::span<const float> normals;           ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
+  std::span<const float> colors;            ///< r g b a for each vertex
+  std::span<const std::uint32_t> indices;   ///< three a triangle; empty: vertices in order
+};
+
+struct Material {
+  Color ambient{0.2f, 0.2f, 0.2f, 1}, diffuse{0.8f, 0.8f, 0.8f, 1}, specular{0, 0, 0, 1}, emission{0, 0, 0, 1};
+  float shininess = 0;                      ///< 0 .. 16384
+};
+/// The named materials of the lighting tables: "emerald", "polished_gold", ... Empty for an unknown name.
+TESSERA_API std::optional<Material> named_material(std::string_view name);
+TESSERA_API std::vector<std::string_view> material_names();
+
+/// Defaults are OpenGL's, but every light starts white.
+struct Light {
+  Color ambient{0, 0, 0, 1}, diffuse{1, 1, 1, 1}, specular{1, 1, 1, 1};
+  std::array<float, 4> position{0, 0, 1, 0};         ///< world space; w = 0: directional, towards the light
+  std::array<float, 3> spot_direction{0, 0, -1};     ///< world space
+  float spot_exponent = 0;                           ///< 0 .. 16384
+  float spot_cutoff = 180;                           ///< degrees: 0 .. 90, or 180
+  float attenuation_constant = 1, attenuation_linear = 0, attenuation_quadratic = 0;
+};
+
+enum class Highlight : std::uint8_t { blinn, phong };
+struct LightModel {
+  Color ambient{0.2f, 0.2f, 0.2f, 1};
+  bool local_viewer = false, two_sided = false;
+  Highlight specular = Highlight::blinn;
+};
+
+/// With `reversed`, the projection maps z to 0..w, near at 1, far at 0, and depth is z/w; otherwise z runs -w..w.
+struct Camera {
+  Matrix view, projection;
+  bool reversed = false;
+};
+/// Far may be infinity. Each throws Error for an empty or non-finite volume.
+TESSERA_API Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed = false);
+TESSERA_API Matrix frustum(double left, double right, double bottom, double top, double near, double far, bool reversed = false);
+TESSERA_API Matrix orthographic(double left, double right, double bottom, double top, double near, double far, bool reversed = false);
+
+enum class Shading : std::uint8_t { flat, gouraud, phong };
+enum class ColorMaterial : std::uint8_t { none, ambient_and_diffuse, diffuse, ambient, emission, specular };
+enum class ProvokingVertex : std::uint8_t { last, first };
+enum class Cull : std::uint8_t { none, back, front };
+enum class FrontFace : std::uint8_t { ccw, cw };
+enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
+
+struct DepthState {
+  bool enabled = true;                      ///< false: neither test nor write; ignored without a depth buffer
+  Compare test = Compare::less;
+  bool write = true;
+};
+
+struct DrawState {
+  Material material;
+  std::optional<Material> back_material;    ///< two-sided lighting; absent: as the front
+  Matrix transform;                         ///< object to world
+  Shading shading = Shading::gouraud;
+  bool lighting = true;                     ///< false: vertex colours, or the material's diffuse colour
+  ColorMaterial color_material = ColorMaterial::none;
+  ProvokingVertex provoking_vertex = ProvokingVertex::last;
+  bool normalize = true;
+  Cull cull = Cull::none;
+  FrontFace front_face = FrontFace::ccw;
+  DepthState depth;
+  double depth_near = 0, depth_far = 1;     ///< depth range, each 0 .. 1
+  std::array<bool, 4> color_mask{true, true, true, true};
+  std::uint32_t plane_mask = 0xffffffffu;   ///< bit k: colour plane k may change
+  std::optional<Rect> viewport;             ///< absent: the whole buffer
+  std::optional<Rect> scissor;
+};
+
+/// Only the buffers named are cleared, through full masks.
+struct Clear {
+  std::optional<Color> color;               ///< RGB buffers (0..1)
+  std::optional<std::uint32_t> index;       ///< index buffers; `color` there clears to the nearest palette entry
+  std::optional<double> depth;              ///< 0 .. 1
+  std::optional<std::uint32_t> stencil;
+  std::optional<Rect> scissor;
+};
+
+// ---- frames -------------------------------------------------------------------------------------------------------
+
+struct FrameStats {
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles_in = 0;
+  std::uint64_t dropped_non_finite = 0;     ///< triangles with a NaN or infinite vertex
+  std::uint64_t outside = 0;                ///< wholly outside the view volume, the scissor or between pixel centres
+  std::uint64_t culled = 0;                 ///< by facing
+  std::uint64_t zero_area = 0;              ///< no area after snapping to 1/256 pixel
+  std::uint64_t clipped = 0;                ///< cut by the near or far plane or the guard band
+  std::uint64_t binned = 0;                 ///< triangles that reached a bin, clipped pieces counted singly
+  std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles in them
+  std::uint64_t tiles = 0, tiles_touched = 0;
+  std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
+};
+
+/// Records what happens in a frame, in order. Nothing runs until Renderer::finish.
+class TESSERA_API Frame {
+ public:
+  explicit Frame(FrameBuffer& target);
+  ~Frame();
+  Frame(Frame&&) noexcept;
+  Frame& operator=(Frame&&) noexcept;
+
+  // State for the draws that follow. The initial camera is the identity; the initial lights are one default Light.
+  void set_camera(const Camera& camera);
+  void set_lights(std::span<const Light> lights);
+  void set_light_model(const LightModel& model);
+
+  /// Throws Error for values out of range and for a buffer that the frame buffer does not have.
+  void clear(const Clear& clear);
+  /// Throws Error for spans that do not fit together, indices out of bounds and values out of range.
+  void draw(const Mesh& mesh, const DrawState& state);
+
+  /// Which buffers the frame buffer holds afterwards; the others are not stored, and reading them is an error until they
+  /// are cleared whole. Default: with an ImageTarget none, without one every buffer that the frame touched.
+  void keep(std::initializer_list<Buffer> buffers);
+
+  /// What the code that runs for draw i contains, and why: one line for each effect. For people who want to know what they pay for.
+  std::string explain(std::size_t draw_index) const;
+  std::size_t draw_count() const noexcept;
+
+ private:
+  friend class Renderer;
+  struct Recording;
+  std::unique_ptr<Recording> recording_;
+};
+
+enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
+/// Those that this build holds and this machine can run, best first; never empty.
+TESSERA_API std::vector<InstructionSet> available_instruction_sets();
+TESSERA_API std::string_view name(InstructionSet set);
+
+struct RendererOptions {
+  int threads = 0;                          ///< 0: one for each core that the process may use; otherwise 1 .. 1024
+  int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen by the frame's size and the threads
+  InstructionSet instruction_set = InstructionSet::automatic;
+  bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
+};
+
+/// Owns the working memory of frames in flight and the threads' arena. Create once, use for many frames and frame buffers.
+class TESSERA_API Renderer {
+ public:
+  /// Throws Error for options out of range or an instruction set that this machine cannot run.
+  explicit Renderer(RendererOptions options = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Runs the frame. It is empty afterwards and may be recorded anew; camera, lights and light model stay.
+  FrameStats finish(Frame& frame);
+  /// Runs the frame and scans the colour buffer out into the caller's memory, straight from the tiles.
+  FrameStats finish(Frame& frame, const ImageTarget& target);
+
+  const RendererOptions& options() const noexcept;  ///< with the choices made for `automatic` and 0
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tessera

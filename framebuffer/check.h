@@ -1,0 +1,16 @@
+// The assertion for our own bugs: checked in debug and sanitizer builds, free in release builds.
+#pragma once
+
+#if defined(TESSERA_CHECKED)
+#include <cstdio>
+#include <cstdlib>
+#define TESSERA_ASSERT(condition)                                                                 \
+  do {                                                                                            \
+    if (!(condition)) {                                                                           \
+      std::fprintf(stderr, "%s:%d: assertion failed: %s\n", __FILE__, __LINE__, #condition);      \
+      std::abort();                                                                               \
+    }                                                                                             \
+  } while (false)
+#else
+#define TESSERA_ASSERT(condition) static_cast<void>(0)
+#endif

@@ -1,0 +1,90 @@
+// Colour, depth and stencil formats, and the one quantizer each way.
+//
+// In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so plane k is bit k.
+// A pixel's depth is a signed key whose order is the order of depths: see DepthKind.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace tessera {
+
+/// How b colour bits are split: 1 and 2 bits luminance, else b/3 each, one odd bit to green, a second to red.
+struct ColorLayout {
+  int bits = 24;
+  bool index = false;      ///< the word is a palette index
+  bool luminance = false;  ///< the word is one grey component of `bits` bits
+  int r_bits = 8, g_bits = 8, b_bits = 8;
+  int r_shift() const { return g_bits + b_bits; }
+  int g_shift() const { return b_bits; }
+  std::uint32_t word_mask() const { return (std::uint32_t{1} << bits) - 1; }
+  std::uint32_t r_mask() const { return ((std::uint32_t{1} << r_bits) - 1) << r_shift(); }
+  std::uint32_t g_mask() const { return ((std::uint32_t{1} << g_bits) - 1) << g_shift(); }
+  std::uint32_t b_mask() const { return (std::uint32_t{1} << b_bits) - 1; }
+};
+
+constexpr ColorLayout rgb_layout(int bits) {
+  ColorLayout layout{.bits = bits, .luminance = bits <= 2};
+  layout.r_bits = bits / 3 + (bits % 3 == 2 ? 1 : 0);
+  layout.g_bits = bits / 3 + (bits % 3 >= 1 ? 1 : 0);
+  layout.b_bits = bits / 3;
+  return layout;
+}
+constexpr ColorLayout index_layout(int bits) { return {.bits = bits, .index = true}; }
+
+// Luminance of 1- and 2-bit buffers: 0.30 R + 0.59 G + 0.11 B.
+inline constexpr float kLumaR = 0.30f, kLumaG = 0.59f, kLumaB = 0.11f;
+
+/// floor(c (2^b - 1) + 0.5), c clamped to 0..1; a NaN counts as 0.
+inline std::uint32_t quantize(float c, int bits) {
+  const float levels = static_cast<float>((1u << bits) - 1);
+  const float clamped = c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f;
+  return static_cast<std::uint32_t>(std::fma(clamped, levels, 0.5f));
+}
+/// The stored word of an RGB or luminance layout.
+inline std::uint32_t quantize_rgb(const ColorLayout& layout, float r, float g, float b) {
+  if (layout.luminance) return quantize(std::fma(kLumaR, r, std::fma(kLumaG, g, kLumaB * b)), layout.bits);
+  return quantize(r, layout.r_bits) << layout.r_shift() | quantize(g, layout.g_bits) << layout.g_shift() | quantize(b, layout.b_bits);
+}
+/// What a display shows of level v of b bits: round(255 v / (2^b - 1)), in integers.
+constexpr std::uint32_t shown_level(std::uint32_t v, int bits) {
+  const std::uint32_t levels = (1u << bits) - 1;
+  return levels == 0 ? 0 : (2 * 255 * v + levels) / (2 * levels);
+}
+
+enum class DepthKind : std::uint8_t { none, unorm16, unorm24, unorm32, float32 };
+
+constexpr int depth_bits(DepthKind kind) {
+  return kind == DepthKind::none ? 0 : kind == DepthKind::unorm16 ? 16 : kind == DepthKind::unorm24 ? 24 : 32;
+}
+
+// A depth key is the stored level for 16 and 24 bits, the level with its top bit flipped for 32 bits, and the bits of the
+// float (never negative) for float32: in each case a signed comparison of keys compares depths.
+constexpr std::int32_t depth_key_from_word(DepthKind kind, std::uint32_t word) {
+  return static_cast<std::int32_t>(kind == DepthKind::unorm32 ? word ^ 0x80000000u : word);
+}
+constexpr std::uint32_t depth_word_from_key(DepthKind kind, std::int32_t key) {
+  return kind == DepthKind::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u : static_cast<std::uint32_t>(key);
+}
+/// floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
+inline std::uint32_t depth_word(DepthKind kind, double z) {
+  if (kind == DepthKind::float32) {
+    const float f = static_cast<float>(z) + 0.0f;  // + 0: no negative zero
+    std::uint32_t word;
+    std::memcpy(&word, &f, sizeof word);
+    return word;
+  }
+  const double levels = std::ldexp(1.0, depth_bits(kind)) - 1;
+  return static_cast<std::uint32_t>(std::floor(z * levels + 0.5));
+}
+inline double depth_from_word(DepthKind kind, std::uint32_t word) {
+  if (kind == DepthKind::float32) {
+    float f;
+    std::memcpy(&f, &word, sizeof f);
+    return f;
+  }
+  return word / (std::ldexp(1.0, depth_bits(kind)) - 1);
+}
+
+}  // namespace tessera

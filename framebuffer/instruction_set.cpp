@@ -1,0 +1,32 @@
+#include "framebuffer/lanes.h"
+
+namespace tessera {
+
+// What each set needs is what Highway compiles its target with (HWY_TARGET_STR).
+#if HWY_TARGETS & HWY_AVX2
+static bool machine_has_avx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+         __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") && __builtin_cpu_supports("pclmul") &&
+         __builtin_cpu_supports("aes");
+}
+#endif
+#if HWY_TARGETS & HWY_AVX3
+static bool machine_has_avx512() {
+  return machine_has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+}
+#endif
+
+std::vector<Isa> available_isas() {
+  std::vector<Isa> found;
+#if HWY_TARGETS & HWY_AVX3
+  if (machine_has_avx512()) found.push_back(Isa::avx512);
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  if (machine_has_avx2()) found.push_back(Isa::avx2);
+#endif
+  found.push_back(Isa::scalar);
+  return found;
+}
+
+}  // namespace tessera

@@ -1,0 +1,15 @@
+// The one place where the instruction set is chosen. Kernels are compiled once for each set (see lanes.h) and picked from
+// a table by Isa, once a frame; algorithms do not know which one runs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tessera {
+
+enum class Isa : std::uint8_t { scalar, avx2, avx512 };
+
+/// Those compiled in that this machine can run, best first; always ends with scalar (the build's baseline).
+std::vector<Isa> available_isas();
+
+}  // namespace tessera

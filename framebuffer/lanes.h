@@ -1,0 +1,41 @@
+// Compiles the kernels of a translation unit once for each instruction set. Usage, at the top of a .cpp:
+//
+//   #undef HWY_TARGET_INCLUDE
+//   #define HWY_TARGET_INCLUDE "raster/coverage.cpp"
+//   #include "framebuffer/lanes.h"        // then all std headers, then any "*-inl.h", then
+//   HWY_BEFORE_NAMESPACE();
+//   namespace tessera { namespace HWY_NAMESPACE { void kernel(...) {...} } }
+//   HWY_AFTER_NAMESPACE();
+//   #if HWY_ONCE
+//   namespace tessera { KernelFn* kernel_for(Isa isa) { return TESSERA_KERNEL(isa, kernel); } }
+//   #endif
+//
+// Highway's SSSE3 and SSE4 targets are disabled: they have no fused multiply-add, so their bits would differ. Older x86
+// takes the scalar path, whose multiply-adds are fused by std::fma.
+#ifndef TESSERA_LANES_CONFIGURED
+#define TESSERA_LANES_CONFIGURED
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#define HWY_BROKEN_EMU128 1  // one baseline for every compiler: a single lane
+#if defined(TESSERA_SCALAR_ONLY)
+#define HWY_COMPILE_ONLY_SCALAR
+#endif
+#endif
+
+#include "framebuffer/instruction_set.h"
+
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+// highway.h must follow foreach_target.h
+#include "hwy/highway.h"
+
+#if HWY_TARGETS & HWY_AVX3
+#define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::Isa::avx512 ? &N_AVX3::fn :
+#else
+#define TESSERA_KERNEL_AVX512(isa, fn)
+#endif
+#if HWY_TARGETS & HWY_AVX2
+#define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::Isa::avx2 ? &N_AVX2::fn :
+#else
+#define TESSERA_KERNEL_AVX2(isa, fn)
+#endif
+/// The address of `fn` compiled for `isa`.
+#define TESSERA_KERNEL(isa, fn) (TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
