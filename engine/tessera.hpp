@@ -35,6 +35,11 @@
 
 namespace tessera {
 
+// What stands behind the classes; nobody's business.
+struct FrameBufferState;
+struct FrameRecording;
+struct RendererState;
+
 /// The one exception type of the library.
 class TESSERA_API Error : public std::runtime_error {
  public:
@@ -133,8 +138,7 @@ class TESSERA_API FrameBuffer {
  private:
   friend class Renderer;
   friend class Frame;
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<FrameBufferState> state_;
 };
 
 // ---- scene description --------------------------------------------------------------------------------------------
@@ -268,8 +272,7 @@ class TESSERA_API Frame {
 
  private:
   friend class Renderer;
-  struct Recording;
-  std::unique_ptr<Recording> recording_;
+  std::unique_ptr<FrameRecording> recording_;
 };
 
 enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
@@ -301,8 +304,7 @@ class TESSERA_API Renderer {
   const RendererOptions& options() const noexcept;  ///< with the choices made for `automatic` and 0
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<RendererState> state_;
 };
 
 }  // namespace tessera

@@ -1,5 +1,8 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "framebuffer/instruction_set.cpp"
 #include "framebuffer/lanes.h"
 
+#if HWY_ONCE
 namespace tessera {
 
 // What each set needs is what Highway compiles its target with (HWY_TARGET_STR).
@@ -30,3 +33,4 @@ std::vector<Isa> available_isas() {
 }
 
 }  // namespace tessera
+#endif  // HWY_ONCE

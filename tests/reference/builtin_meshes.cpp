@@ -75,16 +75,12 @@ Mesh grid(int n) {
 
 // A disc of 2n triangles around its centre, at height y, facing `up` (+1 or -1).
 void append_cap(Mesh& mesh, int n, double y, double up) {
-  append_quads(mesh, 2 * n, 1, [&](double s, double t) {
-    return SurfacePoint{around_y(up * s, 1 - t, y), {0, up, 0}};
-  });
+  append_quads(mesh, 2 * n, 1, [&](double s, double t) { return SurfacePoint{around_y(up * s, 1 - t, y), {0, up, 0}}; });
 }
 
 Mesh cylinder(int n) {
   Mesh mesh;
-  append_quads(mesh, 2 * n, 1, [](double s, double t) {
-    return SurfacePoint{around_y(s, 1, 2 * t - 1), around_y(s, 1, 0)};
-  });
+  append_quads(mesh, 2 * n, 1, [](double s, double t) { return SurfacePoint{around_y(s, 1, 2 * t - 1), around_y(s, 1, 0)}; });
   append_cap(mesh, n, 1, 1);
   append_cap(mesh, n, -1, -1);
   return mesh;

@@ -85,7 +85,7 @@ inline Mat4 mat4(const Value& v) {
 }
 
 inline Rect rect(const Value& v) {
-  constexpr std::int64_t kLimit = 1 << 24;
+  constexpr std::int64_t kLimit = 1 << 20;
   if (array_size(v) != 4) fail(v.pointer, "x, y, width, height");
   const auto at = [&](std::size_t i, std::int64_t least) { return static_cast<int>(integer(v[i], least, kLimit)); };
   return {at(0, -kLimit), at(1, -kLimit), at(2, 0), at(3, 0)};
@@ -126,7 +126,8 @@ class ObjectReader {
 
   /// A key of the format that these renderers do not cover: it may only hold its default.
   void only_default(const std::string& key, const Json& standard) {
-    if (const Value v = find(key); v && *v.json != standard) fail(v.pointer, standard.dump() + " (all that the reference covers)");
+    if (const Value v = find(key); v && *v.json != standard)
+      fail(v.pointer, standard.dump() + " (all that the reference covers)");
   }
 
   void finish() const {

@@ -105,7 +105,8 @@ Camera parse_camera(const Value& v, double aspect) {
     camera.reversed = reversed && boolean(reversed);
   } else {
     const Value eye = reader.find("eye"), target = reader.find("target"), up = reader.find("up");
-    camera.view_from_world = look_at(eye ? vec3(eye) : Vec3{0, 0, 4}, target ? vec3(target) : Vec3{}, up ? vec3(up) : Vec3{0, 1, 0}, v.pointer);
+    camera.view_from_world =
+        look_at(eye ? vec3(eye) : Vec3{0, 0, 4}, target ? vec3(target) : Vec3{}, up ? vec3(up) : Vec3{0, 1, 0}, v.pointer);
     const Json standard = Json::object();
     parse_projection(projection ? projection : Value{&standard, v.pointer + "/projection"}, aspect, camera);
   }

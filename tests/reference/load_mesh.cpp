@@ -1,4 +1,8 @@
-// Meshes: built in, written in the scene, or from an OBJ file.
+// Meshes: built in, written in the scene, or from an OBJ file. The header-only OBJ loader is compiled here, with doubles and
+// under a name of its own, so that it cannot meet another copy of itself in the same program.
+#define tinyobj tessera_reference_tinyobj
+#define TINYOBJLOADER_USE_DOUBLE
+#define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
 #include "builtin_meshes.h"
@@ -32,7 +36,8 @@ Mesh parse_inline(ObjectReader& reader, const std::string& pointer) {
 
   if (const Value indices = reader.find("indices")) {
     for (std::size_t i = 0; i < array_size(indices); ++i)
-      mesh.indices.push_back(static_cast<std::uint32_t>(integer(indices[i], 0, static_cast<std::int64_t>(mesh.positions.size()) - 1)));
+      mesh.indices.push_back(
+          static_cast<std::uint32_t>(integer(indices[i], 0, static_cast<std::int64_t>(mesh.positions.size()) - 1)));
   } else {
     for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
   }
@@ -49,7 +54,8 @@ Mesh load_obj(const std::string& path) {
   std::string warning, error;
   const std::string directory = path.substr(0, path.find_last_of('/') + 1);
   constexpr bool kTriangulate = false, kWhiteIfUncolored = false;
-  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, path.c_str(), directory.c_str(), kTriangulate, kWhiteIfUncolored))
+  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, path.c_str(), directory.c_str(), kTriangulate,
+                        kWhiteIfUncolored))
     throw std::runtime_error("cannot read " + path + ": " + error);
 
   Mesh mesh;

@@ -54,11 +54,12 @@ std::vector<Rgb8> vga256() {
 }
 
 std::vector<Rgb8> web216() {
+  const auto level = [](int i) { return static_cast<std::uint8_t>(51 * i); };
   std::vector<Rgb8> palette;
   for (int r = 0; r < 6; ++r)
     for (int g = 0; g < 6; ++g)
       for (int b = 0; b < 6; ++b)
-        palette.push_back({static_cast<std::uint8_t>(51 * r), static_cast<std::uint8_t>(51 * g), static_cast<std::uint8_t>(51 * b)});
+        palette.push_back({level(r), level(g), level(b)});
   return palette;
 }
 
@@ -81,7 +82,8 @@ std::vector<Rgb8> named_palette(const std::string& name, int bits) {
   else if (name == "vga256") palette = vga256();
   else if (name == "web216") palette = web216();
   else throw std::runtime_error("unknown palette: " + name);
-  if (palette.size() > (std::size_t{1} << bits)) throw std::runtime_error("palette " + name + " has too many entries for the buffer");
+  if (palette.size() > (std::size_t{1} << bits))
+    throw std::runtime_error("palette " + name + " has too many entries for the buffer");
   return palette;
 }
 

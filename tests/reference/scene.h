@@ -120,7 +120,8 @@ struct Draw {
   Mat4 world_from_object;
   Shading shading = Shading::kGouraud;
   bool lighting = true;                ///< false: vertex colours if the mesh has them, else the material's diffuse colour
-  ColorMaterial color_material = ColorMaterial::kNone;  ///< vertex colours, if the mesh has them, replace these colours of both materials
+  /// Vertex colours, if the mesh has them, replace these colours of both materials.
+  ColorMaterial color_material = ColorMaterial::kNone;
   ProvokingVertex provoking_vertex = ProvokingVertex::kLast;
   bool normalize = true;               ///< eye-space normals are normalized at the vertices
   Cull cull = Cull::kNone;

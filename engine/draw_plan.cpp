@@ -1,0 +1,210 @@
+#include "engine/draw_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+#include "engine/matrix.h"
+#include "raster/fixed_point.h"
+
+namespace tessera {
+namespace {
+
+Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
+
+SurfaceMaterial surface(const Material& m) { return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess}; }
+
+std::array<float, 3> unit(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  const glm::dvec3 n = length > 0 ? v / length : glm::dvec3(0);
+  return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+}
+
+EyeLight eye_light(const Light& light, const glm::dmat4& view) {
+  EyeLight e;
+  e.ambient = rgb(light.ambient);
+  e.diffuse = rgb(light.diffuse);
+  e.specular = rgb(light.specular);
+  const auto& p = light.position;
+  e.directional = p[3] == 0;
+  if (e.directional) {
+    e.position = unit(glm::dmat3(view) * glm::dvec3(p[0], p[1], p[2]));
+  } else {
+    const glm::dvec4 at = view * glm::dvec4(glm::dvec3(p[0], p[1], p[2]) / double{p[3]}, 1.0);
+    e.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+  }
+  const auto& d = light.spot_direction;
+  e.spot_direction = unit(glm::dmat3(view) * glm::dvec3(d[0], d[1], d[2]));
+  e.spot_exponent = light.spot_exponent;
+  e.spot_cutoff = light.spot_cutoff;
+  e.attenuation = {light.attenuation_constant, light.attenuation_linear, light.attenuation_quadratic};
+  return e;
+}
+
+TrackedColors tracked_colors(ColorMaterial mode) {
+  switch (mode) {
+    case ColorMaterial::none: return {};
+    case ColorMaterial::ambient_and_diffuse: return {.ambient = true, .diffuse = true};
+    case ColorMaterial::diffuse: return {.diffuse = true};
+    case ColorMaterial::ambient: return {.ambient = true};
+    case ColorMaterial::emission: return {.emission = true};
+    case ColorMaterial::specular: return {.specular = true};
+  }
+  return {};
+}
+
+void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target) {
+  const FrameBufferFormat& format = target.format;
+  const Camera& camera = draw.surroundings->camera;
+  const glm::dmat4 eye_from_object = to_glm(camera.view) * to_glm(draw.state.transform);
+  const Matrix clip = from_glm(to_glm(camera.projection) * eye_from_object), eye = from_glm(eye_from_object);
+  std::copy(clip.m.begin(), clip.m.end(), plan.transform.clip_from_object);
+  std::copy_n(eye.m.begin(), 12, plan.eye.eye_from_object);
+
+  // The inverse transpose is the matrix of cofactors over the determinant; a singular matrix keeps the cofactors.
+  const glm::dmat3 m(eye_from_object);
+  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  const double determinant = glm::dot(m[0], cofactors[0]);
+  const double scale = std::isnormal(determinant) ? 1 / determinant : 1;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) plan.eye.normal_matrix[3 * row + column] = cofactors[column][row] * scale;
+  plan.eye.normalize = draw.state.normalize;
+
+  const Rect viewport = draw.state.viewport.value_or(Rect{0, 0, format.width, format.height});
+  VertexTransform& t = plan.transform;
+  t.half_width = viewport.width / 2.0;
+  t.half_height = viewport.height / 2.0;
+  t.guard_x = kGuardBandPixels / t.half_width;
+  t.guard_y = kGuardBandPixels / t.half_height;
+  t.center_x = kSubpixelScale * viewport.x + kHalfPixel * viewport.width;
+  t.center_y = kSubpixelScale * (format.height - viewport.y) - kHalfPixel * viewport.height;
+  t.reversed = camera.reversed;
+  t.depth_near = draw.state.depth_near;
+  t.depth_far = draw.state.depth_far;
+  t.depth = target.depth_kind;
+
+  plan.rect = intersect({0, 0, format.width, format.height}, raster_rect(viewport, format.height));
+  if (draw.state.scissor) plan.rect = intersect(plan.rect, raster_rect(*draw.state.scissor, format.height));
+}
+
+std::uint32_t write_mask(const DrawState& state, const ColorLayout& layout) {
+  std::uint32_t mask = 0;
+  if (layout.index || layout.luminance) {
+    mask = state.color_mask[0] ? layout.word_mask() : 0;
+  } else {
+    mask = (state.color_mask[0] ? layout.r_mask() : 0) | (state.color_mask[1] ? layout.g_mask() : 0) | (state.color_mask[2] ? layout.b_mask() : 0);
+  }
+  mask &= state.plane_mask;
+  if (mask == 0) return 0;
+  return mask == layout.word_mask() ? 0xffffffffu : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
+}
+
+void plan_lights(DrawPlan& plan, const RecordedDraw& draw, std::string* reasons) {
+  const LightModel& model = draw.surroundings->light_model;
+  const glm::dmat4 view = to_glm(draw.surroundings->camera.view);
+  std::vector<EyeLight> lights;
+  for (const Light& light : draw.surroundings->lights) lights.push_back(eye_light(light, view));
+  const TrackedColors tracked = draw.mesh.colors.empty() ? TrackedColors{} : tracked_colors(draw.state.color_material);
+  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong};
+  plan.front = plan_lighting(surface(draw.state.material), tracked, lights, lighting, reasons);
+  if (model.two_sided && plan.keep_back) {
+    plan.two_sided = true;
+    if (reasons) *reasons += "  back faces:\n";
+    plan.back = plan_lighting(surface(draw.state.back_material.value_or(draw.state.material)), tracked, lights, lighting, reasons);
+    plan.back.negate_normal = true;
+  }
+  plan.uses_vertex_colors = tracked.any();
+}
+
+void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
+  const DrawState& state = draw.state;
+  const auto note = [&](const std::string& line) {
+    if (reasons) *reasons += "  " + line + "\n";
+  };
+  if (plan.write_mask == 0) {
+    plan.source = ColorSource::none;
+    note("no colour plane changes: depth alone, no lighting");
+    return;
+  }
+  if (!state.lighting) {
+    plan.uses_vertex_colors = !draw.mesh.colors.empty();
+    if (!plan.uses_vertex_colors) {
+      plan.constant_color = rgb(state.material.diffuse);
+      note("unlit, no vertex colours: one colour for the draw");
+      return;
+    }
+    note("unlit vertex colours");
+  } else {
+    plan_lights(plan, draw, reasons);
+    const bool constant = plan.front.terms.empty() && !plan.front.tracked && (!plan.two_sided || (plan.back.terms.empty() && plan.back.base == plan.front.base));
+    if (constant) {
+      plan.two_sided = false;
+      plan.constant_color = plan.front.base;
+      note("no light depends on the surface: one colour for the draw");
+      return;
+    }
+    plan.lit = true;
+  }
+  const bool needs_normal = plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
+  const bool generate = needs_normal && draw.mesh.normals.empty();
+  if (state.shading == Shading::phong && plan.lit) {
+    plan.source = ColorSource::per_pixel;
+    plan.deferred = true;
+    plan.smooth_normals = generate;
+    for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
+    plan.attribute_count = (needs_normal ? 3 : 0) + (plan.front.needs_position || plan.back.needs_position ? 3 : 0) + (plan.uses_vertex_colors ? 3 : 0);
+    note("lit at each visible pixel, once");
+  } else if (state.shading == Shading::flat) {
+    plan.face_normals = generate;
+    plan.source = generate ? ColorSource::triangle_word : ColorSource::vertex_word;
+    note(generate ? "flat, lit once a triangle with its face's normal" : "flat, lit at the vertices");
+  } else {
+    plan.source = ColorSource::interpolated;
+    plan.smooth_normals = generate;
+    plan.scaled_colors = !layout.index && !layout.luminance;
+    plan.deferred = !plan.scaled_colors;  // greys and palette entries are not linear in the colour: shade what is seen
+    plan.attribute_count = plan.two_sided ? 6 : 3;
+    note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
+  }
+  if (generate && plan.smooth_normals) note("the mesh has no normals: area-weighted means over the faces at each position");
+}
+
+}  // namespace
+
+PixelRect raster_rect(const Rect& rect, int frame_height) {
+  // In 64 bits: a rectangle may be anywhere.
+  const auto clamp = [](std::int64_t v) { return static_cast<int>(std::clamp<std::int64_t>(v, -(1 << 28), 1 << 28)); };
+  const std::int64_t top = std::int64_t{frame_height} - rect.y - rect.height;
+  return {clamp(rect.x), clamp(top), clamp(std::int64_t{rect.x} + rect.width), clamp(top + rect.height)};
+}
+
+DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, std::string* reasons) {
+  const DrawState& state = draw.state;
+  DrawPlan plan;
+  plan_transform(plan, draw, target);
+  plan.keep_front = state.cull != Cull::front;
+  plan.keep_back = state.cull != Cull::back;
+  plan.front_is_clockwise = state.front_face == FrontFace::cw;
+  plan.write_mask = write_mask(state, target.layout);
+
+  static_assert(static_cast<int>(DepthTest::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(DepthTest::less) == static_cast<int>(Compare::less));
+  const bool has_depth = state.depth.enabled && target.depth_kind != DepthKind::none;
+  plan.depth_test = static_cast<DepthTest>(state.depth.test);
+  plan.depth_write = state.depth.write;
+  // A test that always passes and writes nothing is no test.
+  plan.uses_depth = has_depth && !(state.depth.test == Compare::always && !state.depth.write);
+  if (reasons) {
+    *reasons += !has_depth         ? "  no depth test\n"
+                : !plan.uses_depth ? "  depth: always passes and writes nothing, left out\n"
+                                   : std::string("  depth test") + (plan.depth_write ? "" : ", no write") + "\n";
+    if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) *reasons += "  some colour planes are masked\n";
+  }
+  plan_color(plan, draw, target.layout, reasons);
+  const bool writes_depth = plan.uses_depth && plan.depth_write;
+  plan.invisible = plan.rect.empty() || (plan.write_mask == 0 && !writes_depth) || (has_depth && state.depth.test == Compare::never);
+  if (reasons && plan.invisible) *reasons += "  can change no pixel: left out\n";
+  return plan;
+}
+
+}  // namespace tessera

@@ -1,0 +1,46 @@
+// The plan of a draw: from its state and data the set of effects it needs, and with it what runs for its vertices and pixels.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/recording.h"
+#include "raster/vertex_transform.h"
+#include "shading/lighting.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera {
+
+struct DrawPlan {
+  VertexTransform transform;
+  EyeTransform eye;
+  PixelRect rect;                 ///< where pixels may change, raster space
+  bool keep_front = true, keep_back = true, front_is_clockwise = false;
+  bool invisible = false;         ///< no buffer can change
+
+  ColorSource source = ColorSource::constant;
+  bool deferred = false;
+  std::uint32_t write_mask = 0xffffffffu;
+  bool uses_depth = false, depth_write = false;
+  DepthTest depth_test = DepthTest::less;
+
+  bool lit = false;               ///< lights run: at vertices, triangles or pixels
+  bool two_sided = false;         ///< back faces have a program of their own
+  LightingProgram front, back;
+  Rgb constant_color{};           ///< ColorSource::constant
+  bool uses_vertex_colors = false;
+  bool smooth_normals = false;    ///< the mesh has none: means of its faces
+  bool face_normals = false;      ///< the mesh has none: flat
+  bool scaled_colors = true;      ///< interpolated colours are carried in levels
+
+  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back].
+  int attribute_count = 0;
+};
+
+/// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
+DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, std::string* reasons);
+
+/// A rectangle in window coordinates as pixels in raster space.
+PixelRect raster_rect(const Rect& rect, int frame_height);
+
+}  // namespace tessera

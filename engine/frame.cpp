@@ -1,0 +1,173 @@
+// Recording: everything is checked here, before a pixel is touched.
+#include "engine/tessera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/draw_plan.h"
+#include "engine/recording.h"
+#include "raster/binning.h"
+#include "raster/fixed_point.h"
+
+namespace tessera {
+namespace {
+
+std::string text(double value) { return std::to_string(value); }
+
+void require_range(const std::string& what, double value, double low, double high) {
+  if (!(value >= low && value <= high)) throw Error(what + " is " + text(value) + ", must be " + text(low) + " to " + text(high));
+}
+
+void require_finite(const std::string& what, std::initializer_list<double> values) {
+  for (const double v : values)
+    if (!std::isfinite(v)) throw Error(what + " holds " + text(v) + ", must be finite");
+}
+void require_finite(const std::string& what, const Color& c) { require_finite(what, {c.r, c.g, c.b, c.a}); }
+void require_finite(const std::string& what, const Matrix& matrix) {
+  for (const double v : matrix.m) require_finite(what, {v});
+}
+
+void check_material(const std::string& what, const Material& m) {
+  require_finite(what + ".ambient", m.ambient);
+  require_finite(what + ".diffuse", m.diffuse);
+  require_finite(what + ".specular", m.specular);
+  require_finite(what + ".emission", m.emission);
+  require_range(what + ".shininess", m.shininess, 0, 16384);
+}
+
+void check_light(const std::string& what, const Light& l) {
+  require_finite(what + ".ambient", l.ambient);
+  require_finite(what + ".diffuse", l.diffuse);
+  require_finite(what + ".specular", l.specular);
+  require_finite(what + ".position", {l.position[0], l.position[1], l.position[2], l.position[3]});
+  require_finite(what + ".spot_direction", {l.spot_direction[0], l.spot_direction[1], l.spot_direction[2]});
+  require_finite(what + ".attenuation", {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
+  require_range(what + ".spot_exponent", l.spot_exponent, 0, 16384);
+  if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90))
+    throw Error(what + ".spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
+}
+
+void check_mesh(const Mesh& mesh) {
+  if (mesh.position_components != 3 && mesh.position_components != 4)
+    throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) + ", must be 3 or 4");
+  const auto components = static_cast<std::size_t>(mesh.position_components);
+  if (mesh.positions.size() % components != 0)
+    throw Error("Frame::draw: the mesh has " + std::to_string(mesh.positions.size()) + " floats of positions, must be a multiple of " + std::to_string(components));
+  const std::size_t vertices = vertex_count(mesh);
+  if (vertices > 0xffffffffu) throw Error("Frame::draw: the mesh has " + std::to_string(vertices) + " vertices, at most 4294967295 are possible");
+  const auto require_count = [&](const char* what, std::size_t floats, std::size_t each) {
+    if (floats != 0 && floats != vertices * each)
+      throw Error("Frame::draw: the mesh has " + std::to_string(floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * each));
+  };
+  require_count("normals", mesh.normals.size(), 3);
+  require_count("colors", mesh.colors.size(), 4);
+  const std::size_t corners = mesh.indices.empty() ? vertices : mesh.indices.size();
+  if (corners % 3 != 0)
+    throw Error("Frame::draw: the mesh has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", triangles need a multiple of 3");
+  if (corners / 3 > kMaxTriangles)
+    throw Error("Frame::draw: the mesh has " + std::to_string(corners / 3) + " triangles, at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
+  std::uint32_t largest = 0;
+  for (const std::uint32_t index : mesh.indices) largest = std::max(largest, index);
+  if (!mesh.indices.empty() && largest >= vertices) {
+    const auto at = std::find_if(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t i) { return i >= vertices; }) - mesh.indices.begin();
+    throw Error("Frame::draw: index " + std::to_string(at) + " of the mesh is " + std::to_string(mesh.indices[static_cast<std::size_t>(at)]) + ", must be below the number of vertices, " + std::to_string(vertices));
+  }
+}
+
+void check_rect(const char* what, const Rect& rect) {
+  if (rect.width < 0 || rect.height < 0)
+    throw Error(std::string(what) + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) + " pixels, must not be negative");
+}
+
+void check_state(const DrawState& s, const FrameBufferState& target) {
+  check_material("Frame::draw: material", s.material);
+  if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
+  require_finite("Frame::draw: transform", s.transform);
+  require_range("Frame::draw: depth_near", s.depth_near, 0, 1);
+  require_range("Frame::draw: depth_far", s.depth_far, 0, 1);
+  if (s.viewport) {
+    check_rect("Frame::draw: viewport", *s.viewport);
+    require_range("Frame::draw: viewport width", s.viewport->width, 1, kMaxFrameBufferSize);
+    require_range("Frame::draw: viewport height", s.viewport->height, 1, kMaxFrameBufferSize);
+    require_range("Frame::draw: viewport x", s.viewport->x, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
+    require_range("Frame::draw: viewport y", s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
+  }
+  if (s.scissor) check_rect("Frame::draw: scissor", *s.scissor);
+  const auto& m = s.color_mask;
+  const bool split = m[0] != m[1] || m[1] != m[2];
+  if (split && target.layout.index) throw Error("Frame::draw: the colour mask differs between components, an index buffer has one: all or none");
+  if (split && target.layout.luminance) throw Error("Frame::draw: the colour mask differs between components, a buffer of 1 or 2 bits has luminance alone: all or none");
+}
+
+}  // namespace
+
+Frame::Frame(FrameBuffer& target) : recording_(std::make_unique<FrameRecording>()) { recording_->target = target.state_.get(); }
+Frame::~Frame() = default;
+Frame::Frame(Frame&&) noexcept = default;
+Frame& Frame::operator=(Frame&&) noexcept = default;
+
+void Frame::set_camera(const Camera& camera) {
+  require_finite("Frame::set_camera: view", camera.view);
+  require_finite("Frame::set_camera: projection", camera.projection);
+  auto changed = std::make_shared<Surroundings>(*recording_->surroundings);
+  changed->camera = camera;
+  recording_->surroundings = std::move(changed);
+}
+
+void Frame::set_lights(std::span<const Light> lights) {
+  for (std::size_t i = 0; i < lights.size(); ++i) check_light("Frame::set_lights: light " + std::to_string(i), lights[i]);
+  auto changed = std::make_shared<Surroundings>(*recording_->surroundings);
+  changed->lights.assign(lights.begin(), lights.end());
+  recording_->surroundings = std::move(changed);
+}
+
+void Frame::set_light_model(const LightModel& model) {
+  require_finite("Frame::set_light_model: ambient", model.ambient);
+  auto changed = std::make_shared<Surroundings>(*recording_->surroundings);
+  changed->light_model = model;
+  recording_->surroundings = std::move(changed);
+}
+
+void Frame::clear(const Clear& clear) {
+  const FrameBufferState& target = *recording_->target;
+  if (clear.color)
+    for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a}) require_range("Frame::clear: a component of color", c, 0, 1);
+  if (clear.index) {
+    if (!target.layout.index) throw Error("Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
+    if (*clear.index > target.layout.word_mask())
+      throw Error("Frame::clear: the index is " + std::to_string(*clear.index) + ", must be at most " + std::to_string(target.layout.word_mask()));
+  }
+  if (clear.depth) {
+    if (target.depth_kind == DepthKind::none) throw Error("Frame::clear: a depth is given, but the frame buffer has no depth buffer");
+    require_range("Frame::clear: depth", *clear.depth, 0, 1);
+  }
+  if (clear.stencil) {
+    const int bits = target.format.stencil_bits;
+    if (bits == 0) throw Error("Frame::clear: a stencil value is given, but the frame buffer has no stencil buffer");
+    if (*clear.stencil >= 1u << bits)
+      throw Error("Frame::clear: the stencil value is " + std::to_string(*clear.stencil) + ", must be at most " + std::to_string((1u << bits) - 1));
+  }
+  if (clear.scissor) check_rect("Frame::clear: scissor", *clear.scissor);
+  recording_->clears.push_back({clear, recording_->draws.size()});
+}
+
+void Frame::draw(const Mesh& mesh, const DrawState& state) {
+  check_mesh(mesh);
+  check_state(state, *recording_->target);
+  recording_->draws.push_back({mesh, state, recording_->surroundings});
+}
+
+void Frame::keep(std::initializer_list<Buffer> buffers) { recording_->keep.emplace(buffers); }
+
+std::size_t Frame::draw_count() const noexcept { return recording_->draws.size(); }
+
+std::string Frame::explain(std::size_t draw_index) const {
+  if (draw_index >= recording_->draws.size())
+    throw Error("Frame::explain: draw " + std::to_string(draw_index) + ", the frame has " + std::to_string(recording_->draws.size()));
+  std::string reasons;
+  plan_draw(recording_->draws[draw_index], *recording_->target, &reasons);
+  return reasons;
+}
+
+}  // namespace tessera

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <string>
+
+#include "engine/frame_buffer_state.h"
+#include "engine/image_target.h"
+#include "engine/tessera.hpp"
+#include "framebuffer/scan_out.h"
+
+namespace tessera {
+
+std::string_view name(Buffer buffer) { return buffer == Buffer::color ? "colour" : buffer == Buffer::depth ? "depth" : "stencil"; }
+
+namespace {
+
+void require_range(const std::string& what, long long value, long long low, long long high, const char* unit = "") {
+  if (value < low || value > high)
+    throw Error("FrameBuffer: " + what + " is " + std::to_string(value) + unit + ", must be " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+Color to_color(Rgb8 c) { return {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, 1}; }
+
+std::vector<Color> to_colors(const std::vector<Rgb8>& entries) {
+  std::vector<Color> colors;
+  colors.reserve(entries.size());
+  for (const Rgb8& entry : entries) colors.push_back(to_color(entry));
+  return colors;
+}
+
+void require_image(const ImageTarget& target, const FrameBufferFormat& format, const char* function) {
+  if (target.pixels == nullptr) throw Error(std::string(function) + ": the target's pixels are a null pointer");
+  if (target.width != format.width || target.height != format.height)
+    throw Error(std::string(function) + ": the target is " + std::to_string(target.width) + " x " + std::to_string(target.height) +
+                " pixels, the frame buffer is " + std::to_string(format.width) + " x " + std::to_string(format.height));
+  const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
+  if (target.height > 1 && std::abs(target.stride_bytes) < row)
+    throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) + " bytes, a row takes " + std::to_string(row));
+}
+
+template <class T>
+void require_pixels(std::span<T> span, const FrameBufferFormat& format, const char* function) {
+  const std::size_t needed = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
+  if (span.size() != needed)
+    throw Error(std::string(function) + ": the span holds " + std::to_string(span.size()) + " elements, the frame buffer has " + std::to_string(needed) + " pixels");
+}
+
+}  // namespace
+
+void check_image_target(const ImageTarget& target, const FrameBufferFormat& format) { require_image(target, format, "Renderer::finish"); }
+
+std::vector<Color> named_palette(std::string_view palette_name, int color_bits) {
+  require_range("color_bits", color_bits, 1, 24);
+  const auto entries = palette_entries(palette_name, color_bits);
+  if (!entries) throw Error("palette: \"" + std::string(palette_name) + "\" is unknown, it must be bw, gray, ega16, vga256 or web216");
+  if (entries->size() > std::size_t{1} << color_bits)
+    throw Error("palette: " + std::string(palette_name) + " has " + std::to_string(entries->size()) + " entries, " + std::to_string(color_bits) +
+                " bits hold at most " + std::to_string(std::size_t{1} << color_bits));
+  return to_colors(*entries);
+}
+
+std::vector<Color> default_palette(int color_bits) {
+  require_range("color_bits", color_bits, 1, 24);
+  return to_colors(default_palette_of(color_bits).entries);
+}
+
+FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique<FrameBufferState>()) {
+  require_range("width", format.width, 1, kMaxFrameBufferSize, " px");
+  require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
+  require_range("color_bits", format.color_bits, 1, 24);
+  require_range("stencil_bits", format.stencil_bits, 0, 8);
+  FrameBufferState& s = *state_;
+  const bool index = format.color_mode == ColorMode::index;
+  if (!index && !format.palette.empty()) throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
+  if (format.palette.size() > std::size_t{1} << format.color_bits)
+    throw Error("FrameBuffer: the palette has " + std::to_string(format.palette.size()) + " entries, " + std::to_string(format.color_bits) +
+                " bits hold at most " + std::to_string(std::size_t{1} << format.color_bits));
+  s.layout = index ? index_layout(format.color_bits) : rgb_layout(format.color_bits);
+  s.depth_kind = static_cast<DepthKind>(format.depth);
+  if (index) {
+    if (format.palette.empty()) format.palette = default_palette(format.color_bits);
+    s.palette.bits = format.color_bits;
+    for (std::size_t i = 0; i < format.palette.size(); ++i) {
+      const Color& c = format.palette[i];
+      for (const float component : {c.r, c.g, c.b})
+        if (!(component >= 0 && component <= 1))
+          throw Error("FrameBuffer: palette entry " + std::to_string(i) + " has a component " + std::to_string(component) + ", must be 0 to 1");
+      s.palette.entries.push_back(stored_color(c.r, c.g, c.b));
+    }
+  }
+  s.format = std::move(format);
+  const FrameBufferFormat& f = s.format;
+  s.color.planes = BitplaneStack(f.width, f.height, f.color_bits);
+  s.depth.planes = BitplaneStack(f.width, f.height, depth_bits(s.depth_kind));
+  s.stencil.planes = BitplaneStack(f.width, f.height, f.stencil_bits);
+  if (s.depth_kind != DepthKind::none) s.depth.become_uniform(depth_word(s.depth_kind, 1.0));
+} catch (const std::bad_alloc&) {
+  throw Error("FrameBuffer: not enough memory");
+}
+
+FrameBuffer::~FrameBuffer() = default;
+FrameBuffer::FrameBuffer(FrameBuffer&&) noexcept = default;
+FrameBuffer& FrameBuffer::operator=(FrameBuffer&&) noexcept = default;
+
+const FrameBufferFormat& FrameBuffer::format() const noexcept { return state_->format; }
+int FrameBuffer::plane_count(Buffer buffer) const noexcept { return state_->buffer(buffer).planes.plane_count(); }
+std::size_t FrameBuffer::allocated_bytes(Buffer buffer) const noexcept { return state_->buffer(buffer).planes.bytes(); }
+
+namespace {
+
+const StoredBuffer& require_kept(FrameBufferState& state, Buffer which, const char* function) {
+  const StoredBuffer& buffer = state.buffer(which);
+  if (buffer.planes.plane_count() == 0) throw Error(std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
+  if (buffer.content == StoredBuffer::Content::lost)
+    throw Error(std::string(function) + ": the last frame did not keep the " + std::string(name(which)) + " buffer; name it in Frame::keep()");
+  return buffer;
+}
+
+// Calls use(words of a row, y) for every row from the top.
+template <class Use>
+void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
+  const StoredBuffer& buffer = require_kept(state, which, function);
+  const auto width = static_cast<std::size_t>(buffer.planes.width_px());
+  std::vector<std::uint32_t> row(width, buffer.word);
+  const bool uniform = buffer.content == StoredBuffer::Content::uniform;
+  for (int y = 0; y < buffer.planes.height_px(); ++y) {
+    if (!uniform) {
+      std::fill(row.begin(), row.end(), 0u);
+      for (int k = 0; k < buffer.planes.plane_count(); ++k) {
+        const std::uint8_t* bits = buffer.planes.plane(k) + y * buffer.planes.stride_bytes();
+        for (std::size_t x = 0; x < width; ++x) row[x] |= static_cast<std::uint32_t>(bits[x / 8] >> (7 - x % 8) & 1) << k;
+      }
+    }
+    use(row, static_cast<std::size_t>(y));
+  }
+}
+
+}  // namespace
+
+PlaneView FrameBuffer::plane(Buffer which, int k) const try {
+  StoredBuffer& buffer = state_->buffer(which);
+  require_kept(*state_, which, "FrameBuffer::plane");
+  if (k < 0 || k >= buffer.planes.plane_count())
+    throw Error("FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) + " buffer, which has planes 0 to " +
+                std::to_string(buffer.planes.plane_count() - 1));
+  buffer.materialize();
+  return {buffer.planes.plane(k), buffer.planes.width_px(), buffer.planes.height_px(), buffer.planes.stride_bytes()};
+} catch (const std::bad_alloc&) {
+  throw Error("FrameBuffer::plane: not enough memory for the " + std::string(name(which)) + " planes");
+}
+
+void FrameBuffer::read_color(const ImageTarget& target) const {
+  require_image(target, state_->format, "FrameBuffer::read_color");
+  const ScanOut scan_out(state_->layout, state_->layout.index ? &state_->palette : nullptr,
+                         target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());
+  for_each_row(*state_, Buffer::color, "FrameBuffer::read_color", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+    scan_out.row(row.data(), target.width, static_cast<std::uint8_t*>(target.pixels) + static_cast<std::ptrdiff_t>(y) * target.stride_bytes);
+  });
+}
+
+void FrameBuffer::read_color_words(std::span<std::uint32_t> words) const {
+  require_pixels(words, state_->format, "FrameBuffer::read_color_words");
+  for_each_row(*state_, Buffer::color, "FrameBuffer::read_color_words",
+               [&](const std::vector<std::uint32_t>& row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
+}
+
+void FrameBuffer::read_depth(std::span<float> depth) const {
+  require_pixels(depth, state_->format, "FrameBuffer::read_depth");
+  const DepthKind kind = state_->depth_kind;
+  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+    for (std::size_t x = 0; x < row.size(); ++x) depth[y * row.size() + x] = static_cast<float>(depth_from_word(kind, row[x]));
+  });
+}
+
+void FrameBuffer::read_depth_words(std::span<std::uint32_t> words) const {
+  require_pixels(words, state_->format, "FrameBuffer::read_depth_words");
+  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth_words",
+               [&](const std::vector<std::uint32_t>& row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
+}
+
+void FrameBuffer::read_stencil(std::span<std::uint8_t> stencil) const {
+  require_pixels(stencil, state_->format, "FrameBuffer::read_stencil");
+  for_each_row(*state_, Buffer::stencil, "FrameBuffer::read_stencil", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+    for (std::size_t x = 0; x < row.size(); ++x) stencil[y * row.size() + x] = static_cast<std::uint8_t>(row[x]);
+  });
+}
+
+}  // namespace tessera

@@ -1,0 +1,188 @@
+#include "engine/frame_commands.h"
+
+#include <algorithm>
+#include <string>
+
+namespace tessera {
+namespace {
+
+PixelRect whole_buffer(const FrameBufferState& target) { return {0, 0, target.format.width, target.format.height}; }
+
+PixelRect clear_rect(const Clear& clear, const FrameBufferState& target) {
+  const PixelRect whole = whole_buffer(target);
+  return clear.scissor ? intersect(whole, raster_rect(*clear.scissor, target.format.height)) : whole;
+}
+
+bool covers(const PixelRect& rect, const PixelRect& whole) {
+  return rect.x0 <= whole.x0 && rect.y0 <= whole.y0 && rect.x1 >= whole.x1 && rect.y1 >= whole.y1;
+}
+
+bool wants(const FrameRecording& recording, Buffer buffer, bool touched, bool presented) {
+  if (!recording.keep) return touched && !presented;
+  return std::find(recording.keep->begin(), recording.keep->end(), buffer) != recording.keep->end();
+}
+
+std::uint32_t clear_color_word(const Clear& clear, FrameBufferState& target) {
+  if (clear.index) return *clear.index;
+  return color_word(target.layout, target.search(), clear.color->r, clear.color->g, clear.color->b);
+}
+
+// Decides what tiles load and store of one buffer. `clears_it` and `word` look at a clear; `draw_touches` at a plan.
+template <class ClearsIt, class DrawTouches, class Word>
+void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const StoredBuffer& stored, const PixelRect& whole, const ClearsIt& clears_it,
+                  const DrawTouches& draw_touches, const Word& word, Buffer which) {
+  bool first_is_whole_clear = false, any_clear = false, any_draw = false;
+  std::size_t first_draw = commands.plans.size();
+  for (std::size_t i = commands.plans.size(); i-- > 0;)
+    if (draw_touches(commands.plans[i])) any_draw = true, first_draw = i;
+  for (const TileClear& clear : commands.clears) {
+    if (!clears_it(clear)) continue;
+    if (!any_clear) first_is_whole_clear = clear.before_draw <= first_draw && covers(clear.rect, whole);
+    any_clear = true;
+  }
+  traffic.touched = any_clear || any_draw;
+  traffic.used = any_draw || ((traffic.keep || traffic.used) && any_clear) || traffic.used;
+  if (!traffic.used) return;
+  traffic.load = !first_is_whole_clear;
+  if (traffic.load && stored.content == StoredBuffer::Content::lost)
+    throw Error("Renderer::finish: the frame starts from the " + std::string(name(which)) +
+                " buffer, which the frame before did not keep; clear the whole of it first, or name it in Frame::keep() then");
+  // Clears alone need no planes.
+  if (!any_draw && any_clear) {
+    const TileClear* last = nullptr;
+    bool all_whole = true;
+    for (const TileClear& clear : commands.clears) {
+      if (!clears_it(clear)) continue;
+      all_whole &= covers(clear.rect, whole);
+      last = &clear;
+    }
+    if (all_whole) {
+      traffic.ends_uniform = true;
+      traffic.uniform_word = word(*last);
+    }
+  }
+  traffic.store = traffic.keep && traffic.touched && !traffic.ends_uniform;
+}
+
+}  // namespace
+
+FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers) {
+  FrameBufferState& target = *recording.target;
+  const PixelRect whole = whole_buffer(target);
+  FrameCommands commands;
+  std::vector<std::uint32_t> first_plan_at(recording.draws.size() + 1);
+  for (std::size_t i = 0; i < recording.draws.size(); ++i) {
+    first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
+    DrawPlan plan = plan_draw(recording.draws[i], target, nullptr);
+    if (plan.invisible || triangle_count(recording.draws[i].mesh) == 0) continue;
+    commands.plans.push_back(std::move(plan));
+    commands.plan_draw.push_back(i);
+  }
+  first_plan_at.back() = static_cast<std::uint32_t>(commands.plans.size());
+
+  for (const RecordedClear& recorded : recording.clears) {
+    const Clear& clear = recorded.clear;
+    TileClear tile_clear;
+    tile_clear.before_draw = first_plan_at[recorded.before_draw];
+    tile_clear.rect = clear_rect(clear, target);
+    tile_clear.color = clear.color || clear.index;
+    tile_clear.depth = clear.depth.has_value();
+    if (tile_clear.rect.empty() || (!tile_clear.color && !tile_clear.depth)) continue;
+    if (tile_clear.color) tile_clear.color_word = clear_color_word(clear, target);
+    if (tile_clear.depth) tile_clear.depth_key = depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, *clear.depth));
+    commands.clears.push_back(tile_clear);
+  }
+
+  const auto any_plan = [&](auto predicate) { return std::any_of(commands.plans.begin(), commands.plans.end(), predicate); };
+  const auto any_clear = [&](auto predicate) { return std::any_of(commands.clears.begin(), commands.clears.end(), predicate); };
+  const auto draws_color = [](const DrawPlan& plan) { return plan.write_mask != 0; };
+  const auto draws_depth = [](const DrawPlan& plan) { return plan.uses_depth; };
+  const auto clears_color = [](const TileClear& clear) { return clear.color; };
+  const auto clears_depth = [](const TileClear& clear) { return clear.depth; };
+  commands.color.keep = wants(recording, Buffer::color, any_plan(draws_color) || any_clear(clears_color), presented);
+  commands.depth.keep = wants(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
+  commands.color.used = presented;
+  plan_traffic(commands.color, commands, target.color, whole, clears_color, draws_color, [](const TileClear& c) { return c.color_word; }, Buffer::color);
+  plan_traffic(commands.depth, commands, target.depth, whole, clears_depth, draws_depth,
+               [&](const TileClear& c) { return depth_word_from_key(target.depth_kind, c.depth_key); }, Buffer::depth);
+
+  while (buffers.size() < commands.plans.size()) buffers.emplace_back();
+  for (std::size_t i = 0; i < commands.plans.size(); ++i) {
+    const RecordedDraw& draw = recording.draws[commands.plan_draw[i]];
+    GeometryDraw geometry;
+    geometry.mesh = &draw.mesh;
+    geometry.plan = &commands.plans[i];
+    geometry.buffers = &buffers[i];
+    geometry.layout = &target.layout;
+    geometry.search = commands.plans[i].write_mask != 0 ? target.search() : nullptr;
+    geometry.provoking = draw.state.provoking_vertex == ProvokingVertex::last ? 2 : 0;
+    commands.geometry.push_back(geometry);
+  }
+  return commands;
+}
+
+void connect_draws(FrameCommands& commands) {
+  for (const GeometryDraw& geometry : commands.geometry) {
+    const DrawPlan& plan = *geometry.plan;
+    DrawBuffers& buffers = *geometry.buffers;
+    TileDraw draw;
+    draw.vertices = buffers.vertices.data();
+    draw.indices = geometry.mesh->indices.empty() ? nullptr : geometry.mesh->indices.data();
+    draw.attributes = buffers.attributes.data();
+    draw.attribute_stride = draw.attribute_count = plan.attribute_count;
+    draw.provoking = static_cast<int>(geometry.provoking);
+    draw.rect = plan.rect;
+    draw.front_is_clockwise = plan.front_is_clockwise;
+    draw.uses_depth = plan.uses_depth;
+    draw.depth_write = plan.depth_write;
+    draw.depth_test = plan.depth_test;
+    draw.source = plan.source;
+    draw.write_mask = plan.write_mask;
+    draw.deferred = plan.deferred;
+    draw.scaled_colors = plan.scaled_colors;
+    draw.words[0] = buffers.words[0].data();
+    draw.words[1] = buffers.words[plan.two_sided ? 1 : 0].data();
+    draw.color_attribute[1] = plan.two_sided ? 3 : 0;
+    draw.programs[0] = &plan.front;
+    draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
+    if (plan.source == ColorSource::constant)
+      draw.word = color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
+    if (plan.source == ColorSource::per_pixel) {
+      // The order in which the vertex stage stores them.
+      int next = 0;
+      const auto add = [&](int field) {
+        for (int c = 0; c < 3; ++c) draw.fields[next++] = static_cast<std::uint8_t>(field + c);
+      };
+      if (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)) add(kNormalX);
+      if (plan.front.needs_position || (plan.two_sided && plan.back.needs_position)) add(kPositionX);
+      if (plan.uses_vertex_colors) add(kVertexR);
+    }
+    commands.tile_draws.push_back(draw);
+  }
+}
+
+void run_stencil_clears(FrameRecording& recording, bool keep) {
+  FrameBufferState& target = *recording.target;
+  StoredBuffer& stencil = target.stencil;
+  const PixelRect whole = whole_buffer(target);
+  if (!keep) {
+    stencil.planes.release();
+    stencil.content = StoredBuffer::Content::lost;
+    return;
+  }
+  for (const RecordedClear& recorded : recording.clears) {
+    if (!recorded.clear.stencil) continue;
+    const PixelRect rect = clear_rect(recorded.clear, target);
+    if (covers(rect, whole)) {
+      stencil.become_uniform(*recorded.clear.stencil);
+    } else if (!rect.empty()) {
+      if (stencil.content == StoredBuffer::Content::lost)
+        throw Error("Renderer::finish: a part of the stencil buffer is cleared, but the frame before did not keep it; clear the whole of it first");
+      stencil.materialize();
+      for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x) stencil.planes.set_word(x, y, *recorded.clear.stencil);
+    }
+  }
+}
+
+}  // namespace tessera

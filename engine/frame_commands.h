@@ -1,0 +1,45 @@
+// A recorded frame as the tiles will run it: draws with their memory, clears in words, and what becomes of each buffer.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "engine/draw_plan.h"
+#include "engine/geometry.h"
+#include "engine/recording.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera {
+
+/// How a buffer goes through a frame.
+struct BufferTraffic {
+  bool used = false;          ///< tiles work on it
+  bool touched = false;       ///< a command changes it
+  bool load = false;          ///< tiles start from what the frame buffer holds
+  bool store = false;         ///< tiles end in the planes
+  bool keep = false;
+  /// The whole buffer ends as one word that no pixel of a draw can have changed: nothing is stored.
+  bool ends_uniform = false;
+  std::uint32_t uniform_word = 0;
+};
+
+struct FrameCommands {
+  std::vector<DrawPlan> plans;
+  std::vector<std::size_t> plan_draw;       ///< the recorded draw of each plan
+  std::vector<GeometryDraw> geometry;
+  std::vector<TileDraw> tile_draws;
+  std::vector<TileClear> clears;
+  BufferTraffic color, depth;
+};
+
+/// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.
+/// Throws Error where a buffer that the frame needs was not kept by the frame before.
+FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers);
+
+/// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
+void connect_draws(FrameCommands& commands);
+
+/// Clears of the stencil buffer, straight on its planes: no draw of this version reads or writes it. `keep`: else it is lost.
+void run_stencil_clears(FrameRecording& recording, bool keep);
+
+}  // namespace tessera

@@ -1,0 +1,85 @@
+#include "engine/generated_normals.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include <glm/glm.hpp>
+
+#include "engine/recording.h"
+
+namespace tessera {
+namespace {
+
+glm::dvec3 position(const Mesh& mesh, std::size_t vertex) {
+  const float* p = mesh.positions.data() + vertex * static_cast<std::size_t>(mesh.position_components);
+  const glm::dvec3 xyz(p[0], p[1], p[2]);
+  return mesh.position_components == 4 && p[3] != 0 ? xyz / double{p[3]} : xyz;
+}
+
+std::size_t corner(const Mesh& mesh, std::size_t triangle, std::size_t k) { return mesh.indices.empty() ? 3 * triangle + k : mesh.indices[3 * triangle + k]; }
+
+// Twice the area times the unit normal.
+glm::dvec3 area_normal(const Mesh& mesh, std::size_t triangle) {
+  const glm::dvec3 a = position(mesh, corner(mesh, triangle, 0));
+  return glm::cross(position(mesh, corner(mesh, triangle, 1)) - a, position(mesh, corner(mesh, triangle, 2)) - a);
+}
+
+void store_unit(const glm::dvec3& v, float* out) {
+  const double length = glm::length(v);
+  const glm::dvec3 n = length > 0 ? v / length : glm::dvec3(0);
+  for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k]);
+}
+
+// For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
+std::vector<std::uint32_t> first_at_position(const Mesh& mesh) {
+  const std::size_t count = vertex_count(mesh);
+  std::size_t slots = 16;
+  while (slots < 2 * count) slots *= 2;
+  constexpr std::uint32_t kEmpty = 0xffffffffu;
+  std::vector<std::uint32_t> table(slots, kEmpty), first(count);
+  const auto key = [&](std::size_t v) {
+    const float* p = mesh.positions.data() + v * static_cast<std::size_t>(mesh.position_components);
+    std::array<float, 4> k{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.position_components == 4 ? p[3] : 1.0f};  // + 0: -0 is 0
+    return k;
+  };
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto k = key(v);
+    std::uint64_t hash = 0;
+    for (const float f : k) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &f, sizeof bits);
+      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 29;
+    }
+    std::size_t slot = hash & (slots - 1);
+    while (table[slot] != kEmpty && key(table[slot]) != k) slot = (slot + 1) & (slots - 1);
+    if (table[slot] == kEmpty) table[slot] = static_cast<std::uint32_t>(v);
+    first[v] = table[slot];
+  }
+  return first;
+}
+
+}  // namespace
+
+std::vector<float> smooth_normals(const Mesh& mesh) {
+  const std::vector<std::uint32_t> first = first_at_position(mesh);
+  std::vector<glm::dvec3> sums(first.size(), glm::dvec3(0));
+  for (std::size_t t = 0; t < triangle_count(mesh); ++t) {
+    const glm::dvec3 normal = area_normal(mesh, t);
+    if (!std::isfinite(normal.x + normal.y + normal.z)) continue;  // this triangle will be dropped; its neighbours keep theirs
+    for (std::size_t k = 0; k < 3; ++k) sums[first[corner(mesh, t, k)]] += normal;
+  }
+  std::vector<float> normals(3 * first.size());
+  for (std::size_t v = 0; v < first.size(); ++v) store_unit(sums[first[v]], &normals[3 * v]);
+  return normals;
+}
+
+std::vector<float> face_normals(const Mesh& mesh) {
+  std::vector<float> normals(3 * triangle_count(mesh));
+  for (std::size_t t = 0; t < triangle_count(mesh); ++t) store_unit(area_normal(mesh, t), &normals[3 * t]);
+  return normals;
+}
+
+}  // namespace tessera

@@ -1,0 +1,16 @@
+// Normals of meshes that have none.
+#pragma once
+
+#include <vector>
+
+#include "engine/tessera.hpp"
+
+namespace tessera {
+
+/// For each vertex the area-weighted mean over the faces that have a vertex at the very same position, unit length (or 0),
+/// in object space; 3 floats each.
+std::vector<float> smooth_normals(const Mesh& mesh);
+/// For each triangle its face's normal, unit length (or 0), in object space; 3 floats each.
+std::vector<float> face_normals(const Mesh& mesh);
+
+}  // namespace tessera

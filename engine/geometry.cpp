@@ -1,0 +1,173 @@
+#include "engine/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/generated_normals.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kNormalField = kNormalX, kPositionField = kPositionX, kVertexField = kVertexR;
+
+std::span<const float> normals_of(const GeometryDraw& draw) {
+  return draw.buffers->normals.empty() ? draw.mesh->normals : std::span<const float>(draw.buffers->normals);
+}
+
+// Vertex colours of a batch; `vertex(i)` is the vertex of point i.
+template <class VertexOf>
+void load_vertex_colors(const Mesh& mesh, ShadingBatch& batch, std::size_t count, const VertexOf& vertex) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.colors[4 * vertex(i) + c];
+}
+
+// A vertex whose normal or colour is not finite is dropped like one whose position is not.
+std::uint8_t mark_non_finite(std::span<const float> values, std::size_t each, std::size_t first, std::size_t count, std::uint8_t* codes) {
+  std::uint8_t any = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    float probe = 0;
+    for (std::size_t k = 0; k < each; ++k) probe += values[(first + i) * each + k] * 0.0f;
+    if (!(probe == 0)) any = codes[i] |= kNonFinite;
+  }
+  return any;
+}
+
+std::uint32_t word_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i) {
+  return color_word(*draw.layout, draw.search, batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i]);
+}
+
+// Unlit: the vertex colours themselves, clamped as every colour is after the vertex stage.
+void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < count; ++i) batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
+}
+
+// The colour of a batch goes where the draw's triangles will look for it.
+void store_colors(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first, std::size_t count, int face) {
+  const DrawPlan& plan = *draw.plan;
+  if (plan.source == ColorSource::interpolated) {
+    const int bits[3] = {draw.layout->r_bits, draw.layout->g_bits, draw.layout->b_bits};
+    float* out = draw.buffers->attributes.data() + first * static_cast<std::size_t>(plan.attribute_count) + 3 * face;
+    for (int c = 0; c < 3; ++c) {
+      const float levels = plan.scaled_colors ? static_cast<float>((1 << bits[c]) - 1) : 1.0f, half = plan.scaled_colors ? 0.5f : 0.0f;
+      for (std::size_t i = 0; i < count; ++i) out[i * static_cast<std::size_t>(plan.attribute_count) + static_cast<std::size_t>(c)] = std::fma(batch.field[kColorR + c][i], levels, half);
+    }
+  } else {
+    for (std::size_t i = 0; i < count; ++i) draw.buffers->words[face].data()[first + i] = word_of(draw, batch, i);
+  }
+}
+
+void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch, std::size_t first, std::size_t count, int face, Isa isa) {
+  light_points(isa)(program, batch, static_cast<int>((count + 15) / 16 * 16));
+  store_colors(draw, batch, first, count, face);
+}
+
+// Everything about the colour of one batch of vertices or faces whose inputs stand in the batch.
+void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, std::size_t first, std::size_t count, Isa isa) {
+  const DrawPlan& plan = *draw.plan;
+  if (!plan.lit) {
+    copy_vertex_colors(batch, count);
+    store_colors(draw, batch, first, count, 0);
+    return;
+  }
+  if (plan.two_sided) {
+    ShadingBatch back = batch;  // preparing a batch turns its normals
+    light_batch(draw, plan.back, back, first, count, 1, isa);
+  }
+  light_batch(draw, plan.front, batch, first, count, 0, isa);
+}
+
+bool needs_normal(const DrawPlan& plan) { return plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)); }
+bool needs_position(const DrawPlan& plan) { return plan.lit && (plan.front.needs_position || (plan.two_sided && plan.back.needs_position)); }
+
+// Per-pixel lighting: the vertex stage only carries its inputs into eye space.
+void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first, std::size_t count) {
+  const DrawPlan& plan = *draw.plan;
+  const auto stride = static_cast<std::size_t>(plan.attribute_count);
+  float* out = draw.buffers->attributes.data() + first * stride;
+  const auto store = [&](int field) {
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < count; ++i) out[i * stride + static_cast<std::size_t>(c)] = batch.field[field + c][i];
+    out += 3;
+  };
+  if (needs_normal(plan)) store(kNormalField);
+  if (needs_position(plan)) store(kPositionField);
+  if (plan.uses_vertex_colors) store(kVertexField);
+}
+
+void clear_batch(ShadingBatch& batch) {
+  for (auto& field : batch.field) std::fill(std::begin(field), std::end(field), 0.0f);
+}
+
+}  // namespace
+
+void prepare_geometry(const GeometryDraw& draw) {
+  const DrawPlan& plan = *draw.plan;
+  DrawBuffers& buffers = *draw.buffers;
+  const std::size_t vertices = vertex_count(*draw.mesh), triangles = triangle_count(*draw.mesh);
+  buffers.vertices.resize(vertices);
+  buffers.codes.resize(vertices);
+  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count));
+  const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
+  buffers.words[0].resize(words);
+  buffers.words[1].resize(plan.two_sided ? words : 0);
+  buffers.normals.clear();
+  if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
+  if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);
+  buffers.any_code = false;
+}
+
+void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {
+  const Mesh& mesh = *draw.mesh;
+  const DrawPlan& plan = *draw.plan;
+  DrawBuffers& buffers = *draw.buffers;
+  const auto components = static_cast<std::size_t>(mesh.position_components);
+  TransformVertices* const transform = transform_vertices(isa);
+  const bool colors_matter = plan.source == ColorSource::vertex_word || plan.source == ColorSource::interpolated || plan.source == ColorSource::per_pixel;
+  const std::span<const float> normals = normals_of(draw);
+  ShadingBatch batch;
+  clear_batch(batch);
+  std::uint8_t codes = 0;
+  for (std::size_t at = first; at < last; at += kVertexBatch) {
+    const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
+    const float* positions = mesh.positions.data() + at * components;
+    codes |= transform(plan.transform, positions, mesh.position_components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
+    if (plan.uses_vertex_colors) codes |= mark_non_finite(mesh.colors, 4, at, count, buffers.codes.data() + at);
+    if (!colors_matter) continue;
+    if (needs_normal(plan)) {
+      eye_normals(isa)(plan.eye, normals.data() + 3 * at, count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+      codes |= mark_non_finite(normals, 3, at, count, buffers.codes.data() + at);
+    }
+    if (needs_position(plan))
+      eye_positions(isa)(plan.eye, positions, mesh.position_components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
+    if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
+    if (plan.source == ColorSource::per_pixel)
+      store_inputs(draw, batch, at, count);
+    else
+      shade_batch(draw, batch, at, count, isa);
+  }
+  if (codes != 0) buffers.any_code.store(true, std::memory_order_relaxed);
+}
+
+void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {
+  const Mesh& mesh = *draw.mesh;
+  const DrawPlan& plan = *draw.plan;
+  const auto components = static_cast<std::size_t>(mesh.position_components);
+  const std::size_t provoking = draw.provoking;
+  const auto vertex_of = [&](std::size_t triangle) { return mesh.indices.empty() ? 3 * triangle + provoking : mesh.indices[3 * triangle + provoking]; };
+  ShadingBatch batch;
+  clear_batch(batch);
+  float positions[4 * kVertexBatch];
+  for (std::size_t at = first; at < last; at += kVertexBatch) {
+    const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
+    eye_normals(isa)(plan.eye, draw.buffers->normals.data() + 3 * at, count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+    if (needs_position(plan)) {
+      for (std::size_t i = 0; i < count; ++i) std::copy_n(mesh.positions.data() + vertex_of(at + i) * components, components, positions + i * components);
+      eye_positions(isa)(plan.eye, positions, mesh.position_components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
+    }
+    if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+    shade_batch(draw, batch, at, count, isa);
+  }
+}
+
+}  // namespace tessera

@@ -1,0 +1,41 @@
+// The vertex stage of a draw: positions into raster space, and colours or what the pixels interpolate.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "engine/draw_plan.h"
+#include "engine/scratch.h"
+#include "framebuffer/palette_search.h"
+
+namespace tessera {
+
+/// The memory of a draw's vertices, kept from frame to frame.
+struct DrawBuffers {
+  Scratch<WindowVertex> vertices;
+  Scratch<std::uint8_t> codes;
+  Scratch<float> attributes;
+  Scratch<std::uint32_t> words[2];
+  std::vector<float> normals;            ///< generated
+  std::atomic<bool> any_code = false;    ///< some vertex has a clip code
+};
+
+/// What the vertex stage works on.
+struct GeometryDraw {
+  const Mesh* mesh = nullptr;
+  const DrawPlan* plan = nullptr;
+  DrawBuffers* buffers = nullptr;
+  const ColorLayout* layout = nullptr;
+  const PaletteSearch* search = nullptr;
+  std::size_t provoking = 2;             ///< corner
+};
+
+/// Takes the memory and makes normals where the mesh has none. Throws std::bad_alloc.
+void prepare_geometry(const GeometryDraw& draw);
+/// Vertices [first, last); distinct ranges may run at the same time.
+void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa);
+/// Face colours of triangles [first, last), for ColorSource::triangle_word.
+void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa);
+
+}  // namespace tessera

@@ -1,0 +1,164 @@
+// Wavefront OBJ and MTL by tinyobjloader. Corners that share position and normal become one vertex.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+#include <utility>
+
+#include <tiny_obj_loader.h>
+
+#include "engine/import/model.h"
+#include "engine/import/obj_check.h"
+#include "engine/scene/text_file.h"
+
+namespace tessera {
+namespace {
+
+// Finds material files beside the model; one that is missing is a warning.
+class MaterialFiles : public tinyobj::MaterialReader {
+ public:
+  explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
+
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning,
+                  std::string* error) override {
+    const std::string path = (std::filesystem::path(folder_) / name).string();
+    std::string text;
+    try {
+      text = read_text_file(path);
+    } catch (const Error& missing) {
+      *warning += std::string(missing.what()) + "\n";
+      return false;
+    }
+    check_mtl(text, path);
+    std::istringstream stream(text);
+    tinyobj::LoadMtl(by_name, materials, &stream, warning, error);
+    return true;
+  }
+
+ private:
+  std::string folder_;
+};
+
+struct Obj {
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::vector<std::string> warnings;
+};
+
+// One warning a line, each once.
+std::vector<std::string> warning_lines(const std::string& text, const std::string& path) {
+  constexpr std::size_t kMostWarnings = 20;
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line) && lines.size() < kMostWarnings;) {
+    const std::string warning = path + ": " + line;
+    if (!line.empty() && std::find(lines.begin(), lines.end(), warning) == lines.end()) lines.push_back(warning);
+  }
+  return lines;
+}
+
+Obj load(const std::string& path) {
+  const std::string text = read_text_file(path);
+  check_obj(text, path);
+  Obj obj;
+  MaterialFiles material_files(std::filesystem::path(path).parent_path().string());
+  std::istringstream stream(text);
+  std::string warning, error;
+  constexpr bool kTriangulate = true, kWhiteIfUncolored = false;
+  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream, &material_files, kTriangulate, kWhiteIfUncolored)) {
+    error.erase(std::remove(error.begin(), error.end(), '\n'), error.end());
+    throw Error(path + ": " + (error.empty() ? "is no OBJ file" : error));
+  }
+  obj.warnings = warning_lines(warning, path);
+  return obj;
+}
+
+// Turns corners (position, normal) into vertices of one mesh.
+class VertexPool {
+ public:
+  VertexPool(const tinyobj::attrib_t& attributes, bool has_normals, MeshData& mesh)
+      : attributes_(attributes), has_normals_(has_normals), has_colors_(attributes.colors.size() == attributes.vertices.size()), mesh_(mesh) {}
+
+  std::uint32_t vertex(tinyobj::index_t corner) {
+    const auto position = static_cast<std::uint32_t>(corner.vertex_index);
+    const auto normal = static_cast<std::uint32_t>(has_normals_ ? corner.normal_index : 0);
+    const auto [entry, is_new] = vertices_.try_emplace(std::uint64_t{position} << 32 | normal, static_cast<std::uint32_t>(vertices_.size()));
+    if (is_new) {
+      append(attributes_.vertices, position, mesh_.positions);
+      if (has_normals_) append(attributes_.normals, normal, mesh_.normals);
+      if (has_colors_) {
+        append(attributes_.colors, position, mesh_.colors);
+        mesh_.colors.push_back(1);
+      }
+    }
+    return entry->second;
+  }
+
+ private:
+  static void append(const std::vector<tinyobj::real_t>& from, std::size_t index, std::vector<float>& to) {
+    to.insert(to.end(), {from.at(3 * index), from.at(3 * index + 1), from.at(3 * index + 2)});
+  }
+
+  const tinyobj::attrib_t& attributes_;
+  bool has_normals_, has_colors_;
+  MeshData& mesh_;
+  std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
+};
+
+Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::string>& warnings, const std::string& path) {
+  const auto color = [](const tinyobj::real_t (&rgb)[3], float alpha) { return Color{rgb[0], rgb[1], rgb[2], alpha}; };
+  constexpr float kMostShininess = 16384;
+  if (from.shininess < 0 || from.shininess > kMostShininess)
+    warnings.push_back(path + ": Ns of material \"" + from.name + "\" is " + std::to_string(from.shininess) + ", cut to 0 .. 16384");
+  return {.ambient = color(from.ambient, 1),
+          .diffuse = color(from.diffuse, from.dissolve),
+          .specular = color(from.specular, 1),
+          .emission = color(from.emission, 1),
+          .shininess = std::clamp(from.shininess, 0.0f, kMostShininess)};
+}
+
+}  // namespace
+
+Model import_model(const std::string& path) {
+  if (!is_model_file(path)) throw Error("cannot read \"" + path + "\": this version of Tessera reads models from .obj files only");
+  Obj obj = load(path);
+  Model model{.warnings = std::move(obj.warnings)};
+
+  std::size_t corners = 0, corners_with_normal = 0;
+  for (const tinyobj::shape_t& shape : obj.shapes)
+    for (const tinyobj::index_t& corner : shape.mesh.indices) {
+      ++corners;
+      corners_with_normal += corner.normal_index >= 0 ? 1 : 0;
+    }
+  if (corners == 0) throw Error(path + ": holds no triangle");
+  const bool has_normals = corners_with_normal == corners;
+  if (!has_normals && corners_with_normal > 0) model.warnings.push_back(path + ": only some corners have normals; all are computed");
+
+  // Triangles by material; -1: none.
+  VertexPool pool(obj.attributes, has_normals, model.mesh);
+  std::vector<int> order;
+  std::map<int, std::vector<std::uint32_t>> triangles;
+  for (const tinyobj::shape_t& shape : obj.shapes)
+    for (std::size_t face = 0; face < shape.mesh.material_ids.size(); ++face) {
+      const int material = shape.mesh.material_ids[face];
+      const auto [entry, is_new] = triangles.try_emplace(material);
+      if (is_new) order.push_back(material);
+      for (std::size_t k = 0; k < 3; ++k) entry->second.push_back(pool.vertex(shape.mesh.indices[3 * face + k]));
+    }
+  for (const int id : order) {
+    const std::vector<std::uint32_t>& indices = triangles[id];
+    ModelPart part{.first_index = model.mesh.indices.size(), .index_count = indices.size()};
+    if (id >= 0) {
+      part.material_name = obj.materials.at(static_cast<std::size_t>(id)).name;
+      part.material = material_from_mtl(obj.materials[static_cast<std::size_t>(id)], model.warnings, path);
+    }
+    model.parts.push_back(std::move(part));
+    model.mesh.indices.insert(model.mesh.indices.end(), indices.begin(), indices.end());
+  }
+  return model;
+}
+
+}  // namespace tessera

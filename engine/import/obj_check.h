@@ -1,0 +1,17 @@
+// What tinyobjloader lets through in silence (a word instead of a number becomes 0, an index may point nowhere) is checked
+// first, line by line.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tessera {
+
+/// @throws Error with file and line for a number of a vertex or normal that is missing, no number or not finite, and for a
+/// face with fewer than three corners or an index that points to no vertex or normal before it.
+void check_obj(std::string_view text, const std::string& file);
+
+/// The same for the colours and numbers of an MTL file that are used.
+void check_mtl(std::string_view text, const std::string& file);
+
+}  // namespace tessera

@@ -1,0 +1,114 @@
+// Matrices and projections of the public interface.
+#include <cmath>
+#include <string>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/matrix.h"
+#include "engine/tessera.hpp"
+#include "shading/trigonometry.h"
+
+namespace tessera {
+
+glm::dmat4 to_glm(const Matrix& matrix) {
+  glm::dmat4 result;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) result[column][row] = matrix.m[static_cast<std::size_t>(4 * row + column)];
+  return result;
+}
+
+Matrix from_glm(const glm::dmat4& matrix) {
+  Matrix result;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) result.m[static_cast<std::size_t>(4 * row + column)] = matrix[column][row];
+  return result;
+}
+
+Matrix operator*(const Matrix& left, const Matrix& right) { return from_glm(to_glm(left) * to_glm(right)); }
+
+Matrix translate(double x, double y, double z) { return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}}; }
+Matrix scale(double x, double y, double z) { return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}}; }
+
+// [GL 2.1, 2.11.2, Rotate]
+Matrix rotate(double degrees, double x, double y, double z) {
+  const double length = std::sqrt(x * x + y * y + z * z);
+  if (!(length > 0) || !std::isfinite(length)) throw Error("rotate: the axis has no direction, it must be a finite vector other than 0 0 0");
+  if (!std::isfinite(degrees)) throw Error("rotate: the angle is not finite");
+  x /= length, y /= length, z /= length;
+  const auto [s, c] = sin_cos_degrees(degrees);
+  const double t = 1 - c;
+  return {{x * x * t + c, x * y * t - z * s, x * z * t + y * s, 0,  //
+           y * x * t + z * s, y * y * t + c, y * z * t - x * s, 0,  //
+           x * z * t - y * s, y * z * t + x * s, z * z * t + c, 0,  //
+           0, 0, 0, 1}};
+}
+
+Matrix look_at(Vec3 eye, Vec3 target, Vec3 up) {
+  const glm::dvec3 e(eye.x, eye.y, eye.z), t(target.x, target.y, target.z), u(up.x, up.y, up.z);
+  const double span = glm::length(glm::cross(t - e, u));
+  if (!(span > 0) || !std::isfinite(span)) throw Error("look_at: eye, target and up do not span a frame; eye and target must differ, and up must not lie along the view");
+  return from_glm(glm::lookAtRH(e, t, u));
+}
+
+namespace {
+
+void require_span(const char* function, const char* low_name, double low, const char* high_name, double high) {
+  if (!std::isfinite(low) || !std::isfinite(high) || low == high)
+    throw Error(std::string(function) + ": " + low_name + " is " + std::to_string(low) + " and " + high_name + " is " + std::to_string(high) +
+                ", they must be finite and differ");
+}
+
+void require_depths(const char* function, double near, double far, bool infinite_allowed) {
+  const bool far_ok = std::isfinite(far) || (infinite_allowed && far > 0 && !std::isnan(far));
+  if (!std::isfinite(near) || !far_ok || near == far)
+    throw Error(std::string(function) + ": near is " + std::to_string(near) + " and far is " + std::to_string(far) + ", they must be finite and differ" +
+                (infinite_allowed ? " (far may be infinity)" : ""));
+}
+
+}  // namespace
+
+// [GL 2.1, 2.11.2, Frustum]; for an infinite far plane its limit; reversed: z = w at near and 0 at far.
+Matrix frustum(double left, double right, double bottom, double top, double near, double far, bool reversed) {
+  require_span("frustum", "left", left, "right", right);
+  require_span("frustum", "bottom", bottom, "top", top);
+  require_depths("frustum", near, far, true);
+  if (!(near > 0) || !(far > 0)) throw Error("frustum: near is " + std::to_string(near) + " and far is " + std::to_string(far) + ", both must be above 0");
+  double a, b;
+  if (std::isinf(far)) {
+    a = reversed ? 0 : -1;
+    b = reversed ? near : -2 * near;
+  } else if (reversed) {
+    a = near / (far - near);
+    b = far * near / (far - near);
+  } else {
+    a = -(far + near) / (far - near);
+    b = -2 * far * near / (far - near);
+  }
+  return {{2 * near / (right - left), 0, (right + left) / (right - left), 0,  //
+           0, 2 * near / (top - bottom), (top + bottom) / (top - bottom), 0,  //
+           0, 0, a, b,                                                        //
+           0, 0, -1, 0}};
+}
+
+Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed) {
+  if (!(fovy_degrees > 0 && fovy_degrees < 180)) throw Error("perspective: fovy is " + std::to_string(fovy_degrees) + " degrees, it must be above 0 and below 180");
+  if (!(aspect > 0) || !std::isfinite(aspect)) throw Error("perspective: aspect is " + std::to_string(aspect) + ", it must be finite and above 0");
+  const auto [s, c] = sin_cos_degrees(fovy_degrees / 2);
+  const double half_height = near * (s / c), half_width = half_height * aspect;
+  return frustum(-half_width, half_width, -half_height, half_height, near, far, reversed);
+}
+
+Matrix orthographic(double left, double right, double bottom, double top, double near, double far, bool reversed) {
+  require_span("orthographic", "left", left, "right", right);
+  require_span("orthographic", "bottom", bottom, "top", top);
+  require_depths("orthographic", near, far, false);
+  const double a = reversed ? 1 / (far - near) : -2 / (far - near);
+  const double b = reversed ? far / (far - near) : -(far + near) / (far - near);
+  return {{2 / (right - left), 0, 0, -(right + left) / (right - left),  //
+           0, 2 / (top - bottom), 0, -(top + bottom) / (top - bottom),  //
+           0, 0, a, b,                                                  //
+           0, 0, 0, 1}};
+}
+
+}  // namespace tessera

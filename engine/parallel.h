@@ -1,0 +1,60 @@
+// The one place where threads are chosen. Everything else asks for "these tasks, in any order" and knows no threads.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace tessera {
+
+/// Runs tasks on a oneTBB arena of its own.
+class Parallel {
+ public:
+  /// @param threads  1 or more, the caller's included.
+  explicit Parallel(int threads);
+  ~Parallel();
+  Parallel(Parallel&&) noexcept;
+  Parallel& operator=(Parallel&&) noexcept;
+
+  int threads() const noexcept { return threads_; }
+  /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below threads(); no two
+  /// tasks that run at the same time share one. Each task runs in the default floating-point mode: rounding to nearest,
+  /// denormals kept. An exception of a task is thrown here, after the running tasks have ended.
+  void for_each(std::size_t count, const std::function<void(std::size_t task, int worker)>& task);
+  /// How many distinct workers have run tasks since the last call: what tests of thread counts assert.
+  int distinct_workers_seen();
+
+ private:
+  struct Arena;
+  int threads_;
+  std::unique_ptr<Arena> arena_;
+};
+
+/// Cores that the process may use.
+int available_cores();
+
+/// Lets the process run more threads than it has cores, for as long as it lives. Process-wide: for programs and tests, never
+/// for the library.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
+
+/// Rounding to nearest, denormals kept, until the end of the scope; then what it was before.
+class FloatingPointMode {
+ public:
+  FloatingPointMode();
+  ~FloatingPointMode();
+  FloatingPointMode(const FloatingPointMode&) = delete;
+  FloatingPointMode& operator=(const FloatingPointMode&) = delete;
+
+ private:
+  unsigned long long saved_;
+};
+
+}  // namespace tessera

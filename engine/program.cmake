@@ -1,0 +1,36 @@
+# Everything above the core: scene files, models, image files, the program.
+#   tessera_scene    static library: scene, import, built-in meshes, image writing; link tessera (or its objects) beside it
+#   tessera_imageio  module that OpenImageIO hides in, loaded at run time
+#   tessera_program  the program bin/tessera
+find_package(nlohmann_json 3.11 CONFIG REQUIRED)
+find_package(tinyobjloader CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET "OpenImageIO>=2.4" Imath)  # Debian's CMake package of OpenImageIO is broken
+
+set(tessera_embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp)
+add_custom_command(OUTPUT ${tessera_embedded}
+  COMMAND ${CMAKE_COMMAND} -DTEAPOT=${CMAKE_CURRENT_SOURCE_DIR}/engine/scenes/teapot_patches.txt
+          -DSCENE=${CMAKE_CURRENT_SOURCE_DIR}/engine/scenes/shiny_teapot.json -DOUTPUT=${tessera_embedded}
+          -P ${CMAKE_CURRENT_SOURCE_DIR}/engine/scene/embed.cmake
+  DEPENDS engine/scene/embed.cmake engine/scenes/teapot_patches.txt engine/scenes/shiny_teapot.json
+  COMMENT "Embedding the teapot and the built-in scene" VERBATIM)
+
+file(GLOB tessera_scene_sources CONFIGURE_DEPENDS engine/scene/*.cpp engine/import/*.cpp engine/imageio/*.cpp)
+list(REMOVE_ITEM tessera_scene_sources ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp)
+add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
+# Designated initializers leave members at their defaults on purpose; -Wrestrict is wrong about std::string in GCC 12 (bug 105651).
+target_compile_options(tessera_scene PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(tessera_scene PRIVATE tessera_options nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader ${CMAKE_DL_LIBS})
+
+add_library(tessera_imageio SHARED engine/imageio/module.cpp)
+target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO)
+set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+
+# The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
+add_executable(tessera_program engine/cli/main.cpp engine/cli/render_command.cpp engine/cli/stats_text.cpp engine/parallel.cpp)
+target_compile_definitions(tessera_program PRIVATE TESSERA_VERSION="${PROJECT_VERSION}")
+target_link_libraries(tessera_program PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 TBB::tbb)
+target_compile_options(tessera_program PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+set_target_properties(tessera_program PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
+add_dependencies(tessera_program tessera_imageio)

@@ -1,0 +1,29 @@
+// A mesh that owns its numbers; tessera::Mesh borrows them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/tessera.hpp"
+
+namespace tessera {
+
+struct MeshData {
+  std::string name;
+  std::vector<float> positions;  ///< x y z, or x y z w with position_components 4
+  int position_components = 3;
+  std::vector<float> normals;           ///< x y z for each vertex, or empty
+  std::vector<float> colors;            ///< r g b a for each vertex, or empty
+  std::vector<std::uint32_t> indices;   ///< three a triangle; empty: vertices in order
+
+  std::size_t vertex_count() const { return positions.size() / static_cast<std::size_t>(position_components); }
+  std::size_t triangle_count() const { return (indices.empty() ? vertex_count() : indices.size()) / 3; }
+  /// Valid while this object lives and is not changed.
+  Mesh view() const {
+    return {.positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices};
+  }
+};
+
+}  // namespace tessera

@@ -1,0 +1,203 @@
+// What happens in a frame, in order.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "engine/scene/read_scene.h"
+#include "engine/scene/suggest.h"
+
+namespace tessera {
+namespace {
+
+using json::Json;
+using json::Object;
+using json::Value;
+
+constexpr std::int64_t kMost32Bits = std::numeric_limits<std::uint32_t>::max();
+
+// What the commands of a frame refer to.
+struct Names {
+  std::vector<std::string_view> meshes, materials;
+  const Materials& material_of;
+  const Scene& scene;
+};
+
+std::size_t read_name(const Value& value, std::string_view kind, const std::vector<std::string_view>& names) {
+  const std::string& name = value.text();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    value.fail("the name of a " + std::string(kind) + (names.empty() ? " (the scene has none)" : did_you_mean(name, names)));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+const Material& read_material_name(const Value& value, const Names& names) {
+  return names.material_of.find(names.materials[read_name(value, "material", names.materials)])->second;
+}
+
+Matrix read_transform(const Value& value) {
+  Matrix product;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Value element = value.element(i);
+    const Object step(element, {"translate", "rotate", "scale", "matrix"});
+    if (element.json().size() != 1) element.fail("an object with one of \"translate\", \"rotate\", \"scale\", \"matrix\"");
+    if (const auto translation = step.find("translate")) {
+      const Vec3 t = translation->vec3();
+      product = product * translate(t.x, t.y, t.z);
+    } else if (const auto rotation = step.find("rotate")) {
+      const auto [degrees, x, y, z] = rotation->numbers<4>();
+      product = product * rotation->checked([&, d = degrees, ax = x, ay = y, az = z] { return rotate(d, ax, ay, az); });
+    } else if (const auto scaling = step.find("scale")) {
+      const Vec3 s = scaling->vec3();
+      product = product * scale(s.x, s.y, s.z);
+    } else {
+      product = product * step.require("matrix").matrix();
+    }
+  }
+  return product;
+}
+
+DepthState read_depth(const Value& value, const Scene& scene) {
+  if (value.json() == Json(false)) return {.enabled = false};
+  if (scene.framebuffer.depth == DepthFormat::none) value.refuse("needs a depth buffer, and the frame buffer's \"depth\" is \"none\"");
+  if (value.json().is_boolean()) value.fail("false or an object");
+  const Object object(value, {"test", "write"});
+  DepthState depth;
+  if (const auto test = object.find("test"))
+    depth.test = test->choice<Compare>({{"never", Compare::never}, {"less", Compare::less}, {"equal", Compare::equal}, {"lequal", Compare::lequal},
+                                        {"greater", Compare::greater}, {"notequal", Compare::notequal}, {"gequal", Compare::gequal},
+                                        {"always", Compare::always}});
+  if (const auto write = object.find("write")) depth.write = write->boolean();
+  return depth;
+}
+
+std::array<bool, 4> read_color_mask(const Value& value, const FrameBufferFormat& format) {
+  if (!value.json().is_array() || value.size() != 4) value.fail("four of true and false");
+  std::array<bool, 4> mask;
+  for (std::size_t i = 0; i < 4; ++i) mask[i] = value.element(i).boolean();
+  const bool has_components = format.color_mode == ColorMode::rgb && format.color_bits > 2;
+  if (!has_components && (mask[0] != mask[1] || mask[1] != mask[2]))
+    value.refuse("red, green and blue must be all true or all false on an index buffer or one of 1 or 2 bits");
+  return mask;
+}
+
+// How the draw is shaded.
+void read_shading(const Object& object, const Names& names, DrawState& state) {
+  if (const auto material = object.find("material")) state.material = read_material_name(*material, names);
+  if (const auto material = object.find("back_material")) state.back_material = read_material_name(*material, names);
+  if (const auto shading = object.find("shading"))
+    state.shading = shading->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}});
+  if (const auto lighting = object.find("lighting")) state.lighting = lighting->boolean();
+  if (const auto mode = object.find("color_material"))
+    state.color_material = mode->choice<ColorMaterial>({{"none", ColorMaterial::none}, {"ambient_and_diffuse", ColorMaterial::ambient_and_diffuse},
+                                                        {"diffuse", ColorMaterial::diffuse}, {"ambient", ColorMaterial::ambient},
+                                                        {"emission", ColorMaterial::emission}, {"specular", ColorMaterial::specular}});
+  if (const auto vertex = object.find("provoking_vertex"))
+    state.provoking_vertex = vertex->choice<ProvokingVertex>({{"last", ProvokingVertex::last}, {"first", ProvokingVertex::first}});
+  if (const auto normalize = object.find("normalize")) state.normalize = normalize->boolean();
+}
+
+// Where it goes and what it may touch.
+void read_target(const Object& object, const Scene& scene, DrawState& state) {
+  if (const auto transform = object.find("transform")) state.transform = read_transform(*transform);
+  if (const auto cull = object.find("cull")) state.cull = cull->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
+  if (const auto front = object.find("front_face")) state.front_face = front->choice<FrontFace>({{"ccw", FrontFace::ccw}, {"cw", FrontFace::cw}});
+  state.depth.enabled = scene.framebuffer.depth != DepthFormat::none;
+  if (const auto depth = object.find("depth")) state.depth = read_depth(*depth, scene);
+  if (const auto range = object.find("depth_range")) {
+    if (!range->json().is_array() || range->size() != 2) range->fail("[near, far]");
+    state.depth_near = range->element(0).number(0, 1);
+    state.depth_far = range->element(1).number(0, 1);
+  }
+  if (const auto mask = object.find("color_mask")) state.color_mask = read_color_mask(*mask, scene.framebuffer);
+  if (const auto mask = object.find("plane_mask")) state.plane_mask = static_cast<std::uint32_t>(mask->integer(0, kMost32Bits));
+  if (const auto viewport = object.find("viewport")) state.viewport = viewport->rect();
+  if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
+}
+
+DrawCommand read_draw(const Value& value, const Names& names) {
+  const Object object(value,
+                      {"draw", "material", "back_material", "transform", "shading", "lighting", "color_material", "provoking_vertex", "normalize",
+                       "cull", "front_face", "depth", "depth_range", "color_mask", "plane_mask", "viewport", "scissor",
+                       "polygon_mode", "point_size", "line_width", "polygon_offset", "texture_env", "texture_env_color", "logic_op", "stages"},
+                      {"texture", "stencil", "blend", "alpha_test", "shadow_on"});
+  DrawCommand draw;
+  draw.mesh = read_name(object.require("draw"), "mesh", names.meshes);
+  read_shading(object, names, draw.state);
+  read_target(object, names.scene, draw.state);
+  if (const auto mode = object.find("polygon_mode"); !mode || mode->json() != Json{"fill", "fill"}) object.only_default("polygon_mode", "fill");
+  object.only_default("point_size", 1);
+  object.only_default("line_width", 1);
+  object.only_default("polygon_offset", {0, 0});
+  object.only_default("texture_env", "modulate", {"replace", "decal", "blend", "add"});
+  object.only_default("texture_env_color", {0, 0, 0, 0});
+  object.only_default("logic_op", "copy", {"clear", "and", "and_reverse", "and_inverted", "noop", "xor", "or", "nor", "equiv", "invert",
+                                           "or_reverse", "copy_inverted", "or_inverted", "nand", "set"});
+  object.only_default("stages", Json::array());
+  return draw;
+}
+
+Clear read_clear(const Value& value, const FrameBufferFormat& format) {
+  const Object object(value, {"color", "index", "depth", "stencil", "scissor"}, {"accumulation"});
+  Clear clear;
+  if (const auto color = object.find("color")) clear.color = color->color(0, 1);
+  if (const auto index = object.find("index")) {
+    if (format.color_mode != ColorMode::index) index->refuse("needs an index buffer: \"color\": {\"mode\": \"index\"}");
+    clear.index = static_cast<std::uint32_t>(index->integer(0, kMost32Bits));
+    clear.color.reset();  // the index says it exactly
+  }
+  if (const auto depth = object.find("depth")) {
+    if (format.depth == DepthFormat::none) depth->refuse("needs a depth buffer, and the frame buffer's \"depth\" is \"none\"");
+    clear.depth = depth->number(0, 1);
+  }
+  if (const auto stencil = object.find("stencil")) {
+    if (format.stencil_bits == 0) stencil->refuse("needs a stencil buffer, and the frame buffer's \"stencil\" is 0");
+    clear.stencil = static_cast<std::uint32_t>(stencil->integer(0, 255));
+  }
+  if (const auto scissor = object.find("scissor")) clear.scissor = scissor->rect();
+  return clear;
+}
+
+Command read_command(const Value& value, const Names& names) {
+  static constexpr std::array<std::string_view, 4> kCommands{"clear", "draw", "camera", "lights"};
+  if (!value.json().is_object()) value.fail("an object with one of " + json::quoted_list(kCommands));
+  if (value.json().contains("draw")) return read_draw(value, names);
+  for (const char* unsupported : {"accum", "bitmap", "image"})
+    if (value.json().contains(unsupported)) value.member(unsupported).refuse_unsupported();
+  if (value.json().empty()) value.fail("one of " + json::quoted_list(kCommands));
+  const Object object(value, {"clear", "draw", "camera", "lights"});
+  if (value.json().size() != 1) value.refuse("found several commands in one object, expected one of " + json::quoted_list(kCommands));
+  if (const auto clear = object.find("clear")) return read_clear(*clear, names.scene.framebuffer);
+  if (const auto camera = object.find("camera")) return read_camera(*camera);
+  return read_lights(object.require("lights"));
+}
+
+}  // namespace
+
+std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials) {
+  Names names{.material_of = materials, .scene = scene};
+  for (const MeshData& mesh : scene.meshes) names.meshes.push_back(mesh.name);
+  for (const auto& [name, material] : materials) names.materials.push_back(name);
+  std::vector<SceneCommand> frame;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Value element = value.element(i);
+    frame.push_back({read_command(element, names), element.pointer()});
+  }
+  return frame;
+}
+
+std::vector<SceneCommand> default_frame(const Scene& scene) {
+  const bool has_depth = scene.framebuffer.depth != DepthFormat::none, reversed = scene.camera.reversed;
+  Clear clear{.color = Color{0, 0, 0, 1}};
+  if (has_depth) clear.depth = reversed ? 0 : 1;
+  if (scene.framebuffer.stencil_bits > 0) clear.stencil = 0;
+  std::vector<SceneCommand> frame{{clear, ""}};
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    DrawCommand draw{.mesh = i};
+    draw.state.depth.enabled = has_depth;
+    if (reversed) draw.state.depth.test = Compare::greater;
+    frame.push_back({draw, ""});
+  }
+  return frame;
+}
+
+}  // namespace tessera

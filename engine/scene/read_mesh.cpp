@@ -1,0 +1,101 @@
+// Meshes: built in, from a model file, or written in the scene.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "engine/import/model.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/read_scene.h"
+
+namespace tessera {
+namespace {
+
+using json::Json;
+using json::Object;
+using json::Value;
+
+MeshData read_builtin(const Value& value) {
+  const Object object(value, {"builtin", "detail"});
+  const std::string name = object.require("builtin").choice<std::string>({{"teapot", "teapot"}, {"sphere", "sphere"}, {"torus", "torus"},
+                                                                          {"cube", "cube"}, {"cylinder", "cylinder"}, {"cone", "cone"},
+                                                                          {"quad", "quad"}, {"grid", "grid"}});
+  const auto detail = object.find("detail");
+  return builtin_mesh(name, detail ? static_cast<int>(detail->integer(least_mesh_detail(name), kMaxMeshDetail)) : kDefaultMeshDetail);
+}
+
+MeshData read_file(const Value& value, const std::string& base_folder, Scene& scene) {
+  const Object object(value, {"file"});
+  const Value file = object.require("file");
+  const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
+  if (!is_model_file(path.string())) file.refuse(json::Json(file.text()).dump() + ": this version of Tessera reads models from .obj files only");
+  Model model = file.checked([&] { return import_model(path.string()); });
+  scene.warnings.insert(scene.warnings.end(), model.warnings.begin(), model.warnings.end());
+  return std::move(model.mesh);
+}
+
+// A list of vectors, flattened. Long lists are read without building a pointer for each number; only an error asks for one.
+std::vector<float> read_vectors(const Value& list, std::size_t components) {
+  std::vector<float> numbers;
+  numbers.reserve(list.size() * components);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json& vector = list.json()[i];
+    if (!vector.is_array() || vector.size() != components) list.element(i).fail("an array of " + std::to_string(components) + " numbers");
+    for (std::size_t k = 0; k < components; ++k) {
+      const Json& number = vector[k];
+      const double x = number.is_number() ? number.get<double>() : std::numeric_limits<double>::infinity();
+      numbers.push_back(std::abs(x) <= std::numeric_limits<float>::max() ? static_cast<float>(x) : list.element(i).element(k).real());
+    }
+  }
+  return numbers;
+}
+
+std::vector<float> read_per_vertex(const Object& object, const char* key, std::size_t components, std::size_t vertices) {
+  const auto list = object.find(key);
+  if (!list) return {};
+  if (list->size() != vertices) list->fail("one for each of the " + std::to_string(vertices) + " positions");
+  return read_vectors(*list, components);
+}
+
+std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices) {
+  if (list.size() == 0 || list.size() % 3 != 0) list.fail("three indices for each triangle");
+  std::vector<std::uint32_t> indices;
+  indices.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json& index = list.json()[i];
+    const bool fits = index.is_number_unsigned() && index.get<std::uint64_t>() < vertices;
+    indices.push_back(static_cast<std::uint32_t>(fits ? index.get<std::uint64_t>() : list.element(i).integer(0, static_cast<std::int64_t>(vertices) - 1)));
+  }
+  return indices;
+}
+
+MeshData read_inline(const Value& value) {
+  const Object object(value, {"primitive", "positions", "normals", "colors", "indices"}, {"color_indices", "texcoords"});
+  if (const auto primitive = object.find("primitive"))
+    primitive->choice<int>({{"triangles", 0}}, {"points", "lines", "line_strip", "line_loop", "triangle_strip", "triangle_fan", "quads", "quad_strip", "polygon"});
+  const Value positions = object.require("positions");
+  const std::size_t vertices = positions.size();
+  if (vertices == 0) positions.fail("at least 3 positions");
+  MeshData mesh;
+  mesh.position_components = positions.json()[0].is_array() && positions.json()[0].size() == 4 ? 4 : 3;
+  mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
+  mesh.normals = read_per_vertex(object, "normals", 3, vertices);
+  mesh.colors = read_per_vertex(object, "colors", 4, vertices);
+  if (const auto indices = object.find("indices"))
+    mesh.indices = read_indices(*indices, vertices);
+  else if (vertices % 3 != 0)
+    positions.fail("three positions for each triangle, or \"indices\"");
+  return mesh;
+}
+
+}  // namespace
+
+void read_meshes(const Value& value, const std::string& base_folder, Scene& scene) {
+  value.for_each_member([&](const std::string& name, const Value& member) {
+    const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors", "indices"}, {"color_indices", "texcoords"});
+    MeshData mesh = object.has("builtin") ? read_builtin(member) : object.has("file") ? read_file(member, base_folder, scene) : read_inline(member);
+    mesh.name = name;
+    scene.meshes.push_back(std::move(mesh));
+  });
+}
+
+}  // namespace tessera

@@ -1,0 +1,29 @@
+// The parts that a scene file is read in; used by the readers only.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "engine/scene/json_value.h"
+#include "engine/scene/scene.h"
+
+namespace tessera {
+
+SceneCamera read_camera(const json::Value& value);
+/// The camera of a scene that names none.
+SceneCamera default_camera();
+
+LightList read_lights(const json::Value& value);
+
+/// Appends every mesh of the file's `meshes`, and what the importer warns of.
+void read_meshes(const json::Value& value, const std::string& base_folder, Scene& scene);
+
+using Materials = std::map<std::string, Material, std::less<>>;
+Materials read_materials(const json::Value& value);
+
+/// @param scene  all but the frame has been read.
+std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials);
+/// One clear of what there is and one draw of every mesh.
+std::vector<SceneCommand> default_frame(const Scene& scene);
+
+}  // namespace tessera

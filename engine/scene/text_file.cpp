@@ -1,0 +1,23 @@
+#include "engine/scene/text_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "engine/tessera.hpp"
+
+namespace tessera {
+
+std::string read_text_file(const std::string& path) {
+  const auto fail = [&](int reason) -> void { throw Error("cannot read \"" + path + "\": " + std::strerror(reason)); };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) fail(errno);
+  std::string text;
+  char block[1 << 16];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) text.append(block, count);
+  if (std::ferror(file.get())) fail(errno);  // a folder opens, and fails here
+  return text;
+}
+
+}  // namespace tessera

@@ -1,0 +1,130 @@
+#include "framebuffer/palette_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace tessera {
+
+namespace {
+
+float clamp_component(float c) noexcept { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
+double square(double d) noexcept { return d * d; }
+
+struct DistinctColor {
+  Rgb8 color;
+  std::uint32_t index = 0;  ///< the lowest one with this colour
+};
+
+/// Each colour of the palette once, by index. Unset entries are black, and the first of them stands for all.
+std::vector<DistinctColor> distinct_colors(const Palette& palette) {
+  std::vector<DistinctColor> colors;
+  colors.reserve(palette.entries.size() + 1);
+  for (std::size_t i = 0; i < palette.entries.size(); ++i) colors.push_back({palette.entries[i], static_cast<std::uint32_t>(i)});
+  if (palette.entries.size() < palette.size()) colors.push_back({{}, static_cast<std::uint32_t>(palette.entries.size())});
+  const auto key = [](const DistinctColor& c) {
+    return (std::uint64_t{c.color.r} << 16 | std::uint64_t{c.color.g} << 8 | c.color.b) << 32 | c.index;
+  };
+  std::sort(colors.begin(), colors.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  colors.erase(std::unique(colors.begin(), colors.end(), [](const auto& a, const auto& b) { return a.color == b.color; }), colors.end());
+  std::sort(colors.begin(), colors.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+  return colors;
+}
+
+/// Squared distances, on one axis, from a level to the nearest and to the farthest point of a cell.
+struct AxisDistances {
+  float nearest, farthest;
+};
+using AxisTable = std::array<AxisDistances, 256>;  ///< by level
+
+AxisTable axis_table(int cells, int cell) noexcept {
+  AxisTable table;
+  for (int level = 0; level < 256; ++level) {
+    const double c = level / 255.0;
+    const double below = static_cast<double>(cell) / cells - c, above = c - static_cast<double>(cell + 1) / cells;
+    table[static_cast<std::size_t>(level)] = {static_cast<float>(square(std::max({below, above, 0.0}))),
+                                              static_cast<float>(square(std::min(below, above)))};
+  }
+  return table;
+}
+
+// A colour can be the nearest one to some point of a cell only if it is no farther from the cell than the farthest point is
+// from the colour that serves the cell best. `among`: candidates of a box that holds the cell; `distances`: scratch.
+void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among, const AxisTable& x,
+                     const AxisTable& y, const AxisTable& z, std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
+  float best_farthest = 4.0f;  // more than the cube's diagonal
+  distances.resize(among.size());
+  for (std::size_t i = 0; i < among.size(); ++i) {
+    const Rgb8 c = colors[among[i]].color;
+    distances[i] = x[c.r].nearest + y[c.g].nearest + z[c.b].nearest;
+    best_farthest = std::min(best_farthest, x[c.r].farthest + y[c.g].farthest + z[c.b].farthest);
+  }
+  // Here and in nearest() distances are rounded, each by less than one part in 10^6: no colour may be lost to that.
+  const float limit = best_farthest * (1.0f + 1e-5f);
+  for (std::size_t i = 0; i < among.size(); ++i)
+    if (distances[i] <= limit) kept.push_back(among[i]);
+}
+
+/// Cells in each direction: finer for more colours, so that a cell keeps few of them.
+int cells_for(std::size_t colors) noexcept { return colors <= 4 ? 4 : colors <= 32 ? 8 : colors <= 1024 ? 16 : 32; }
+
+constexpr std::size_t cell_index(int cells, int x, int y, int z) noexcept {
+  return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(cells) +
+         static_cast<std::size_t>(z);
+}
+
+}  // namespace
+
+PaletteSearch::PaletteSearch(const Palette& palette) {
+  const std::vector<DistinctColor> colors = distinct_colors(palette);
+  for (const DistinctColor& c : colors)
+    entries_.push_back({static_cast<float>(c.color.r) / 255.0f, static_cast<float>(c.color.g) / 255.0f,
+                        static_cast<float>(c.color.b) / 255.0f, c.index});
+
+  // Each level of an octree hands its candidates down to the next, so that only the root looks at all colours.
+  std::vector<std::vector<std::uint32_t>> coarse(1), fine;
+  for (std::size_t i = 0; i < colors.size(); ++i) coarse[0].push_back(static_cast<std::uint32_t>(i));
+  std::vector<float> distances;
+  std::vector<AxisTable> axis;
+  while (cells_ < cells_for(colors.size())) {
+    cells_ *= 2;
+    axis.clear();
+    for (int cell = 0; cell < cells_; ++cell) axis.push_back(axis_table(cells_, cell));
+    fine.assign(cell_index(cells_, cells_, 0, 0), {});
+    for (int x = 0; x < cells_; ++x)
+      for (int y = 0; y < cells_; ++y)
+        for (int z = 0; z < cells_; ++z)
+          keep_candidates(colors, coarse[cell_index(cells_ / 2, x / 2, y / 2, z / 2)], axis[static_cast<std::size_t>(x)],
+                          axis[static_cast<std::size_t>(y)], axis[static_cast<std::size_t>(z)], distances,
+                          fine[cell_index(cells_, x, y, z)]);
+    coarse.swap(fine);
+  }
+  cell_begin_.push_back(0);
+  for (const auto& cell : coarse) {
+    candidates_.insert(candidates_.end(), cell.begin(), cell.end());
+    cell_begin_.push_back(static_cast<std::uint32_t>(candidates_.size()));
+  }
+}
+
+std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept {
+  r = clamp_component(r), g = clamp_component(g), b = clamp_component(b);
+  // Exact: cells_ is a power of two. The last cell holds 1.
+  const auto cell_of = [this](float c) { return std::min(static_cast<int>(c * static_cast<float>(cells_)), cells_ - 1); };
+  const std::size_t cell = cell_index(cells_, cell_of(r), cell_of(g), cell_of(b));
+  const std::uint32_t* candidate = candidates_.data() + cell_begin_[cell];
+  const std::uint32_t* const end = candidates_.data() + cell_begin_[cell + 1];
+  std::uint32_t nearest = *candidate;
+  float nearest_distance = 4.0f;  // more than the cube's diagonal
+  for (; candidate != end; ++candidate) {
+    const Entry& entry = entries_[*candidate];
+    const float dr = r - entry.r, dg = g - entry.g, db = b - entry.b;
+    const float distance = dr * dr + dg * dg + db * db;
+    if (distance < nearest_distance) {
+      nearest_distance = distance;
+      nearest = *candidate;
+    }
+  }
+  return entries_[nearest].index;
+}
+
+}  // namespace tessera

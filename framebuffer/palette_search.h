@@ -1,0 +1,35 @@
+// The nearest entry of a palette, exactly.
+//
+// The colour cube is cut into cells; each cell keeps the entries that can be nearest to any point of it, so that a search
+// looks at a handful of entries and still answers as if it had looked at all. Twin: palette_search_reference.h.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framebuffer/palette.h"
+
+namespace tessera {
+
+class PaletteSearch {
+ public:
+  /// Builds the cells. Throws std::bad_alloc only. The palette need not outlive the call. 256 entries: about 1 ms.
+  explicit PaletteSearch(const Palette& palette);
+
+  /// Index of the entry, set or unset, whose stored colour is nearest: the smallest squared distance of components 0..1 (stored
+  /// value / 255), ties to the lowest index. Components are clamped to 0..1, a NaN counts as 0. Equals
+  /// nearest_reference() bit for bit. Never fails; thread-safe.
+  std::uint32_t nearest(float r, float g, float b) const noexcept;
+
+ private:
+  struct Entry {
+    float r, g, b;
+    std::uint32_t index;  ///< in the palette
+  };
+  int cells_ = 1;                          ///< in each direction; a power of two
+  std::vector<Entry> entries_;             ///< distinct colours, by index
+  std::vector<std::uint32_t> cell_begin_;  ///< cells_^3 + 1 positions in candidates_
+  std::vector<std::uint32_t> candidates_;  ///< positions in entries_, ascending in each cell
+};
+
+}  // namespace tessera

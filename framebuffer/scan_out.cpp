@@ -1,0 +1,190 @@
+// One rule serves every RGB layout: cut a component out of the word, scale it to 0 .. 255 in fixed point, put it in its
+// byte. Luminance is an RGB layout whose components are the same bits.
+#include "framebuffer/scan_out.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "framebuffer/scan_out.cpp"
+#include "framebuffer/lanes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "framebuffer/check.h"
+#include "framebuffer/tile_grid.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Words = hn::ScalableTag<std::uint32_t>;
+using WordsVec = hn::Vec<Words>;
+
+static_assert(std::endian::native == std::endian::little);  // the first byte of a pixel is its word's lowest
+
+/// Pixels of an RGB or luminance layout.
+struct ComponentPixels {
+  ScanOutRule rule;
+
+  WordsVec operator()(Words d, WordsVec words) const noexcept {
+    auto pixels = hn::Set(d, 0xff000000u);
+    for (const ScanOutRule::Component& c : rule.components) {
+      const auto level = hn::And(hn::ShiftRightSame(words, c.shift), hn::Set(d, c.mask));
+      const auto shown = hn::ShiftRight<16>(hn::Add(hn::Mul(level, hn::Set(d, c.scale)), hn::Set(d, 1u << 15)));
+      pixels = hn::Or(pixels, hn::ShiftLeftSame(shown, c.byte_shift));
+    }
+    return pixels;
+  }
+};
+
+/// Pixels of 24 bits stored in the byte order wanted but for the alpha.
+struct BlueFirstPixels {
+  WordsVec operator()(Words d, WordsVec words) const noexcept { return hn::Or(words, hn::Set(d, 0xff000000u)); }
+};
+/// The same with red and blue exchanged.
+struct RedFirstPixels {
+  WordsVec operator()(Words d, WordsVec words) const noexcept {
+    const auto red = hn::And(hn::ShiftRight<16>(words), hn::Set(d, 0xffu));
+    const auto green = hn::And(words, hn::Set(d, 0xff00u));
+    const auto blue = hn::ShiftLeft<16>(hn::And(words, hn::Set(d, 0xffu)));
+    return hn::Or(hn::Or(red, blue), hn::Or(green, hn::Set(d, 0xff000000u)));
+  }
+};
+
+/// Pixels through the palette.
+struct IndexPixels {
+  const std::uint32_t* pixels;
+  std::uint32_t mask, last;
+
+  WordsVec operator()(Words d, WordsVec words) const noexcept {
+    const auto index = hn::Min(hn::And(words, hn::Set(d, mask)), hn::Set(d, last));
+    return hn::GatherIndex(d, pixels, hn::BitCast(hn::RebindToSigned<Words>(), index));
+  }
+};
+
+/// The first lanes of a row of pixels, `step` words from one group of 4 to the next.
+template <int kStep>
+HWY_INLINE WordsVec load_pixels(Words d, const std::uint32_t* words) noexcept {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Load(d, words);
+#else
+  if constexpr (kStep == kBlockSize || HWY_LANES(std::uint32_t) <= kBlockSize) {
+    return hn::LoadU(d, words);
+  } else {
+    const hn::Half<Words> half;
+    if constexpr (HWY_LANES(std::uint32_t) == 2 * kBlockSize) {
+      return hn::Combine(d, hn::LoadU(half, words + kStep), hn::LoadU(half, words));
+    } else {
+      const hn::Half<hn::Half<Words>> quarter;
+      return hn::Combine(d, hn::Combine(half, hn::LoadU(quarter, words + 3 * kStep), hn::LoadU(quarter, words + 2 * kStep)),
+                         hn::Combine(half, hn::LoadU(quarter, words + kStep), hn::LoadU(quarter, words)));
+    }
+  }
+#endif
+}
+
+/// Pixels may stand at any address, which a pointer to words must not.
+HWY_INLINE void store_pixels(Words d, WordsVec pixels, std::uint8_t* to) noexcept {
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint32_t pixel = hn::GetLane(pixels);
+  std::memcpy(to, &pixel, sizeof pixel);
+  static_cast<void>(d);
+#else
+  hn::StoreU(hn::BitCast(hn::Repartition<std::uint8_t, Words>(), pixels), hn::Repartition<std::uint8_t, Words>(), to);
+  static_cast<void>(d);
+#endif
+}
+
+/// One row; groups of 4 pixels stand kStep words apart: kBlockPixels in a tile, kBlockSize in a plain row.
+template <int kStep, class Pixels>
+HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px, std::uint8_t* row) noexcept {
+  const Words d;
+  constexpr int kLanes = static_cast<int>(HWY_LANES(std::uint32_t)), kUnit = std::max(kLanes, kBlockSize);
+  int x = 0;
+  for (; x + kUnit <= width_px; x += kUnit, words += kUnit / kBlockSize * kStep, row += 4 * kUnit)
+    for (int i = 0; i < kUnit; i += kLanes) store_pixels(d, pixels(d, load_pixels<kStep>(d, words + i)), row + 4 * i);
+  // The rest, in memory of its own: neither the words beyond the last pixel nor the bytes beyond the row are touched.
+  const int rest_px = width_px - x;
+  if (rest_px <= 0) return;
+  HWY_ALIGN std::uint32_t rest[kUnit] = {};
+  for (int i = 0; i < rest_px; ++i) rest[i] = words[i / kBlockSize * kStep + i % kBlockSize];
+  for (int i = 0; i < kUnit; i += kLanes) hn::Store(pixels(d, hn::Load(d, rest + i)), d, rest + i);
+  std::memcpy(row, rest, static_cast<std::size_t>(rest_px) * sizeof rest[0]);
+}
+
+template <class Pixels>
+HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
+                                   std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
+  for (int y = 0; y < height_px; ++y)
+    scan_out_row_with<kBlockPixels>(pixels, tile + tile_index(0, y, tile_size), width_px, first_row + y * stride_bytes);
+}
+
+/// Calls `scan` with what makes pixels by the rule.
+template <class Scan>
+HWY_INLINE void with_pixels(const ScanOutRule& rule, const Scan& scan) noexcept {
+  if (rule.index) return scan(IndexPixels{rule.pixels, rule.index_mask, rule.last_index});
+  const auto& [r, g, b] = rule.components;
+  const bool bytes = r.shift == 16 && g.shift == 8 && b.shift == 0 && (r.mask & g.mask & b.mask) == 255;
+  if (bytes && b.byte_shift == 0) return scan(BlueFirstPixels{});
+  if (bytes) return scan(RedFirstPixels{});
+  scan(ComponentPixels{rule});
+}
+
+}  // namespace
+
+void scan_out_tile(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
+                   std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
+  TESSERA_ASSERT(width_px >= 0 && width_px <= tile_size && height_px >= 0 && height_px <= tile_size);
+  with_pixels(rule, [&](const auto& pixels) HWY_ATTR {
+    scan_out_tile_with(pixels, tile, tile_size, width_px, height_px, first_row, stride_bytes);
+  });
+}
+
+void scan_out_row(const ScanOutRule& rule, const std::uint32_t* words, int width_px, std::uint8_t* row) noexcept {
+  TESSERA_ASSERT(width_px >= 0);
+  with_pixels(rule, [&](const auto& pixels) HWY_ATTR { scan_out_row_with<kBlockSize>(pixels, words, width_px, row); });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tessera {
+
+static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int byte_shift) {
+  // 255 v / mask lies at least 1 / (2 mask) from the next half, mask being odd; v times the scale's rounding error is less
+  // than 1 / 512 wherever mask < 255, and 0 at 255.
+  return {.shift = shift, .mask = mask, .scale = ((255u << 16) + mask / 2) / mask, .byte_shift = byte_shift};
+}
+
+ScanOut::ScanOut(const ColorLayout& layout, const Palette* palette, ByteOrder order, [[maybe_unused]] Isa isa)
+    : tile_fn_(TESSERA_KERNEL(isa, scan_out_tile)), row_fn_(TESSERA_KERNEL(isa, scan_out_row)) {
+  const int r_byte = order == ByteOrder::rgba8 ? 0 : 16, b_byte = 16 - r_byte;
+  if (layout.index) {
+    TESSERA_ASSERT(palette != nullptr && palette->bits == layout.bits && palette->entries.size() <= palette->size());
+    const std::size_t given = palette->entries.size();
+    pixels_.reserve(given + 1);
+    for (Rgb8 c : palette->entries)
+      pixels_.push_back(std::uint32_t{c.r} << r_byte | std::uint32_t{c.g} << 8 | std::uint32_t{c.b} << b_byte | 0xff000000u);
+    pixels_.push_back(0xff000000u);  // black, for all that was not given
+    rule_.index = true;
+    rule_.index_mask = layout.word_mask();
+    rule_.last_index = static_cast<std::uint32_t>(given);
+    rule_.pixels = pixels_.data();
+  } else if (layout.luminance) {
+    rule_.components = {component_rule(layout.word_mask(), 0, r_byte), component_rule(layout.word_mask(), 0, 8),
+                        component_rule(layout.word_mask(), 0, b_byte)};
+  } else {
+    rule_.components = {component_rule((1u << layout.r_bits) - 1, layout.r_shift(), r_byte),
+                        component_rule((1u << layout.g_bits) - 1, layout.g_shift(), 8),
+                        component_rule((1u << layout.b_bits) - 1, 0, b_byte)};
+  }
+}
+
+}  // namespace tessera
+#endif

@@ -1,0 +1,27 @@
+// The twin of the scan-out kernels: one pixel, from the definitions in format.h.
+#pragma once
+
+#include "framebuffer/format.h"
+#include "framebuffer/palette.h"
+#include "framebuffer/scan_out.h"
+
+namespace tessera {
+
+/// The four bytes of a pixel, the first one lowest.
+inline std::uint32_t shown_pixel_reference(const ColorLayout& layout, const Palette* palette, ByteOrder order,
+                                           std::uint32_t word) noexcept {
+  std::uint32_t r, g, b;
+  if (layout.index) {
+    const Rgb8 entry = (*palette)[word & layout.word_mask()];
+    r = entry.r, g = entry.g, b = entry.b;
+  } else if (layout.luminance) {
+    r = g = b = shown_level(word & layout.word_mask(), layout.bits);
+  } else {
+    r = shown_level((word & layout.r_mask()) >> layout.r_shift(), layout.r_bits);
+    g = shown_level((word & layout.g_mask()) >> layout.g_shift(), layout.g_bits);
+    b = shown_level(word & layout.b_mask(), layout.b_bits);
+  }
+  return order == ByteOrder::rgba8 ? r | g << 8 | b << 16 | 0xff000000u : b | g << 8 | r << 16 | 0xff000000u;
+}
+
+}  // namespace tessera

@@ -1,0 +1,229 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/binning.cpp"
+#include "framebuffer/lanes.h"
+
+#include <algorithm>
+
+#include "raster/binning.h"
+
+namespace tessera {
+#ifndef TESSERA_BINNING_SHARED
+#define TESSERA_BINNING_SHARED
+/// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges may touch.
+void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, std::uint32_t draw, std::uint32_t id,
+                        int x0, int y0, int x1, int y1);
+/// Clips one triangle and bins what is left of it.
+void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes);
+inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t triangle, int corner) {
+  const std::uint32_t i = triangle * 3 + static_cast<std::uint32_t>(corner);
+  return draw.indices ? draw.indices[i] : i;
+}
+#endif
+}  // namespace tessera
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+// A group of triangles as arrays, so that bounds and areas become lanes.
+inline constexpr int kGroup = 16;
+struct Bounds {
+  alignas(64) std::int32_t x[3][kGroup], y[3][kGroup];
+  alignas(64) double area[kGroup];
+  alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup], py1[kGroup];  // pixels whose centres the bounds hold, inclusive
+};
+
+HWY_INLINE void compute_bounds(Bounds& b, const PixelRect& rect) {
+  for (int k = 0; k < kGroup; ++k) {
+    const double dx1 = b.x[1][k] - b.x[0][k], dy1 = b.y[1][k] - b.y[0][k], dx2 = b.x[2][k] - b.x[0][k], dy2 = b.y[2][k] - b.y[0][k];
+    b.area[k] = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
+  }
+  for (int k = 0; k < kGroup; ++k) {
+    const std::int32_t low_x = std::min(b.x[0][k], std::min(b.x[1][k], b.x[2][k])), high_x = std::max(b.x[0][k], std::max(b.x[1][k], b.x[2][k]));
+    const std::int32_t low_y = std::min(b.y[0][k], std::min(b.y[1][k], b.y[2][k])), high_y = std::max(b.y[0][k], std::max(b.y[1][k], b.y[2][k]));
+    b.px0[k] = std::max(first_pixel(low_x), rect.x0);
+    b.py0[k] = std::max(first_pixel(low_y), rect.y0);
+    b.px1[k] = std::min(last_pixel(high_x), rect.x1 - 1);
+    b.py1[k] = std::min(last_pixel(high_y), rect.y1 - 1);
+  }
+}
+
+void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
+  BinCounts& counts = bins.counts;
+  counts.triangles_in += last - first;
+  const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7;
+  const int columns = grid.columns();
+  Bounds b;
+  std::uint32_t ids[kGroup];
+  for (std::uint32_t next = first; next < last;) {
+    int n = 0;
+    while (n < kGroup && next < last) {
+      const std::uint32_t triangle = next++;
+      const std::uint32_t i0 = vertex_index(draw, triangle, 0), i1 = vertex_index(draw, triangle, 1), i2 = vertex_index(draw, triangle, 2);
+      if (draw.any_code) {
+        const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
+        if ((c0 | c1 | c2) & kNonFinite) {
+          ++counts.non_finite;
+          continue;
+        }
+        if (c0 & c1 & c2) {
+          ++counts.outside;
+          continue;
+        }
+        if (c0 | c1 | c2) {
+          // Order within a tile is submission order: what was gathered so far goes first.
+          if (n > 0) {
+            --next;
+            break;
+          }
+          ++counts.clipped;
+          bin_clipped_triangle(bins, grid, draw, triangle, c0 | c1 | c2);
+          continue;
+        }
+      }
+      const WindowVertex &v0 = draw.vertices[i0], &v1 = draw.vertices[i1], &v2 = draw.vertices[i2];
+      b.x[0][n] = v0.x, b.y[0][n] = v0.y;
+      b.x[1][n] = v1.x, b.y[1][n] = v1.y;
+      b.x[2][n] = v2.x, b.y[2][n] = v2.y;
+      ids[n++] = triangle;
+    }
+    if (n == 0) continue;
+    for (int k = n; k < kGroup; ++k)
+      for (int corner = 0; corner < 3; ++corner) b.x[corner][k] = b.y[corner][k] = 0;
+    compute_bounds(b, draw.rect);
+    for (int k = 0; k < n; ++k) {
+      if (b.area[k] == 0) {
+        ++counts.zero_area;
+        continue;
+      }
+      if (!(is_front(b.area[k], draw.front_is_clockwise) ? draw.keep_front : draw.keep_back)) {
+        ++counts.culled;
+        continue;
+      }
+      if (b.px0[k] > b.px1[k] || b.py0[k] > b.py1[k]) {
+        ++counts.outside;
+        continue;
+      }
+      ++counts.binned;
+      const int tx0 = b.px0[k] >> shift, ty0 = b.py0[k] >> shift, tx1 = b.px1[k] >> shift, ty1 = b.py1[k] >> shift;
+      if (tx0 == tx1 && ty0 == ty1) {
+        bins.push(ty0 * columns + tx0, draw.draw, ids[k]);
+      } else {
+        const WindowVertex* const v[3] = {&draw.vertices[vertex_index(draw, ids[k], 0)], &draw.vertices[vertex_index(draw, ids[k], 1)],
+                                          &draw.vertices[vertex_index(draw, ids[k], 2)]};
+        bin_large_triangle(bins, grid, v, b.area[k], draw.draw, ids[k], tx0, ty0, tx1, ty1);
+      }
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tessera {
+
+void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
+  TESSERA_KERNEL(isa, bin_triangles_lanes)(bins, grid, draw, first, last);
+}
+
+void Bins::reset(int tile_count) {
+  tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone});
+  used_ = 0;
+  clipped.clear();
+  counts = {};
+}
+
+void Bins::add_block(Tail& tail) {
+  if (used_ == blocks_.size()) blocks_.resize(std::max<std::size_t>(64, used_ * 2));
+  const auto index = static_cast<std::uint32_t>(used_++);
+  blocks_[index].count = 0;
+  blocks_[index].next = kNone;
+  if (tail.last == kNone)
+    tail.first = index;
+  else
+    blocks_[tail.last].next = index;
+  tail.last = index;
+}
+
+void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, std::uint32_t draw, std::uint32_t id,
+                        int x0, int y0, int x1, int y1) {
+  // For each edge its largest value over the pixel centres of a tile; where it is negative the tile is outside. Ties at 0
+  // belong to the fill rule and are left to the tile.
+  const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits, reach = side - kSubpixelScale;
+  std::int64_t row_value[3], step_x[3], step_y[3];
+  for (int k = 0; k < 3; ++k) {
+    const WindowVertex &p = *v[k], &q = *v[(k + 1) % 3];
+    std::int64_t a = p.y - q.y, b = q.x - p.x;
+    if (area < 0) a = -a, b = -b;
+    row_value[k] = a * (x0 * side + kHalfPixel - p.x) + b * (y0 * side + kHalfPixel - p.y) + std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach;
+    step_x[k] = a * side;
+    step_y[k] = b * side;
+  }
+  for (int ty = y0; ty <= y1; ++ty) {
+    std::int64_t e0 = row_value[0], e1 = row_value[1], e2 = row_value[2];
+    for (int tx = x0; tx <= x1; ++tx) {
+      if ((e0 | e1 | e2) >= 0) bins.push(ty * grid.columns() + tx, draw, id);
+      e0 += step_x[0], e1 += step_x[1], e2 += step_x[2];
+    }
+    for (int k = 0; k < 3; ++k) row_value[k] += step_y[k];
+  }
+}
+
+static double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
+  return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
+}
+
+void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes) {
+  ClipVertex corners[3];
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t i = vertex_index(draw, triangle, k);
+    const float* p = draw.positions + std::size_t{i} * static_cast<std::size_t>(draw.components);
+    corners[k].position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
+    const float* a = draw.attributes + std::size_t{i} * static_cast<std::size_t>(draw.attribute_stride);
+    for (int j = 0; j < draw.attribute_count; ++j) corners[k].attributes[j] = a[j];
+  }
+  const ClippedPolygon polygon = clip_triangle(*draw.transform, corners, codes, draw.attribute_count);
+  if (polygon.count == 0) {
+    ++bins.counts.outside;
+    return;
+  }
+  WindowVertex window[9];
+  for (int i = 0; i < polygon.count; ++i) window[i] = project(*draw.transform, polygon.vertices[i].position);
+  // Facing belongs to the whole polygon; a sliver of a piece that snapping turned over has no say.
+  double polygon_area = 0;
+  for (int i = 2; i < polygon.count; ++i) polygon_area += doubled_area(window[0], window[i - 1], window[i]);
+  if (polygon_area == 0) {
+    ++bins.counts.zero_area;
+    return;
+  }
+  if (!(is_front(polygon_area, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back)) {
+    ++bins.counts.culled;
+    return;
+  }
+  for (int i = 2; i < polygon.count; ++i) {
+    const int corner[3] = {0, i - 1, i};
+    const double area = doubled_area(window[0], window[i - 1], window[i]);
+    if (area == 0 || (area < 0) != (polygon_area < 0)) continue;
+    const auto [low_x, high_x] = std::minmax({window[0].x, window[i - 1].x, window[i].x});
+    const auto [low_y, high_y] = std::minmax({window[0].y, window[i - 1].y, window[i].y});
+    const int px0 = std::max(first_pixel(low_x), draw.rect.x0), px1 = std::min(last_pixel(high_x), draw.rect.x1 - 1);
+    const int py0 = std::max(first_pixel(low_y), draw.rect.y0), py1 = std::min(last_pixel(high_y), draw.rect.y1 - 1);
+    if (px0 > px1 || py0 > py1) continue;
+    ClippedTriangle piece;
+    piece.source = triangle;
+    for (int k = 0; k < 3; ++k) {
+      piece.vertices[k] = window[corner[k]];
+      std::copy_n(polygon.vertices[corner[k]].attributes, kMaxAttributes, piece.attributes[k]);
+    }
+    const std::uint32_t id = kClippedTriangle | static_cast<std::uint32_t>(bins.clipped.size());
+    bins.clipped.push_back(piece);
+    ++bins.counts.binned;
+    const WindowVertex* const v[3] = {&piece.vertices[0], &piece.vertices[1], &piece.vertices[2]};
+    bin_large_triangle(bins, grid, v, area, draw.draw, id, px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
+  }
+}
+
+}  // namespace tessera
+#endif

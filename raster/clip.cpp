@@ -1,0 +1,59 @@
+#include "raster/clip.h"
+
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+// How far inside a plane a position lies; negative outside.
+double distance(const VertexTransform& t, ClipCode plane, const ClipPosition& p) {
+  switch (plane) {
+    case kLeftOfGuardBand: return p.x + t.guard_x * p.w;
+    case kRightOfGuardBand: return t.guard_x * p.w - p.x;
+    case kBelowGuardBand: return p.y + t.guard_y * p.w;
+    case kAboveGuardBand: return t.guard_y * p.w - p.y;
+    case kBeforeNear: return t.reversed ? p.w - p.z : p.z + p.w;
+    case kBehindFar: return t.reversed ? p.z : p.w - p.z;
+    default: return p.w;
+  }
+}
+
+ClipVertex cut(const ClipVertex& inner, const ClipVertex& outer, double inner_distance, double outer_distance, int attribute_count) {
+  const double t = inner_distance / (inner_distance - outer_distance);
+  const auto mix = [t](double a, double b) { return std::fma(t, b - a, a); };
+  ClipVertex v;
+  v.position = {mix(inner.position.x, outer.position.x), mix(inner.position.y, outer.position.y), mix(inner.position.z, outer.position.z),
+                mix(inner.position.w, outer.position.w)};
+  for (int k = 0; k < attribute_count; ++k) v.attributes[k] = static_cast<float>(mix(inner.attributes[k], outer.attributes[k]));
+  return v;
+}
+
+}  // namespace
+
+ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count) {
+  ClippedPolygon polygon;
+  for (const ClipVertex& v : triangle) polygon.vertices[polygon.count++] = v;
+  // Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
+  for (const ClipCode plane : {kBeforeNear, kBehindFar, kNoPositiveW, kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand}) {
+    // A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the first cut
+    // every plane is looked at.
+    if (plane == kNoPositiveW || ((codes & plane) == 0 && (codes & (kBeforeNear | kBehindFar)) == 0)) continue;
+    ClippedPolygon kept;
+    for (int i = 0; i < polygon.count; ++i) {
+      const ClipVertex& a = polygon.vertices[i];
+      const ClipVertex& b = polygon.vertices[(i + 1) % polygon.count];
+      const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
+      if (da >= 0) kept.vertices[kept.count++] = a;
+      if (da >= 0 && db < 0) kept.vertices[kept.count++] = cut(a, b, da, db, attribute_count);
+      if (da < 0 && db >= 0) kept.vertices[kept.count++] = cut(b, a, db, da, attribute_count);
+      if (kept.count >= 8) break;  // a convex polygon gains one vertex a plane; only rounding could make more
+    }
+    polygon = kept;
+    if (polygon.count < 3) return {};
+  }
+  for (int i = 0; i < polygon.count; ++i)
+    if (!(polygon.vertices[i].position.w > 0)) return {};  // touches the eye's plane in a single point: no pixel
+  return polygon;
+}
+
+}  // namespace tessera

@@ -1,0 +1,51 @@
+// Window space in fixed point: grid, guard band, and the widths of triangles whose edge functions fit 32 bits.
+//
+// Raster space is window space with rows counted from the top: x to the right, y down, in units of 1/256 pixel; the pixel
+// (i, j) has its centre at (256 i + 128, 256 j + 128).
+#pragma once
+
+#include <cstdint>
+
+namespace tessera {
+
+inline constexpr int kSubpixelBits = 8;
+inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
+inline constexpr int kHalfPixel = kSubpixelScale / 2;
+
+/// Vertices are kept within this many pixels of the viewport's centre; what reaches farther is clipped. A viewport is at
+/// most 16384 pixels wide, so the guard band is at least as wide again on each side.
+inline constexpr int kGuardBandPixels = 16383;
+/// A viewport's corner lies within this many pixels of the frame buffer's.
+inline constexpr int kMaxViewportOffset = 32768;
+static_assert((std::int64_t{kGuardBandPixels} + 8192 + kMaxViewportOffset + 1) * kSubpixelScale <= (1 << 24), "a coordinate fits 24 bits and a sign");
+
+/// Largest extent, in pixels, of a triangle between any two vertices after clipping.
+inline constexpr std::int64_t kWidestExtent = 2 * kGuardBandPixels;
+
+// An edge function is E(p) = A (px - vx) + B (py - vy), with A and B differences of coordinates. Divided by 256 and rounded
+// down, E at pixel centres keeps its sign and steps by exactly A and B from pixel to pixel.
+//
+// Narrow triangles: at a pixel within `extent` + one tile of the triangle, |A|, |B| <= 256 extent, so
+// |E / 256| <= 2 * 256 extent * (extent + 128).
+inline constexpr std::int64_t kNarrowExtent = 1984;
+static_assert(2 * kSubpixelScale * kNarrowExtent * (kNarrowExtent + 128) <= INT32_MAX);
+// All others: an edge that crosses a tile is smaller in the whole tile than its own span over 127 pixels.
+static_assert(127 * 2 * kWidestExtent * kSubpixelScale <= INT32_MAX, "an edge that crosses a tile fits 32 bits in it");
+// Twice a triangle's area is exact in a double.
+static_assert(2 * (kWidestExtent * kSubpixelScale) * (kWidestExtent * kSubpixelScale) < (std::int64_t{1} << 53));
+
+/// A vertex after projection and snapping.
+struct WindowVertex {
+  std::int32_t x = 0, y = 0;  ///< raster space, 1/256 pixel
+  /// Depth. Unorm formats of b bits: floor((z (2^b - 1) + 0.5) * 2^(32 - b)), so that the top b bits are the stored level;
+  /// float32: the bits of the float.
+  std::uint32_t z = 0;
+  float rw = 1;               ///< 1/w
+};
+static_assert(sizeof(WindowVertex) == 16);
+
+// Pixels whose centres lie in [low, high], in 1/256 pixel.
+constexpr int first_pixel(std::int32_t low) { return (low + kHalfPixel - 1) >> kSubpixelBits; }
+constexpr int last_pixel(std::int32_t high) { return (high - kHalfPixel) >> kSubpixelBits; }
+
+}  // namespace tessera

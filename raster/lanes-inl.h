@@ -1,0 +1,79 @@
+// The few lane operations that Highway does not give with the same bits on every target. Included by kernels, once for
+// each instruction set; see framebuffer/lanes.h.
+#if defined(TESSERA_RASTER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_RASTER_LANES_INL_H_
+#undef TESSERA_RASTER_LANES_INL_H_
+#else
+#define TESSERA_RASTER_LANES_INL_H_
+#endif
+
+#include <cmath>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, 16>;  // at most a block
+using IntTag = hn::RebindToSigned<FloatTag>;
+using UintTag = hn::RebindToUnsigned<FloatTag>;
+using Float = hn::Vec<FloatTag>;
+using Int = hn::Vec<IntTag>;
+using Uint = hn::Vec<UintTag>;
+inline constexpr FloatTag kFloat{};
+inline constexpr IntTag kInt{};
+inline constexpr UintTag kUint{};
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+inline constexpr int kChunksPerBlock = 16 / kLanes;
+
+HWY_INLINE Float splat(float value) { return hn::Set(kFloat, value); }
+HWY_INLINE Int splat(std::int32_t value) { return hn::Set(kInt, value); }
+
+/// a b + c, rounded once on every target.
+HWY_INLINE Float mul_add(Float a, Float b, Float c) {
+#if HWY_TARGET == HWY_SCALAR
+  return Float(std::fma(a.raw, b.raw, c.raw));
+#else
+  return hn::MulAdd(a, b, c);
+#endif
+}
+/// c - a b, rounded once on every target.
+HWY_INLINE Float neg_mul_add(Float a, Float b, Float c) {
+#if HWY_TARGET == HWY_SCALAR
+  return Float(std::fma(-a.raw, b.raw, c.raw));
+#else
+  return hn::NegMulAdd(a, b, c);
+#endif
+}
+
+/// One bit a lane, lane 0 lowest.
+template <class Tag, class Mask>
+HWY_INLINE std::uint32_t mask_bits(Tag tag, Mask mask) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)tag;
+  return mask.bits != 0;
+#else
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(tag, mask, bytes);
+  return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+#endif
+}
+/// The lanes whose bit is set; bits above the lanes are ignored.
+HWY_INLINE auto mask_from_bits(std::uint32_t bits) {
+  alignas(16) static constexpr std::int32_t kBits[16] = {1,     1 << 1,  1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                                                         1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+  return hn::TestBit(splat(static_cast<std::int32_t>(bits)), hn::LoadU(kInt, kBits));
+}
+
+// Pixel p of a 4x4 block stands in column p % 4 and row p / 4.
+alignas(64) inline constexpr std::int32_t kBlockColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) inline constexpr std::int32_t kBlockRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+HWY_INLINE Int block_columns(int chunk) { return hn::Load(kInt, kBlockColumn + chunk * kLanes); }
+HWY_INLINE Int block_rows(int chunk) { return hn::Load(kInt, kBlockRow + chunk * kLanes); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,113 @@
+// Sets up the triangles of a tile's bin, a group at a time: edge functions with the fill rule, bounds, depth gradients.
+// Plain loops over the arrays of a group, which become lanes. Based on: J. Pineda, A Parallel Algorithm for Polygon
+// Rasterization, SIGGRAPH 1988; differs in that edges are exact integers, scaled down by 256 without losing their sign.
+#if defined(TESSERA_RASTER_TRIANGLE_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
+#undef TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
+#else
+#define TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstring>
+
+#include "framebuffer/format.h"
+#include "framebuffer/tile_grid.h"
+#include "raster/fixed_point.h"
+#include "raster/triangle_setup.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0) is the tile's
+/// top left. Triangles without a pixel in `rect` get no bit in group.mask.
+inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, const PixelRect& rect) {
+  for (int i = 0; i < kGroupSize; ++i) {
+    const double dx1 = g.x[1][i] - g.x[0][i], dy1 = g.y[1][i] - g.y[0][i], dx2 = g.x[2][i] - g.x[0][i], dy2 = g.y[2][i] - g.y[0][i];
+    const double area = dx1 * dy2 - dx2 * dy1;  // exact
+    g.signed_area[i] = area;
+    g.area[i] = area < 0 ? -area : area;
+    g.flip[i] = area < 0 ? -1 : 0;
+  }
+  for (int k = 0; k < 3; ++k) {
+    // The edge opposite vertex k, from vertex p to vertex q.
+    const std::int32_t *px = g.x[(k + 1) % 3], *py = g.y[(k + 1) % 3], *qx = g.x[(k + 2) % 3], *qy = g.y[(k + 2) % 3];
+    for (int i = 0; i < kGroupSize; ++i) {
+      const std::int32_t flip = g.flip[i];
+      const std::int32_t a = ((py[i] - qy[i]) ^ flip) - flip, b = ((qx[i] - px[i]) ^ flip) - flip;
+      // A pixel centre on a left edge (the inside is to its right) or a top edge (the inside is below it) belongs to the triangle.
+      const bool top_left = a > 0 || (a == 0 && b > 0);
+      const std::uint32_t ua = static_cast<std::uint32_t>(a), ub = static_cast<std::uint32_t>(b);
+      const std::int32_t at_anchor = static_cast<std::int32_t>(ua * static_cast<std::uint32_t>(kHalfPixel - (px[i] & 255)) +
+                                                               ub * static_cast<std::uint32_t>(kHalfPixel - (py[i] & 255)));
+      const std::int32_t e = (at_anchor + (top_left ? 0 : -1)) >> kSubpixelBits;
+      g.rest[k][i] = static_cast<float>(at_anchor - e * kSubpixelScale);
+      g.a[k][i] = a;
+      g.b[k][i] = b;
+      // Steps from the anchor's pixel to the tile's first one; wraps where that is far away, and comes right again at the
+      // pixels that count (kNarrowExtent).
+      g.e[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(e) + ua * static_cast<std::uint32_t>(tile_x - (px[i] >> 8)) +
+                                            ub * static_cast<std::uint32_t>(tile_y - (py[i] >> 8)));
+    }
+  }
+  alignas(64) std::int32_t visible[kGroupSize];
+  for (int i = 0; i < kGroupSize; ++i) {
+    const std::int32_t low_x = std::min(g.x[0][i], std::min(g.x[1][i], g.x[2][i])), high_x = std::max(g.x[0][i], std::max(g.x[1][i], g.x[2][i]));
+    const std::int32_t low_y = std::min(g.y[0][i], std::min(g.y[1][i], g.y[2][i])), high_y = std::max(g.y[0][i], std::max(g.y[1][i], g.y[2][i]));
+    g.x0[i] = std::max(first_pixel(low_x) - tile_x, rect.x0);
+    g.y0[i] = std::max(first_pixel(low_y) - tile_y, rect.y0);
+    g.x1[i] = std::min(last_pixel(high_x) - tile_x, rect.x1 - 1);
+    g.y1[i] = std::min(last_pixel(high_y) - tile_y, rect.y1 - 1);
+    g.wide[i] = std::max(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
+    visible[i] = g.x0[i] <= g.x1[i] && g.y0[i] <= g.y1[i] ? 1 : 0;
+  }
+  g.mask = 0;
+  for (int i = 0; i < g.count; ++i) g.mask |= static_cast<std::uint32_t>(visible[i]) << i;
+}
+
+/// Depth gradients: per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32).
+inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind) {
+  alignas(64) double z[3][kGroupSize];
+  for (int k = 0; k < 3; ++k) {
+    if (kind == DepthKind::float32) {
+      for (int i = 0; i < kGroupSize; ++i) {
+        float f;
+        std::memcpy(&f, &g.z[k][i], sizeof f);
+        z[k][i] = f;
+      }
+    } else {
+      // Exact: the offset makes the word signed, which is what converts in lanes.
+      for (int i = 0; i < kGroupSize; ++i) z[k][i] = static_cast<double>(static_cast<std::int32_t>(g.z[k][i] ^ 0x80000000u)) + 2147483648.0;
+    }
+  }
+  for (int i = 0; i < kGroupSize; ++i) {
+    const double scale = 256.0 / g.area[i], dz1 = z[1][i] - z[0][i], dz2 = z[2][i] - z[0][i];
+    g.depth_dx[i] = (g.a[1][i] * dz1 + g.a[2][i] * dz2) * scale;
+    g.depth_dy[i] = (g.b[1][i] * dz1 + g.b[2][i] * dz2) * scale;
+  }
+}
+
+/// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k + shift_k, which is
+/// the barycentric coordinate times the vertex's 1/w, over the triangle's largest 1/w.
+inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
+  for (int i = 0; i < kGroupSize; ++i) {
+    const float r0 = g.rw[0][i], r1 = g.rw[1][i], r2 = g.rw[2][i];
+    const float largest = r0 > r1 ? (r0 > r2 ? r0 : r2) : (r1 > r2 ? r1 : r2);
+    const bool affine = (r0 == r1 && r1 == r2) || !(largest > 0x1p-120f && largest < 0x1p120f);
+    g.affine[i] = affine ? 1 : 0;
+    const float inverse = static_cast<float>(1.0 / g.area[i]);
+    for (int k = 0; k < 3; ++k) {
+      const float relative = affine ? 1.0f : g.rw[k][i] / largest;
+      g.unit_scale[k][i] = inverse * relative;
+      g.scale[k][i] = 256.0f * (inverse * relative);
+      g.shift[k][i] = g.rest[k][i] * (inverse * relative);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

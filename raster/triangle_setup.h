@@ -1,0 +1,43 @@
+// What triangle setup yields: groups of triangles as arrays, and the edges of one triangle in one tile.
+#pragma once
+
+#include <cstdint>
+
+#include "framebuffer/tile_grid.h"
+#include "raster/fixed_point.h"
+
+namespace tessera {
+
+inline constexpr int kGroupSize = 16;  ///< triangles set up at a time
+
+/// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
+struct TriangleGroup {
+  int count = 0;
+  // Read from the vertices.
+  alignas(64) std::int32_t x[3][kGroupSize], y[3][kGroupSize];  ///< raster space, 1/256 pixel
+  alignas(64) std::uint32_t z[3][kGroupSize];
+  alignas(64) float rw[3][kGroupSize];
+  // Edges at pixel centres, divided by 256 and rounded down, the fill rule's bias included: E(x, y) = e + a x + b y with x, y
+  // counted in pixels from the tile's first. Exact for narrow triangles.
+  alignas(64) std::int32_t a[3][kGroupSize], b[3][kGroupSize], e[3][kGroupSize];
+  alignas(64) float rest[3][kGroupSize];  ///< the exact edge is 256 E + rest, without the bias; 0 .. 256
+  alignas(64) std::int32_t flip[kGroupSize];
+  alignas(64) double signed_area[kGroupSize], area[kGroupSize];  ///< doubled area, exact
+  alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize], y1[kGroupSize];  ///< pixel bounds in the tile, inclusive
+  alignas(64) std::int32_t wide[kGroupSize], affine[kGroupSize];
+  alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
+  alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
+  std::uint32_t mask = 0;  ///< those with a pixel in the tile
+};
+
+/// The three edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in the tile.
+struct TileEdges {
+  std::int32_t a[3], b[3], e[3];
+};
+
+/// The edges of a wide triangle: doubles hold every value exactly.
+struct WideEdges {
+  double a[3], b[3], e[3];  ///< undivided edge at pixel (x, y) of the tile: e + a x + b y
+};
+
+}  // namespace tessera

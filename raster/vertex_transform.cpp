@@ -1,0 +1,190 @@
+// Plain loops over arrays of a batch: the compiler turns them into lanes for each instruction set. Every step is one exact
+// IEEE operation, so all sets give the same bits.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/vertex_transform.cpp"
+#include "framebuffer/lanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/vertex_transform.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+// One row of a matrix times a point, in the order that clip_position() has too.
+HWY_INLINE double row_times_point(const double* row, double x, double y, double z, double w) {
+  return __builtin_fma(row[0], x, __builtin_fma(row[1], y, __builtin_fma(row[2], z, row[3] * w)));
+}
+
+struct PositionBatch {
+  alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
+};
+
+// Positions as four arrays; lanes beyond `count` repeat harmless zeros.
+HWY_INLINE void gather_positions(const float* positions, int components, std::size_t count, PositionBatch& batch) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* p = positions + i * static_cast<std::size_t>(components);
+    batch.x[i] = p[0];
+    batch.y[i] = p[1];
+    batch.z[i] = p[2];
+    batch.w[i] = components == 4 ? p[3] : 1.0f;
+  }
+  for (std::size_t i = count; i < kVertexBatch; ++i) batch.x[i] = batch.y[i] = batch.z[i] = batch.w[i] = 0;
+}
+
+std::uint8_t transform_vertices_lanes(const VertexTransform& t, const float* positions, int components, std::size_t count, WindowVertex* vertices,
+                                      std::uint8_t* codes) {
+  PositionBatch p;
+  gather_positions(positions, components, count, p);
+  alignas(64) double cx[kVertexBatch], cy[kVertexBatch], cz[kVertexBatch], cw[kVertexBatch];
+  const double* m = t.clip_from_object;
+  for (int i = 0; i < kVertexBatch; ++i) {
+    cx[i] = row_times_point(m, p.x[i], p.y[i], p.z[i], p.w[i]);
+    cy[i] = row_times_point(m + 4, p.x[i], p.y[i], p.z[i], p.w[i]);
+    cz[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
+    cw[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
+  }
+  alignas(64) std::int32_t code[kVertexBatch];
+  for (int i = 0; i < kVertexBatch; ++i) {
+    const double gx = t.guard_x * cw[i], gy = t.guard_y * cw[i];
+    const double near_z = t.reversed ? cw[i] - cz[i] : cz[i] + cw[i];
+    const double far_z = t.reversed ? cz[i] : cw[i] - cz[i];
+    const double probe = cx[i] * 0 + cy[i] * 0 + cz[i] * 0 + cw[i] * 0;  // NaN where any is not finite
+    int c = cx[i] < -gx ? kLeftOfGuardBand : 0;
+    c |= cx[i] > gx ? kRightOfGuardBand : 0;
+    c |= cy[i] < -gy ? kBelowGuardBand : 0;
+    c |= cy[i] > gy ? kAboveGuardBand : 0;
+    c |= near_z < 0 ? kBeforeNear : 0;
+    c |= far_z < 0 ? kBehindFar : 0;
+    c |= !(cw[i] > 0) ? kNoPositiveW : 0;
+    c |= !(probe == 0) ? kNonFinite : 0;
+    code[i] = c;
+  }
+  alignas(64) std::int32_t sx[kVertexBatch], sy[kVertexBatch];
+  alignas(64) float rw[kVertexBatch];
+  alignas(64) double depth[kVertexBatch];
+  for (int i = 0; i < kVertexBatch; ++i) {
+    const bool usable = code[i] == 0;
+    const double w = usable ? cw[i] : 1.0, x = usable ? cx[i] : 0.0, y = usable ? cy[i] : 0.0, z = usable ? cz[i] : 0.0;
+    const double inverse_w = 1.0 / w;
+    sx[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
+    sy[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
+    rw[i] = static_cast<float>(inverse_w);
+    const double unit = t.reversed ? z / w : __builtin_fma(z / w, 0.5, 0.5);
+    const double ranged = __builtin_fma(unit, t.depth_far - t.depth_near, t.depth_near);
+    const double low = ranged > 0 ? ranged : 0;
+    depth[i] = low < 1 ? low : 1;
+  }
+  alignas(64) std::uint32_t sz[kVertexBatch];
+  if (t.depth == DepthKind::float32) {
+    for (int i = 0; i < kVertexBatch; ++i) {
+      const float f = static_cast<float>(depth[i]);
+      std::memcpy(&sz[i], &f, sizeof f);
+    }
+  } else if (t.depth != DepthKind::none) {
+    const int bits = depth_bits(t.depth);
+    const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1), fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
+    for (int i = 0; i < kVertexBatch; ++i) {
+      const double value = __builtin_floor((depth[i] * levels + 0.5) * fraction);
+      sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
+    }
+  } else {
+    for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
+  }
+  int all_codes = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    vertices[i] = {t.center_x + sx[i], t.center_y - sy[i], sz[i], rw[i]};
+    codes[i] = static_cast<std::uint8_t>(code[i]);
+    all_codes |= code[i];
+  }
+  return static_cast<std::uint8_t>(all_codes);
+}
+
+void eye_positions_lanes(const EyeTransform& t, const float* positions, int components, std::size_t count, float* x, float* y, float* z) {
+  PositionBatch p;
+  gather_positions(positions, components, count, p);
+  const double* m = t.eye_from_object;
+  for (int i = 0; i < kVertexBatch; ++i) {
+    x[i] = static_cast<float>(row_times_point(m, p.x[i], p.y[i], p.z[i], p.w[i]));
+    y[i] = static_cast<float>(row_times_point(m + 4, p.x[i], p.y[i], p.z[i], p.w[i]));
+    z[i] = static_cast<float>(row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]));
+  }
+  if (components == 4) {  // a position is xyz / w; w = 1 changes nothing
+    for (int i = 0; i < kVertexBatch; ++i) {
+      const float w = p.w[i] != 0 ? static_cast<float>(p.w[i]) : 1.0f;
+      x[i] /= w, y[i] /= w, z[i] /= w;
+    }
+  }
+}
+
+void eye_normals_lanes(const EyeTransform& t, const float* normals, std::size_t count, float* x, float* y, float* z) {
+  alignas(64) double nx[kVertexBatch], ny[kVertexBatch], nz[kVertexBatch];
+  for (std::size_t i = 0; i < count; ++i) nx[i] = normals[3 * i], ny[i] = normals[3 * i + 1], nz[i] = normals[3 * i + 2];
+  for (std::size_t i = count; i < kVertexBatch; ++i) nx[i] = ny[i] = nz[i] = 0;
+  const double* m = t.normal_matrix;
+  for (int i = 0; i < kVertexBatch; ++i) {
+    const double ex = __builtin_fma(m[0], nx[i], __builtin_fma(m[1], ny[i], m[2] * nz[i]));
+    const double ey = __builtin_fma(m[3], nx[i], __builtin_fma(m[4], ny[i], m[5] * nz[i]));
+    const double ez = __builtin_fma(m[6], nx[i], __builtin_fma(m[7], ny[i], m[8] * nz[i]));
+    const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
+    const double length = t.normalize && squared > 0 ? __builtin_sqrt(squared) : 1.0;
+    x[i] = static_cast<float>(ex / length);
+    y[i] = static_cast<float>(ey / length);
+    z[i] = static_cast<float>(ez / length);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tessera {
+
+TransformVertices* transform_vertices(Isa isa) { return TESSERA_KERNEL(isa, transform_vertices_lanes); }
+EyePositions* eye_positions(Isa isa) { return TESSERA_KERNEL(isa, eye_positions_lanes); }
+EyeNormals* eye_normals(Isa isa) { return TESSERA_KERNEL(isa, eye_normals_lanes); }
+
+ClipPosition clip_position(const VertexTransform& t, double x, double y, double z, double w) {
+  const auto row = [&](int r) {
+    const double* m = t.clip_from_object + 4 * r;
+    return std::fma(m[0], x, std::fma(m[1], y, std::fma(m[2], z, m[3] * w)));
+  };
+  return {row(0), row(1), row(2), row(3)};
+}
+
+std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w)) return kNonFinite;
+  std::uint8_t code = 0;
+  if (p.x < -(t.guard_x * p.w)) code |= kLeftOfGuardBand;
+  if (p.x > t.guard_x * p.w) code |= kRightOfGuardBand;
+  if (p.y < -(t.guard_y * p.w)) code |= kBelowGuardBand;
+  if (p.y > t.guard_y * p.w) code |= kAboveGuardBand;
+  if ((t.reversed ? p.w - p.z : p.z + p.w) < 0) code |= kBeforeNear;
+  if ((t.reversed ? p.z : p.w - p.z) < 0) code |= kBehindFar;
+  if (!(p.w > 0)) code |= kNoPositiveW;
+  return code;
+}
+
+WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
+  WindowVertex v;
+  // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex exactly.
+  v.x = t.center_x + static_cast<std::int32_t>(std::floor(std::fma(p.x / p.w * t.half_width, 256.0, 0.5)));
+  v.y = t.center_y - static_cast<std::int32_t>(std::floor(std::fma(p.y / p.w * t.half_height, 256.0, 0.5)));
+  v.rw = static_cast<float>(1.0 / p.w);
+  const double unit = t.reversed ? p.z / p.w : std::fma(p.z / p.w, 0.5, 0.5);
+  const double z = std::clamp(std::fma(unit, t.depth_far - t.depth_near, t.depth_near), 0.0, 1.0);
+  if (t.depth == DepthKind::float32) {
+    v.z = depth_word(DepthKind::float32, z);
+  } else if (t.depth != DepthKind::none) {
+    const int bits = depth_bits(t.depth);
+    const double levels = std::ldexp(1.0, bits) - 1;
+    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::floor((z * levels + 0.5) * std::ldexp(1.0, 32 - bits))));
+  }
+  return v;
+}
+
+}  // namespace tessera
+#endif

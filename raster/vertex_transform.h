@@ -1,0 +1,68 @@
+// Object space -> clip space -> raster space, for batches of vertices; and what the lighting of a vertex needs in eye space.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "framebuffer/format.h"
+#include "framebuffer/instruction_set.h"
+#include "raster/fixed_point.h"
+
+namespace tessera {
+
+inline constexpr int kVertexBatch = 64;  ///< vertices transformed at a time
+
+/// Why a vertex cannot be used as it is. A triangle whose vertices share one of the planes' bits is outside; one with any
+/// bit set is clipped; kNonFinite drops it.
+enum ClipCode : std::uint8_t {
+  kLeftOfGuardBand = 1,
+  kRightOfGuardBand = 2,
+  kBelowGuardBand = 4,
+  kAboveGuardBand = 8,
+  kBeforeNear = 16,
+  kBehindFar = 32,
+  kNoPositiveW = 64,
+  kNonFinite = 128
+};
+
+struct ClipPosition {
+  double x = 0, y = 0, z = 0, w = 1;
+};
+
+/// What carries a draw's vertices into raster space. All of it in double: the depth of a vertex then has the smallest
+/// difference of every format, and matrices may scale by 10^6 and back.
+struct VertexTransform {
+  double clip_from_object[16] = {};                ///< in rows
+  double half_width = 0, half_height = 0;          ///< of the viewport, pixels
+  double guard_x = 0, guard_y = 0;                 ///< the guard band in units of w: kGuardBandPixels / half_width
+  std::int32_t center_x = 0, center_y = 0;         ///< the viewport's centre in raster space, 1/256 pixel
+  bool reversed = false;                           ///< z runs 0..w, else -w..w
+  double depth_near = 0, depth_far = 1;
+  DepthKind depth = DepthKind::none;
+};
+
+ClipPosition clip_position(const VertexTransform& transform, double x, double y, double z, double w);
+std::uint8_t clip_code(const VertexTransform& transform, const ClipPosition& position);
+/// The scalar twin of the kernel, and the way for single vertices that clipping makes. @pre position.w > 0
+WindowVertex project(const VertexTransform& transform, const ClipPosition& position);
+
+/// Transforms `count` vertices. `positions` holds x y z or x y z w; `components` is 3 or 4. Vertices with a code are left
+/// at the viewport's centre. Returns all codes or-ed together.
+using TransformVertices = std::uint8_t(const VertexTransform& transform, const float* positions, int components, std::size_t count,
+                                       WindowVertex* vertices, std::uint8_t* codes);
+TransformVertices* transform_vertices(Isa isa);
+
+/// Carries vectors into eye space: `matrix` is 3 rows of 4 for points (x y z [w] -> x y z) and 3 rows of 3 for normals.
+struct EyeTransform {
+  double eye_from_object[12] = {};
+  double normal_matrix[9] = {};  ///< the inverse transpose's 3x3
+  bool normalize = true;
+};
+/// Eye-space positions of up to kVertexBatch vertices, as three arrays.
+using EyePositions = void(const EyeTransform& transform, const float* positions, int components, std::size_t count, float* x, float* y, float* z);
+/// Eye-space normals, of length 1 with `normalize`; normalize(0) = 0.
+using EyeNormals = void(const EyeTransform& transform, const float* normals, std::size_t count, float* x, float* y, float* z);
+EyePositions* eye_positions(Isa isa);
+EyeNormals* eye_normals(Isa isa);
+
+}  // namespace tessera

@@ -1,0 +1,159 @@
+// Shading once for each visible pixel: tiles collect which triangle is seen where; then the colours of whole batches of
+// pixels come about with full lanes. Within a block the loop runs over its distinct triangles, with masks: nothing is
+// gathered by pixel.
+#if defined(TESSERA_SHADING_DEFERRED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DEFERRED_INL_H_
+#undef TESSERA_SHADING_DEFERRED_INL_H_
+#else
+#define TESSERA_SHADING_DEFERRED_INL_H_
+#endif
+
+#include <bit>
+
+#include "shading/tile_run-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count);  // lighting.cpp, same instruction set
+
+inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
+
+/// Pixels of up to four blocks that share a surface: one draw, one face.
+struct PixelBatch {
+  int blocks = 0;
+  std::uint32_t draw = 0;
+  bool back = false;
+  int index[kBatchBlocks];            // of each block's first pixel in tile memory
+  std::uint32_t covered[kBatchBlocks];  // 16 bits
+};
+
+/// Words of one chunk of pixels from interpolated colours that are scaled to levels already.
+HWY_INLINE Int pack_scaled(const ColorLayout& layout, const ShadingBatch& batch, int first) {
+  const Int red = hn::ConvertTo(kInt, hn::Load(kFloat, batch.field[kColorR] + first));
+  const Int green = hn::ConvertTo(kInt, hn::Load(kFloat, batch.field[kColorG] + first));
+  const Int blue = hn::ConvertTo(kInt, hn::Load(kFloat, batch.field[kColorB] + first));
+  return hn::Or(hn::Or(hn::ShiftLeftSame(red, layout.r_shift()), hn::ShiftLeftSame(green, layout.g_shift())), blue);
+}
+
+/// Words of one chunk of pixels from colours in 0..1: each component floor(c (2^b - 1) + 0.5), or a grey, or the nearest entry.
+HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch, int first, std::uint32_t covered) {
+  const ColorLayout& layout = frame.layout;
+  const float *r = batch.field[kColorR] + first, *g = batch.field[kColorG] + first, *b = batch.field[kColorB] + first;
+  if (layout.index || layout.luminance) {
+    alignas(64) std::int32_t words[kLanes] = {};
+    for (int l = 0; l < kLanes; ++l)
+      if ((covered >> l & 1) != 0) words[l] = static_cast<std::int32_t>(color_word(layout, frame.palette_search, r[l], g[l], b[l]));
+    return hn::Load(kInt, words);
+  }
+  const auto level = [](const float* c, int bits) HWY_ATTR {
+    return hn::ConvertTo(kInt, mul_add(hn::Load(kFloat, c), splat(static_cast<float>((1 << bits) - 1)), splat(0.5f)));
+  };
+  return hn::Or(hn::Or(hn::ShiftLeftSame(level(r, layout.r_bits), layout.r_shift()), hn::ShiftLeftSame(level(g, layout.g_bits), layout.g_shift())),
+                level(b, layout.b_bits));
+}
+
+inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
+  if (pixels.blocks == 0) return;
+  const TileDraw& draw = run.frame.draws[pixels.draw];
+  ShadingBatch& batch = run.memory.batch;
+  const bool per_pixel = draw.source == ColorSource::per_pixel;
+  if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
+  for (int slot = 0; slot < pixels.blocks; ++slot) {
+    run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const std::uint32_t covered_lanes = pixels.covered[slot] >> (chunk * kLanes) & ((1u << kLanes) - 1);
+      if (covered_lanes == 0) continue;
+      const int first = slot * kBlockPixels + chunk * kLanes;
+      const Int words = !per_pixel && draw.scaled_colors ? pack_scaled(run.frame.layout, batch, first)
+                                                         : quantize_chunk(run.frame, batch, first, covered_lanes);
+      store_words(run.memory.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), draw.write_mask);
+    }
+  }
+  pixels.blocks = 0;
+}
+
+/// Adds to a slot of the batch the pixels of one triangle in one block; bits of `covered`.
+inline HWY_NOINLINE void gather_attributes(TileRun& run, const ShadedTriangle& triangle, int bx, int by, int slot, std::uint32_t covered, bool first) {
+  const TileDraw& draw = run.frame.draws[triangle.draw];
+  ShadingBatch& batch = run.memory.batch;
+  const bool per_pixel = draw.source == ColorSource::per_pixel;
+  const int count = per_pixel ? draw.attribute_count : 3;
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
+    if (bits == 0 && !first) continue;
+    const auto mask = mask_from_bits(bits);
+    const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
+    for (int j = 0; j < count; ++j) {
+      const int attribute = per_pixel ? j : draw.color_attribute[triangle.back ? 1 : 0] + j;
+      float* target = batch.field[per_pixel ? draw.fields[j] : kColorR + j] + slot * kBlockPixels + chunk * kLanes;
+      const Float value = interpolate(at, corners(triangle, attribute));
+      // The first triangle fills all lanes, so that those without a pixel hold numbers too.
+      if (first)
+        hn::Store(value, kFloat, target);
+      else
+        hn::Store(hn::IfThenElse(hn::RebindMask(kFloat, mask), value, hn::Load(kFloat, target)), kFloat, target);
+    }
+  }
+}
+
+/// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and forgets it.
+inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, int y1) {
+  TileWorkspace::Memory& memory = run.memory;
+  PixelBatch pixels;
+  for (int by = y0 & ~3; by <= y1; by += 4) {
+    for (int bx = x0 & ~3; bx <= x1; bx += 4) {
+      const int index = run.block_index(bx, by);
+      std::uint32_t* ids = memory.ids + index;
+      std::uint32_t waiting = 0;
+      const Int none = splat(-1);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+        const Int id = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes);
+        waiting |= mask_bits(kInt, hn::Gt(id, none)) << (chunk * kLanes);
+      }
+      if (waiting == 0) continue;
+      while (waiting != 0) {
+        // All pixels of the block that belong to the surface of the first one still waiting.
+        const ShadedTriangle& leader = memory.triangles[ids[std::countr_zero(waiting)]];
+        if (pixels.blocks == kBatchBlocks || (pixels.blocks > 0 && (pixels.draw != leader.draw || pixels.back != leader.back)))
+          shade_batch(run, pixels);
+        pixels.draw = leader.draw;
+        pixels.back = leader.back;
+        std::uint32_t left = waiting, taken = 0;
+        bool first = true;
+        while (left != 0) {
+          const std::uint32_t id = ids[std::countr_zero(left)];
+          const ShadedTriangle& triangle = memory.triangles[id];
+          std::uint32_t same = 0;
+          const Int wanted = splat(static_cast<std::int32_t>(id));
+          for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+            same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
+          left &= ~same;
+          if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
+          gather_attributes(run, triangle, bx, by, pixels.blocks, same, first);
+          first = false;
+          taken |= same;
+        }
+        waiting &= ~taken;
+        pixels.index[pixels.blocks] = index;
+        pixels.covered[pixels.blocks] = taken;
+        ++pixels.blocks;
+      }
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(none, kInt, reinterpret_cast<std::int32_t*>(ids) + chunk * kLanes);
+    }
+  }
+  shade_batch(run, pixels);
+}
+
+HWY_INLINE void shade_whole_tile(TileRun& run) {
+  if (!run.memory.triangles.empty()) shade_collected(run, 0, 0, run.tile_size - 1, run.tile_size - 1);
+  run.memory.triangles.clear();
+  run.memory.wide.clear();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

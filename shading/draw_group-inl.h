@@ -1,0 +1,235 @@
+// Draws a group of set-up triangles into a tile: coverage by size, depth, and colour at once or later. One function for each
+// combination of depth format, depth test and way of colouring that can occur; a draw picks one and knows no other.
+#if defined(TESSERA_SHADING_DRAW_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DRAW_GROUP_INL_H_
+#undef TESSERA_SHADING_DRAW_GROUP_INL_H_
+#else
+#define TESSERA_SHADING_DRAW_GROUP_INL_H_
+#endif
+
+#include <bit>
+
+#include "raster/coverage-inl.h"
+#include "raster/depth-inl.h"
+#include "raster/triangle_setup-inl.h"
+#include "shading/deferred-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// What happens to a pixel that is seen.
+enum class Seen { nothing, word, interpolate, collect };
+/// `less` has code of its own, since nearly everybody uses it.
+enum class Test { less, any };
+
+struct NoDepth {
+  HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthKind) {}
+  HWY_INLINE void prepare_blocks() {}
+};
+template <class Depth>
+inline constexpr bool kHasDepth = true;
+template <>
+inline constexpr bool kHasDepth<NoDepth> = false;
+
+HWY_INLINE bool passes(std::int32_t key, std::int32_t stored, DepthTest test) {
+  switch (test) {
+    case DepthTest::never: return false;
+    case DepthTest::less: return key < stored;
+    case DepthTest::equal: return key == stored;
+    case DepthTest::lequal: return key <= stored;
+    case DepthTest::greater: return key > stored;
+    case DepthTest::notequal: return key != stored;
+    case DepthTest::gequal: return key >= stored;
+    default: return true;
+  }
+}
+HWY_INLINE auto passing(Int key, Int stored, DepthTest test) {
+  const auto less = hn::Lt(key, stored), equal = hn::Eq(key, stored), greater = hn::Gt(key, stored);
+  switch (test) {
+    case DepthTest::never: return hn::Xor(less, less);
+    case DepthTest::less: return less;
+    case DepthTest::equal: return equal;
+    case DepthTest::lequal: return hn::Or(less, equal);
+    case DepthTest::greater: return greater;
+    case DepthTest::notequal: return hn::Or(less, greater);
+    case DepthTest::gequal: return hn::Or(greater, equal);
+    default: return hn::Or(hn::Or(less, equal), greater);
+  }
+}
+
+/// One triangle's way through the blocks of a tile.
+template <class Depth, Test kTest, Seen kSeen>
+struct TrianglePixels {
+  TileRun& run;
+  const TileDraw& draw;
+  const TileEdges& edges;
+  BlockOffsets offsets;
+  const ShadedTriangle& triangle;
+  Depth depth;
+  ScaledColor color;
+  std::int32_t word = 0;
+  std::int32_t id = 0;
+  bool any = false;
+
+  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded)
+      : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded) {}
+
+  template <bool kFull>
+  HWY_INLINE void operator()(int bx, int by) {
+    const int block = run.block_index(bx, by);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : covered(edges, offsets, bx, by, chunk);
+      if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+      if ((!kFull || run.cut) && hn::AllFalse(kInt, mask)) continue;
+      const int index = block + chunk * kLanes;
+      if constexpr (kHasDepth<Depth>) {
+        std::int32_t* stored_at = run.memory.depth + index;
+        const Int stored = hn::Load(kInt, stored_at), key = depth.keys(bx, by, chunk);
+        mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : passing(key, stored, draw.depth_test));
+        if (hn::AllFalse(kInt, mask)) continue;
+        if (draw.depth_write) hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
+      }
+      if constexpr (kSeen == Seen::collect) {
+        auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
+        hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
+        any = true;
+      } else if constexpr (kSeen != Seen::nothing) {
+        run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(mask_bits(kInt, mask)));
+        const Int words = kSeen == Seen::word ? splat(word) : color.words(barycentric(triangle, run.memory.wide.data(), bx, by, chunk));
+        store_words(run.memory.color + index, words, mask, draw.write_mask);
+      }
+    }
+  }
+
+  /// One pixel of a small triangle.
+  HWY_INLINE void pixel(int x, int y) {
+    const int index = run.pixel_index(x, y);
+    if constexpr (kHasDepth<Depth>) {
+      const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
+      if (!(kTest == Test::less ? key < stored : passes(key, stored, draw.depth_test))) return;
+      if (draw.depth_write) run.memory.depth[index] = key;
+    }
+    if constexpr (kSeen == Seen::collect) {
+      run.memory.ids[index] = static_cast<std::uint32_t>(id);
+      any = true;
+    } else if constexpr (kSeen != Seen::nothing) {
+      ++run.counts.shaded_pixels;
+      const auto new_word = static_cast<std::uint32_t>(kSeen == Seen::word ? word : pixel_word(x, y));
+      run.memory.color[index] = (new_word & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
+    }
+  }
+
+  /// color.words() for a single pixel, step by step the same.
+  HWY_INLINE std::int32_t pixel_word(int x, int y) const {
+    float w[3];
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t e = triangle.edges.e[k] + triangle.edges.a[k] * x + triangle.edges.b[k] * y;
+      w[k] = std::fma(static_cast<float>(e), triangle.scale[k], triangle.shift[k]);
+    }
+    const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
+    const float b1 = w[1] * inverse, b2 = w[2] * inverse;
+    const auto level = [&](const Corners& c) { return static_cast<std::int32_t>(std::fma(b1, c.to_second, std::fma(b2, c.to_third, c.first))); };
+    return level(color.r) << color.r_shift | level(color.g) << color.g_shift | level(color.b);
+  }
+};
+
+/// Everything but pixels of triangle i of the group.
+template <class Depth, Test kTest, Seen kSeen>
+HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw, int i, bool back) {
+  const TriangleGroup& g = run.memory.group;
+  pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+  if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
+  if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size() - 1);
+  if constexpr (kSeen == Seen::word) {
+    std::uint32_t word = draw.word;
+    if (draw.source == ColorSource::triangle_word) word = draw.words[back ? 1 : 0][run.memory.source[i]];
+    if (draw.source == ColorSource::vertex_word) {
+      const std::size_t corner = std::size_t{run.memory.source[i]} * 3 + static_cast<std::size_t>(draw.provoking);
+      word = draw.words[back ? 1 : 0][draw.indices ? draw.indices[corner] : corner];
+    }
+    pixels.word = static_cast<std::int32_t>(word);
+  }
+}
+
+/// The triangle as shading sees it.
+inline HWY_NOINLINE ShadedTriangle shaded_triangle(const TileRun& run, std::uint32_t draw, int i, bool back) {
+  const TriangleGroup& g = run.memory.group;
+  ShadedTriangle t;
+  t.edges = tile_edges(g, i);
+  for (int k = 0; k < 3; ++k) {
+    t.scale[k] = g.wide[i] != 0 ? g.unit_scale[k][i] : g.scale[k][i];
+    t.shift[k] = g.shift[k][i];
+    t.attributes[k] = run.memory.attributes[k][i];
+  }
+  t.affine = g.affine[i] != 0;
+  t.back = back;
+  t.draw = draw;
+  return t;
+}
+
+template <class Depth, Test kTest, Seen kSeen>
+void draw_group(TileRun& run, std::uint32_t draw_number) {
+  TileWorkspace::Memory& memory = run.memory;
+  TriangleGroup& g = memory.group;
+  const TileDraw& draw = run.frame.draws[draw_number];
+  set_up_edges(g, run.tile_x, run.tile_y, run.rect);
+  if (g.mask == 0) return;
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind);
+  if constexpr (kSeen == Seen::interpolate || kSeen == Seen::collect) set_up_weights(g);
+
+  alignas(64) std::uint32_t hits[kGroupSize];
+  bool hits_known = false;
+  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const bool wide = g.wide[i] != 0;
+    const bool small = !wide && g.x1[i] - g.x0[i] < 4 && g.y1[i] - g.y0[i] < 4;
+    if (small && !hits_known) {
+      for (int first = 0; first < kGroupSize; first += kLanes) cover_small(g, first, hits + first);
+      hits_known = true;
+    }
+    if (small && hits[i] == 0) continue;
+    const bool back = !is_front(g.signed_area[i], draw.front_is_clockwise);
+    TileEdges edges = tile_edges(g, i);
+    WideEdges wide_edges;
+    if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
+
+    ShadedTriangle triangle;
+    if constexpr (kSeen == Seen::interpolate || kSeen == Seen::collect) {
+      triangle = shaded_triangle(run, draw_number, i, back);
+      if (wide) {
+        triangle.wide = static_cast<std::int32_t>(memory.wide.size());
+        memory.wide.push_back(wide_edges);
+      }
+      if constexpr (kSeen == Seen::collect) memory.triangles.push_back(triangle);
+    }
+    TrianglePixels<Depth, kTest, kSeen> pixels(run, draw, edges, triangle);
+    set_up_pixels(pixels, run, draw, i, back);
+    if (small) {
+      for (std::uint32_t hit = hits[i]; hit != 0; hit &= hit - 1) {
+        const int p = std::countr_zero(hit);
+        pixels.pixel(g.x0[i] + (p & 3), g.y0[i] + (p >> 2));
+      }
+    } else {
+      if constexpr (kHasDepth<Depth>) pixels.depth.prepare_blocks();
+      for_each_block(edges, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
+    }
+    if constexpr (kSeen == Seen::collect) {
+      if (!pixels.any) {
+        memory.triangles.pop_back();
+        if (wide) memory.wide.pop_back();
+      } else if (run.frame.shade_at_once) {
+        shade_collected(run, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
+        memory.triangles.clear();
+        memory.wide.clear();
+      }
+    }
+    if constexpr (kSeen == Seen::interpolate) memory.wide.clear();
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,121 @@
+// Plans what a surface's lighting consists of: the one home of 'only the effects a scene calls for'.
+#include <cmath>
+#include <string>
+
+#include "shading/lighting.h"
+#include "shading/power_reference.h"
+#include "shading/trigonometry.h"
+
+namespace tessera {
+namespace {
+
+std::array<float, 3> normalized(double x, double y, double z) {
+  const double length = std::sqrt(x * x + y * y + z * z);
+  if (length == 0) return {0, 0, 0};
+  return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
+}
+
+// A cone on a directional light applies with V = -L: the same factor for every point.
+float directional_spot_factor(const EyeLight& light) {
+  const auto& l = light.position;
+  const auto& d = light.spot_direction;
+  const double cosine = -(double{l[0]} * d[0] + double{l[1]} * d[1] + double{l[2]} * d[2]);
+  if (cosine < sin_cos_degrees(light.spot_cutoff).cosine || cosine <= 0) return 0;
+  return light.spot_exponent == 0 ? 1.0f : power_reference(static_cast<float>(cosine), light.spot_exponent);
+}
+
+void note(std::string* reasons, const std::string& line) {
+  if (reasons) *reasons += "    " + line + "\n";
+}
+
+const char* kind_name(LightKind kind) {
+  switch (kind) {
+    case LightKind::directional: return "directional";
+    case LightKind::point: return "point, attenuation 1 0 0 left out";
+    case LightKind::attenuated_point: return "point with attenuation";
+    case LightKind::spot: return "spot, attenuation 1 0 0 left out";
+    case LightKind::attenuated_spot: return "spot with attenuation";
+  }
+  return "";
+}
+
+const char* highlight_name(HighlightKind kind) {
+  switch (kind) {
+    case HighlightKind::none: return "no highlight (specular product is black)";
+    case HighlightKind::blinn_infinite: return "Blinn highlight, infinite viewer";
+    case HighlightKind::blinn_local: return "Blinn highlight, local viewer";
+    case HighlightKind::phong_infinite: return "Phong highlight, infinite viewer";
+    case HighlightKind::phong_local: return "Phong highlight, local viewer";
+  }
+  return "";
+}
+
+LightKind kind_of(const EyeLight& light) {
+  if (light.directional) return LightKind::directional;
+  const bool attenuated = !(light.attenuation[0] == 1 && light.attenuation[1] == 0 && light.attenuation[2] == 0);
+  if (light.spot_cutoff == 180) return attenuated ? LightKind::attenuated_point : LightKind::point;
+  return attenuated ? LightKind::attenuated_spot : LightKind::spot;
+}
+
+}  // namespace
+
+LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights,
+                              const LightingModel& model, std::string* reasons) {
+  LightingProgram program;
+  program.tracked = tracked.any();
+  const Rgb white{1, 1, 1};
+  if (tracked.emission) program.tracked_base = program.tracked_base + white;
+  if (tracked.ambient) program.tracked_base = program.tracked_base + model.scene_ambient;
+  if (!tracked.emission) program.base = program.base + material.emission;
+  if (!tracked.ambient) program.base = program.base + model.scene_ambient * material.ambient;
+
+  int number = 0;
+  for (const EyeLight& light : lights) {
+    LightTerm term;
+    const std::string label = "light " + std::to_string(number++) + ": ";
+    const float factor = light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
+    (tracked.ambient ? term.tracked_ambient : term.ambient) = tracked.ambient ? light.ambient * factor : light.ambient * material.ambient * factor;
+    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = tracked.diffuse ? light.diffuse * factor : light.diffuse * material.diffuse * factor;
+    (tracked.specular ? term.tracked_specular : term.specular) =
+        tracked.specular ? light.specular * factor : light.specular * material.specular * factor;
+    const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
+    const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
+    const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
+    if (!has_ambient && !has_diffuse && !has_specular) {
+      note(reasons, label + "left out, it adds black");
+      continue;
+    }
+    term.kind = kind_of(light);
+    // The ambient part of a directional light is the same everywhere.
+    if (term.kind == LightKind::directional) {
+      program.base = program.base + term.ambient;
+      program.tracked_base = program.tracked_base + term.tracked_ambient;
+      term.ambient = term.tracked_ambient = {};
+      if (!has_diffuse && !has_specular) {
+        note(reasons, label + "a constant ambient part");
+        continue;
+      }
+    }
+    if (has_specular) {
+      term.highlight = model.phong_highlight ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
+                                             : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
+    }
+    term.general = !is_black(term.ambient) || !is_black(term.tracked_ambient) || !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
+    term.position = light.position;
+    term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
+    term.spot_direction = light.spot_direction;
+    term.attenuation = light.attenuation;
+    term.spot_exponent = light.spot_exponent;
+    term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
+    term.shininess = material.shininess;
+    program.needs_normal = true;
+    program.needs_position |= term.kind != LightKind::directional;
+    program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
+    note(reasons, label + kind_name(term.kind) + "; " + highlight_name(term.highlight) + (term.general ? "; ambient part or vertex colours" : ""));
+    program.terms.push_back(term);
+  }
+  program.needs_position |= program.needs_view;
+  return program;
+}
+
+}  // namespace tessera

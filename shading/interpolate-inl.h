@@ -1,0 +1,72 @@
+// Perspective-correct barycentric coordinates of a triangle's pixels, from exact edge functions. Twin:
+// interpolate_reference.h.
+#if defined(TESSERA_SHADING_INTERPOLATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_INTERPOLATE_INL_H_
+#undef TESSERA_SHADING_INTERPOLATE_INL_H_
+#else
+#define TESSERA_SHADING_INTERPOLATE_INL_H_
+#endif
+
+#include "raster/lanes-inl.h"
+#include "shading/interpolate.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// Coordinates of vertices 1 and 2; vertex 0 has the rest, so that an attribute is a0 + b1 (a1 - a0) + b2 (a2 - a0), and one
+/// that is the same at all three stays exactly that.
+struct Barycentric {
+  Float b1, b2;
+};
+
+HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
+  if (affine) return {w1, w2};
+  const Float inverse = hn::Div(splat(1.0f), hn::Add(hn::Add(w0, w1), w2));
+  return {hn::Mul(w1, inverse), hn::Mul(w2, inverse)};
+}
+
+HWY_INLINE Barycentric barycentric_narrow(const ShadedTriangle& t, int bx, int by, int chunk) {
+  Float w[3];
+  const Int column = block_columns(chunk), row = block_rows(chunk);
+  for (int k = t.affine ? 1 : 0; k < 3; ++k) {
+    const std::int32_t start = t.edges.e[k] + t.edges.a[k] * bx + t.edges.b[k] * by;
+    const Int e = hn::Add(splat(start), hn::Add(hn::Mul(splat(t.edges.a[k]), column), hn::Mul(splat(t.edges.b[k]), row)));
+    w[k] = mul_add(hn::ConvertTo(kFloat, e), splat(t.scale[k]), splat(t.shift[k]));
+  }
+  return from_weights(t.affine ? w[1] : w[0], w[1], w[2], t.affine);
+}
+
+inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const WideEdges& wide, int bx, int by, int chunk) {
+  alignas(64) float w[3][kLanes];
+  for (int k = 0; k < 3; ++k) {
+    const double start = wide.e[k] + wide.a[k] * bx + wide.b[k] * by;  // exact, as all of it
+    for (int l = 0; l < kLanes; ++l) {
+      const int p = chunk * kLanes + l;
+      w[k][l] = static_cast<float>(start + wide.a[k] * kBlockColumn[p] + wide.b[k] * kBlockRow[p]) * t.scale[k];
+    }
+  }
+  return from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
+}
+
+HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by, int chunk) {
+  return t.wide < 0 ? barycentric_narrow(t, bx, by, chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
+}
+
+/// One attribute at the three vertices.
+struct Corners {
+  float first, to_second, to_third;
+};
+HWY_INLINE Corners corners(const ShadedTriangle& t, int attribute) {
+  const float a0 = t.attributes[0][attribute];
+  return {a0, t.attributes[1][attribute] - a0, t.attributes[2][attribute] - a0};
+}
+HWY_INLINE Float interpolate(const Barycentric& b, const Corners& c) {
+  return mul_add(b.b1, splat(c.to_second), mul_add(b.b2, splat(c.to_third), splat(c.first)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,191 @@
+// Kernels of the lighting equation: one for each kind of light and highlight, chosen once a batch.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/lighting.cpp"
+#include "framebuffer/lanes.h"
+
+#include <array>
+
+#include "shading/lighting.h"
+#include "shading/power-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+struct Vector {
+  Float x, y, z;
+};
+HWY_INLINE Float dot(const Vector& a, const Vector& b) { return mul_add(a.x, b.x, mul_add(a.y, b.y, hn::Mul(a.z, b.z))); }
+HWY_INLINE Vector splat_vector(const std::array<float, 3>& v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
+HWY_INLINE Vector load_vector(const ShadingBatch& batch, int first_field, int point) {
+  return {hn::Load(kFloat, batch.field[first_field] + point), hn::Load(kFloat, batch.field[first_field + 1] + point),
+          hn::Load(kFloat, batch.field[first_field + 2] + point)};
+}
+HWY_INLINE void store_vector(ShadingBatch& batch, int first_field, int point, const Vector& v) {
+  hn::Store(v.x, kFloat, batch.field[first_field] + point);
+  hn::Store(v.y, kFloat, batch.field[first_field + 1] + point);
+  hn::Store(v.z, kFloat, batch.field[first_field + 2] + point);
+}
+/// 1/sqrt(x), and 0 for x <= 0: so that normalize(0) = 0. Root and division are exact on every target.
+HWY_INLINE Float inverse_length(Float squared) {
+  return hn::IfThenElseZero(hn::Gt(squared, hn::Zero(kFloat)), hn::Div(splat(1.0f), hn::Sqrt(squared)));
+}
+HWY_INLINE Float power_or_one(Float x, float exponent) { return exponent == 0 ? splat(1.0f) : power_lanes(x, exponent); }
+/// sum += intensity * colour
+HWY_INLINE void accumulate(Vector& sum, Float intensity, const Rgb& color) {
+  sum.x = mul_add(intensity, splat(color[0]), sum.x);
+  sum.y = mul_add(intensity, splat(color[1]), sum.y);
+  sum.z = mul_add(intensity, splat(color[2]), sum.z);
+}
+
+template <LightKind kKind, HighlightKind kHighlight, bool kGeneral>
+void add_light(const LightTerm& term, ShadingBatch& batch, int count) {
+  constexpr bool kPositional = kKind != LightKind::directional;
+  constexpr bool kSpot = kKind == LightKind::spot || kKind == LightKind::attenuated_spot;
+  constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
+  constexpr bool kBlinn = kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
+  constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
+  const Float zero = hn::Zero(kFloat);
+  for (int point = 0; point < count; point += kLanes) {
+    const Vector normal = load_vector(batch, kNormalX, point);
+    Vector to_light = splat_vector(term.position);
+    Float factor = splat(1.0f);  // att * spot
+    auto reached = hn::Eq(zero, zero);
+    if constexpr (kPositional) {
+      const Vector position = load_vector(batch, kPositionX, point);
+      to_light = {hn::Sub(to_light.x, position.x), hn::Sub(to_light.y, position.y), hn::Sub(to_light.z, position.z)};
+      const Float squared = dot(to_light, to_light);
+      const Float distance = hn::Sqrt(squared);
+      const Float inverse = hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(splat(1.0f), distance));
+      to_light = {hn::Mul(to_light.x, inverse), hn::Mul(to_light.y, inverse), hn::Mul(to_light.z, inverse)};
+      if constexpr (kSpot) {
+        const Float cosine = hn::Sub(zero, dot(to_light, splat_vector(term.spot_direction)));
+        reached = hn::And(hn::Ge(cosine, splat(term.spot_cosine)), hn::Gt(cosine, zero));
+        if (hn::AllFalse(kFloat, reached)) continue;
+        factor = hn::IfThenElseZero(reached, power_or_one(cosine, term.spot_exponent));
+      }
+      if constexpr (kAttenuated) {
+        const Float denominator =
+            mul_add(splat(term.attenuation[2]), squared, mul_add(splat(term.attenuation[1]), distance, splat(term.attenuation[0])));
+        const auto valid = hn::Gt(denominator, zero);
+        factor = hn::Mul(factor, hn::IfThenElse(valid, hn::Div(splat(1.0f), denominator), splat(1.0e6f)));
+      }
+    }
+    const Float n_dot_l = dot(normal, to_light);
+    const auto facing = hn::And(hn::Gt(n_dot_l, zero), reached);
+    if (!kGeneral && hn::AllFalse(kFloat, facing)) continue;  // adds exact zeros only
+
+    const Float diffuse = hn::IfThenElseZero(facing, hn::Mul(n_dot_l, factor));
+    Float highlight = zero;
+    if constexpr (kHighlight != HighlightKind::none) {
+      Float base;
+      if constexpr (kBlinn && !kLocal && !kPositional) {
+        base = dot(normal, splat_vector(term.half_vector));
+      } else {
+        const Vector view = kLocal ? load_vector(batch, kViewX, point) : Vector{zero, zero, splat(1.0f)};
+        const Float n_dot_v = kLocal ? hn::Load(kFloat, batch.field[kNormalDotView] + point) : normal.z;
+        if constexpr (kBlinn) {  // S = normalize(L + E)
+          const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)};
+          base = hn::Mul(hn::Add(n_dot_l, n_dot_v), inverse_length(dot(half, half)));
+        } else {  // R = 2 (L.n) n - L
+          base = hn::Sub(hn::Mul(hn::Add(n_dot_l, n_dot_l), n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
+        }
+      }
+      highlight = hn::IfThenElseZero(facing, hn::Mul(power_or_one(base, term.shininess), factor));
+    }
+
+    Vector color = load_vector(batch, kColorR, point);
+    if constexpr (kGeneral) accumulate(color, factor, term.ambient);
+    accumulate(color, diffuse, term.diffuse);
+    if constexpr (kHighlight != HighlightKind::none) accumulate(color, highlight, term.specular);
+    store_vector(batch, kColorR, point, color);
+    if constexpr (kGeneral) {
+      Vector tracked = load_vector(batch, kTrackedR, point);
+      accumulate(tracked, factor, term.tracked_ambient);
+      accumulate(tracked, diffuse, term.tracked_diffuse);
+      if constexpr (kHighlight != HighlightKind::none) accumulate(tracked, highlight, term.tracked_specular);
+      store_vector(batch, kTrackedR, point, tracked);
+    }
+  }
+}
+
+using AddLight = void (*)(const LightTerm&, ShadingBatch&, int);
+
+template <LightKind kKind, HighlightKind kHighlight>
+AddLight light_kernel(bool general) {
+  return general ? &add_light<kKind, kHighlight, true> : &add_light<kKind, kHighlight, false>;
+}
+template <LightKind kKind>
+AddLight light_kernel(HighlightKind highlight, bool general) {
+  switch (highlight) {
+    case HighlightKind::none: return light_kernel<kKind, HighlightKind::none>(general);
+    case HighlightKind::blinn_infinite: return light_kernel<kKind, HighlightKind::blinn_infinite>(general);
+    case HighlightKind::blinn_local: return light_kernel<kKind, HighlightKind::blinn_local>(general);
+    case HighlightKind::phong_infinite: return light_kernel<kKind, HighlightKind::phong_infinite>(general);
+    default: return light_kernel<kKind, HighlightKind::phong_local>(general);
+  }
+}
+AddLight light_kernel(const LightTerm& term) {
+  switch (term.kind) {
+    case LightKind::directional: return light_kernel<LightKind::directional>(term.highlight, term.general);
+    case LightKind::point: return light_kernel<LightKind::point>(term.highlight, term.general);
+    case LightKind::attenuated_point: return light_kernel<LightKind::attenuated_point>(term.highlight, term.general);
+    case LightKind::spot: return light_kernel<LightKind::spot>(term.highlight, term.general);
+    default: return light_kernel<LightKind::attenuated_spot>(term.highlight, term.general);
+  }
+}
+
+/// Normals to length 1 and to the side that is lit, the direction to the viewer, and the terms that no light has a part in.
+void prepare_points(const LightingProgram& program, ShadingBatch& batch, int count) {
+  const Float zero = hn::Zero(kFloat);
+  for (int point = 0; point < count; point += kLanes) {
+    if (program.needs_normal && (program.renormalize || program.negate_normal || program.needs_view)) {
+      Vector normal = load_vector(batch, kNormalX, point);
+      Float scale = program.renormalize ? inverse_length(dot(normal, normal)) : splat(1.0f);
+      if (program.negate_normal) scale = hn::Sub(zero, scale);
+      normal = {hn::Mul(normal.x, scale), hn::Mul(normal.y, scale), hn::Mul(normal.z, scale)};
+      store_vector(batch, kNormalX, point, normal);
+      if (program.needs_view) {
+        Vector view = load_vector(batch, kPositionX, point);
+        const Float away = hn::Sub(zero, inverse_length(dot(view, view)));
+        view = {hn::Mul(view.x, away), hn::Mul(view.y, away), hn::Mul(view.z, away)};
+        store_vector(batch, kViewX, point, view);
+        hn::Store(dot(normal, view), kFloat, batch.field[kNormalDotView] + point);
+      }
+    }
+    store_vector(batch, kColorR, point, splat_vector(program.base));
+    if (program.tracked) store_vector(batch, kTrackedR, point, splat_vector(program.tracked_base));
+  }
+}
+
+/// 0..1; a NaN, which only overflow can make, becomes 0.
+HWY_INLINE Float clamped(Float c) {
+  const Float zero = hn::Zero(kFloat), one = splat(1.0f);
+  const Float low = hn::IfThenElse(hn::Gt(c, zero), c, zero);
+  return hn::IfThenElse(hn::Lt(low, one), low, one);
+}
+
+void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count) {
+  prepare_points(program, batch, count);
+  for (const LightTerm& term : program.terms) light_kernel(term)(term, batch, count);
+  for (int point = 0; point < count; point += kLanes) {
+    Vector color = load_vector(batch, kColorR, point);
+    if (program.tracked) {
+      const Vector tracked = load_vector(batch, kTrackedR, point), vertex = load_vector(batch, kVertexR, point);
+      color = {mul_add(tracked.x, vertex.x, color.x), mul_add(tracked.y, vertex.y, color.y), mul_add(tracked.z, vertex.z, color.z)};
+    }
+    store_vector(batch, kColorR, point, {clamped(color.x), clamped(color.y), clamped(color.z)});
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tessera {
+
+LightPoints* light_points(Isa isa) { return TESSERA_KERNEL(isa, light_points_lanes); }
+
+}  // namespace tessera
+#endif

@@ -1,0 +1,106 @@
+// The lighting equation as a program: a short list of terms, each by a kernel that holds only what that light needs with
+// that material. One program lights the vertices of flat and Gouraud draws and the pixels of Phong draws.
+//
+//   colour = emission_m + ambient_scene * ambient_m
+//          + sum over lights of att * spot * ( ambient_i * ambient_m + max(L.n, 0) * diffuse_i * diffuse_m + spec * specular_i * specular_m )
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "framebuffer/instruction_set.h"
+
+namespace tessera {
+
+inline constexpr int kBatchPoints = 64;  ///< points lit at a time: vertices, or the pixels of four blocks
+
+/// Structure of arrays: what is known of each point, and its colour. Eye space.
+enum BatchField : std::uint8_t {
+  kNormalX, kNormalY, kNormalZ,
+  kPositionX, kPositionY, kPositionZ,
+  kVertexR, kVertexG, kVertexB,              // the vertex colour, where it stands for a material's colour
+  kViewX, kViewY, kViewZ,                    // towards a local viewer, unit
+  kNormalDotView,
+  kColorR, kColorG, kColorB,                 // the sum; the result, clamped to 0..1
+  kTrackedR, kTrackedG, kTrackedB,           // the sum of what the vertex colour multiplies
+  kBatchFields
+};
+struct alignas(64) ShadingBatch {
+  float field[kBatchFields][kBatchPoints];
+};
+
+using Rgb = std::array<float, 3>;
+constexpr Rgb operator*(const Rgb& a, const Rgb& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+constexpr Rgb operator*(const Rgb& a, float s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+constexpr Rgb operator+(const Rgb& a, const Rgb& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+constexpr bool is_black(const Rgb& c) { return c[0] == 0 && c[1] == 0 && c[2] == 0; }
+
+/// A light in eye space.
+struct EyeLight {
+  Rgb ambient{0, 0, 0}, diffuse{1, 1, 1}, specular{1, 1, 1};
+  bool directional = true;
+  std::array<float, 3> position{0, 0, 1};         ///< of a point; the unit vector towards a directional light
+  std::array<float, 3> spot_direction{0, 0, -1};  ///< unit
+  float spot_exponent = 0;
+  float spot_cutoff = 180;                        ///< degrees
+  std::array<float, 3> attenuation{1, 0, 0};      ///< constant, linear, quadratic
+};
+
+struct SurfaceMaterial {
+  Rgb ambient{0.2f, 0.2f, 0.2f}, diffuse{0.8f, 0.8f, 0.8f}, specular{0, 0, 0}, emission{0, 0, 0};
+  float shininess = 0;
+};
+
+/// Which of a material's colours the vertex colour replaces.
+struct TrackedColors {
+  bool ambient = false, diffuse = false, specular = false, emission = false;
+  bool any() const { return ambient || diffuse || specular || emission; }
+};
+
+struct LightingModel {
+  Rgb scene_ambient{0.2f, 0.2f, 0.2f};
+  bool local_viewer = false;
+  bool phong_highlight = false;  ///< (R.E)^shininess instead of (S.n)^shininess
+};
+
+enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
+enum class HighlightKind : std::uint8_t { none, blinn_infinite, blinn_local, phong_infinite, phong_local };
+inline constexpr int kLightKinds = 5, kHighlightKinds = 5;
+
+/// One light on one material: products are taken, constants are folded.
+struct LightTerm {
+  LightKind kind = LightKind::directional;
+  HighlightKind highlight = HighlightKind::none;
+  bool general = false;                        ///< has an ambient part or a part that the vertex colour multiplies
+  std::array<float, 3> position{};             ///< or direction
+  std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
+  std::array<float, 3> spot_direction{};
+  std::array<float, 3> attenuation{};
+  float spot_exponent = 0, spot_cosine = 0, shininess = 0;
+  Rgb ambient{}, diffuse{}, specular{};                            ///< light times material
+  Rgb tracked_ambient{}, tracked_diffuse{}, tracked_specular{};    ///< the light's, for the vertex colour to multiply
+};
+
+/// The whole of one surface: a material's front or back under a list of lights.
+struct LightingProgram {
+  bool renormalize = false;    ///< normals were interpolated
+  bool negate_normal = false;  ///< a back face
+  bool needs_normal = false, needs_position = false, needs_view = false, tracked = false;
+  Rgb base{};                  ///< emission + scene ambient
+  Rgb tracked_base{};
+  std::vector<LightTerm> terms;
+};
+
+/// Plans a surface: what its lights and material cannot need is not in the program. `reasons`, if given, receives a line for
+/// each term and each thing left out.
+LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights,
+                              const LightingModel& model, std::string* reasons);
+
+/// Lights `count` points, a multiple of 16, of the batch: needs the fields that the program names, leaves the colour.
+/// Bit-identical to light_points_reference() on every instruction set.
+using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
+LightPoints* light_points(Isa isa);
+
+}  // namespace tessera

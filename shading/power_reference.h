@@ -1,0 +1,41 @@
+// The scalar twin of power-inl.h, and its specification.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "shading/power.h"
+
+namespace tessera {
+
+inline float log2_reference(float x) {
+  std::int32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::int32_t exponent = (bits - kSqrtHalfBits) >> 23;
+  const std::int32_t mantissa_bits = bits - exponent * (1 << 23);
+  float m;
+  std::memcpy(&m, &mantissa_bits, sizeof m);
+  const float t = m - 1.0f;
+  float p = 0;
+  for (const float c : kLog2Coefficients) p = std::fma(p, t, c);
+  return std::fma(p, t, static_cast<float>(exponent));
+}
+
+inline float exp2_reference(float x) {
+  const float whole = std::nearbyint(x);
+  const float t = x - whole;
+  float p = 0;
+  for (const float c : kExp2Coefficients) p = std::fma(p, t, c);
+  return std::ldexp(p, static_cast<int>(whole));
+}
+
+inline float power_reference(float x, float y) {
+  if (!(x > 0.0f)) return 0.0f;
+  const float safe = x > kSmallestNormal ? x : kSmallestNormal;
+  const float product = log2_reference(safe) * y;
+  const float low = product > -126.0f ? product : -126.0f;
+  return exp2_reference(low < 127.0f ? low : 127.0f);
+}
+
+}  // namespace tessera

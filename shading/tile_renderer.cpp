@@ -1,0 +1,202 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/tile_renderer.cpp"
+#include "framebuffer/lanes.h"
+
+#include <algorithm>
+
+#include "shading/tile_renderer.h"
+#include "shading/tile_workspace.h"
+#include "shading/draw_group-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+using DrawGroup = void (*)(TileRun&, std::uint32_t draw);
+
+template <class Depth, Test kTest>
+DrawGroup pick_by_color(Seen seen) {
+  switch (seen) {
+    case Seen::nothing: return &draw_group<Depth, kTest, Seen::nothing>;
+    case Seen::word: return &draw_group<Depth, kTest, Seen::word>;
+    case Seen::interpolate: return &draw_group<Depth, kTest, Seen::interpolate>;
+    default: return &draw_group<Depth, kTest, Seen::collect>;
+  }
+}
+
+/// The code that runs for a draw: none of it holds a step that the draw does not have.
+DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
+  const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
+                    : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect
+                    : draw.source == ColorSource::interpolated                           ? Seen::interpolate
+                                                                                         : Seen::word;
+  const bool less = draw.depth_test == DepthTest::less;
+  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen);
+  switch (frame.depth_kind) {
+    case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen) : pick_by_color<Float32Depth, Test::any>(seen);
+    case DepthKind::unorm32: return pick_by_color<Unorm32Depth, Test::any>(seen);
+    default: return less ? pick_by_color<UnormDepth, Test::less>(seen) : pick_by_color<UnormDepth, Test::any>(seen);
+  }
+}
+
+/// Fills the pixels of `rect`, tile-relative.
+template <class Word>
+void fill_rect(Word* pixels, Word word, const PixelRect& rect, int tile_size) {
+  if (rect.x0 == 0 && rect.y0 == 0 && rect.x1 == tile_size && rect.y1 == tile_size) {
+    std::fill_n(pixels, tile_size * tile_size, word);
+    return;
+  }
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) pixels[tile_index(x, y, tile_size)] = word;
+}
+
+/// What of a rectangle lies in the tile, tile-relative; the tile's part beyond the frame buffer counts as inside where the
+/// rectangle reaches the edge, so that whole tiles stay whole.
+PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int tile_x, int tile_y) {
+  const int right = rect.x1 == grid.width_px ? tile_x + grid.tile_size : rect.x1;
+  const int bottom = rect.y1 == grid.height_px ? tile_y + grid.tile_size : rect.y1;
+  const PixelRect in_tile = intersect({rect.x0 - tile_x, rect.y0 - tile_y, right - tile_x, bottom - tile_y}, {0, 0, grid.tile_size, grid.tile_size});
+  return in_tile.empty() ? PixelRect{} : in_tile;
+}
+
+void run_clear(TileRun& run, const TileClear& clear) {
+  shade_whole_tile(run);
+  const PixelRect rect = rect_in_tile(clear.rect, run.frame.grid, run.tile_x, run.tile_y);
+  if (clear.color) fill_rect(run.memory.color, clear.color_word, rect, run.tile_size);
+  if (clear.depth) fill_rect(run.memory.depth, clear.depth_key, rect, run.tile_size);
+}
+
+/// Collects triangles of one draw until a group is full.
+struct GroupBuilder {
+  TileRun& run;
+  std::uint32_t draw_number = 0;
+  const TileDraw* draw = nullptr;
+  DrawGroup draw_group_function = nullptr;
+
+  HWY_INLINE void begin_draw(std::uint32_t number) {
+    flush();
+    const TileFrame& frame = run.frame;
+    const TileDraw& next = frame.draws[number];
+    // Pixels that wait for their colour keep it only from draws that write the same planes.
+    if (draw != nullptr && !run.memory.triangles.empty() && (next.write_mask != draw->write_mask || !next.deferred)) shade_whole_tile(run);
+    draw_number = number;
+    draw = &next;
+    draw_group_function = pick_draw_group(frame, next);
+    // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
+    run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x, next.rect.y1 - run.tile_y},
+                         {0, 0, run.tile_size, run.tile_size});
+    run.cut = ((run.rect.x0 | run.rect.y0 | run.rect.x1 | run.rect.y1) & 3) != 0;
+  }
+  HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
+    TriangleGroup& g = run.memory.group;
+    const int i = g.count++;
+    if ((id & kClippedTriangle) != 0) {
+      const ClippedTriangle& piece = bins.clipped[id & ~kClippedTriangle];
+      for (int k = 0; k < 3; ++k) {
+        load_vertex(i, k, piece.vertices[k]);
+        run.memory.attributes[k][i] = piece.attributes[k];
+      }
+      run.memory.source[i] = piece.source;
+    } else {
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t corner = std::size_t{id} * 3 + static_cast<std::size_t>(k);
+        const std::size_t vertex = draw->indices ? draw->indices[corner] : corner;
+        load_vertex(i, k, draw->vertices[vertex]);
+        run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
+      }
+      run.memory.source[i] = id;
+    }
+    if (g.count == kGroupSize) flush();
+  }
+  HWY_INLINE void flush() {
+    TriangleGroup& g = run.memory.group;
+    if (g.count == 0) return;
+    // Lanes without a triangle repeat the first one and have no bit in the mask.
+    for (int i = g.count; i < kGroupSize; ++i)
+      for (int k = 0; k < 3; ++k) g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
+    draw_group_function(run, draw_number);
+    g.count = 0;
+    if (run.memory.triangles.size() >= kMaxCollected) shade_whole_tile(run);
+  }
+
+ private:
+  HWY_INLINE void load_vertex(int i, int k, const WindowVertex& v) {
+    TriangleGroup& g = run.memory.group;
+    g.x[k][i] = v.x;
+    g.y[k][i] = v.y;
+    g.z[k][i] = v.z;
+    g.rw[k][i] = v.rw;
+  }
+};
+
+TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& workspace) {
+  const TileGrid& grid = frame.grid;
+  TileRun run{.frame = frame,
+              .memory = workspace.memory(),
+              .tile_x = tile % grid.columns() * grid.tile_size,
+              .tile_y = tile / grid.columns() * grid.tile_size,
+              .tile_size = grid.tile_size,
+              .rect = {},
+              .cut = false,
+              .counts = {}};
+  TileWorkspace::Memory& memory = run.memory;
+  memory.group.count = 0;
+  memory.triangles.clear();
+  memory.wide.clear();
+  bool any_collects = false;
+  for (std::uint32_t d = 0; d < frame.draw_count; ++d) any_collects |= frame.draws[d].deferred;
+  if (any_collects) std::fill_n(memory.ids, grid.tile_size * grid.tile_size, kNoTriangle);
+
+  std::uint32_t next_clear = 0;
+  GroupBuilder builder{run};
+  const auto clears_before = [&](std::uint32_t draw) {
+    while (next_clear < frame.clear_count && frame.clears[next_clear].before_draw <= draw) {
+      builder.flush();
+      run_clear(run, frame.clears[next_clear++]);
+    }
+  };
+  for (std::uint32_t b = 0; b < frame.bin_count; ++b) {
+    const Bins& bins = frame.bins[b];
+    for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
+      run.counts.touched = true;
+      const Bins::Block& block = bins.block(index);
+      for (std::uint32_t e = 0; e < block.count; ++e) {
+        const std::uint32_t entry = block.entries[e];
+        if ((entry & kDrawMarker) != 0) {
+          const std::uint32_t draw = entry & ~kDrawMarker;
+          clears_before(draw);
+          builder.begin_draw(draw);
+        } else {
+          builder.add(bins, entry);
+        }
+      }
+    }
+    // Clipped triangles of the next batch are another list.
+    builder.flush();
+  }
+  clears_before(frame.draw_count);
+  shade_whole_tile(run);
+  return run.counts;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tessera {
+
+RenderTile* render_tile(Isa isa) { return TESSERA_KERNEL(isa, render_tile_lanes); }
+
+TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {}
+TileWorkspace::~TileWorkspace() = default;
+TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
+std::uint32_t* TileWorkspace::color() { return memory_->color; }
+std::int32_t* TileWorkspace::depth() { return memory_->depth; }
+
+std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b) {
+  return layout.index ? search->nearest(r, g, b) & layout.word_mask() : quantize_rgb(layout, r, g, b);
+}
+
+}  // namespace tessera
+#endif

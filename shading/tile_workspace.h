@@ -1,0 +1,31 @@
+// The memory that a worker renders tiles in.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raster/triangle_setup.h"
+#include "shading/interpolate.h"
+#include "shading/lighting.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera {
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+/// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
+inline constexpr std::size_t kMaxCollected = 4096;
+
+struct alignas(64) TileWorkspace::Memory {
+  alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
+  alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
+  alignas(64) std::uint32_t ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  std::vector<ShadedTriangle> triangles;
+  std::vector<WideEdges> wide;
+  TriangleGroup group;
+  // Of the group's triangles.
+  const float* attributes[3][kGroupSize];
+  std::uint32_t source[kGroupSize];
+  ShadingBatch batch;
+};
+
+}  // namespace tessera

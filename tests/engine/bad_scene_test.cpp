@@ -1,0 +1,217 @@
+// Every mistake in a scene file gives one Error that names the file, the JSON pointer and what was expected.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/scene/scene.h"
+
+namespace tessera {
+namespace {
+
+struct BadScene {
+  std::string text;      // a whole file if it starts with { or [ or blank, else what follows {"tessera": 1,
+  std::string pointer;   // or line and column
+  std::string fragment;  // of the rest of the message
+};
+
+std::string whole(const std::string& text) { return text.empty() || text[0] == '{' || text[0] == '[' || text[0] == ' ' ? text : "{\"tessera\": 1, " + text + "}"; }
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_scene(text, "bad.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+const std::string kPot = R"("meshes": {"pot": {"builtin": "cube"}}, "materials": {"red": {}}, )";
+std::string draw(const std::string& keys) { return kPot + R"("frame": [{"draw": "pot", )" + keys + "}]"; }
+std::string mesh(const std::string& keys) { return R"("meshes": {"m": {)" + keys + "}}"; }
+std::string with_positions(const std::string& keys) { return mesh(R"("positions": [[0,0,0],[1,0,0],[0,1,0]], )" + keys); }
+std::string projection(const std::string& keys) { return R"("camera": {"projection": {)" + keys + "}}"; }
+
+const BadScene kBadScenes[] = {
+    // The file as a whole
+    {" ", "line 1, column 2", "unexpected end of input"},
+    {"{\n  \"tessera\": 1,\n  \"title\" \"x\"\n}", "line 3, column 13", "expected ':'"},
+    {"{\"tessera\": 1,}", "line 1, column 15", "syntax error"},
+    {"{\"tessera\": 1} x", "line 1, column 16", "syntax error"},
+    {R"("light_model": {"ambient": [NaN, 0, 0, 1]})", "line 1, column 44", "syntax error"},
+    {"[]", "(top level)", "found an empty array, expected an object"},
+    {"{}", "(top level)", "key \"tessera\" is missing"},
+    {R"({"tessera": 2})", "/tessera", "found 2, expected 1"},
+    {R"({"tessera": "1"})", "/tessera", "found \"1\""},
+    {R"("lihgts": [])", "/lihgts", "unknown key \"lihgts\"; did you mean \"lights\"?"},
+    {R"("a/b~c": 1)", "/a~1b~0c", "unknown key"},
+    {R"("title": 5)", "/title", "found 5, expected a string"},
+    {R"("title": "a", "title": "b")", "/title", "the key \"title\" occurs twice"},
+    {R"("lights": [{}, {"diffuse": [1,1,1,1], "diffuse": [1,1,1,1]}])", "/lights/1/diffuse", "occurs twice"},
+    {R"("frame": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]])",
+     "/frame/0/0", "nested deeper than 64"},
+    {R"("light_model": {"ambient": [1e999, 0, 0, 1]})", "/light_model/ambient", "1e999"},
+
+    // Frame buffer
+    {R"("framebuffer": [640, 480])", "/framebuffer", "found an array of 2, expected an object"},
+    {R"("framebuffer": {"width": 0})", "/framebuffer/width", "found 0, expected an integer from 1 to 16384"},
+    {R"("framebuffer": {"height": 20000})", "/framebuffer/height", "found 20000, expected an integer from 1 to 16384"},
+    {R"("framebuffer": {"width": 640.5})", "/framebuffer/width", "found 640.5, expected an integer"},
+    {R"("framebuffer": {"width": "640"})", "/framebuffer/width", "found \"640\", expected a number"},
+    {R"("framebuffer": {"widht": 640})", "/framebuffer/widht", "did you mean \"width\"?"},
+    {R"("framebuffer": {"color": "rgb"})", "/framebuffer/color", "expected an object"},
+    {R"("framebuffer": {"color": {"mode": "rbg"}})", "/framebuffer/color/mode", "expected one of \"rgb\", \"index\"; did you mean \"rgb\"?"},
+    {R"("framebuffer": {"color": {"bits": 25}})", "/framebuffer/color/bits", "found 25, expected an integer from 1 to 24"},
+    {R"("framebuffer": {"palette": "bw"})", "/framebuffer/palette", "\"mode\": \"index\""},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 4}, "palette": "vga256"})", "/framebuffer/palette", "256"},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 8}, "palette": "ega"})", "/framebuffer/palette", "found \"ega\", expected one of"},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 8}, "palette": "adaptive"})", "/framebuffer/palette", "\"adaptive\" is part of the format but not supported"},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 8}, "palette": []})", "/framebuffer/palette", "found an empty array, expected 1 to 256 entries"},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 1}, "palette": [[0,0,0],[1,1,1],[1,0,0]]})", "/framebuffer/palette", "expected 1 to 2 entries for 1 bits"},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 1}, "palette": [[0,0,0],[1,1,2]]})", "/framebuffer/palette/1/2", "found 2, expected a number from 0 to 1"},
+    {R"("framebuffer": {"color": {"mode": "index", "bits": 1}, "palette": [[0,0,0,1]]})", "/framebuffer/palette/0", "expected [r, g, b]"},
+    {R"("framebuffer": {"depth": "unorm8"})", "/framebuffer/depth", "expected one of \"none\""},
+    {R"("framebuffer": {"stencil": 9})", "/framebuffer/stencil", "expected an integer from 0 to 8"},
+    {R"("framebuffer": {"dither": "bayer4"})", "/framebuffer/dither", "part of the format but not supported"},
+    {R"("framebuffer": {"dither": "bayer5"})", "/framebuffer/dither", "expected one of \"none\""},
+    {R"("framebuffer": {"alpha": 8})", "/framebuffer/alpha", "not supported by this version of Tessera"},
+    {R"("framebuffer": {"accumulation": 16})", "/framebuffer/accumulation", "not supported by this version of Tessera"},
+    {R"("framebuffer": {"samples": 4})", "/framebuffer/samples", "not supported by this version of Tessera"},
+    {R"("framebuffer": {"samples": 3})", "/framebuffer/samples", "found 3, expected one of 1, 4, 8"},
+
+    // Camera
+    {R"("camera": {"eye": [0, 0]})", "/camera/eye", "found an array of 2, expected an array of 3 numbers"},
+    {R"("camera": {"eye": [0, 0, "4"]})", "/camera/eye/2", "found \"4\", expected a number"},
+    {R"("camera": {"eye": [0, 0, 0], "target": [0, 0, 0]})", "/camera", ""},
+    {R"("camera": {"up": [0, 0, 1]})", "/camera", ""},
+    {R"("camera": {"reversed": true})", "/camera/reversed", "stands in \"projection\""},
+    {R"("camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})", "/camera", "key \"projection\" is missing"},
+    {R"("camera": {"view": [1,2,3], "projection": [1,2,3]})", "/camera/view", "expected an array of 16 numbers"},
+    {R"("camera": {"projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})", "/camera", "\"view\""},
+    {R"("camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "eye": [0,0,1]})", "/camera/eye", "unknown key"},
+    {projection(R"("fovy": 180)"), "/camera/projection/fovy", "expected an angle above 0 and below 180"},
+    {projection(R"("near": 0)"), "/camera/projection/near", "expected a distance above 0"},
+    {projection(R"("near": 2, "far": 1)"), "/camera/projection/far", "expected a distance above near's 2"},
+    {projection(R"("near": 200)"), "/camera/projection", "near is 200"},
+    {projection(R"("far": "infinite")"), "/camera/projection/far", "expected a number or \"infinity\""},
+    {projection(R"("type": "perspectiv")"), "/camera/projection/type", "did you mean \"perspective\"?"},
+    {projection(R"("left": 1)"), "/camera/projection/left", "unknown key"},
+    {projection(R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1)"), "/camera/projection", "key \"far\" is missing"},
+    {projection(R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": "infinity")"), "/camera/projection/far", "finite"},
+    {projection(R"("type": "frustum", "left": 1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": 2)"), "/camera/projection", ""},
+    {projection(R"("fovy": {"keys": [[0, 30], [1, 60]]})"), "/camera/projection/fovy", "{\"keys\": ...}) is part of the format but not supported"},
+
+    // Lights and materials
+    {R"("light_model": {"specular": "blin"})", "/light_model/specular", "did you mean \"blinn\"?"},
+    {R"("light_model": {"two_sided": 1})", "/light_model/two_sided", "found 1, expected true or false"},
+    {R"("light_model": {"ambient": [1, 1, 1]})", "/light_model/ambient", "expected an array of 4 numbers"},
+    {R"("light_model": {"ambient": [1e300, 1, 1, 1]})", "/light_model/ambient/0", "32-bit float"},
+    {R"("lights": {})", "/lights", "expected an array"},
+    {R"("lights": [{"position": [0, 0, 1]}])", "/lights/0/position", "expected an array of 4 numbers"},
+    {R"("lights": [{"spot_cutoff": 100}])", "/lights/0/spot_cutoff", "found 100, expected 0 to 90 degrees, or 180"},
+    {R"("lights": [{"spot_exponent": 20000}])", "/lights/0/spot_exponent", "expected a number from 0 to 16384"},
+    {R"("lights": [{"attenuation": [1, 0]}])", "/lights/0/attenuation", "expected an array of 3 numbers"},
+    {R"("materials": {"red": {"shininess": -1}})", "/materials/red/shininess", "expected a number from 0 to 16384"},
+    {R"("materials": {"red": {"preset": "goldd"}})", "/materials/red/preset", "expected one of \"emerald\""},
+    {R"("materials": {"red": {"color_indexes": [0, 1, 1]}})", "/materials/red/color_indexes", "is part of the format but not supported"},
+    {R"("textures": {"t": {"file": "x.png"}})", "/textures", "not supported"},
+
+    // Meshes
+    {mesh(R"("builtin": "teapott")"), "/meshes/m/builtin", "did you mean \"teapot\"?"},
+    {mesh(R"("builtin": "sphere", "detail": 1)"), "/meshes/m/detail", "found 1, expected an integer from 2 to 1024"},
+    {mesh(R"("builtin": "cube", "file": "x.obj")"), "/meshes/m/file", "unknown key"},
+    {mesh(R"("bultin": "cube")"), "/meshes/m/bultin", "did you mean \"builtin\"?"},
+    {mesh(R"("detail": 3)"), "/meshes/m/detail", "unknown key"},
+    {mesh(""), "/meshes/m", "key \"positions\" is missing"},
+    {mesh(R"("file": "no such file.obj")"), "/meshes/m/file", "cannot read \"no such file.obj\": No such file or directory"},
+    {mesh(R"("file": "model.glb")"), "/meshes/m/file", ".obj files only"},
+    {mesh(R"("positions": [])"), "/meshes/m/positions", "found an empty array, expected at least 3 positions"},
+    {mesh(R"("positions": [[0,0,0],[1,0,0]])"), "/meshes/m/positions", "three positions for each triangle"},
+    {mesh(R"("positions": [[0,0,0],[1,0,0],[0,1]])"), "/meshes/m/positions/2", "expected an array of 3 numbers"},
+    {mesh(R"("positions": [[0,0,0],[1,0,null],[0,1,0]])"), "/meshes/m/positions/1/2", "found null, expected a number"},
+    {mesh(R"("positions": [[0,0,0],[1,0,1e39],[0,1,0]])"), "/meshes/m/positions/1/2", "32-bit float"},
+    {with_positions(R"("normals": [[0,0,1]])"), "/meshes/m/normals", "expected one for each of the 3 positions"},
+    {with_positions(R"("colors": [[1,0,0],[1,0,0],[1,0,0]])"), "/meshes/m/colors/0", "expected an array of 4 numbers"},
+    {with_positions(R"("indices": [])"), "/meshes/m/indices", "three indices for each triangle"},
+    {with_positions(R"("indices": [0, 1, 2, 0])"), "/meshes/m/indices", "three indices for each triangle"},
+    {with_positions(R"("indices": [0, 1, 3])"), "/meshes/m/indices/2", "found 3, expected an integer from 0 to 2"},
+    {with_positions(R"("indices": [0, -1, 2])"), "/meshes/m/indices/1", "found -1, expected an integer from 0 to 2"},
+    {with_positions(R"("primitive": "quads")"), "/meshes/m/primitive", "\"quads\" is part of the format but not supported"},
+    {with_positions(R"("primitive": "triangle")"), "/meshes/m/primitive", "did you mean \"triangles\"?"},
+    {with_positions(R"("texcoords": [[0,0],[1,0],[0,1]])"), "/meshes/m/texcoords", "not supported"},
+    {with_positions(R"("color_indices": [0,1,2])"), "/meshes/m/color_indices", "not supported"},
+
+    // Frame
+    {R"("frame": {})", "/frame", "expected an array"},
+    {R"("frame": [5])", "/frame/0", "expected an object with one of \"clear\", \"draw\""},
+    {R"("frame": [{}])", "/frame/0", "expected one of \"clear\", \"draw\""},
+    {R"("frame": [{"claer": {}}])", "/frame/0/claer", "did you mean \"clear\"?"},
+    {R"("frame": [{"clear": {}, "lights": []}])", "/frame/0", "several commands"},
+    {R"("frame": [{"clear": {"color": [0, 0, 0, 1.5]}}])", "/frame/0/clear/color/3", "found 1.5, expected a number from 0 to 1"},
+    {R"("frame": [{"clear": {"depth": -0.1}}])", "/frame/0/clear/depth", "expected a number from 0 to 1"},
+    {R"("frame": [{"clear": {"stencil": 256}}])", "/frame/0/clear/stencil", "expected an integer from 0 to 255"},
+    {R"("frame": [{"clear": {"index": 1}}])", "/frame/0/clear/index", "needs an index buffer"},
+    {R"("frame": [{"clear": {"accumulation": [0,0,0,0]}}])", "/frame/0/clear/accumulation", "not supported"},
+    {R"("framebuffer": {"depth": "none"}, "frame": [{"clear": {"depth": 1}}])", "/frame/0/clear/depth", "needs a depth buffer"},
+    {R"("framebuffer": {"stencil": 0}, "frame": [{"clear": {"stencil": 0}}])", "/frame/0/clear/stencil", "needs a stencil buffer"},
+    {R"("frame": [{"accum": {"op": "load", "value": 1}}])", "/frame/0/accum", "not supported"},
+    {R"("frame": [{"bitmap": {"at": [0,0]}, "blend": {}}])", "/frame/0/bitmap", "not supported"},
+    {R"("frame": [{"image": {"at": [0,0]}}])", "/frame/0/image", "not supported"},
+    {R"("frame": [{"draw": "pot"}])", "/frame/0/draw", "found \"pot\", expected the name of a mesh (the scene has none)"},
+    {kPot + R"("frame": [{"draw": "pott"}])", "/frame/0/draw", "did you mean \"pot\"?"},
+    {kPot + R"("frame": [{"draw": 0}])", "/frame/0/draw", "expected a string"},
+    {kPot + R"("frame": [{"clear": {}}, {"camera": {"eye": 1}}])", "/frame/1/camera/eye", "expected an array of 3 numbers"},
+    {kPot + R"("frame": [{"lights": [{"diffuse": 1}]}])", "/frame/0/lights/0/diffuse", "expected an array of 4 numbers"},
+    {draw(R"("material": "rde")"), "/frame/0/material", "expected the name of a material; did you mean \"red\"?"},
+    {draw(R"("back_material": "blue")"), "/frame/0/back_material", "found \"blue\", expected the name of a material"},
+    {draw(R"("shadng": "flat")"), "/frame/0/shadng", "did you mean \"shading\"?"},
+    {draw(R"("shading": "gourad")"), "/frame/0/shading", "did you mean \"gouraud\"?"},
+    {draw(R"("lighting": "off")"), "/frame/0/lighting", "found \"off\", expected true or false"},
+    {draw(R"("transform": {"translate": [0,0,0]})"), "/frame/0/transform", "expected an array"},
+    {draw(R"("transform": [{"translate": [0,0,0], "scale": [1,1,1]}])"), "/frame/0/transform/0", "expected an object with one of"},
+    {draw(R"("transform": [{"rotate": [30, 0, 0, 0]}])"), "/frame/0/transform/0/rotate", ""},
+    {draw(R"("transform": [{"scale": [1,1,1]}, {"matrix": [1]}])"), "/frame/0/transform/1/matrix", "expected an array of 16 numbers"},
+    {draw(R"("depth": true)"), "/frame/0/depth", "expected false or an object"},
+    {draw(R"("depth": {"test": "lower"})"), "/frame/0/depth/test", "expected one of \"never\""},
+    {R"("framebuffer": {"depth": "none"}, )" + draw(R"("depth": {"test": "less"})"), "/frame/0/depth", "needs a depth buffer"},
+    {draw(R"("depth_range": [0, 1.01])"), "/frame/0/depth_range/1", "expected a number from 0 to 1"},
+    {draw(R"("color_mask": [true, true, true])"), "/frame/0/color_mask", "expected four of true and false"},
+    {R"("framebuffer": {"color": {"bits": 2}}, )" + draw(R"("color_mask": [true, false, true, true])"), "/frame/0/color_mask", "all true or all false"},
+    {draw(R"("plane_mask": 4294967296)"), "/frame/0/plane_mask", "expected an integer from 0 to 4294967295"},
+    {draw(R"("viewport": [0, 0, -1, 10])"), "/frame/0/viewport/2", "found -1"},
+    {draw(R"("scissor": [0, 0, 10])"), "/frame/0/scissor", "expected [x, y, width, height]"},
+    {draw(R"("blend": {})"), "/frame/0/blend", "is part of the format but not supported by this version of Tessera"},
+    {draw(R"("stencil": {})"), "/frame/0/stencil", "is part of the format but not supported"},
+    {draw(R"("alpha_test": {})"), "/frame/0/alpha_test", "is part of the format but not supported"},
+    {draw(R"("texture": "brick")"), "/frame/0/texture", "is part of the format but not supported"},
+    {draw(R"("shadow_on": {})"), "/frame/0/shadow_on", "is part of the format but not supported"},
+    {draw(R"("polygon_mode": "line")"), "/frame/0/polygon_mode", "not supported"},
+    {draw(R"("polygon_offset": [1, 1])"), "/frame/0/polygon_offset", "not supported"},
+    {draw(R"("point_size": 2)"), "/frame/0/point_size", "not supported"},
+    {draw(R"("line_width": "wide")"), "/frame/0/line_width", "found \"wide\", expected a value like 1"},
+    {draw(R"("logic_op": "xor")"), "/frame/0/logic_op", "not supported"},
+    {draw(R"("logic_op": "exor")"), "/frame/0/logic_op", "expected one of \"copy\""},
+    {draw(R"("stages": [{"name": "zoom"}])"), "/frame/0/stages", "not supported"},
+};
+
+TEST(BadScene, EachMistakeNamesFilePointerAndExpectation) {
+  for (const BadScene& bad : kBadScenes) {
+    const std::string message = message_of(whole(bad.text));
+    EXPECT_TRUE(message.starts_with("bad.json: " + bad.pointer)) << bad.text << "\n" << message;
+    EXPECT_NE(message.find(bad.fragment), std::string::npos) << bad.text << "\n" << message << "\nlacks " << bad.fragment;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(BadScene, MissingFileAndFolderAreNamed) {
+  for (const char* path : {"/no such folder/scene.json", "/"}) {
+    try {
+      load_scene(path);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("cannot read \"") + path), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,182 @@
+// OBJ and MTL files, whole and broken.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "engine/import/model.h"
+#include "engine/scene/model_scene.h"
+
+namespace tessera {
+namespace {
+
+class ObjImport : public testing::Test {
+ protected:
+  ObjImport() : folder_(std::filesystem::temp_directory_path() / ("tessera_obj_" + std::to_string(::getpid()))) { std::filesystem::create_directories(folder_); }
+  ~ObjImport() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+  std::string message_of(const std::string& text) {
+    const std::string path = write("bad.obj", text);
+    try {
+      import_model(path);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "(no error)";
+  }
+
+  std::filesystem::path folder_;
+};
+
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST_F(ObjImport, FacesBecomeTrianglesAndCornersAreShared) {
+  const Model model = import_model(write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 2 0\nf 1 2 3 4\nf -3 -1 -2\n"));
+  EXPECT_EQ(model.mesh.triangle_count(), 3u);
+  EXPECT_EQ(model.mesh.vertex_count(), 5u);
+  EXPECT_TRUE(model.mesh.normals.empty());
+  EXPECT_TRUE(model.mesh.colors.empty());
+  ASSERT_EQ(model.parts.size(), 1u);
+  EXPECT_EQ(model.parts[0].index_count, 9u);
+  EXPECT_TRUE(model.warnings.empty());
+}
+
+TEST_F(ObjImport, NormalsSplitVerticesOnlyWhereTheyDiffer) {
+  const Model model = import_model(write("n.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 3//1 4//1\n"));
+  EXPECT_EQ(model.mesh.vertex_count(), 5u);
+  EXPECT_EQ(model.mesh.normals.size(), 15u);
+}
+
+TEST_F(ObjImport, NormalsAtSomeCornersOnlyAreDroppedWithAWarning) {
+  const Model model = import_model(write("some.obj", std::string(kTriangle) + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 3\n"));
+  EXPECT_TRUE(model.mesh.normals.empty());
+  EXPECT_EQ(model.mesh.vertex_count(), 3u);
+  EXPECT_EQ(model.warnings.size(), 1u);
+}
+
+TEST_F(ObjImport, MaterialsArriveAndGroupTheTriangles) {
+  write("m.mtl", "newmtl red\nKa 0.1 0.2 0.3\nKd 1 0 0\nKs 0.5 0.5 0.5\nKe 0 0 0.25\nNs 50\nd 0.5\nnewmtl hot\nKd 0 1 0\nNs 99999\n");
+  const Model model = import_model(write("m.obj", "mtllib m.mtl\n" + std::string(kTriangle) +
+                                                      "v 0 0 5\nusemtl red\nf 1 2 3\nusemtl hot\nf 1 2 4\nusemtl red\nf 2 3 4\n"));
+  ASSERT_EQ(model.parts.size(), 2u);
+  EXPECT_EQ(model.parts[0].material_name, "red");
+  EXPECT_EQ(model.parts[0].index_count, 6u);
+  EXPECT_EQ(model.parts[1].first_index, 6u);
+  const Material& red = model.parts[0].material;
+  EXPECT_FLOAT_EQ(red.ambient.g, 0.2f);
+  EXPECT_FLOAT_EQ(red.diffuse.r, 1);
+  EXPECT_FLOAT_EQ(red.diffuse.a, 0.5f);
+  EXPECT_FLOAT_EQ(red.specular.b, 0.5f);
+  EXPECT_FLOAT_EQ(red.emission.b, 0.25f);
+  EXPECT_FLOAT_EQ(red.shininess, 50);
+  EXPECT_FLOAT_EQ(model.parts[1].material.shininess, 16384);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("Ns of material \"hot\""), std::string::npos);
+  const MeshData hot = part_mesh(model, 1);
+  EXPECT_EQ(hot.vertex_count(), 3u);
+  EXPECT_EQ(hot.indices, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+TEST_F(ObjImport, AMissingMaterialFileIsAWarning) {
+  const Model model = import_model(write("w.obj", "mtllib nowhere.mtl\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n"));
+  ASSERT_FALSE(model.warnings.empty());
+  EXPECT_NE(model.warnings[0].find("nowhere.mtl"), std::string::npos);
+  EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.r, 0.8f);
+}
+
+TEST_F(ObjImport, LineEndsAndSpacesDoNotMatter) {
+  const Model model = import_model(write("crlf.obj", "# x\r\nv 0 0 0\r\nv\t1 0 0\r\n  v 0 +1. .0e1\r\nf 1/1 2/2 3\r\n"));
+  EXPECT_EQ(model.mesh.triangle_count(), 1u);
+}
+
+TEST_F(ObjImport, EachBreakageNamesFileAndLine) {
+  const struct {
+    std::string text, place, fragment;
+  } kBroken[] = {
+      {std::string(kTriangle) + "f 1 2 4\n", ":4: ", "index 4 out of bounds, there are 3 vertices"},
+      {std::string(kTriangle) + "f 1 2 -4\n", ":4: ", "index -4 out of bounds"},
+      {std::string(kTriangle) + "f 0 1 2\n", ":4: ", "index 0 out of bounds"},
+      {std::string(kTriangle) + "f 1//1 2//1 3//1\n", ":4: ", "there are 0 normals"},
+      {std::string(kTriangle) + "f 1 2\n", ":4: ", "a face has 2 corners, needs 3"},
+      {std::string(kTriangle) + "f 1 2 x\n", ":4: ", "found \"x\", expected an index"},
+      {std::string(kTriangle) + "f 1 2 99999999999999999999\n", ":4: ", "expected an index"},
+      {"v 0 0 nan\n", ":1: ", "found \"nan\" after \"v\", expected a finite number"},
+      {"v 0 0 0\nv inf 0 0\n", ":2: ", "found \"inf\""},
+      {"v 0 0 1e39\n", ":1: ", "found \"1e39\""},
+      {"v 0 0\n", ":1: ", "\"v\" has 2 numbers, needs 3"},
+      {"vn 0 0 one\n", ":1: ", "found \"one\" after \"vn\""},
+      {"", ": ", "holds no triangle"},
+      {kTriangle, ": ", "holds no triangle"},
+      {"v 0 0 0\nv 1 1 1\nl 1 2\n", ": ", "holds no triangle"},
+      {std::string("\0\x01\xff garbage\n", 13), ": ", "holds no triangle"},
+  };
+  for (const auto& [text, place, fragment] : kBroken) {
+    const std::string message = message_of(text);
+    EXPECT_TRUE(message.starts_with((folder_ / "bad.obj").string() + place)) << text << message;
+    EXPECT_NE(message.find(fragment), std::string::npos) << text << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST_F(ObjImport, ABrokenMaterialFileNamesItself) {
+  write("bad.mtl", "newmtl a\nKd 1 nan 0\n");
+  const std::string message = message_of("mtllib bad.mtl\n" + std::string(kTriangle) + "f 1 2 3\n");
+  EXPECT_NE(message.find("bad.mtl:2: found \"nan\" after \"Kd\""), std::string::npos) << message;
+}
+
+TEST_F(ObjImport, MissingFilesFoldersAndOtherFormatsAreNamed) {
+  EXPECT_THROW(import_model((folder_ / "nothing.obj").string()), Error);
+  std::filesystem::create_directories(folder_ / "folder.obj");
+  EXPECT_THROW(import_model((folder_ / "folder.obj").string()), Error);
+  EXPECT_THROW(import_model(write("x.stl", "solid")), Error);
+  EXPECT_TRUE(is_model_file("A.OBJ"));
+  EXPECT_FALSE(is_model_file("obj"));
+}
+
+TEST_F(ObjImport, SmoothNormalsAreMeansOverPositionsWeightedByArea) {
+  MeshData mesh;  // two triangles that meet at a right angle along an edge, without shared vertices; the second is twice as large
+  mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ 0, 0, 0, 0, 1, 0, 0, 0, 2};
+  mesh.indices = {0, 1, 2, 3, 4, 5};
+  add_smooth_normals(mesh);
+  EXPECT_NEAR(mesh.normals[2], 1 / std::sqrt(5.0), 1e-6);
+  EXPECT_NEAR(mesh.normals[0], 2 / std::sqrt(5.0), 1e-6);
+  EXPECT_EQ(mesh.normals[3 * 1 + 2], 1);
+  EXPECT_EQ(mesh.normals[3 * 5 + 0], 1);
+}
+
+TEST_F(ObjImport, AModelAloneGetsACameraThatSeesAllOfIt) {
+  const Model model = import_model(write("far.obj", "v 100 0 0\nv 110 0 0\nv 100 3 0\nv 100 0 7\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n"));
+  for (const auto& [width, height] : {std::pair{640, 480}, {100, 400}, {1000, 50}}) {
+    const Scene scene = model_scene(model, "far.obj", width, height);
+    const Camera camera = scene.camera.at_aspect(static_cast<double>(width) / height);
+    const Matrix clip_from_world = camera.projection * camera.view;
+    for (std::size_t i = 0; i < model.mesh.positions.size(); i += 3) {
+      const double p[4] = {model.mesh.positions[i], model.mesh.positions[i + 1], model.mesh.positions[i + 2], 1};
+      double clip[4] = {};
+      for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t k = 0; k < 4; ++k) clip[row] += clip_from_world.m[4 * row + k] * p[k];
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(std::abs(clip[k]), clip[3]) << width << "x" << height << " vertex " << i / 3;
+    }
+    EXPECT_TRUE(scene.light_model.local_viewer);
+    EXPECT_EQ(std::get<DrawCommand>(scene.frame.at(1).what).state.shading, Shading::phong);
+  }
+  EXPECT_THROW(model_scene(import_model(write("point.obj", "v 1 1 1\nf 1 1 1\n")), "point.obj"), Error);
+}
+
+TEST_F(ObjImport, TheStanfordBunnyIfItIsInstalled) {
+  const char* path = "/usr/share/glmark2/models/bunny.obj";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "glmark2-data is not installed";
+  const Model model = import_model(path);
+  EXPECT_EQ(model.mesh.triangle_count(), 69666u);
+  EXPECT_LT(model.mesh.vertex_count(), 69666u);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,99 @@
+// Pictures and planes in files.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <unistd.h>
+
+#include "engine/imageio/picture.h"
+#include "engine/imageio/atomic_file.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PictureFile : public testing::Test {
+ protected:
+  PictureFile() : folder_(fs::temp_directory_path() / ("tessera_picture_" + std::to_string(::getpid()))) { fs::create_directories(folder_); }
+  ~PictureFile() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string content(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  static std::string message_of(const Picture& picture, const std::string& file) {
+    try {
+      write_picture(picture, file);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "(no error)";
+  }
+  std::size_t files_in_folder() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+
+  fs::path folder_;
+};
+
+Picture two_pixels() {
+  Picture picture(2, 1);
+  picture.rgba = {255, 0, 10, 255, 1, 2, 3, 255};
+  return picture;
+}
+
+TEST_F(PictureFile, NetpbmAndRawAreWrittenByteForByte) {
+  const Picture picture = two_pixels();
+  write_picture(picture, path("a.ppm"));
+  EXPECT_EQ(content(path("a.ppm")), std::string("P6\n2 1\n255\n\xff\0\x0a\x01\x02\x03", 17));
+  write_picture(picture, path("a.PGM"));
+  EXPECT_EQ(content(path("a.PGM")), std::string("P5\n2 1\n255\n\x4e\x02", 13));  // 0.30 * 255 + 0.11 * 10 = 77.6
+  write_picture(picture, path("a.raw"));
+  EXPECT_EQ(content(path("a.raw")), std::string("\xff\0\x0a\xff\x01\x02\x03\xff", 8));
+  EXPECT_EQ(files_in_folder(), 3u);
+}
+
+TEST_F(PictureFile, APlaneIsAPbmWithoutWhatLiesBesideThePicture) {
+  const std::array<std::uint8_t, 6> bits{0xa5, 0xff, 0x77, 0x01, 0xff, 0x77};  // 2 rows of 10 pixels, 3 bytes apart
+  write_plane({.bits = bits.data(), .width = 10, .height = 2, .stride_bytes = 3}, path("plane.pbm"));
+  EXPECT_EQ(content(path("plane.pbm")), "P4\n10 2\n\xa5\xc0\x01\xc0");
+}
+
+TEST_F(PictureFile, AnExistingFileIsReplacedAndAFailureLeavesIt) {
+  write_picture(two_pixels(), path("a.ppm"));
+  write_picture(Picture(1, 1), path("a.ppm"));
+  EXPECT_EQ(content(path("a.ppm")).size(), 14u);
+  EXPECT_THROW(replace_file_atomically(path("a.ppm"), [](const std::string& temporary) {
+    std::ofstream(temporary) << "half";
+    throw Error("the disk is full");
+  }), Error);
+  EXPECT_EQ(content(path("a.ppm")).size(), 14u);
+  EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(PictureFile, ALinkStaysALink) {
+  write_picture(Picture(1, 1), path("real.ppm"));
+  fs::create_symlink("real.ppm", folder_ / "link.ppm");
+  write_picture(two_pixels(), path("link.ppm"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.ppm"));
+  EXPECT_EQ(content(path("real.ppm")).size(), 17u);
+}
+
+TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
+  const Picture picture(1, 1);
+  EXPECT_NE(message_of(picture, path("no/folder/a.ppm")).find("there is no folder"), std::string::npos);
+  EXPECT_NE(message_of(picture, path("noending")).find("no ending"), std::string::npos);
+  EXPECT_NE(message_of(picture, path("a.pbm")).find(".ppm"), std::string::npos);
+  fs::create_directories(folder_ / "folder.ppm");
+  EXPECT_NE(message_of(picture, path("folder.ppm")).find("Is a directory"), std::string::npos);
+  if (fs::exists("/dev/full")) {
+    fs::create_symlink("/dev/full", folder_ / "full.ppm");
+    EXPECT_NE(message_of(picture, path("full.ppm")).find("No space left"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,118 @@
+#include "framebuffer/palette_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "framebuffer/palette_search_reference.h"
+
+namespace tessera {
+namespace {
+
+Palette random_palette(int bits, std::size_t given, std::uint32_t seed, int levels = 256) {
+  std::mt19937 random(seed);
+  Palette palette{.bits = bits, .entries = {}};
+  const auto count = static_cast<unsigned>(levels);
+  const auto level = [&] { return static_cast<std::uint8_t>(random() % count * 255 / (count - 1)); };
+  for (std::size_t i = 0; i < given; ++i) palette.entries.push_back({level(), level(), level()});
+  return palette;
+}
+
+std::vector<Palette> palettes() {
+  std::vector<Palette> all;
+  for (int bits = 1; bits <= 8; ++bits) all.push_back(default_palette_of(bits));
+  for (const char* name : {"bw", "gray", "ega16", "vga256", "web216"}) all.push_back({.bits = 8, .entries = *palette_entries(name, 8)});
+  all.push_back({.bits = 1, .entries = {}});                                 // all black
+  all.push_back({.bits = 4, .entries = {{255, 0, 0}, {255, 0, 0}}});         // a tie of twins, black behind them
+  all.push_back({.bits = 2, .entries = {{9, 9, 9}, {0, 0, 0}, {3, 3, 3}}});  // black before the unset one
+  all.push_back(random_palette(8, 256, 1));
+  all.push_back(random_palette(8, 256, 2, 3));                               // few levels: many ties
+  all.push_back(random_palette(10, 777, 3));
+  all.push_back(random_palette(12, 4096, 4));
+  return all;
+}
+
+/// Components that matter: levels, the middles between them, cells' borders, their float neighbours, and odd values.
+float component(std::mt19937& random) {
+  const auto pick = random();
+  const float c = static_cast<float>(random() % 511) / 510.0f;
+  switch (pick % 8) {
+    case 0: return c;
+    case 1: return static_cast<float>(random() % 256) / 255.0f;
+    case 2: return static_cast<float>(random() % 65) / 64.0f;
+    case 3: return std::nextafter(static_cast<float>(random() % 65) / 64.0f, 0.0f);
+    case 4: return std::nextafter(c, 1.0f);
+    default: return static_cast<float>(random()) / 4294967296.0f;
+  }
+}
+
+TEST(PaletteSearch, FindsWhatLookingAtEveryEntryFinds) {
+  for (const Palette& palette : palettes()) {
+    const PaletteSearch search(palette);
+    std::mt19937 random(5);
+    const int trials = palette.size() > 1024 ? 5000 : 50000;
+    for (int i = 0; i < trials; ++i) {
+      const float r = component(random), g = component(random), b = component(random);
+      ASSERT_EQ(search.nearest(r, g, b), nearest_reference(palette, r, g, b))
+          << palette.bits << " bits, " << palette.entries.size() << " given: " << r << " " << g << " " << b;
+    }
+  }
+}
+
+TEST(PaletteSearch, GreyDiagonalsAndBlackAndWhiteWhereTiesLive) {
+  for (const Palette& palette : palettes()) {
+    const PaletteSearch search(palette);
+    for (int i = -10; i <= 1030; ++i) {
+      const float c = static_cast<float>(i) / 1020.0f;
+      ASSERT_EQ(search.nearest(c, c, c), nearest_reference(palette, c, c, c)) << palette.bits << " " << c;
+      ASSERT_EQ(search.nearest(c, 1 - c, 0.5f), nearest_reference(palette, c, 1 - c, 0.5f)) << palette.bits << " " << c;
+    }
+  }
+}
+
+TEST(PaletteSearch, OddComponentsAreClampedAndNanIsZero) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const Palette palette = default_palette_of(4);
+  const PaletteSearch search(palette);
+  EXPECT_EQ(search.nearest(nan, nan, nan), 0u);
+  EXPECT_EQ(search.nearest(inf, inf, inf), 15u);
+  EXPECT_EQ(search.nearest(-inf, -3.0f, 1e30f), search.nearest(0, 0, 1));
+  EXPECT_EQ(search.nearest(nan, 1.0f, -0.0f), search.nearest(0, 1, 0));
+}
+
+TEST(PaletteSearch, TiesGoToTheLowestIndexAndUnsetEntriesTakePart) {
+  const PaletteSearch red({.bits = 2, .entries = {{255, 0, 0}, {255, 0, 0}}});
+  EXPECT_EQ(red.nearest(1, 0, 0), 0u);
+  EXPECT_EQ(red.nearest(0, 0, 0), 2u);  // the first unset entry is black
+  const PaletteSearch full({.bits = 1, .entries = {{255, 0, 0}, {0, 255, 0}}});
+  EXPECT_EQ(full.nearest(0, 0, 0), 0u);  // no entry is unset; a tie
+}
+
+TEST(PaletteSearch, EveryEntryFindsItsColour) {
+  for (const Palette& palette : palettes()) {
+    const PaletteSearch search(palette);
+    for (std::uint32_t i = 0; i < palette.entries.size(); ++i) {
+      const Rgb8 c = palette[i];
+      const std::uint32_t found =
+          search.nearest(static_cast<float>(c.r) / 255.0f, static_cast<float>(c.g) / 255.0f, static_cast<float>(c.b) / 255.0f);
+      ASSERT_EQ(palette[found], c);
+      ASSERT_LE(found, i);
+    }
+  }
+}
+
+TEST(PaletteSearch, ServesSixtyFiveThousandEntries) {
+  const Palette palette = random_palette(16, 65536, 6);
+  const PaletteSearch search(palette);
+  std::mt19937 random(8);
+  for (int i = 0; i < 300; ++i) {
+    const float r = component(random), g = component(random), b = component(random);
+    ASSERT_EQ(search.nearest(r, g, b), nearest_reference(palette, r, g, b)) << r << " " << g << " " << b;
+  }
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,119 @@
+#include "framebuffer/scan_out.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "framebuffer/scan_out_reference.h"
+#include "framebuffer/tile_grid.h"
+
+namespace tessera {
+namespace {
+
+struct TileMemory {
+  alignas(kTileAlignment) std::uint32_t words[kMaxTileSize * kMaxTileSize];
+};
+
+constexpr std::uint8_t kUntouched = 0xa5;
+
+/// Layouts of every number of bits, RGB and index; the index ones with a palette that is full, or given in part.
+struct Source {
+  ColorLayout layout;
+  Palette palette;
+};
+std::vector<Source> sources() {
+  std::vector<Source> all;
+  for (int bits = 1; bits <= 24; ++bits) {
+    all.push_back({rgb_layout(bits), {}});
+    all.push_back({index_layout(bits), default_palette_of(bits)});
+    all.push_back({index_layout(bits), {.bits = bits, .entries = {{1, 2, 3}}}});
+    all.push_back({index_layout(bits), {.bits = bits, .entries = {}}});
+  }
+  return all;
+}
+
+std::uint32_t pixel_at(const std::uint8_t* bytes) {
+  std::uint32_t pixel;
+  std::memcpy(&pixel, bytes, sizeof pixel);
+  return pixel;
+}
+
+TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
+  for (Isa isa : available_isas())
+    for (ByteOrder order : {ByteOrder::rgba8, ByteOrder::bgra8})
+      for (const Source& source : sources()) {
+        const ScanOut scan_out(source.layout, &source.palette, order, isa);
+        // All words of up to 12 bits; beyond that every level of each component, and random words.
+        std::vector<std::uint32_t> words;
+        if (source.layout.bits <= 12) {
+          for (std::uint32_t w = 0; w <= source.layout.word_mask(); ++w) words.push_back(w);
+        } else {
+          for (std::uint32_t v = 0; v < 256; ++v)
+            words.insert(words.end(), {v, v << source.layout.g_shift(), v << source.layout.r_shift(), ~v});
+        }
+        std::mt19937 random(3);
+        for (int i = 0; i < 501; ++i) words.push_back(static_cast<std::uint32_t>(random()));  // bits beyond the layout too
+        std::vector<std::uint8_t> row(words.size() * 4 + 64, kUntouched);
+        scan_out.row(words.data(), static_cast<int>(words.size()), row.data());
+        for (std::size_t i = 0; i < words.size(); ++i)
+          ASSERT_EQ(pixel_at(&row[4 * i]), shown_pixel_reference(source.layout, &source.palette, order, words[i]))
+              << static_cast<int>(isa) << " bits " << source.layout.bits << " index " << source.layout.index << " word " << words[i];
+        for (std::size_t i = words.size() * 4; i < row.size(); ++i) ASSERT_EQ(row[i], kUntouched);
+      }
+}
+
+TEST(ScanOut, BytesStandInTheOrderAskedFor) {
+  const std::uint32_t word = 0x102030;
+  std::uint8_t pixel[4];
+  ScanOut(rgb_layout(24), nullptr, ByteOrder::rgba8, Isa::scalar).row(&word, 1, pixel);
+  EXPECT_TRUE(pixel[0] == 0x10 && pixel[1] == 0x20 && pixel[2] == 0x30 && pixel[3] == 255);
+  ScanOut(rgb_layout(24), nullptr, ByteOrder::bgra8, Isa::scalar).row(&word, 1, pixel);
+  EXPECT_TRUE(pixel[0] == 0x30 && pixel[1] == 0x20 && pixel[2] == 0x10 && pixel[3] == 255);
+}
+
+TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
+  std::mt19937 random(4);
+  TileMemory tile;
+  for (std::uint32_t& word : tile.words) word = static_cast<std::uint32_t>(random());
+  const Source some[] = {{rgb_layout(24), {}}, {rgb_layout(16), {}}, {rgb_layout(2), {}}, {index_layout(8), default_palette_of(8)}};
+  for (Isa isa : available_isas())
+    for (const Source& source : some)
+      for (int tile_size : {32, 64, 128})
+        for (int width : {0, 1, 3, 4, 7, 8, 15, 16, 17, 29, 32, 63, 64, 100, 128})
+          for (bool upwards : {false, true}) {
+            if (width > tile_size) continue;
+            const int height = upwards ? tile_size : tile_size - 5;
+            const std::size_t misplaced = static_cast<std::size_t>(width % 4);  // any alignment
+            const std::ptrdiff_t stride = 4 * width + 12;
+            std::vector<std::uint8_t> image(static_cast<std::size_t>(stride * height) + misplaced, kUntouched);
+            const ByteOrder order = upwards ? ByteOrder::bgra8 : ByteOrder::rgba8;
+            const ScanOut scan_out(source.layout, &source.palette, order, isa);
+            std::uint8_t* first = image.data() + misplaced + (upwards ? (height - 1) * stride : 0);
+            scan_out.tile(tile.words, tile_size, width, height, first, upwards ? -stride : stride);
+            for (int y = 0; y < height; ++y) {
+              const std::uint8_t* row = first + (upwards ? -y : y) * stride;
+              for (int x = 0; x < width; ++x)
+                ASSERT_EQ(pixel_at(row + 4 * x),
+                          shown_pixel_reference(source.layout, &source.palette, order, tile.words[tile_index(x, y, tile_size)]))
+                    << static_cast<int>(isa) << " " << tile_size << " " << x << "," << y;
+              for (int i = 4 * width; i < stride; ++i) ASSERT_EQ(row[i], kUntouched);
+            }
+          }
+}
+
+TEST(ScanOut, AMovedOneStillFindsItsPalette) {
+  const Palette palette = default_palette_of(4);
+  ScanOut first(index_layout(4), &palette, ByteOrder::rgba8, Isa::scalar);
+  const ScanOut second = std::move(first);
+  const std::uint32_t word = 6;
+  std::uint8_t pixel[4];
+  second.row(&word, 1, pixel);
+  EXPECT_TRUE(pixel[0] == 170 && pixel[1] == 85 && pixel[2] == 0 && pixel[3] == 255);
+}
+
+}  // namespace
+}  // namespace tessera

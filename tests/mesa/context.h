@@ -1,0 +1,72 @@
+// An OpenGL context without a window, and a frame buffer object to draw into.
+#pragma once
+
+#define GL_GLEXT_PROTOTYPES 0
+#include <GL/osmesa.h>
+#include <GL/glext.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/reference/scene.h"
+
+namespace tessera::mesa {
+
+/// Functions that came after OpenGL 1.1, loaded from the current context.
+struct Functions {
+  PFNGLPROVOKINGVERTEXPROC provoking_vertex;
+  PFNGLCLIPCONTROLPROC clip_control;
+
+  PFNGLGENFRAMEBUFFERSPROC gen_framebuffers;
+  PFNGLBINDFRAMEBUFFERPROC bind_framebuffer;
+  PFNGLCHECKFRAMEBUFFERSTATUSPROC check_framebuffer_status;
+  PFNGLGENRENDERBUFFERSPROC gen_renderbuffers;
+  PFNGLBINDRENDERBUFFERPROC bind_renderbuffer;
+  PFNGLRENDERBUFFERSTORAGEPROC renderbuffer_storage;
+  PFNGLFRAMEBUFFERRENDERBUFFERPROC framebuffer_renderbuffer;
+
+  PFNGLCREATESHADERPROC create_shader;
+  PFNGLSHADERSOURCEPROC shader_source;
+  PFNGLCOMPILESHADERPROC compile_shader;
+  PFNGLGETSHADERIVPROC get_shader_iv;
+  PFNGLGETSHADERINFOLOGPROC get_shader_info_log;
+  PFNGLCREATEPROGRAMPROC create_program;
+  PFNGLATTACHSHADERPROC attach_shader;
+  PFNGLLINKPROGRAMPROC link_program;
+  PFNGLGETPROGRAMIVPROC get_program_iv;
+  PFNGLGETPROGRAMINFOLOGPROC get_program_info_log;
+  PFNGLUSEPROGRAMPROC use_program;
+  PFNGLGETUNIFORMLOCATIONPROC get_uniform_location;
+  PFNGLUNIFORM1IPROC uniform_1i;
+  PFNGLUNIFORM4FVPROC uniform_4fv;
+};
+
+/// Current on the thread that made it, until it is destroyed. Everything in it dies with it.
+class Context {
+ public:
+  /// @throws std::runtime_error if OSMesa cannot make such a context or frame buffer.
+  explicit Context(const reference::FrameBufferFormat& format);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  const Functions& functions() const { return functions_; }
+
+  /// Red, green and blue of each pixel, rows from the bottom.
+  std::vector<float> read_colors() const;
+
+ private:
+  void load_functions();
+  void make_frame_buffer(reference::DepthFormat depth);
+
+  int width_, height_;
+  std::uint32_t window_pixel_ = 0;  // OSMesa wants a window; it is not drawn to
+  OSMesaContext context_ = nullptr;
+  Functions functions_{};
+};
+
+/// @throws std::runtime_error if OpenGL has recorded an error since the last call.
+void check_errors(const std::string& doing);
+
+}  // namespace tessera::mesa

@@ -1,0 +1,20 @@
+// Lighting by OpenGL's fixed functions.
+#pragma once
+
+#include <vector>
+
+#include "tests/reference/scene.h"
+#include "vertex_list.h"
+
+namespace tessera::mesa {
+
+/// Whether fixed functions compute what the specification asks of this draw.
+bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
+                         const std::vector<Vertex>& vertices);
+
+/// Sets lights, light model, materials and colour material. The model view matrix must hold the view alone: OpenGL takes
+/// positions and spot directions of lights through it.
+void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
+                                 bool has_vertex_colors);
+
+}  // namespace tessera::mesa

@@ -1,0 +1,26 @@
+// A second opinion on every picture: Mesa's llvmpipe, driven through OSMesa. It shares no code with the engine, and with
+// the reference renderer only the parsed scene.
+//
+// Flat and Gouraud draws go through OpenGL's fixed functions wherever those can do them; Phong shading and what fixed
+// functions cannot do (Phong highlights, more than 8 lights, ...) go through GLSL programs. The depth buffer has the
+// scene's own format; colours are kept in float and become levels or palette entries when the frame is finished, which
+// is the same as at each write because nothing here reads the colour buffer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/reference/scene.h"
+
+namespace tessera::mesa {
+
+/// Why Mesa cannot follow a scene; nothing if it can.
+std::optional<std::string> unsupported(const reference::Scene& scene);
+
+/// What the colour buffer shows at the end of the frame: 3 bytes a pixel, rows from the top.
+/// @throws std::runtime_error if the scene is unsupported or OpenGL reports an error.
+std::vector<std::uint8_t> render(const reference::Scene& scene);
+
+}  // namespace tessera::mesa

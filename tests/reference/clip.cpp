@@ -1,0 +1,60 @@
+// Based on: I. Sutherland, G. Hodgman, Reentrant Polygon Clipping, CACM 1974, in homogeneous coordinates.
+#include "clip.h"
+
+namespace tessera::reference {
+namespace {
+
+/// Inside is where x px + y py + z pz + w pw + offset >= 0.
+struct Plane {
+  Vec4 normal;
+  double offset = 0;
+
+  double distance(Vec4 p) const { return normal.x * p.x + normal.y * p.y + normal.z * p.z + normal.w * p.w + offset; }
+};
+
+std::vector<Plane> planes_of(const ClipVolume& volume) {
+  constexpr double kLeastW = 1e-30;  // w > 0
+  std::vector<Plane> planes{{{0, 0, 0, 1}, -kLeastW}};
+  const Plane w_minus_z{{0, 0, -1, 1}}, w_plus_z{{0, 0, 1, 1}}, z{{0, 0, 1, 0}};
+  planes.push_back(volume.reversed ? w_minus_z : w_plus_z);
+  if (!volume.infinite_far) planes.push_back(volume.reversed ? z : w_minus_z);
+  for (const double side : {-1.0, 1.0}) {
+    planes.push_back({{side, 0, 0, volume.guard_x}});
+    planes.push_back({{0, side, 0, volume.guard_y}});
+  }
+  return planes;
+}
+
+// Always from the inside to the outside: the two triangles that share an edge then get the very same point. Written so
+// that a component equal at both ends stays exactly what it is.
+ClipVertex crossing(const ClipVertex& inside, const ClipVertex& outside, double t) {
+  const auto mix = [t](double a, double b) { return a + t * (b - a); };
+  const Vec4 p = inside.position, q = outside.position;
+  const Vec3 s = inside.share, r = outside.share;
+  return {{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, {mix(s.x, r.x), mix(s.y, r.y), mix(s.z, r.z)}};
+}
+
+std::vector<ClipVertex> clip_polygon(const std::vector<ClipVertex>& polygon, const Plane& plane) {
+  std::vector<ClipVertex> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex& a = polygon[i];
+    const ClipVertex& b = polygon[(i + 1) % polygon.size()];
+    const double da = plane.distance(a.position), db = plane.distance(b.position);
+    if (da >= 0) kept.push_back(a);
+    if (da >= 0 && db < 0) kept.push_back(crossing(a, b, da / (da - db)));
+    if (da < 0 && db >= 0) kept.push_back(crossing(b, a, db / (db - da)));
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<ClipVertex> clip_triangle(const std::array<Vec4, 3>& positions, const ClipVolume& volume) {
+  std::vector<ClipVertex> polygon{{positions[0], {1, 0, 0}}, {positions[1], {0, 1, 0}}, {positions[2], {0, 0, 1}}};
+  for (const Plane& plane : planes_of(volume)) polygon = clip_polygon(polygon, plane);
+  for (const ClipVertex& vertex : polygon)
+    if (!(vertex.position.w > 0)) return {};
+  return polygon.size() < 3 ? std::vector<ClipVertex>{} : polygon;
+}
+
+}  // namespace tessera::reference

@@ -1,0 +1,198 @@
+// The list of commands of a frame.
+#include <limits>
+#include <numbers>
+
+#include "scene_parts.h"
+
+namespace tessera::reference {
+namespace {
+
+Mat4 translation(Vec3 t) { return {{{{1, 0, 0, t.x}, {0, 1, 0, t.y}, {0, 0, 1, t.z}, {0, 0, 0, 1}}}}; }
+Mat4 scaling(Vec3 s) { return {{{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}}; }
+
+// As glRotate.
+Mat4 rotation(double degrees, Vec3 axis) {
+  const Vec3 a = normalize(axis);
+  const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle), k = 1 - c;
+  return {{{{a.x * a.x * k + c, a.x * a.y * k - a.z * s, a.x * a.z * k + a.y * s, 0},
+            {a.y * a.x * k + a.z * s, a.y * a.y * k + c, a.y * a.z * k - a.x * s, 0},
+            {a.z * a.x * k - a.y * s, a.z * a.y * k + a.x * s, a.z * a.z * k + c, 0},
+            {0, 0, 0, 1}}}};
+}
+
+Mat4 parse_transform(const Value& v) {
+  Mat4 product;
+  for (std::size_t i = 0; i < array_size(v); ++i) {
+    ObjectReader step(v[i]);
+    if (v[i].json->size() != 1) fail(v[i].pointer, "one of translate, rotate, scale, matrix");
+    if (const Value t = step.find("translate")) product = multiply(product, translation(vec3(t)));
+    if (const Value s = step.find("scale")) product = multiply(product, scaling(vec3(s)));
+    if (const Value m = step.find("matrix")) product = multiply(product, mat4(m));
+    if (const Value r = step.find("rotate")) {
+      const auto [angle, x, y, z] = numbers<4>(r);
+      if (length({x, y, z}) == 0) fail(r.pointer, "an axis that is not null");
+      product = multiply(product, rotation(angle, {x, y, z}));
+    }
+    step.finish();
+  }
+  return product;
+}
+
+Clear parse_clear(const Value& v, const Scene& scene) {
+  ObjectReader reader(v);
+  Clear clear;
+  if (const Value color = reader.find("color")) {
+    for (std::size_t i = 0; i < array_size(color); ++i) number(color[i], 0, 1);
+    clear.color = vec4(color);
+  }
+  if (const Value index = reader.find("index")) {
+    if (scene.framebuffer.color_mode != ColorMode::kIndex) fail(index.pointer, "an index buffer to clear to an index");
+    const auto mask = (std::uint32_t{1} << scene.framebuffer.color_bits) - 1;
+    clear.index = static_cast<std::uint32_t>(integer(index, 0, std::numeric_limits<std::uint32_t>::max())) & mask;
+  }
+  if (const Value depth = reader.find("depth")) {
+    if (scene.framebuffer.depth == DepthFormat::kNone) fail(depth.pointer, "a depth buffer to clear");
+    clear.depth = number(depth, 0, 1);
+  }
+  if (const Value stencil = reader.find("stencil")) {
+    if (scene.framebuffer.stencil_bits == 0) fail(stencil.pointer, "a stencil buffer to clear");
+    clear.stencil = static_cast<std::uint32_t>(integer(stencil, 0, 255));
+  }
+  if (const Value scissor = reader.find("scissor")) clear.scissor = rect(scissor);
+  reader.finish();
+  return clear;
+}
+
+std::optional<DepthState> parse_depth(const Value& v, const Scene& scene) {
+  if (v.json->is_boolean() && !v.json->get<bool>()) return std::nullopt;
+  if (scene.framebuffer.depth == DepthFormat::kNone) fail(v.pointer, "a depth buffer to test");
+  ObjectReader reader(v);
+  DepthState depth;
+  if (const Value test = reader.find("test"))
+    depth.test = choice<Compare>(test, {{"never", Compare::kNever},
+                                        {"less", Compare::kLess},
+                                        {"equal", Compare::kEqual},
+                                        {"lequal", Compare::kLequal},
+                                        {"greater", Compare::kGreater},
+                                        {"notequal", Compare::kNotequal},
+                                        {"gequal", Compare::kGequal},
+                                        {"always", Compare::kAlways}});
+  if (const Value write = reader.find("write")) depth.write = boolean(write);
+  reader.finish();
+  return depth;
+}
+
+Material find_material(const Value& v, const Scene& scene) {
+  const auto found = scene.materials.find(text(v));
+  if (found == scene.materials.end()) fail(v.pointer, "the name of a material");
+  return found->second;
+}
+
+void parse_masks(ObjectReader& reader, const Scene& scene, Draw& draw) {
+  if (const Value mask = reader.find("color_mask")) {
+    if (array_size(mask) != 4) fail(mask.pointer, "four of true and false");
+    for (std::size_t i = 0; i < 4; ++i) draw.color_mask[i] = boolean(mask[i]);
+    const auto [r, g, b, a] = draw.color_mask;
+    const bool one_value = scene.framebuffer.color_mode == ColorMode::kIndex || scene.framebuffer.color_bits < 3;
+    if (one_value && (r != g || g != b)) fail(mask.pointer, "all or none for a luminance or index buffer");
+  }
+  if (const Value planes = reader.find("plane_mask"))
+    draw.plane_mask = static_cast<std::uint32_t>(integer(planes, 0, std::numeric_limits<std::uint32_t>::max()));
+}
+
+// Keys of the format whose features the reference renderers do not have.
+void refuse_other_features(ObjectReader& reader) {
+  reader.only_default("polygon_mode", "fill");
+  reader.only_default("point_size", 1);
+  reader.only_default("line_width", 1);
+  reader.only_default("polygon_offset", Json::array({0, 0}));
+  reader.only_default("texture_env", "modulate");
+  reader.only_default("texture_env_color", Json::array({0, 0, 0, 0}));
+  reader.only_default("logic_op", "copy");
+  reader.only_default("stages", Json::array());
+}
+
+Draw parse_draw(const Value& v, const Scene& scene) {
+  ObjectReader reader(v);
+  Draw draw;
+  const Value mesh = reader.require("draw");
+  while (draw.mesh < scene.meshes.size() && scene.meshes[draw.mesh].name != text(mesh)) ++draw.mesh;
+  if (draw.mesh == scene.meshes.size()) fail(mesh.pointer, "the name of a mesh");
+
+  if (const Value name = reader.find("material")) draw.material = find_material(name, scene);
+  const Value back = reader.find("back_material");
+  draw.back_material = back ? find_material(back, scene) : draw.material;
+  if (const Value transform = reader.find("transform")) draw.world_from_object = parse_transform(transform);
+  if (const Value shading = reader.find("shading"))
+    draw.shading =
+        choice<Shading>(shading, {{"flat", Shading::kFlat}, {"gouraud", Shading::kGouraud}, {"phong", Shading::kPhong}});
+  if (const Value lighting = reader.find("lighting")) draw.lighting = boolean(lighting);
+  if (const Value mode = reader.find("color_material"))
+    draw.color_material = choice<ColorMaterial>(mode, {{"none", ColorMaterial::kNone},
+                                                       {"ambient_and_diffuse", ColorMaterial::kAmbientAndDiffuse},
+                                                       {"diffuse", ColorMaterial::kDiffuse},
+                                                       {"ambient", ColorMaterial::kAmbient},
+                                                       {"emission", ColorMaterial::kEmission},
+                                                       {"specular", ColorMaterial::kSpecular}});
+  if (const Value vertex = reader.find("provoking_vertex"))
+    draw.provoking_vertex =
+        choice<ProvokingVertex>(vertex, {{"last", ProvokingVertex::kLast}, {"first", ProvokingVertex::kFirst}});
+  if (const Value normalize = reader.find("normalize")) draw.normalize = boolean(normalize);
+  if (const Value cull = reader.find("cull"))
+    draw.cull = choice<Cull>(cull, {{"none", Cull::kNone}, {"back", Cull::kBack}, {"front", Cull::kFront}});
+  if (const Value front = reader.find("front_face"))
+    draw.front_face = choice<FrontFace>(front, {{"ccw", FrontFace::kCcw}, {"cw", FrontFace::kCw}});
+
+  if (scene.framebuffer.depth == DepthFormat::kNone) draw.depth = std::nullopt;
+  if (const Value depth = reader.find("depth")) draw.depth = parse_depth(depth, scene);
+  if (const Value range = reader.find("depth_range")) {
+    draw.depth_range = numbers<2>(range);
+    for (std::size_t i = 0; i < 2; ++i) number(range[i], 0, 1);
+  }
+  parse_masks(reader, scene, draw);
+  if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
+  if (const Value scissor = reader.find("scissor")) draw.scissor = rect(scissor);
+  refuse_other_features(reader);
+  reader.finish();
+  return draw;
+}
+
+Command parse_command(const Value& v, const Scene& scene) {
+  const double aspect = static_cast<double>(scene.framebuffer.width_px) / scene.framebuffer.height_px;
+  if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene);
+  ObjectReader reader(v);
+  if (v.json->size() != 1) fail(v.pointer, "one command");
+  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights");
+  reader.finish();
+  if (clear) return parse_clear(clear, scene);
+  if (camera) return CameraChange{parse_camera(camera, aspect)};
+  return LightsChange{parse_lights(lights)};
+}
+
+}  // namespace
+
+std::vector<Command> parse_frame(const Value& v, const Scene& scene) {
+  std::vector<Command> frame;
+  for (std::size_t i = 0; i < array_size(v); ++i) frame.push_back(parse_command(v[i], scene));
+  return frame;
+}
+
+std::vector<Command> default_frame(const Scene& scene) {
+  Clear clear;
+  clear.color = Vec4{0, 0, 0, 1};
+  const bool has_depth = scene.framebuffer.depth != DepthFormat::kNone;
+  if (has_depth) clear.depth = scene.camera.reversed ? 0 : 1;
+  if (scene.framebuffer.stencil_bits > 0) clear.stencil = 0;
+
+  std::vector<Command> frame{clear};
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    Draw draw;
+    draw.mesh = i;
+    if (!has_depth) draw.depth = std::nullopt;
+    else if (scene.camera.reversed) draw.depth->test = Compare::kGreater;
+    frame.push_back(draw);
+  }
+  return frame;
+}
+
+}  // namespace tessera::reference

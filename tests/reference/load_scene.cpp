@@ -1,0 +1,174 @@
+// The top level of a scene file: frame buffer, light model, lights, materials; the other parts have files of their own.
+#include <fstream>
+#include <sstream>
+
+#include "material_presets.h"
+#include "palette.h"
+#include "scene_parts.h"
+
+namespace tessera::reference {
+namespace {
+
+// {"keys": [[t, value], ...]} stands for any number; a still has t = 0.
+void resolve_keys(Json& json) {
+  if (json.is_object() && json.size() == 1 && json.contains("keys") && json["keys"].is_array() && !json["keys"].empty()) {
+    const Json keys = json["keys"];
+    std::size_t after = 0;
+    while (after < keys.size() && keys[after].at(0).get<double>() < 0) ++after;
+    if (after == 0 || after == keys.size()) {
+      json = keys[after == 0 ? 0 : after - 1].at(1);
+    } else {
+      const double t0 = keys[after - 1].at(0), t1 = keys[after].at(0), v0 = keys[after - 1].at(1), v1 = keys[after].at(1);
+      json = v0 + (v1 - v0) * (0 - t0) / (t1 - t0);
+    }
+    return;
+  }
+  if (json.is_structured())
+    for (Json& member : json) resolve_keys(member);
+}
+
+std::vector<Rgb8> parse_palette(const Value& v, int bits) {
+  if (v.json->is_string()) return named_palette(text(v), bits);
+  std::vector<Rgb8> palette;
+  if (array_size(v) == 0 || array_size(v) > (std::size_t{1} << bits)) fail(v.pointer, "1 to 2^bits entries");
+  for (std::size_t i = 0; i < array_size(v); ++i) {
+    Rgb8 entry;
+    if (array_size(v[i]) != 3) fail(v[i].pointer, "r, g, b");
+    for (std::size_t c = 0; c < 3; ++c) entry[c] = static_cast<std::uint8_t>(std::floor(255 * number(v[i][c], 0, 1) + 0.5));
+    palette.push_back(entry);
+  }
+  return palette;
+}
+
+void parse_color(const Value& v, FrameBufferFormat& format) {
+  ObjectReader reader(v);
+  if (const Value mode = reader.find("mode"))
+    format.color_mode = choice<ColorMode>(mode, {{"rgb", ColorMode::kRgb}, {"index", ColorMode::kIndex}});
+  if (const Value bits = reader.find("bits")) format.color_bits = static_cast<int>(integer(bits, 1, 24));
+  reader.finish();
+}
+
+FrameBufferFormat parse_framebuffer(const Value& v) {
+  ObjectReader reader(v);
+  FrameBufferFormat format;
+  if (const Value width = reader.find("width")) format.width_px = static_cast<int>(integer(width, 1, 16384));
+  if (const Value height = reader.find("height")) format.height_px = static_cast<int>(integer(height, 1, 16384));
+  if (const Value color = reader.find("color")) parse_color(color, format);
+  const Value palette = reader.find("palette");
+  if (format.color_mode == ColorMode::kIndex)
+    format.palette = palette ? parse_palette(palette, format.color_bits) : default_palette(format.color_bits);
+  else if (palette) fail(palette.pointer, "an index buffer to go with a palette");
+  if (const Value depth = reader.find("depth"))
+    format.depth = choice<DepthFormat>(depth, {{"none", DepthFormat::kNone},
+                                               {"unorm16", DepthFormat::kUnorm16},
+                                               {"unorm24", DepthFormat::kUnorm24},
+                                               {"unorm32", DepthFormat::kUnorm32},
+                                               {"float32", DepthFormat::kFloat32}});
+  if (const Value stencil = reader.find("stencil")) format.stencil_bits = static_cast<int>(integer(stencil, 0, 8));
+  reader.only_default("dither", "none");
+  reader.only_default("alpha", 0);
+  reader.only_default("accumulation", 0);
+  reader.only_default("samples", 1);
+  reader.finish();
+  return format;
+}
+
+LightModel parse_light_model(const Value& v) {
+  ObjectReader reader(v);
+  LightModel model;
+  if (const Value ambient = reader.find("ambient")) model.ambient = vec4(ambient);
+  if (const Value local = reader.find("local_viewer")) model.local_viewer = boolean(local);
+  if (const Value two_sided = reader.find("two_sided")) model.two_sided = boolean(two_sided);
+  if (const Value specular = reader.find("specular"))
+    model.specular = choice<SpecularModel>(specular, {{"blinn", SpecularModel::kBlinn}, {"phong", SpecularModel::kPhong}});
+  reader.finish();
+  return model;
+}
+
+Light parse_light(const Value& v) {
+  ObjectReader reader(v);
+  Light light;
+  if (const Value ambient = reader.find("ambient")) light.ambient = vec4(ambient);
+  if (const Value diffuse = reader.find("diffuse")) light.diffuse = vec4(diffuse);
+  if (const Value specular = reader.find("specular")) light.specular = vec4(specular);
+  if (const Value position = reader.find("position")) light.position = vec4(position);
+  if (const Value direction = reader.find("spot_direction")) light.spot_direction = vec3(direction);
+  if (const Value exponent = reader.find("spot_exponent")) light.spot_exponent = number(exponent, 0, 16384);
+  if (const Value cutoff = reader.find("spot_cutoff")) {
+    light.spot_cutoff = number(cutoff);
+    if (light.spot_cutoff != 180) number(cutoff, 0, 90);
+  }
+  if (const Value attenuation = reader.find("attenuation")) light.attenuation = numbers<3>(attenuation);
+  reader.finish();
+  return light;
+}
+
+Material parse_material(const Value& v) {
+  ObjectReader reader(v);
+  Material material;
+  if (const Value preset = reader.find("preset")) material = material_preset(text(preset));
+  if (const Value ambient = reader.find("ambient")) material.ambient = vec4(ambient);
+  if (const Value diffuse = reader.find("diffuse")) material.diffuse = vec4(diffuse);
+  if (const Value specular = reader.find("specular")) material.specular = vec4(specular);
+  if (const Value emission = reader.find("emission")) material.emission = vec4(emission);
+  if (const Value shininess = reader.find("shininess")) material.shininess = number(shininess, 0, 16384);
+  reader.finish();
+  return material;
+}
+
+/// Calls take(name, value) for every member.
+template <class Take>
+void for_each_member(const Value& v, const Take& take) {
+  ObjectReader reader(v);
+  for (const auto& member : v.json->items()) take(member.key(), reader.find(member.key()));
+}
+
+}  // namespace
+
+std::vector<Light> parse_lights(const Value& v) {
+  std::vector<Light> lights;
+  for (std::size_t i = 0; i < array_size(v); ++i) lights.push_back(parse_light(v[i]));
+  return lights;
+}
+
+Scene parse_scene(const std::string& json_text, const std::string& directory) {
+  Json json = Json::parse(json_text, nullptr, /*allow_exceptions=*/true, /*ignore_comments=*/true);
+  resolve_keys(json);
+  ObjectReader reader({&json, ""});
+  if (integer(reader.require("tessera"), 1, 1) != 1) fail("/tessera", "1");
+
+  Scene scene;
+  if (const Value title = reader.find("title")) scene.title = text(title);
+  if (const Value framebuffer = reader.find("framebuffer")) scene.framebuffer = parse_framebuffer(framebuffer);
+  const double aspect = static_cast<double>(scene.framebuffer.width_px) / scene.framebuffer.height_px;
+  const Value camera = reader.find("camera");
+  scene.camera = camera ? parse_camera(camera, aspect) : default_camera(aspect);
+  if (const Value model = reader.find("light_model")) scene.light_model = parse_light_model(model);
+  const Value lights = reader.find("lights");
+  scene.lights = lights ? parse_lights(lights) : std::vector<Light>(1);
+  if (const Value materials = reader.find("materials"))
+    for_each_member(materials, [&](const std::string& name, const Value& v) { scene.materials[name] = parse_material(v); });
+  if (const Value meshes = reader.find("meshes"))
+    for_each_member(meshes,
+                    [&](const std::string& name, const Value& v) { scene.meshes.push_back(parse_mesh(v, name, directory)); });
+  reader.only_default("textures", Json::object());
+  const Value frame = reader.find("frame");
+  reader.finish();
+  scene.frame = frame ? parse_frame(frame, scene) : default_frame(scene);
+  return scene;
+}
+
+Scene load_scene(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  std::stringstream content;
+  content << file.rdbuf();
+  const auto slash = path.find_last_of('/');
+  try {
+    return parse_scene(content.str(), slash == std::string::npos ? "" : path.substr(0, slash));
+  } catch (const std::exception& e) {
+    throw std::runtime_error(path + ": " + e.what());
+  }
+}
+
+}  // namespace tessera::reference
