@@ -1,7 +1,7 @@
 # Everything above the core: scene files, models, image files, the program.
 #   tessera_scene    static library: scene, import, built-in meshes, image writing; link tessera (or its objects) beside it
 #   tessera_imageio  module that OpenImageIO hides in, loaded at run time
-#   tessera_program  the program bin/tessera
+#   tessera_cli      the program bin/tessera
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(tinyobjloader CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
@@ -28,9 +28,9 @@ target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO)
 set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
 
 # The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
-add_executable(tessera_program engine/cli/main.cpp engine/cli/render_command.cpp engine/cli/stats_text.cpp engine/parallel.cpp)
-target_compile_definitions(tessera_program PRIVATE TESSERA_VERSION="${PROJECT_VERSION}")
-target_link_libraries(tessera_program PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 TBB::tbb)
-target_compile_options(tessera_program PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
-set_target_properties(tessera_program PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
-add_dependencies(tessera_program tessera_imageio)
+add_executable(tessera_cli engine/cli/main.cpp engine/cli/render_command.cpp engine/cli/stats_text.cpp engine/parallel.cpp)
+target_compile_definitions(tessera_cli PRIVATE TESSERA_VERSION="${PROJECT_VERSION}")
+target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 TBB::tbb)
+target_compile_options(tessera_cli PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
+add_dependencies(tessera_cli tessera_imageio)

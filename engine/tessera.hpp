@@ -78,7 +78,7 @@ struct FrameBufferFormat {
   int width = 640, height = 480;            ///< 1 .. kMaxFrameBufferSize
   ColorMode color_mode = ColorMode::rgb;
   int color_bits = 24;                      ///< colour planes, 1 .. 24: RGB split, or bits of a palette index
-  std::vector<Color> palette;               ///< index mode: at most 2^color_bits entries, 0..1 each; empty: default_palette(color_bits)
+  std::vector<Color> palette{};             ///< index mode: at most 2^color_bits entries, 0..1 each; empty: default_palette(color_bits)
   DepthFormat depth = DepthFormat::unorm24;
   int stencil_bits = 8;                     ///< 0 .. 8
 };
@@ -145,11 +145,11 @@ class TESSERA_API FrameBuffer {
 
 /// Triangles, borrowed from the caller until the frame is finished. Spans other than positions may be empty.
 struct Mesh {
-  std::span<const float> positions;         ///< x y z, or x y z w with position_components 4
+  std::span<const float> positions{};       ///< x y z, or x y z w with position_components 4
   int position_components = 3;
-  std::span<const float> normals;           ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
-  std::span<const float> colors;            ///< r g b a for each vertex
-  std::span<const std::uint32_t> indices;   ///< three a triangle; empty: vertices in order
+  std::span<const float> normals{};         ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
+  std::span<const float> colors{};          ///< r g b a for each vertex
+  std::span<const std::uint32_t> indices{}; ///< three a triangle; empty: vertices in order
 };
 
 struct Material {
@@ -179,7 +179,7 @@ struct LightModel {
 
 /// With `reversed`, the projection maps z to 0..w, near at 1, far at 0, and depth is z/w; otherwise z runs -w..w.
 struct Camera {
-  Matrix view, projection;
+  Matrix view{}, projection{};
   bool reversed = false;
 };
 /// Far may be infinity. Each throws Error for an empty or non-finite volume.
@@ -201,9 +201,9 @@ struct DepthState {
 };
 
 struct DrawState {
-  Material material;
-  std::optional<Material> back_material;    ///< two-sided lighting; absent: as the front
-  Matrix transform;                         ///< object to world
+  Material material{};
+  std::optional<Material> back_material{};  ///< two-sided lighting; absent: as the front
+  Matrix transform{};                       ///< object to world
   Shading shading = Shading::gouraud;
   bool lighting = true;                     ///< false: vertex colours, or the material's diffuse colour
   ColorMaterial color_material = ColorMaterial::none;
@@ -211,21 +211,21 @@ struct DrawState {
   bool normalize = true;
   Cull cull = Cull::none;
   FrontFace front_face = FrontFace::ccw;
-  DepthState depth;
+  DepthState depth{};
   double depth_near = 0, depth_far = 1;     ///< depth range, each 0 .. 1
   std::array<bool, 4> color_mask{true, true, true, true};
   std::uint32_t plane_mask = 0xffffffffu;   ///< bit k: colour plane k may change
-  std::optional<Rect> viewport;             ///< absent: the whole buffer
-  std::optional<Rect> scissor;
+  std::optional<Rect> viewport{};           ///< absent: the whole buffer
+  std::optional<Rect> scissor{};
 };
 
 /// Only the buffers named are cleared, through full masks.
 struct Clear {
-  std::optional<Color> color;               ///< RGB buffers (0..1)
-  std::optional<std::uint32_t> index;       ///< index buffers; `color` there clears to the nearest palette entry
-  std::optional<double> depth;              ///< 0 .. 1
-  std::optional<std::uint32_t> stencil;
-  std::optional<Rect> scissor;
+  std::optional<Color> color{};             ///< RGB buffers (0..1)
+  std::optional<std::uint32_t> index{};     ///< index buffers; `color` there clears to the nearest palette entry
+  std::optional<double> depth{};            ///< 0 .. 1
+  std::optional<std::uint32_t> stencil{};
+  std::optional<Rect> scissor{};
 };
 
 // ---- frames -------------------------------------------------------------------------------------------------------

@@ -16,12 +16,12 @@ struct DistinctColor {
   std::uint32_t index = 0;  ///< the lowest one with this colour
 };
 
-/// Each colour of the palette once, by index. Unset entries are black, and the first of them stands for all.
+/// Each colour that was given once, by index. A palette without any is black.
 std::vector<DistinctColor> distinct_colors(const Palette& palette) {
   std::vector<DistinctColor> colors;
   colors.reserve(palette.entries.size() + 1);
   for (std::size_t i = 0; i < palette.entries.size(); ++i) colors.push_back({palette.entries[i], static_cast<std::uint32_t>(i)});
-  if (palette.entries.size() < palette.size()) colors.push_back({{}, static_cast<std::uint32_t>(palette.entries.size())});
+  if (colors.empty()) colors.push_back({});
   const auto key = [](const DistinctColor& c) {
     return (std::uint64_t{c.color.r} << 16 | std::uint64_t{c.color.g} << 8 | c.color.b) << 32 | c.index;
   };

@@ -16,8 +16,8 @@ class PaletteSearch {
   /// Builds the cells. Throws std::bad_alloc only. The palette need not outlive the call. 256 entries: about 1 ms.
   explicit PaletteSearch(const Palette& palette);
 
-  /// Index of the entry, set or unset, whose stored colour is nearest: the smallest squared distance of components 0..1 (stored
-  /// value / 255), ties to the lowest index. Components are clamped to 0..1, a NaN counts as 0. Equals
+  /// Index of the entry that was given (what is not set shows black, and nobody chose it) whose stored colour is nearest: the
+  /// smallest squared distance of components 0..1 (stored value / 255), ties to the lowest index. Components are clamped to 0..1, a NaN counts as 0. Equals
   /// nearest_reference() bit for bit. Never fails; thread-safe.
   std::uint32_t nearest(float r, float g, float b) const noexcept;
 

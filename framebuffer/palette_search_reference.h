@@ -1,4 +1,4 @@
-// The twin of PaletteSearch: looks at every entry.
+// The twin of PaletteSearch: looks at every entry that was given.
 #pragma once
 
 #include "framebuffer/palette.h"
@@ -11,7 +11,7 @@ inline std::uint32_t nearest_reference(const Palette& palette, float r, float g,
   const auto square = [](float d) { return d * d; };
   std::uint32_t nearest = 0;
   float nearest_distance = 4.0f;  // more than the cube's diagonal
-  for (std::uint32_t i = 0; i < palette.size(); ++i) {
+  for (std::uint32_t i = 0; i < palette.entries.size(); ++i) {
     const Rgb8 stored = palette[i];
     const float distance = square(clamp(r) - static_cast<float>(stored.r) / 255.0f) +
                            square(clamp(g) - static_cast<float>(stored.g) / 255.0f) +

@@ -28,6 +28,8 @@ Scene read_input(const RenderRequest& request) {
     return model_scene(import_model(request.input), request.input, request.overrides.width.value_or(standard.width),
                        request.overrides.height.value_or(standard.height));
   }
+  if (fs::path(request.input).extension() != ".json")
+    throw Error("cannot render \"" + request.input + "\": it ends neither in .json (a scene) nor in .obj (a model)");
   return load_scene(request.input);
 }
 

@@ -27,20 +27,21 @@ void write_plainly(const std::string& path, const std::string& shown_path, std::
 
 }  // namespace
 
-void replace_file_atomically(const std::string& path, const std::function<void(const std::string&)>& write) {
+void write_file_atomically(const std::string& path, std::string_view content) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) fail(path, std::strerror(EISDIR));
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write(path);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_plainly(path, path, content);
 
-  // A link stays one: what it points to is replaced.
   const fs::path target = fs::exists(status) ? fs::canonical(path, error) : fs::path(path);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error)) fail(path, "there is no folder \"" + folder.string() + "\"");
   if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
-  const fs::path temporary = folder / ("." + target.stem().string() + ".part-" + std::to_string(::getpid()) + target.extension().string());
+  std::string name = ".";
+  name += target.filename().string() + ".part-" + std::to_string(::getpid());
+  const std::string temporary = (folder / name).string();
   try {
-    write(temporary.string());
+    write_plainly(temporary, path, content);
     fs::rename(temporary, target);
   } catch (const fs::filesystem_error& failure) {
     fs::remove(temporary, error);
@@ -49,10 +50,6 @@ void replace_file_atomically(const std::string& path, const std::function<void(c
     fs::remove(temporary, error);
     throw;
   }
-}
-
-void write_file_atomically(const std::string& path, std::string_view content) {
-  replace_file_atomically(path, [&](const std::string& temporary) { write_plainly(temporary, path, content); });
 }
 
 }  // namespace tessera

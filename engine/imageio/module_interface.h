@@ -8,12 +8,16 @@
 extern "C" {
 #endif
 
-/* Writes RGBA pixels of 8 bits, rows from the top, as an image without alpha in the format of the path's ending.
-   Returns 0, or 1 and a reason in `message` (cut to message_size, always ended). */
-typedef int tessera_imageio_write_function(const char* path, const unsigned char* rgba, int width, int height, ptrdiff_t stride_bytes,
-                                           char* message, size_t message_size);
+/* Takes the bytes of the file; called once. */
+typedef void tessera_imageio_take_function(void* user, const unsigned char* bytes, size_t count);
 
-#define TESSERA_IMAGEIO_WRITE_NAME "tessera_imageio_write_1" /* the number changes with the signature */
+/* Encodes RGBA pixels of 8 bits, rows from the top, as an image without alpha in the format that `ending` (".png") stands for.
+   Returns 0, or 1 and a reason in `message` (cut to message_size, always ended). The file is the program's business: some of
+   OpenImageIO's writers do not notice a full disk. */
+typedef int tessera_imageio_encode_function(const char* ending, const unsigned char* rgba, int width, int height, ptrdiff_t stride_bytes,
+                                            tessera_imageio_take_function* take, void* user, char* message, size_t message_size);
+
+#define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_1" /* the number changes with the signature */
 #define TESSERA_IMAGEIO_FILE_NAME "libtessera_imageio.so.0"
 
 #ifdef __cplusplus

@@ -3,25 +3,15 @@
 
 #include <string>
 
-#include "engine/imageio/module_interface.h"
 #include "engine/imageio/picture.h"
 
 namespace tessera {
 
-class ImageModule {
- public:
-  explicit ImageModule(tessera_imageio_write_function* function) : write_(function) {}
-  /// @param shown_path  the path in messages
-  /// @throws Error
-  void write(const Picture& picture, const std::string& path, const std::string& shown_path) const;
-
- private:
-  tessera_imageio_write_function* write_;
-};
-
-/// Looks beside the running program, in ../lib from there, then where the system looks for libraries. Stays loaded.
-/// @param path  the file that needs it, for the message
-/// @throws Error, naming the module, if it is not there.
-const ImageModule& image_module(const std::string& path);
+/// The bytes of an image file. Looks for the module beside the running program, in ../lib from there, then where the system
+/// looks for libraries; once found it stays loaded.
+///
+/// @param ending  of the file, in lower case with its dot: the format
+/// @throws Error, naming the module, if it is not there, and for a format that OpenImageIO does not write.
+std::string encode_by_module(const Picture& picture, const std::string& ending);
 
 }  // namespace tessera

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
-#include <functional>
 
 #include "engine/imageio/atomic_file.h"
 #include "engine/imageio/module_loader.h"
@@ -46,15 +44,22 @@ Picture::Picture(int width_px, int height_px)
 ImageTarget Picture::target() { return {.pixels = rgba.data(), .width = width, .height = height, .stride_bytes = 4 * std::ptrdiff_t{width}}; }
 
 void write_picture(const Picture& picture, const std::string& path) {
-  const std::string ending = lower_case_ending(path);
-  if (ending.empty()) throw Error("cannot write \"" + path + "\": its name has no ending to tell the format by; .png and .ppm are the usual ones");
-  if (ending == ".pbm") throw Error("cannot write \"" + path + "\": a .pbm holds one plane; write a .ppm or .png, or the planes one by one");
-  if (ending == ".ppm" || ending == ".pgm" || ending == ".raw") {
-    write_file_atomically(path, ending == ".ppm" ? ppm(picture) : ending == ".pgm" ? pgm(picture) : raw(picture));
-    return;
+  const auto encoded = [&]() -> std::string {
+    const std::string ending = lower_case_ending(path);
+    if (ending.empty()) throw Error("its name has no ending to tell the format by; .png and .ppm are the usual ones");
+    if (ending == ".pbm") throw Error("a .pbm holds one plane; write a .ppm or .png, or the planes one by one");
+    if (ending == ".ppm") return ppm(picture);
+    if (ending == ".pgm") return pgm(picture);
+    if (ending == ".raw") return raw(picture);
+    return encode_by_module(picture, ending);
+  };
+  std::string file;
+  try {
+    file = encoded();
+  } catch (const Error& error) {
+    throw Error("cannot write \"" + path + "\": " + error.what());
   }
-  const ImageModule& module = image_module(path);
-  replace_file_atomically(path, [&](const std::string& temporary) { module.write(picture, temporary, path); });
+  write_file_atomically(path, file);
 }
 
 void write_plane(const PlaneView& plane, const std::string& path) {

@@ -69,10 +69,10 @@ Scene builtin_scene();
 
 /// What a caller wants otherwise than the scene has it.
 struct SceneOverrides {
-  std::optional<int> width, height;
-  std::optional<Shading> shading;        ///< of every draw
-  std::optional<int> color_bits;
-  std::optional<std::string> palette;    ///< by name; turns the colour buffer into an index buffer
+  std::optional<int> width = {}, height = {};
+  std::optional<Shading> shading = {};          ///< of every draw
+  std::optional<int> color_bits = {};
+  std::optional<std::string> palette = {};      ///< by name; turns the colour buffer into an index buffer
 };
 /// @throws Error for values out of range and for a palette that does not fit into the bits.
 void apply(const SceneOverrides& overrides, Scene& scene);

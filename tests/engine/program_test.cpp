@@ -97,6 +97,7 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
   } kFailing[] = {
       {"render nothing.json", "cannot read \"nothing.json\": No such file or directory"},
       {"render nothing.obj", "cannot read \"nothing.obj\""},
+      {"render model.glb", "neither in .json (a scene) nor in .obj (a model)"},
       {"render bad.json", "bad.json: /framebuffer/width: found 0"},
       {"render bad.obj", "bad.obj:2: index 2 out of bounds"},
       {"render fine.json -o no/folder.ppm", "there is no folder \"no\""},

@@ -83,10 +83,10 @@ TEST(PaletteSearch, OddComponentsAreClampedAndNanIsZero) {
   EXPECT_EQ(search.nearest(nan, 1.0f, -0.0f), search.nearest(0, 1, 0));
 }
 
-TEST(PaletteSearch, TiesGoToTheLowestIndexAndUnsetEntriesTakePart) {
+TEST(PaletteSearch, TiesGoToTheLowestIndexAndUnsetEntriesAreNeverChosen) {
   const PaletteSearch red({.bits = 2, .entries = {{255, 0, 0}, {255, 0, 0}}});
   EXPECT_EQ(red.nearest(1, 0, 0), 0u);
-  EXPECT_EQ(red.nearest(0, 0, 0), 2u);  // the first unset entry is black
+  EXPECT_EQ(red.nearest(0, 0, 0), 0u);  // what is not set is never chosen
   const PaletteSearch full({.bits = 1, .entries = {{255, 0, 0}, {0, 255, 0}}});
   EXPECT_EQ(full.nearest(0, 0, 0), 0u);  // no entry is unset; a tie
 }

@@ -1,0 +1,161 @@
+// The built-in teapot beside Mesa's llvmpipe, in one process and interleaved; and one thread beside two.
+//
+//   build/release/bin/teapot_bench
+//
+// Pictures are compared before anything is timed. Repetitions of all rows run in random order; what counts is the ratio of
+// medians, printed at the end with the quartiles. Both sides end with the picture in the caller's memory.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/parallel.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/scene.h"
+#include "perf/rivals/mesa_teapot.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kWidth = 1920, kHeight = 1080;
+constexpr const char* kShadingNames[] = {"flat", "gouraud", "phong"};
+
+Scene teapot_scene(int detail, Shading shading, int width, int height) {
+  Scene scene = builtin_scene();
+  scene.meshes.at(0) = builtin_mesh("teapot", detail);
+  apply({.width = width, .height = height, .shading = shading}, scene);
+  return scene;
+}
+
+/// Our side: everything from recording to the picture in memory.
+class Ours {
+ public:
+  Ours(int detail, Shading shading, int width, int height, int threads)
+      : scene_(teapot_scene(detail, shading, width, height)), buffer_(scene_.framebuffer), renderer_({.threads = threads}),
+        pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), target_{pixels_.data(), width, height, 4 * width, PixelOrder::rgba8} {}
+  void draw() {
+    Frame frame(buffer_);
+    record(scene_, frame);
+    renderer_.finish(frame, target_);
+  }
+  const std::vector<std::uint32_t>& pixels() const { return pixels_; }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  FrameBuffer buffer_;
+  Renderer renderer_;
+  std::vector<std::uint32_t> pixels_;
+  ImageTarget target_;
+};
+
+/// Share of pixels with a component more than 2 levels apart; Mesa's rows start at the bottom.
+double share_that_differs(const std::vector<std::uint32_t>& ours, const std::vector<std::uint32_t>& mesa, int width, int height) {
+  std::size_t differing = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t a = ours[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      const std::uint32_t b = mesa[static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      for (int shift = 0; shift < 24; shift += 8)
+        if (std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)) > 2) {
+          ++differing;
+          break;
+        }
+    }
+  }
+  return static_cast<double>(differing) / (static_cast<double>(width) * height);
+}
+
+/// Keeps the time of each repetition of each row, for medians and their spread.
+class RatioReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs)
+      if (run.run_type == Run::RT_Iteration) times_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
+  }
+  struct Quartiles {
+    double low, median, high;
+  };
+  Quartiles quartiles(const std::string& name) const {
+    std::vector<double> t = times_.at(name);
+    std::sort(t.begin(), t.end());
+    return {t[t.size() / 4], t[t.size() / 2], t[3 * t.size() / 4]};
+  }
+  bool has(const std::string& name) const { return times_.count(name) != 0; }
+
+ private:
+  std::map<std::string, std::vector<double>> times_;
+};
+
+void print_ratio(const RatioReporter& reporter, const std::string& label, const std::string& slow, const std::string& fast, double goal) {
+  if (!reporter.has(slow) || !reporter.has(fast)) return;
+  const auto s = reporter.quartiles(slow), f = reporter.quartiles(fast);
+  std::printf("%-34s %8.3f ms (%.3f .. %.3f)   %8.3f ms (%.3f .. %.3f)   ratio %.2f (goal %.1f)\n", label.c_str(), s.median, s.low, s.high, f.median, f.low, f.high,
+              s.median / f.median, goal);
+}
+
+template <class Side>
+void register_row(const std::string& name, std::shared_ptr<Side> side) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [side](benchmark::State& state) {
+                                 for (auto _ : state) side->draw();
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->Repetitions(31)
+      ->MinTime(0.05);
+}
+
+int run(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string interleave = "--benchmark_enable_random_interleaving=true";
+  arguments.insert(arguments.begin() + 1, interleave.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  const int threads = available_cores();
+  for (int s = 0; s < 3; ++s) {
+    const auto shading = static_cast<Shading>(s);
+    auto ours = std::make_shared<Ours>(12, shading, kWidth, kHeight, threads);
+    auto mesa = std::make_shared<rivals::MesaTeapot>(ours->scene(), shading, kWidth, kHeight, threads);
+    ours->draw();
+    mesa->draw();
+    const double differing = share_that_differs(ours->pixels(), mesa->pixels(), kWidth, kHeight);
+    std::printf("%s: %.4f %% of the pixels are more than 2 levels from Mesa's\n", kShadingNames[s], 100 * differing);
+    if (differing > 0.005) {
+      std::fprintf(stderr, "the pictures differ: nothing is timed\n");
+      return 1;
+    }
+    register_row(std::string("tessera_") + kShadingNames[s], ours);
+    register_row(std::string("mesa_") + kShadingNames[s], mesa);
+  }
+  for (const int n : {1, 2}) register_row("phong_detail_40_4k_threads_" + std::to_string(n), std::make_shared<Ours>(40, Shading::phong, 3840, 2160, n));
+
+  RatioReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", threads, std::string(name(available_instruction_sets().front())).c_str());
+  std::printf("%-34s %-32s %-32s\n", "", "Mesa", "Tessera");
+  constexpr double kGoals[] = {2.5, 3, 3};
+  for (int s = 0; s < 3; ++s)
+    print_ratio(reporter, std::string("teapot 1920x1080 ") + kShadingNames[s], std::string("mesa_") + kShadingNames[s], std::string("tessera_") + kShadingNames[s], kGoals[s]);
+  std::printf("%-34s %-32s %-32s\n", "", "1 thread", "2 threads");
+  print_ratio(reporter, "teapot x40 3840x2160 phong", "phong_detail_40_4k_threads_1", "phong_detail_40_4k_threads_2", 1.8);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tessera
+
+int main(int argc, char** argv) {
+  try {
+    return tessera::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "teapot_bench: %s\n", error.what());
+    return 1;
+  }
+}
