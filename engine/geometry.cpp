@@ -107,7 +107,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t vertices = vertex_count(*draw.mesh), triangles = triangle_count(*draw.mesh);
   buffers.vertices.resize(vertices);
   buffers.codes.resize(vertices);
-  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count));
+  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) + 2 * kAttributePadding);  // read in whole vectors
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);

@@ -1,5 +1,6 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
+#include <cstring>
 #include <deque>
 #include <new>
 #include <string>
@@ -194,17 +195,39 @@ void RendererState::render_tiles(const FrameCommands& commands, const TileFrame&
     else
       load_planes(words, place, stored.planes);
   };
+  // A tile that no triangle touches shows the last clear: no need to go through tile memory.
+  const bool whole_clears = image != nullptr && !commands.color.store && !commands.depth.store && !commands.color.load && !commands.clears.empty() &&
+                            std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) {
+                              return c.rect.x0 == 0 && c.rect.y0 == 0 && c.rect.x1 == grid.width_px && c.rect.y1 == grid.height_px;
+                            });
+  alignas(64) std::uint8_t cleared_row[4 * kMaxTileSize] = {};
+  if (whole_clears) {
+    std::uint32_t word = 0;
+    for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
+    const std::vector<std::uint32_t> words(kMaxTileSize, word);
+    scan_out->row(words.data(), kMaxTileSize, cleared_row);
+  }
+  const auto untouched = [&](int tile) {
+    for (std::uint32_t b = 0; b < frame.bin_count; ++b)
+      if (frame.bins[b].first(tile) != Bins::kNone) return false;
+    return true;
+  };
+
   const auto run_tile = [&](int tile, TileWorkspace& workspace, TileCounts& counts) {
     const int x0 = tile % grid.columns() * size, y0 = tile / grid.columns() * size;
+    const int width = std::min(size, grid.width_px - x0), height = std::min(size, grid.height_px - y0);
+    std::uint8_t* const shown = image ? static_cast<std::uint8_t*>(image->pixels) + y0 * image->stride_bytes + std::ptrdiff_t{4} * x0 : nullptr;
+    if (whole_clears && untouched(tile)) {
+      for (int y = 0; y < height; ++y) std::memcpy(shown + y * image->stride_bytes, cleared_row, std::size_t{4} * static_cast<std::size_t>(width));
+      return false;
+    }
     const TilePlace color_place{x0, y0, size, 0}, depth_place{x0, y0, size, depth_flip};
     auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
     load(commands.color, target.color, workspace.color(), color_place);
     load(commands.depth, target.depth, depth_words, depth_place);
     const TileCounts tile_counts = render(frame, tile, workspace);
     counts.shaded_pixels += tile_counts.shaded_pixels;
-    if (image)
-      scan_out->tile(workspace.color(), size, std::min(size, grid.width_px - x0), std::min(size, grid.height_px - y0),
-                     static_cast<std::uint8_t*>(image->pixels) + y0 * image->stride_bytes + std::ptrdiff_t{4} * x0, image->stride_bytes);
+    if (image) scan_out->tile(workspace.color(), size, width, height, shown, image->stride_bytes);
     if (commands.color.store) store_planes(workspace.color(), color_place, target.color.planes, ~0u);
     if (commands.depth.store) store_planes(depth_words, depth_place, target.depth.planes, ~0u);
     return tile_counts.touched;

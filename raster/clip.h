@@ -9,7 +9,9 @@
 namespace tessera {
 
 /// Floats of an attribute record are interpolated linearly in clip space, as the position is.
-inline constexpr int kMaxAttributes = 12;
+inline constexpr int kMaxAttributes = 9;
+/// Floats that may be read from the start of any record, so that whole vectors can be loaded.
+inline constexpr int kAttributePadding = 16;
 
 struct ClipVertex {
   ClipPosition position;

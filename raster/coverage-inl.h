@@ -1,6 +1,6 @@
-// Which pixels of a tile a triangle covers, 4x4 blocks at a time. Triangles of medium size walk the blocks of their bounds;
-// large ones first look at cells of 8x8 pixels, a row of cells at once, and pass over those outside and fill those inside
-// without looking at their pixels. Twin: coverage_reference.h.
+// Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane, all sample
+// points at once. All others go by 4x4 blocks: a row of blocks at once is sorted into those outside, which are passed over,
+// those inside, whose pixels need no look, and those in between. Twin: coverage_reference.h.
 #if defined(TESSERA_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_COVERAGE_INL_H_
 #undef TESSERA_RASTER_COVERAGE_INL_H_
@@ -9,6 +9,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 
 #include "raster/lanes-inl.h"
 #include "raster/triangle_setup.h"
@@ -16,9 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
-
-inline constexpr int kMediumExtent = 32;  ///< pixels; wider or higher bounds descend by cells
-inline constexpr int kCellSize = 8;
 
 /// Sets up the narrow edges of lane i for coverage.
 HWY_INLINE TileEdges tile_edges(const TriangleGroup& g, int i) {
@@ -57,56 +55,57 @@ inline HWY_NOINLINE bool tile_edges_of_wide(const TriangleGroup& g, int i, int t
 struct BlockOffsets {
   alignas(64) std::int32_t edge[3][16];
   HWY_INLINE explicit BlockOffsets(const TileEdges& t) {
-    for (int k = 0; k < 3; ++k)
-      for (int p = 0; p < 16; ++p) edge[k][p] = t.a[k] * (p & 3) + t.b[k] * (p >> 2);
+    for (int k = 0; k < 3; ++k) {
+      const Int a = splat(t.a[k]), b = splat(t.b[k]);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+        hn::Store(hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk))), kInt, edge[k] + chunk * kLanes);
+    }
   }
 };
 
-/// Bits of the covered lanes of one chunk of the block at (bx, by).
-HWY_INLINE auto covered(const TileEdges& t, const BlockOffsets& offsets, int bx, int by, int chunk) {
-  Int either = hn::Zero(kInt);
-  for (int k = 0; k < 3; ++k) {
-    const auto start = static_cast<std::int32_t>(static_cast<std::uint32_t>(t.e[k]) + static_cast<std::uint32_t>(t.a[k]) * static_cast<std::uint32_t>(bx) +
-                                                 static_cast<std::uint32_t>(t.b[k]) * static_cast<std::uint32_t>(by));
-    either = hn::Or(either, hn::Add(splat(start), hn::Load(kInt, offsets.edge[k] + chunk * kLanes)));
-  }
-  return hn::Gt(either, splat(-1));  // no sign bit: inside all three
-}
+/// The three edges at the pixels of one block, from those at its first pixel.
+struct BlockEdges {
+  Int start[3];
+  const BlockOffsets& offsets;
+  HWY_INLINE Int at(int k, int chunk) const { return hn::Add(start[k], hn::Load(kInt, offsets.edge[k] + chunk * kLanes)); }
+  /// Lanes inside all three: no sign bit.
+  HWY_INLINE auto covered(int chunk) const { return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1)); }
+};
 
-/// Calls block(bx, by, full) for the blocks that the triangle may cover in the bounds, row by row within each cell; `full` is
-/// a compile-time constant that says all 16 pixels are inside.
+alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+/// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover, row by row; `full` says
+/// that all 16 pixels are inside.
 template <class BlockFunction>
-HWY_INLINE void for_each_block(const TileEdges& t, int x0, int y0, int x1, int y1, BlockFunction& block) {
-  if (x1 - x0 < kMediumExtent && y1 - y0 < kMediumExtent) {
-    for (int by = y0 & ~3; by <= y1; by += 4)
-      for (int bx = x0 & ~3; bx <= x1; bx += 4) block.template operator()<false>(bx, by);
-    return;
-  }
-  // Largest and smallest value of each edge over the pixel centres of a cell, from the value at its first.
-  std::int32_t to_highest[3], to_lowest[3];
+HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
+  // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first.
+  Int to_highest[3], to_lowest[3], step[3];
   for (int k = 0; k < 3; ++k) {
-    to_highest[k] = (kCellSize - 1) * (std::max(t.a[k], 0) + std::max(t.b[k], 0));
-    to_lowest[k] = (kCellSize - 1) * (std::min(t.a[k], 0) + std::min(t.b[k], 0));
+    to_highest[k] = splat(3 * (std::max(t.a[k], 0) + std::max(t.b[k], 0)));
+    to_lowest[k] = splat(3 * (std::min(t.a[k], 0) + std::min(t.b[k], 0)));
+    step[k] = hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
   }
-  for (int cy = y0 & ~(kCellSize - 1); cy <= y1; cy += kCellSize) {
-    for (int cx = x0 & ~(kCellSize - 1); cx <= x1; cx += kCellSize) {
-      std::int32_t outside = 0, partly = 0;
+  const int first_x = x0 & ~3;
+  for (int by = y0 & ~3; by <= y1; by += 4) {
+    for (int bx = first_x; bx <= x1; bx += 4 * kLanes) {
+      Int highest = hn::Zero(kInt), lowest = hn::Zero(kInt);
+      alignas(64) std::int32_t start[3][kLanes];
       for (int k = 0; k < 3; ++k) {
-        const std::int32_t e = t.e[k] + t.a[k] * cx + t.b[k] * cy;
-        outside |= e + to_highest[k];
-        partly |= e + to_lowest[k];
+        const Int e = hn::Add(splat(t.e[k] + t.a[k] * bx + t.b[k] * by), step[k]);
+        hn::Store(e, kInt, start[k]);
+        highest = hn::Or(highest, hn::Add(e, to_highest[k]));
+        lowest = hn::Or(lowest, hn::Add(e, to_lowest[k]));
       }
-      if (outside < 0) continue;
-      // A cell may stick out of the bounds by a row or a column of blocks.
-      const int first_x = std::max(cx, x0 & ~3), last_x = std::min(cx + kCellSize - 1, x1);
-      const int first_y = std::max(cy, y0 & ~3), last_y = std::min(cy + kCellSize - 1, y1);
-      for (int y = first_y; y <= last_y; y += 4) {
-        for (int x = first_x; x <= last_x; x += 4) {
-          if (partly >= 0)
-            block.template operator()<true>(x, y);
-          else
-            block.template operator()<false>(x, y);
-        }
+      const int blocks = std::min(((x1 - bx) >> 2) + 1, kLanes);
+      std::uint32_t touched = mask_bits(kInt, hn::Gt(highest, splat(-1))) & ((1u << blocks) - 1);
+      const std::uint32_t inside = mask_bits(kInt, hn::Gt(lowest, splat(-1)));
+      for (; touched != 0; touched &= touched - 1) {
+        const int i = std::countr_zero(touched);
+        const BlockEdges edges{{splat(start[0][i]), splat(start[1][i]), splat(start[2][i])}, offsets};
+        if ((inside >> i & 1) != 0)
+          block.template operator()<true>(bx + 4 * i, by, edges);
+        else
+          block.template operator()<false>(bx + 4 * i, by, edges);
       }
     }
   }

@@ -1,7 +1,8 @@
 // Depth of a triangle's pixels, as keys that compare as signed integers (framebuffer/format.h).
 //
 // Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel does not depend on
-// tiles or blocks, and a gradient too steep for 64 bits comes right again inside the triangle. float32: one fused
+// tiles or blocks, and a gradient too steep for 64 bits comes right again inside the triangle. Gradients come from doubles,
+// those of needles, where doubles are not enough, from exact quotients. float32: one fused
 // multiply-add for each direction from the first vertex, kept within the vertices' range.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
@@ -25,16 +26,9 @@ using Int64Tag = hn::RebindToSigned<Uint64Tag>;
 inline constexpr Uint64Tag kUint64{};
 inline constexpr Int64Tag kInt64{};
 
-/// `value` * 2^fraction_bits modulo 2^64, to the nearest.
-HWY_INLINE std::uint64_t fixed_modulo(double value, int fraction_bits) {
-  // Only the lowest 64 - fraction_bits bits of the whole part count.
-  const double period = fraction_bits == 32 ? 0x1p32 : 0x1p34;
-  const double turns = (value / period + 0x1.8p52) - 0x1.8p52;  // to the nearest whole number
-  const double rest = value - turns * period;                   // exact: |rest| <= period / 2
-  double scaled = rest * (fraction_bits == 32 ? 0x1p32 : 0x1p30);
-  scaled = scaled < 0x1.fffffffffffffp62 ? scaled : 0x1.fffffffffffffp62;  // +2^63 itself does not convert
-  return static_cast<std::uint64_t>(static_cast<std::int64_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5));
-}
+/// A gradient's error counts once for each pixel between a triangle's first vertex and its farthest one, 2^15 at most in x and
+/// in y. Below this bound of its terms that makes at most half a depth word.
+inline constexpr double kSteepDepth = 0x1p35;
 
 /// 16 and 24 bits: 32.32 fixed point of the vertices' depth words. Those are at least 128 away from 0 and from 2^32 (the half
 /// that rounds the level), so rounding never wraps around. The key is the word's top bits.
@@ -43,60 +37,72 @@ struct UnormDepth {
   int shift;
   alignas(64) std::uint64_t offset[16];  // of a block's pixels
 
-  static constexpr int kFraction = 32;
-  HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthKind kind) {
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind kind) {
     shift = kind == DepthKind::unorm16 ? 16 : 8;
-    plane(g, i, tile_x, tile_y, 0);
-  }
-  HWY_INLINE void plane(const TriangleGroup& g, int i, int tile_x, int tile_y, std::uint64_t lift, int fraction = kFraction) {
-    const double gx = g.depth_dx[i], gy = g.depth_dy[i];
-    dx = fixed_modulo(gx, fraction);
-    dy = fixed_modulo(gy, fraction);
-    const std::int32_t x = g.x[0][i], y = g.y[0][i];
-    // From the first vertex to the centre of its pixel, then by whole pixels to the tile's first.
-    const double to_center = gx * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + gy * ((kHalfPixel - (y & 255)) * (1.0 / 256));
-    base = ((std::uint64_t{g.z[0][i]} + lift) << fraction) + fixed_modulo(to_center, fraction) +
-           dx * static_cast<std::uint64_t>(std::int64_t{tile_x} - (x >> 8)) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y} - (y >> 8));
+    base = g.fixed_base[i];
+    dx = g.fixed_dx[i];
+    dy = g.fixed_dy[i];
   }
   HWY_INLINE void prepare_blocks() {
-    for (int p = 0; p < 16; ++p) offset[p] = dx * static_cast<std::uint64_t>(p & 3) + dy * static_cast<std::uint64_t>(p >> 2);
+    const std::uint64_t columns[4] = {0, dx, dx + dx, dx + dx + dx};
+    std::uint64_t row = 0;
+    for (int p = 0; p < 16; p += 4, row += dy)
+      for (int c = 0; c < 4; ++c) offset[p + c] = row + columns[c];
   }
   HWY_INLINE std::uint64_t at(int x, int y) const {
     return base + dx * static_cast<std::uint64_t>(std::int64_t{x}) + dy * static_cast<std::uint64_t>(std::int64_t{y});
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift); }
-  HWY_INLINE Int keys(int bx, int by, int chunk) const {
-    const std::uint64_t block = at(bx, by);
+
+  /// A block's first pixel; keys(chunk) are those of its lanes.
+  struct Block {
 #if HWY_TARGET == HWY_SCALAR
-    return Int(static_cast<std::int32_t>(static_cast<std::uint32_t>((block + offset[chunk]) >> 32) >> shift));
+    std::uint64_t start;
 #else
-    const auto start = hn::Set(kUint64, block);
-    const auto low = hn::Add(start, hn::Load(kUint64, offset + chunk * kLanes));
-    const auto high = hn::Add(start, hn::Load(kUint64, offset + chunk * kLanes + kLanes / 2));
+    hn::Vec<Uint64Tag> start;
+#endif
+  };
+  HWY_INLINE Block block(int bx, int by) const {
+#if HWY_TARGET == HWY_SCALAR
+    return {at(bx, by)};
+#else
+    return {hn::Set(kUint64, at(bx, by))};
+#endif
+  }
+  HWY_INLINE Int keys(const Block& block, int chunk) const {
+#if HWY_TARGET == HWY_SCALAR
+    return Int(static_cast<std::int32_t>(static_cast<std::uint32_t>((block.start + offset[chunk]) >> 32) >> shift));
+#else
+    const auto low = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes));
+    const auto high = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes + kLanes / 2));
     const Uint words = hn::ConcatOdd(kUint, hn::BitCast(kUint, high), hn::BitCast(kUint, low));
     return hn::BitCast(kInt, hn::ShiftRightSame(words, shift));
 #endif
   }
 };
 
-/// 32 bits use the whole word, so there is no margin at the ends: 34.30 fixed point, lifted by 2^32 and cut to range.
+/// 32 bits: see kUnorm32Lift.
 struct Unorm32Depth : UnormDepth {
-  static constexpr int kFraction = 30;
-  static constexpr std::int64_t kLift = std::int64_t{1} << 32, kTop = kLift + 0xffffffff;
-  HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthKind) {
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind) {
     shift = 0;
-    plane(g, i, tile_x, tile_y, static_cast<std::uint64_t>(kLift), kFraction);
+    base = g.fixed_base[i];
+    dx = g.fixed_dx[i];
+    dy = g.fixed_dy[i];
   }
   static HWY_INLINE std::int32_t key_of(std::uint64_t value) {
-    const std::int64_t lifted = static_cast<std::int64_t>(value >> kFraction);
-    const std::int64_t cut = lifted < kLift ? kLift : lifted > kTop ? kTop : lifted;
+    constexpr std::int64_t kTop = kUnorm32Lift + 0xffffffff;
+    const std::int64_t lifted = static_cast<std::int64_t>(value >> kUnorm32Fraction);
+    const std::int64_t cut = lifted < kUnorm32Lift ? kUnorm32Lift : lifted > kTop ? kTop : lifted;
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(cut) ^ 0x80000000u);
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }
-  HWY_INLINE Int keys(int bx, int by, int chunk) const {
-    const std::uint64_t block = at(bx, by);
+  struct Block {
+    std::uint64_t start;
+  };
+  HWY_INLINE Block block(int bx, int by) const { return {at(bx, by)}; }
+  HWY_INLINE Int keys(const Block& block, int chunk) const {
     alignas(64) std::int32_t key[kLanes];
-    for (int l = 0; l < kLanes; ++l) key[l] = key_of(block + offset[chunk * kLanes + l]);
+    for (int l = 0; l < kLanes; ++l) key[l] = key_of(block.start + offset[chunk * kLanes + l]);
     return hn::Load(kInt, key);
   }
 };
@@ -122,9 +128,13 @@ struct Float32Depth {
     std::memcpy(&bits, &cut, sizeof bits);
     return bits;
   }
-  HWY_INLINE Int keys(int bx, int by, int chunk) const {
-    const Float x = hn::Add(splat(first_x + static_cast<float>(bx)), hn::ConvertTo(kFloat, block_columns(chunk)));
-    const Float y = hn::Add(splat(first_y + static_cast<float>(by)), hn::ConvertTo(kFloat, block_rows(chunk)));
+  struct Block {
+    float x, y;
+  };
+  HWY_INLINE Block block(int bx, int by) const { return {first_x + static_cast<float>(bx), first_y + static_cast<float>(by)}; }
+  HWY_INLINE Int keys(const Block& block, int chunk) const {
+    const Float x = hn::Add(splat(block.x), hn::ConvertTo(kFloat, block_columns(chunk)));
+    const Float y = hn::Add(splat(block.y), hn::ConvertTo(kFloat, block_rows(chunk)));
     const Float z = mul_add(splat(dx), x, mul_add(splat(dy), y, splat(z0)));
     const Float low_cut = hn::IfThenElse(hn::Gt(z, splat(low)), z, splat(low));
     const Float cut = hn::Add(hn::IfThenElse(hn::Lt(low_cut, splat(high)), low_cut, splat(high)), hn::Zero(kFloat));

@@ -9,6 +9,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "framebuffer/format.h"
@@ -66,8 +67,38 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   for (int i = 0; i < g.count; ++i) g.mask |= static_cast<std::uint32_t>(visible[i]) << i;
 }
 
+/// `value` * 2^kFraction modulo 2^64, to the nearest: whole and broken part each by the bits of a double, which is how lanes
+/// convert. Only the lowest 64 - kFraction bits of the whole part count.
+template <int kFraction>
+HWY_INLINE std::uint64_t fixed_modulo(double value) {
+  constexpr double kPeriod = kFraction == 32 ? 0x1p32 : 0x1p34, kScale = kFraction == 32 ? 0x1p32 : 0x1p30, kBias = 0x1.8p52;
+  const double turns = (value * (1 / kPeriod) + kBias) - kBias;  // to the nearest whole number
+  const double rest = value - turns * kPeriod;                   // exact: |rest| <= kPeriod / 2
+  const double whole_bits = rest + kBias, whole = whole_bits - kBias;
+  const double broken_bits = (rest - whole) * kScale + kBias;    // the difference is exact
+  std::uint64_t w, b;
+  std::memcpy(&w, &whole_bits, sizeof w);
+  std::memcpy(&b, &broken_bits, sizeof b);
+  constexpr std::uint64_t kBiasBits = 0x4338000000000000u;
+  return ((w - kBiasBits) << kFraction) + (b - kBiasBits);
+}
+
+/// The plane of a unorm depth in fixed point: exact steps from the first vertex's pixel to the tile's first.
+template <int kFraction>
+HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y, std::uint64_t lift) {
+  for (int i = 0; i < kGroupSize; ++i) {
+    const std::int32_t x = g.x[0][i], y = g.y[0][i];
+    const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
+    const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]), dy = fixed_modulo<kFraction>(g.depth_dy[i]);
+    g.fixed_dx[i] = dx;
+    g.fixed_dy[i] = dy;
+    g.fixed_base[i] = ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed_modulo<kFraction>(to_center) +
+                      dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
+  }
+}
+
 /// Depth gradients: per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32).
-inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind) {
+inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y) {
   alignas(64) double z[3][kGroupSize];
   for (int k = 0; k < 3; ++k) {
     if (kind == DepthKind::float32) {
@@ -85,7 +116,13 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind) {
     const double scale = 256.0 / g.area[i], dz1 = z[1][i] - z[0][i], dz2 = z[2][i] - z[0][i];
     g.depth_dx[i] = (g.a[1][i] * dz1 + g.a[2][i] * dz2) * scale;
     g.depth_dy[i] = (g.b[1][i] * dz1 + g.b[2][i] * dz2) * scale;
+    const double ax = std::abs(g.a[1][i] * dz1) + std::abs(g.a[2][i] * dz2), ay = std::abs(g.b[1][i] * dz1) + std::abs(g.b[2][i] * dz2);
+    g.depth_terms[i] = (ax + ay) * scale;
   }
+  if (kind == DepthKind::unorm32)
+    set_up_fixed_depth<kUnorm32Fraction>(g, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
+  else if (kind != DepthKind::float32)
+    set_up_fixed_depth<kUnormFraction>(g, tile_x, tile_y, 0);
 }
 
 /// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k + shift_k, which is

@@ -10,6 +10,12 @@ namespace tessera {
 
 inline constexpr int kGroupSize = 16;  ///< triangles set up at a time
 
+// Planes of unorm depth are 32.32 fixed point modulo 2^64.
+inline constexpr int kUnormFraction = 32;
+/// Unorm32 uses the whole depth word, so there is no margin at the ends: 34.30 fixed point, lifted by 2^32 and cut to range.
+inline constexpr int kUnorm32Fraction = 30;
+inline constexpr std::int64_t kUnorm32Lift = std::int64_t{1} << 32;
+
 /// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
 struct TriangleGroup {
   int count = 0;
@@ -25,7 +31,10 @@ struct TriangleGroup {
   alignas(64) double signed_area[kGroupSize], area[kGroupSize];  ///< doubled area, exact
   alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize], y1[kGroupSize];  ///< pixel bounds in the tile, inclusive
   alignas(64) std::int32_t wide[kGroupSize], affine[kGroupSize];
+  // Depth planes: float32 as they are, unorm in fixed point modulo 2^64 with the value at the tile's first pixel; see depth-inl.h.
   alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
+  alignas(64) double depth_terms[kGroupSize];  ///< bound of what the gradients are sums of: their error is below 2^-52 times it
+  alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
   std::uint32_t mask = 0;  ///< those with a pixel in the tile
 };

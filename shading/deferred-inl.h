@@ -31,9 +31,9 @@ struct PixelBatch {
 
 /// Words of one chunk of pixels from interpolated colours that are scaled to levels already.
 HWY_INLINE Int pack_scaled(const ColorLayout& layout, const ShadingBatch& batch, int first) {
-  const Int red = hn::ConvertTo(kInt, hn::Load(kFloat, batch.field[kColorR] + first));
-  const Int green = hn::ConvertTo(kInt, hn::Load(kFloat, batch.field[kColorG] + first));
-  const Int blue = hn::ConvertTo(kInt, hn::Load(kFloat, batch.field[kColorB] + first));
+  const Int red = truncate(hn::Load(kFloat, batch.field[kColorR] + first));
+  const Int green = truncate(hn::Load(kFloat, batch.field[kColorG] + first));
+  const Int blue = truncate(hn::Load(kFloat, batch.field[kColorB] + first));
   return hn::Or(hn::Or(hn::ShiftLeftSame(red, layout.r_shift()), hn::ShiftLeftSame(green, layout.g_shift())), blue);
 }
 
@@ -48,7 +48,7 @@ HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch,
     return hn::Load(kInt, words);
   }
   const auto level = [](const float* c, int bits) HWY_ATTR {
-    return hn::ConvertTo(kInt, mul_add(hn::Load(kFloat, c), splat(static_cast<float>((1 << bits) - 1)), splat(0.5f)));
+    return truncate(mul_add(hn::Load(kFloat, c), splat(static_cast<float>((1 << bits) - 1)), splat(0.5f)));
   };
   return hn::Or(hn::Or(hn::ShiftLeftSame(level(r, layout.r_bits), layout.r_shift()), hn::ShiftLeftSame(level(g, layout.g_bits), layout.g_shift())),
                 level(b, layout.b_bits));
@@ -68,32 +68,31 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
       const int first = slot * kBlockPixels + chunk * kLanes;
       const Int words = !per_pixel && draw.scaled_colors ? pack_scaled(run.frame.layout, batch, first)
                                                          : quantize_chunk(run.frame, batch, first, covered_lanes);
-      store_words(run.memory.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), draw.write_mask);
+      store_words(run.memory.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
     }
   }
   pixels.blocks = 0;
 }
 
-/// Adds to a slot of the batch the pixels of one triangle in one block; bits of `covered`.
-inline HWY_NOINLINE void gather_attributes(TileRun& run, const ShadedTriangle& triangle, int bx, int by, int slot, std::uint32_t covered, bool first) {
+/// Adds to a slot of the batch the pixels of one triangle in one block; bits of `covered`. Lanes that no triangle fills hold
+/// what an earlier block left there.
+inline HWY_NOINLINE void gather_attributes(TileRun& run, const ShadedTriangle& triangle, int bx, int by, int slot, std::uint32_t covered) {
   const TileDraw& draw = run.frame.draws[triangle.draw];
   ShadingBatch& batch = run.memory.batch;
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   const int count = per_pixel ? draw.attribute_count : 3;
+  const int first_attribute = per_pixel ? 0 : draw.color_attribute[triangle.back ? 1 : 0];
+  const CornerArrays values(triangle, first_attribute, count);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
-    if (bits == 0 && !first) continue;
-    const auto mask = mask_from_bits(bits);
+    if (bits == 0) continue;
+    const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
     const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
+    const int point = slot * kBlockPixels + chunk * kLanes;
     for (int j = 0; j < count; ++j) {
-      const int attribute = per_pixel ? j : draw.color_attribute[triangle.back ? 1 : 0] + j;
-      float* target = batch.field[per_pixel ? draw.fields[j] : kColorR + j] + slot * kBlockPixels + chunk * kLanes;
-      const Float value = interpolate(at, corners(triangle, attribute));
-      // The first triangle fills all lanes, so that those without a pixel hold numbers too.
-      if (first)
-        hn::Store(value, kFloat, target);
-      else
-        hn::Store(hn::IfThenElse(hn::RebindMask(kFloat, mask), value, hn::Load(kFloat, target)), kFloat, target);
+      float* target = batch.field[per_pixel ? draw.fields[j] : kColorR + j] + point;
+      const Float value = interpolate(at, values[j]);
+      hn::Store(hn::IfThenElse(mask, value, hn::Load(kFloat, target)), kFloat, target);
     }
   }
 }
@@ -121,7 +120,6 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
         pixels.draw = leader.draw;
         pixels.back = leader.back;
         std::uint32_t left = waiting, taken = 0;
-        bool first = true;
         while (left != 0) {
           const std::uint32_t id = ids[std::countr_zero(left)];
           const ShadedTriangle& triangle = memory.triangles[id];
@@ -131,8 +129,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
             same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
           left &= ~same;
           if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
-          gather_attributes(run, triangle, bx, by, pixels.blocks, same, first);
-          first = false;
+          gather_attributes(run, triangle, bx, by, pixels.blocks, same);
           taken |= same;
         }
         waiting &= ~taken;

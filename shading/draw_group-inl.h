@@ -24,6 +24,8 @@ enum class Seen { nothing, word, interpolate, collect };
 enum class Test { less, any };
 
 struct NoDepth {
+  struct Block {};
+  HWY_INLINE Block block(int, int) const { return {}; }
   HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthKind) {}
   HWY_INLINE void prepare_blocks() {}
 };
@@ -70,36 +72,52 @@ struct TrianglePixels {
   ScaledColor color;
   std::int32_t word = 0;
   std::int32_t id = 0;
-  bool any = false;
+  Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
+  Int writable, depth_writable;  // masks, so that there is nothing to branch on
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded)
-      : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded) {}
+      : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)) {}
 
   template <bool kFull>
-  HWY_INLINE void operator()(int bx, int by) {
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     const int block = run.block_index(bx, by);
+    const auto block_depth = depth.block(bx, by);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : covered(edges, offsets, bx, by, chunk);
-      if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
-      if ((!kFull || run.cut) && hn::AllFalse(kInt, mask)) continue;
       const int index = block + chunk * kLanes;
+      auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : block_edges.covered(chunk);
+      if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
       if constexpr (kHasDepth<Depth>) {
         std::int32_t* stored_at = run.memory.depth + index;
-        const Int stored = hn::Load(kInt, stored_at), key = depth.keys(bx, by, chunk);
+        const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
         mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : passing(key, stored, draw.depth_test));
-        if (hn::AllFalse(kInt, mask)) continue;
-        if (draw.depth_write) hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
+        hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
       }
+      // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
       if constexpr (kSeen == Seen::collect) {
         auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
         hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
-        any = true;
+        seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
       } else if constexpr (kSeen != Seen::nothing) {
-        run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(mask_bits(kInt, mask)));
-        const Int words = kSeen == Seen::word ? splat(word) : color.words(barycentric(triangle, run.memory.wide.data(), bx, by, chunk));
-        store_words(run.memory.color + index, words, mask, draw.write_mask);
+        if (kSeen == Seen::interpolate && hn::AllFalse(kInt, mask)) continue;
+        seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
+        const Int words = kSeen == Seen::word ? splat(word) : color.words(barycentric_at(block_edges, bx, by, chunk));
+        store_words(run.memory.color + index, words, mask, writable);
       }
     }
+  }
+  HWY_INLINE std::uint64_t seen_pixels() const {
+    alignas(64) std::int32_t lanes[kLanes];
+    hn::Store(seen, kInt, lanes);
+    std::int64_t sum = 0;
+    for (const std::int32_t lane : lanes) sum -= lane;
+    return static_cast<std::uint64_t>(sum);
+  }
+
+  /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
+  HWY_INLINE Barycentric barycentric_at(const BlockEdges& block_edges, int bx, int by, int chunk) const {
+    if (triangle.wide >= 0) return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
+    return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk), block_edges.at(2, chunk));
   }
 
   /// One pixel of a small triangle.
@@ -112,7 +130,7 @@ struct TrianglePixels {
     }
     if constexpr (kSeen == Seen::collect) {
       run.memory.ids[index] = static_cast<std::uint32_t>(id);
-      any = true;
+      seen = splat(-1);  // how many does not matter here
     } else if constexpr (kSeen != Seen::nothing) {
       ++run.counts.shaded_pixels;
       const auto new_word = static_cast<std::uint32_t>(kSeen == Seen::word ? word : pixel_word(x, y));
@@ -175,7 +193,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_edges(g, run.tile_x, run.tile_y, run.rect);
   if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind);
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
   if constexpr (kSeen == Seen::interpolate || kSeen == Seen::collect) set_up_weights(g);
 
   alignas(64) std::uint32_t hits[kGroupSize];
@@ -212,10 +230,10 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       }
     } else {
       if constexpr (kHasDepth<Depth>) pixels.depth.prepare_blocks();
-      for_each_block(edges, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
+      for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kSeen == Seen::collect) {
-      if (!pixels.any) {
+      if (hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)))) {
         memory.triangles.pop_back();
         if (wide) memory.wide.pop_back();
       } else if (run.frame.shade_at_once) {
@@ -225,6 +243,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       }
     }
     if constexpr (kSeen == Seen::interpolate) memory.wide.clear();
+    if constexpr (kSeen == Seen::interpolate || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels();
   }
 }
 

@@ -8,6 +8,7 @@
 #endif
 
 #include "raster/lanes-inl.h"
+#include "raster/clip.h"
 #include "shading/interpolate.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,15 +27,19 @@ HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
   return {hn::Mul(w1, inverse), hn::Mul(w2, inverse)};
 }
 
+/// From the edges' values at the pixels.
+HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, Int e1, Int e2) {
+  const auto weight = [&](int k, Int e) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), splat(t.scale[k]), splat(t.shift[k])); };
+  const Float w1 = weight(1, e1), w2 = weight(2, e2);
+  return from_weights(t.affine ? w1 : weight(0, e0), w1, w2, t.affine);
+}
+
 HWY_INLINE Barycentric barycentric_narrow(const ShadedTriangle& t, int bx, int by, int chunk) {
-  Float w[3];
-  const Int column = block_columns(chunk), row = block_rows(chunk);
-  for (int k = t.affine ? 1 : 0; k < 3; ++k) {
-    const std::int32_t start = t.edges.e[k] + t.edges.a[k] * bx + t.edges.b[k] * by;
-    const Int e = hn::Add(splat(start), hn::Add(hn::Mul(splat(t.edges.a[k]), column), hn::Mul(splat(t.edges.b[k]), row)));
-    w[k] = mul_add(hn::ConvertTo(kFloat, e), splat(t.scale[k]), splat(t.shift[k]));
-  }
-  return from_weights(t.affine ? w[1] : w[0], w[1], w[2], t.affine);
+  const Int column = hn::Add(splat(bx), block_columns(chunk)), row = hn::Add(splat(by), block_rows(chunk));
+  const auto edge = [&](int k) HWY_ATTR {
+    return hn::Add(splat(t.edges.e[k]), hn::Add(hn::Mul(splat(t.edges.a[k]), column), hn::Mul(splat(t.edges.b[k]), row)));
+  };
+  return barycentric_from_edges(t, edge(0), edge(1), edge(2));
 }
 
 inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const WideEdges& wide, int bx, int by, int chunk) {
@@ -64,6 +69,20 @@ HWY_INLINE Corners corners(const ShadedTriangle& t, int attribute) {
 HWY_INLINE Float interpolate(const Barycentric& b, const Corners& c) {
   return mul_add(b.b1, splat(c.to_second), mul_add(b.b2, splat(c.to_third), splat(c.first)));
 }
+
+/// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.
+struct CornerArrays {
+  alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
+  HWY_INLINE CornerArrays(const ShadedTriangle& t, int attribute, int count) {
+    for (int j = 0; j < count; j += kLanes) {
+      const Float a0 = hn::LoadU(kFloat, t.attributes[0] + attribute + j);
+      hn::Store(a0, kFloat, first + j);
+      hn::Store(hn::Sub(hn::LoadU(kFloat, t.attributes[1] + attribute + j), a0), kFloat, to_second + j);
+      hn::Store(hn::Sub(hn::LoadU(kFloat, t.attributes[2] + attribute + j), a0), kFloat, to_third + j);
+    }
+  }
+  HWY_INLINE Corners operator[](int j) const { return {first[j], to_second[j], to_third[j]}; }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera

@@ -143,9 +143,8 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   memory.group.count = 0;
   memory.triangles.clear();
   memory.wide.clear();
-  bool any_collects = false;
-  for (std::uint32_t d = 0; d < frame.draw_count; ++d) any_collects |= frame.draws[d].deferred;
-  if (any_collects) std::fill_n(memory.ids, grid.tile_size * grid.tile_size, kNoTriangle);
+  if (!memory.ids_clean) std::fill(std::begin(memory.ids), std::end(memory.ids), kNoTriangle);
+  memory.ids_clean = false;  // until the end of the tile
 
   std::uint32_t next_clear = 0;
   GroupBuilder builder{run};
@@ -176,6 +175,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   }
   clears_before(frame.draw_count);
   shade_whole_tile(run);
+  memory.ids_clean = true;
   return run.counts;
 }
 

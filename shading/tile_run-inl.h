@@ -32,17 +32,12 @@ HWY_INLINE auto inside_rect(const PixelRect& rect, int bx, int by, int chunk) {
   return hn::And(hn::And(hn::Gt(x, splat(rect.x0 - 1)), hn::Gt(splat(rect.x1), x)), hn::And(hn::Gt(y, splat(rect.y0 - 1)), hn::Gt(splat(rect.y1), y)));
 }
 
+/// Writes the bits of `writable` in the lanes of `mask`.
 template <class Mask>
-HWY_INLINE void store_words(std::uint32_t* color, Int words, Mask mask, std::uint32_t write_mask) {
+HWY_INLINE void store_words(std::uint32_t* color, Int words, Mask mask, Int writable) {
   auto* target = reinterpret_cast<std::int32_t*>(color);
-  if (write_mask != 0xffffffffu) {
-    const Int writable = splat(static_cast<std::int32_t>(write_mask));
-    words = hn::Or(hn::And(words, writable), hn::AndNot(writable, hn::Load(kInt, target)));
-  }
-  if (hn::AllTrue(kInt, mask))
-    hn::Store(words, kInt, target);
-  else
-    hn::Store(hn::IfThenElse(mask, words, hn::Load(kInt, target)), kInt, target);
+  const Int stored = hn::Load(kInt, target), changed = hn::And(hn::VecFromMask(kInt, mask), writable);
+  hn::Store(hn::Xor(stored, hn::And(hn::Xor(stored, words), changed)), kInt, target);
 }
 
 /// Interpolated colours that are scaled to levels: three linear functions and the word's packing.
@@ -58,8 +53,8 @@ struct ScaledColor {
     g_shift = layout.g_shift();
   }
   HWY_INLINE Int words(const Barycentric& at) const {
-    const Int red = hn::ConvertTo(kInt, interpolate(at, r)), green = hn::ConvertTo(kInt, interpolate(at, g));
-    const Int blue = hn::ConvertTo(kInt, interpolate(at, b));
+    const Int red = truncate(interpolate(at, r)), green = truncate(interpolate(at, g));
+    const Int blue = truncate(interpolate(at, b));
     return hn::Or(hn::Or(hn::ShiftLeftSame(red, r_shift), hn::ShiftLeftSame(green, g_shift)), blue);
   }
 };

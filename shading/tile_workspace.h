@@ -19,6 +19,7 @@ struct alignas(64) TileWorkspace::Memory {
   alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
   alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
   alignas(64) std::uint32_t ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  bool ids_clean = false;                                      ///< every id is kNoTriangle: shading leaves them so
   std::vector<ShadedTriangle> triangles;
   std::vector<WideEdges> wide;
   TriangleGroup group;

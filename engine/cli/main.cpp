@@ -62,7 +62,9 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   command->footer(kExamples);
   command->option_defaults()->take_last();
   command->add_option("input", request.input, "scene or model")->option_text("[SCENE.json | MODEL.obj]");
-  command->add_option("-o,--output", request.output, "picture to write: .png, .ppm, .pgm, .raw or another format of OpenImageIO; default: the input's name with .png, here")
+  command
+      ->add_option("-o,--output", request.output,
+                   "picture to write: .png, .ppm, .pgm, .raw or another format of OpenImageIO; default: the input's name with .png, here")
       ->option_text("FILE");
   command
       ->add_option_function<std::string>(

@@ -24,7 +24,7 @@ MeshData part_mesh(const Model& model, std::size_t part) {
   mesh.name = range.material_name;
   std::uint32_t count = 0;
   const auto copy = [](const std::vector<float>& from, std::vector<float>& to, std::size_t vertex, std::size_t components) {
-    if (!from.empty()) to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(components * vertex), from.begin() + static_cast<std::ptrdiff_t>(components * (vertex + 1)));
+    if (!from.empty()) to.insert(to.end(), &from[components * vertex], &from[components * vertex] + components);
   };
   for (std::size_t i = range.first_index; i < range.first_index + range.index_count; ++i) {
     const std::uint32_t vertex = model.mesh.indices[i];

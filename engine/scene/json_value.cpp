@@ -138,7 +138,8 @@ Object::Object(const Value& value, std::initializer_list<std::string_view> keys,
     const Value member = value.member(key);
     if (std::find(unsupported.begin(), unsupported.end(), key) != unsupported.end()) member.refuse_unsupported();
     const std::string suggestion = did_you_mean(key, all);
-    member.refuse("unknown key \"" + key + "\"" + (suggestion.empty() ? ", expected " + (keys.size() == 1 ? "" : std::string("one of ")) + quoted_list(keys) : suggestion));
+    const std::string known = (keys.size() == 1 ? ", expected " : ", expected one of ") + quoted_list(keys);
+    member.refuse("unknown key \"" + key + "\"" + (suggestion.empty() ? known : suggestion));
   }
 }
 

@@ -71,7 +71,8 @@ std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices)
 MeshData read_inline(const Value& value) {
   const Object object(value, {"primitive", "positions", "normals", "colors", "indices"}, {"color_indices", "texcoords"});
   if (const auto primitive = object.find("primitive"))
-    primitive->choice<int>({{"triangles", 0}}, {"points", "lines", "line_strip", "line_loop", "triangle_strip", "triangle_fan", "quads", "quad_strip", "polygon"});
+    primitive->choice<int>({{"triangles", 0}}, {"points", "lines", "line_strip", "line_loop", "triangle_strip", "triangle_fan", "quads",
+                                                "quad_strip", "polygon"});
   const Value positions = object.require("positions");
   const std::size_t vertices = positions.size();
   if (vertices == 0) positions.fail("at least 3 positions");

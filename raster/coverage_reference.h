@@ -1,0 +1,67 @@
+// The scalar twin of coverage-inl.h and its specification: which pixels a triangle covers, in 128-bit integers straight from
+// its snapped vertices.
+#pragma once
+
+#include <cstdint>
+
+#include "raster/fixed_point.h"
+
+namespace tessera {
+
+__extension__ using Exact = __int128;
+
+/// One edge of a triangle, positive inside: value at a pixel's centre and its steps to the next pixel, exact.
+struct EdgeReference {
+  Exact at_origin = 0, dx = 0, dy = 0;  ///< at pixel (0, 0); for one pixel to the right, one down
+  bool owns_border = false;             ///< pixel centres on the edge belong to the triangle
+  Exact at(int x, int y) const { return at_origin + dx * x + dy * y; }
+};
+
+struct TriangleReference {
+  EdgeReference edge[3];  ///< edge k lies opposite vertex k
+  Exact area = 0;         ///< doubled, never negative, in (1/256 pixel)^2: the sum of the three edges at every point
+
+  explicit TriangleReference(const WindowVertex (&v)[3]) {
+    const auto cross = [](Exact ax, Exact ay, Exact bx, Exact by) { return ax * by - ay * bx; };
+    const Exact signed_area = cross(v[1].x - v[0].x, v[1].y - v[0].y, v[2].x - v[0].x, v[2].y - v[0].y);
+    const int sign = signed_area < 0 ? -1 : 1;
+    area = signed_area * sign;
+    for (int k = 0; k < 3; ++k) {
+      const WindowVertex &p = v[(k + 1) % 3], &q = v[(k + 2) % 3];
+      const Exact along_x = sign * (Exact{q.x} - p.x), along_y = sign * (Exact{q.y} - p.y);
+      edge[k].at_origin = cross(along_x, along_y, Exact{kHalfPixel} - p.x, Exact{kHalfPixel} - p.y);
+      edge[k].dx = -along_y * kSubpixelScale;
+      edge[k].dy = along_x * kSubpixelScale;
+      // The fill rule: a centre on an edge counts as if it lay a hair to the right, and a hair of a hair below.
+      edge[k].owns_border = edge[k].dx > 0 || (edge[k].dx == 0 && edge[k].dy > 0);
+    }
+  }
+
+  bool covers(int x, int y) const {
+    if (area == 0) return false;
+    for (const EdgeReference& e : edge) {
+      const Exact value = e.at(x, y);
+      if (value < 0 || (value == 0 && !e.owns_border)) return false;
+    }
+    return true;
+  }
+
+  /// Calls pixel(x, y) for the covered ones in x0 <= x < x1, y0 <= y < y1.
+  template <class PixelFunction>
+  void for_each_covered(int x0, int y0, int x1, int y1, const PixelFunction& pixel) const {
+    if (area == 0) return;
+    // A border that does not belong to the triangle is moved inwards by the smallest difference that there is.
+    Exact row[3];
+    for (int k = 0; k < 3; ++k) row[k] = edge[k].at(x0, y0) - (edge[k].owns_border ? 0 : 1);
+    for (int y = y0; y < y1; ++y) {
+      Exact e[3] = {row[0], row[1], row[2]};
+      for (int x = x0; x < x1; ++x) {
+        if (e[0] >= 0 && e[1] >= 0 && e[2] >= 0) pixel(x, y);
+        for (int k = 0; k < 3; ++k) e[k] += edge[k].dx;
+      }
+      for (int k = 0; k < 3; ++k) row[k] += edge[k].dy;
+    }
+  }
+};
+
+}  // namespace tessera

@@ -1,0 +1,136 @@
+// Coverage is exact: on every pixel of a tile, by every path and on every instruction set, what a tile covers is what 128-bit
+// integers say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "tests/raster/random_triangles.h"
+#include "tests/raster/tile_stage.h"
+
+namespace tessera::test {
+namespace {
+
+// Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
+void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect) {
+  RandomTriangles source(seed, tile_size);
+  TileStage stage(tile_size, tile_size, tile_size);
+  std::vector<WindowVertex> vertices(3 * 32);
+  std::vector<Triangle> triangles(32);
+  std::vector<std::uint32_t> expected(static_cast<std::size_t>(tile_size * tile_size));
+  std::array<int, static_cast<std::size_t>(Shape::kCount)> drawn{}, seen{};
+  for (int round = 0; round < rounds; ++round) {
+    stage.forget_draws();
+    std::fill(expected.begin(), expected.end(), 0u);
+    for (std::uint32_t bit = 0; bit < 32; ++bit) {
+      const auto shape = static_cast<std::size_t>(source.any_shape());
+      triangles[bit] = source.next(static_cast<Shape>(shape));
+      std::copy(triangles[bit].begin(), triangles[bit].end(), vertices.begin() + 3 * bit);
+      TileDraw& draw = stage.add_draw(vertices.data() + 3 * bit);
+      draw.rect = rect;
+      draw.word = 0xffffffffu;
+      draw.write_mask = 1u << bit;
+      if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
+      stage.push(0, bit, 0);
+      bool visible = false;
+      reference_of(triangles[bit]).for_each_covered(rect.x0, rect.y0, rect.x1, rect.y1, [&](int x, int y) {
+        expected[static_cast<std::size_t>(y * tile_size + x)] |= 1u << bit;
+        visible = true;
+      });
+      ++drawn[shape];
+      seen[shape] += visible ? 1 : 0;
+    }
+    for (const Isa isa : available_isas()) {
+      stage.render(isa, 0);
+      for (int y = 0; y < tile_size; ++y) {
+        for (int x = 0; x < tile_size; ++x) {
+          const std::uint32_t wrong = stage.color(x, y) ^ expected[static_cast<std::size_t>(y * tile_size + x)];
+          ASSERT_EQ(wrong, 0u) << name_of(isa) << ", tile of " << tile_size << ", round " << round << ", pixel " << x << " " << y << ", triangle "
+                               << Describe{triangles[static_cast<std::size_t>(std::countr_zero(wrong))]};
+        }
+      }
+    }
+  }
+  if (rounds < 100) return;
+  for (std::size_t shape = 0; shape < drawn.size(); ++shape)
+    EXPECT_GT(seen[shape], drawn[shape] / 50) << "a test of triangles that nobody sees, shape " << shape;
+}
+
+int rounds_of_32(int normal) { return long_tests() ? normal * 33 : normal; }
+
+TEST(Coverage, EqualsExactIntegersInTilesOf32) { compare_by_bits(1, 32, rounds_of_32(320), {0, 0, 32, 32}); }
+TEST(Coverage, EqualsExactIntegersInTilesOf64) { compare_by_bits(2, 64, rounds_of_32(320), {0, 0, 64, 64}); }
+TEST(Coverage, EqualsExactIntegersInTilesOf128) { compare_by_bits(3, 128, rounds_of_32(160), {0, 0, 128, 128}); }
+TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
+  RandomTriangles source(4, 64);
+  for (int i = 0; i < 40; ++i) {
+    PixelRect rect{source.between(0, 40), source.between(0, 40), 0, 0};
+    rect.x1 = source.between(rect.x0 + 1, 64);
+    rect.y1 = source.between(rect.y0 + 1, 64);
+    compare_by_bits(100 + static_cast<std::uint32_t>(i), 64, rounds_of_32(4), rect);
+  }
+}
+
+// Triangles of one draw share groups of 16; the last one that covers a pixel is seen.
+TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
+  constexpr int kTile = 64, kTriangles = 100;
+  RandomTriangles source(5, kTile);
+  TileStage stage(kTile, kTile, kTile);
+  std::vector<WindowVertex> vertices(3 * kTriangles);
+  std::vector<std::uint32_t> words(kTriangles), expected(kTile * kTile);
+  for (int round = 0; round < (long_tests() ? 2000 : 60); ++round) {
+    stage.forget_draws();
+    TileDraw& draw = stage.add_draw(vertices.data());
+    draw.source = ColorSource::triangle_word;
+    draw.words[0] = draw.words[1] = words.data();
+    std::fill(expected.begin(), expected.end(), 0u);
+    for (std::uint32_t i = 0; i < kTriangles; ++i) {
+      const Triangle t = source.next(round % 3 == 0 ? Shape::tiny : source.any_shape());
+      std::copy(t.begin(), t.end(), vertices.begin() + 3 * i);
+      words[i] = i + 1;
+      if (reference_of(t).area == 0) continue;
+      stage.push(0, 0, i);
+      reference_of(t).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) { expected[static_cast<std::size_t>(y * kTile + x)] = i + 1; });
+    }
+    for (const Isa isa : available_isas()) {
+      stage.render(isa, 0);
+      for (int y = 0; y < kTile; ++y)
+        for (int x = 0; x < kTile; ++x)
+          ASSERT_EQ(stage.color(x, y), expected[static_cast<std::size_t>(y * kTile + x)]) << name_of(isa) << " round " << round << ", pixel " << x << " " << y;
+    }
+  }
+}
+
+// The twin's own two forms agree, and it knows the fill rule: left and top borders belong, right and bottom ones do not.
+TEST(CoverageReference, OwnsLeftAndTopBorders) {
+  const Triangle upper{WindowVertex{128, 128, 0, 1}, WindowVertex{1152, 128, 0, 1}, WindowVertex{128, 1152, 0, 1}};
+  const Triangle lower{WindowVertex{1152, 1152, 0, 1}, WindowVertex{1152, 128, 0, 1}, WindowVertex{128, 1152, 0, 1}};
+  EXPECT_TRUE(reference_of(upper).covers(0, 0));
+  EXPECT_TRUE(reference_of(upper).covers(3, 0)) << "top border";
+  EXPECT_TRUE(reference_of(upper).covers(0, 3)) << "left border";
+  EXPECT_FALSE(reference_of(upper).covers(4, 0)) << "end of the top border, on a right border";
+  EXPECT_FALSE(reference_of(upper).covers(2, 2)) << "right border";
+  EXPECT_TRUE(reference_of(lower).covers(2, 2)) << "the same border seen from the other side";
+  EXPECT_FALSE(reference_of(lower).covers(4, 2)) << "right border";
+  EXPECT_FALSE(reference_of(lower).covers(2, 4)) << "bottom border";
+}
+TEST(CoverageReference, SteppingAndSinglePixelsAgree) {
+  RandomTriangles source(6, 32);
+  for (int i = 0; i < 2000; ++i) {
+    const Triangle t = source.next();
+    int stepped = 0, single = 0;
+    reference_of(t).for_each_covered(0, 0, 32, 32, [&](int x, int y) {
+      ++stepped;
+      EXPECT_TRUE(reference_of(t).covers(x, y)) << Describe{t};
+    });
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) single += reference_of(t).covers(x, y) ? 1 : 0;
+    ASSERT_EQ(stepped, single) << Describe{t};
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test

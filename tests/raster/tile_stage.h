@@ -1,0 +1,67 @@
+// Tiles without an engine: draws and bins made by hand, one render_tile() at a time.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shading/tile_renderer.h"
+
+namespace tessera::test {
+
+inline std::string name_of(Isa isa) { return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "scalar"; }
+
+class TileStage {
+ public:
+  TileStage(int width_px, int height_px, int tile_size, DepthKind depth_kind = DepthKind::none) {
+    frame_.grid = {width_px, height_px, tile_size};
+    frame_.layout = rgb_layout(24);
+    frame_.depth_kind = depth_kind;
+    bins_.reset(frame_.grid.count());
+  }
+
+  /// A draw of the whole frame buffer in one colour, without depth, unless changed.
+  TileDraw& add_draw(const WindowVertex* vertices) {
+    TileDraw draw;
+    draw.vertices = vertices;
+    draw.rect = {0, 0, frame_.grid.width_px, frame_.grid.height_px};
+    draws_.push_back(draw);
+    return draws_.back();
+  }
+  void forget_draws() {
+    draws_.clear();
+    bins_.reset(frame_.grid.count());
+  }
+  /// Bins by hand: triangle `id` of a draw in a tile.
+  void push(int tile, std::size_t draw, std::uint32_t id) { bins_.push(tile, static_cast<std::uint32_t>(draw), id); }
+  Bins& bins() { return bins_; }
+  TileFrame& frame() { return frame_; }
+  std::size_t draw_count() const { return draws_.size(); }
+  TileDraw& draw(std::size_t i) { return draws_[i]; }
+
+  /// Renders a tile over a background.
+  TileCounts render(Isa isa, int tile, std::uint32_t color = 0, std::int32_t depth = 0) {
+    const auto pixels = static_cast<std::size_t>(frame_.grid.tile_size * frame_.grid.tile_size);
+    std::fill_n(workspace_.color(), pixels, color);
+    if (frame_.depth_kind != DepthKind::none) std::fill_n(workspace_.depth(), pixels, depth);
+    frame_.draws = draws_.data();
+    frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
+    frame_.bins = &bins_;
+    frame_.bin_count = 1;
+    return render_tile(isa)(frame_, tile, workspace_);
+  }
+  /// Pixels of the tile rendered last.
+  std::uint32_t color(int x, int y) { return workspace_.color()[tile_index(x, y, frame_.grid.tile_size)]; }
+  std::int32_t depth(int x, int y) { return workspace_.depth()[tile_index(x, y, frame_.grid.tile_size)]; }
+  std::vector<std::uint32_t> colors() { return {workspace_.color(), workspace_.color() + frame_.grid.tile_size * frame_.grid.tile_size}; }
+  std::vector<std::int32_t> depths() { return {workspace_.depth(), workspace_.depth() + frame_.grid.tile_size * frame_.grid.tile_size}; }
+
+ private:
+  TileFrame frame_;
+  std::vector<TileDraw> draws_;
+  Bins bins_;
+  TileWorkspace workspace_;
+};
+
+}  // namespace tessera::test
