@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "engine/draw_plan.h"
@@ -13,7 +14,11 @@
 namespace tessera {
 namespace {
 
-std::string text(double value) { return std::to_string(value); }
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
 
 void require_range(const std::string& what, double value, double low, double high) {
   if (!(value >= low && value <= high)) throw Error(what + " is " + text(value) + ", must be " + text(low) + " to " + text(high));

@@ -271,6 +271,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   for (const GeometryDraw& draw : commands.geometry) stats.vertices += vertex_count(*draw.mesh);
   const TileGrid grid{target.format.width, target.format.height, tile_size_for(target.format)};
   stats.tiles = static_cast<std::uint64_t>(grid.count());
+  stats.tile_size = grid.tile_size;
 
   process_geometry(commands);
   const std::size_t batches = fill_bins(commands, grid);

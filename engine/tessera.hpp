@@ -241,6 +241,7 @@ struct FrameStats {
   std::uint64_t binned = 0;                 ///< triangles that reached a bin, clipped pieces counted singly
   std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles in them
   std::uint64_t tiles = 0, tiles_touched = 0;
+  int tile_size = 0;                        ///< pixels, as chosen for the frame
   std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
 };
 
@@ -282,7 +283,7 @@ TESSERA_API std::string_view name(InstructionSet set);
 
 struct RendererOptions {
   int threads = 0;                          ///< 0: one for each core that the process may use; otherwise 1 .. 1024
-  int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen by the frame's size and the threads
+  int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen for each frame by its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
 };
@@ -301,7 +302,7 @@ class TESSERA_API Renderer {
   /// Runs the frame and scans the colour buffer out into the caller's memory, straight from the tiles.
   FrameStats finish(Frame& frame, const ImageTarget& target);
 
-  const RendererOptions& options() const noexcept;  ///< with the choices made for `automatic` and 0
+  const RendererOptions& options() const noexcept;  ///< with the threads and the instruction set that were chosen
 
  private:
   std::unique_ptr<RendererState> state_;

@@ -2,8 +2,8 @@
 //
 // Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel does not depend on
 // tiles or blocks, and a gradient too steep for 64 bits comes right again inside the triangle. Gradients come from doubles,
-// those of needles, where doubles are not enough, from exact quotients. float32: one fused
-// multiply-add for each direction from the first vertex, kept within the vertices' range.
+// those of needles, where doubles are not enough, from exact quotients. float32: one fused multiply-add for each direction
+// from the first vertex, kept within the vertices' range.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
 #undef TESSERA_RASTER_DEPTH_INL_H_
@@ -25,10 +25,6 @@ using Uint64Tag = hn::Repartition<std::uint64_t, FloatTag>;
 using Int64Tag = hn::RebindToSigned<Uint64Tag>;
 inline constexpr Uint64Tag kUint64{};
 inline constexpr Int64Tag kInt64{};
-
-/// A gradient's error counts once for each pixel between a triangle's first vertex and its farthest one, 2^15 at most in x and
-/// in y. Below this bound of its terms that makes at most half a depth word.
-inline constexpr double kSteepDepth = 0x1p35;
 
 /// 16 and 24 bits: 32.32 fixed point of the vertices' depth words. Those are at least 128 away from 0 and from 2^32 (the half
 /// that rounds the level), so rounding never wraps around. The key is the word's top bits.

@@ -16,6 +16,10 @@ inline constexpr int kUnormFraction = 32;
 inline constexpr int kUnorm32Fraction = 30;
 inline constexpr std::int64_t kUnorm32Lift = std::int64_t{1} << 32;
 
+/// A gradient's error counts once for each pixel between a triangle's first vertex and its farthest one, 2^15 at most in x and
+/// in y. Up to this bound of its terms that makes at most half a depth word; needles, which go beyond, need more care.
+inline constexpr double kSteepDepth = 0x1p35;
+
 /// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
 struct TriangleGroup {
   int count = 0;

@@ -25,7 +25,7 @@ float directional_spot_factor(const EyeLight& light) {
 }
 
 void note(std::string* reasons, const std::string& line) {
-  if (reasons) *reasons += "    " + line + "\n";
+  if (reasons) *reasons += "  " + line + "\n";
 }
 
 const char* kind_name(LightKind kind) {

@@ -188,7 +188,11 @@ namespace tessera {
 
 RenderTile* render_tile(Isa isa) { return TESSERA_KERNEL(isa, render_tile_lanes); }
 
-TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {}
+TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
+  // A group is added before the next look at the limit. Rendering a tile allocates nothing.
+  memory_->triangles.reserve(kMaxCollected + kGroupSize);
+  memory_->wide.reserve(kMaxCollected + kGroupSize);
+}
 TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }

@@ -13,7 +13,7 @@ namespace tessera {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 /// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
-inline constexpr std::size_t kMaxCollected = 4096;
+inline constexpr std::size_t kMaxCollected = 1024;
 
 struct alignas(64) TileWorkspace::Memory {
   alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];

@@ -30,7 +30,7 @@ std::string milliseconds(double ms) {
 std::string stats_text(const FrameStats& stats, const RendererOptions& options, const Times& times) {
   std::string text = "rendered with " + std::to_string(options.threads) + (options.threads == 1 ? " thread, " : " threads, ") +
                      std::string(name(options.instruction_set)) +
-                     (options.tile_size > 0 ? ", tiles of " + std::to_string(options.tile_size) + " pixels\n" : "\n");
+                     (stats.tile_size > 0 ? ", tiles of " + std::to_string(stats.tile_size) + " pixels\n" : "\n");
   text += row("reading and setting up", milliseconds(times.load_ms));
   text += row("rendering", milliseconds(times.render_ms));
   text += row("writing files", milliseconds(times.write_ms));

@@ -79,8 +79,8 @@ TEST(Depth, OfNeedlesIsWithinItsLevels) {
 }
 
 // float32. The gradients are floats, each off by at most 2^-24 of itself (2^-52 of their terms come on top, which only
-// needles feel); the two multiply-adds round once each, to 2^-24 of a value that is at most |z0| + |gx X| + |gy Y|. So the
-// error is at most 2^-23 (|z0| + |gx X| + |gy Y|) and a hair, and never more than the vertices' range, to which it is cut.
+// needles feel); the inner multiply-add rounds to 2^-24 of |z0 + gy Y|, the outer to 2^-24 of the sum. So the error is at most
+// 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never more than the vertices' range, to which it is cut.
 TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
   for (int s = 0; s < static_cast<int>(Shape::kCount); ++s) {
     RandomTriangles source(static_cast<std::uint32_t>(100 + s), kTile);
@@ -103,8 +103,7 @@ TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
         reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
           const double stored = float_of(stage.depth(x, y)), exact = static_cast<double>(exact_depth(reference, t, x, y));
           const double across = std::abs(x + 0.5 - t.corners[0].x / 256.0), down = std::abs(y + 0.5 - t.corners[0].y / 256.0);
-          const double reach = t.depth(0) + std::abs(gx) * across + std::abs(gy) * down;
-          const double bound = 1.01 * 0x1p-23 * reach + 0x1p-50 * (tx * across + ty * down);
+          const double bound = 1.01 * 0x1p-24 * (2 * t.depth(0) + 2 * std::abs(gx) * across + 3 * std::abs(gy) * down) + 0x1p-50 * (tx * across + ty * down);
           ASSERT_LE(std::abs(stored - exact), std::min(bound, high - low)) << name_of(isa) << ": " << stored << " for " << exact << ": " << Describe{t.corners};
           ASSERT_GE(stored, low);
           ASSERT_LE(stored, high);

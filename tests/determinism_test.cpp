@@ -1,0 +1,194 @@
+// The same frame gives the same bits: for any number of threads, tile size and instruction set, shaded early or late, scanned
+// out or read back, and on any machine: tests/picture_hashes.txt holds what every scene must come to.
+//
+// After a change that means to change pictures: TESSERA_WRITE_HASHES=1 engine_tests --gtest_filter='PictureHashes.*'
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+#include "engine/parallel.h"
+#include "engine/scene/scene.h"
+#include "tests/engine/api_random_frame.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+const char* const kBuiltin = "builtin";                   // the scene that is drawn when none is named
+const std::string kHashes = TESSERA_SOURCE_DIR "/tests/picture_hashes.txt";
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names{kBuiltin};
+  for (const auto& entry : std::filesystem::directory_iterator(TESSERA_TEST_SCENES))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Scene scene_of(const std::string& name) {
+  Scene scene = name == kBuiltin ? builtin_scene() : load_scene(std::string(TESSERA_TEST_SCENES) + "/" + name + ".json");
+  if (name == kBuiltin) apply({.width = 320, .height = 240}, scene);
+  return scene;
+}
+
+std::string text(const RendererOptions& o) {
+  return std::to_string(o.threads) + " threads, tiles of " + std::to_string(o.tile_size) + ", " + std::string(name(o.instruction_set)) +
+         (o.defer_shading ? "" : ", shaded at once");
+}
+
+const std::vector<RendererOptions>& all_options() {
+  static const std::vector<RendererOptions> kAll = [] {
+    std::vector<RendererOptions> all;
+    for (const int threads : {1, 2, 3, 8})
+      for (const int tile_size : {32, 64, 128})
+        for (const InstructionSet set : available_instruction_sets())
+          for (const bool defer : {true, false}) all.push_back({threads, tile_size, set, defer});
+    return all;
+  }();
+  return kAll;
+}
+
+// Kept: a renderer is made once and used for many frames.
+Renderer& renderer(const RendererOptions& options) {
+  static ThreadLimit limit(8);
+  static std::map<std::string, Renderer> renderers;
+  return renderers.try_emplace(text(options), options).first->second;
+}
+
+Fingerprint stored(const FrameBufferFormat& format, const std::function<void(Frame&)>& record, Renderer& by) {
+  FrameBuffer buffer(format);
+  Frame frame(buffer);
+  record(frame);
+  by.finish(frame);
+  return fingerprint(buffer);
+}
+
+std::vector<std::uint8_t> presented(const FrameBufferFormat& format, const std::function<void(Frame&)>& record, Renderer& by) {
+  FrameBuffer buffer(format);
+  Frame frame(buffer);
+  record(frame);
+  Image image(buffer);
+  by.finish(frame, image.target());
+  return image.bytes;
+}
+
+std::vector<std::uint8_t> read_back(const FrameBufferFormat& format, const std::function<void(Frame&)>& record, Renderer& by) {
+  FrameBuffer buffer(format);
+  Frame frame(buffer);
+  record(frame);
+  by.finish(frame);
+  Image image(buffer);
+  buffer.read_color(image.target());
+  return image.bytes;
+}
+
+void expect_same_bits_always(const FrameBufferFormat& format, const std::function<void(Frame&)>& record) {
+  Renderer& plain = renderer({1, 64, InstructionSet::scalar, false});
+  const Fingerprint expected = stored(format, record, plain);
+  const std::vector<std::uint8_t> shown = read_back(format, record, plain);
+  for (const RendererOptions& options : all_options()) {
+    Renderer& by = renderer(options);
+    ASSERT_EQ(by.options().threads, options.threads) << "the machine did not lend the threads";
+    EXPECT_EQ(stored(format, record, by), expected) << text(options);
+    EXPECT_TRUE(presented(format, record, by) == shown) << "scanned out by " << text(options);
+  }
+}
+
+class SceneBits : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneBits, DependOnNoOption) {
+  const Scene scene = scene_of(GetParam());
+  expect_same_bits_always(scene.framebuffer, [&](Frame& frame) { record(scene, frame); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Determinism, SceneBits, testing::ValuesIn(scene_names()), [](const auto& scene) {
+  std::string safe = scene.param;
+  std::replace_if(safe.begin(), safe.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return safe;
+});
+
+FrameBufferFormat random_format(ColorMode mode, int bits, DepthFormat depth) {
+  return {.width = 330, .height = 210, .color_mode = mode, .color_bits = bits, .depth = depth};
+}
+
+TEST(Determinism, RandomTrianglesWithClippingAndOverdrawHaveTheSameBits) {
+  const RandomFrame random(random_format(ColorMode::rgb, 24, DepthFormat::unorm24));
+  expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
+  FrameBuffer buffer(random.format);
+  Frame frame(buffer);
+  random.record(frame);
+  const FrameStats stats = renderer({1, 64, InstructionSet::scalar, true}).finish(frame);
+  EXPECT_GT(stats.clipped, 100u);
+  EXPECT_GT(stats.shaded_pixels, 4u * 330 * 210);
+}
+
+TEST(Determinism, RandomTrianglesHaveTheSameBitsInSixteenBitColorAndFloatDepth) {
+  const RandomFrame random(random_format(ColorMode::rgb, 16, DepthFormat::float32));
+  expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
+}
+
+TEST(Determinism, RandomTrianglesHaveTheSameBitsInPaletteColors) {
+  const RandomFrame random(random_format(ColorMode::index, 8, DepthFormat::unorm32), 500);
+  expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
+}
+
+TEST(Determinism, RandomTrianglesHaveTheSameBitsInGrey) {
+  const RandomFrame random(random_format(ColorMode::rgb, 2, DepthFormat::unorm16), 500);
+  expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
+}
+
+// Several batches of triangles and tasks of vertices, so that many threads have something to do at once.
+TEST(Determinism, ManySmallTrianglesHaveTheSameBitsOnEightThreads) {
+  const RandomFrame random(random_format(ColorMode::rgb, 24, DepthFormat::none), 20000);
+  const auto record = [&](Frame& frame) { random.record(frame); };
+  const Fingerprint expected = stored(random.format, record, renderer({1, 128, InstructionSet::automatic, true}));
+  for (int round = 0; round < 5; ++round)
+    for (const int threads : {2, 3, 8}) EXPECT_EQ(stored(random.format, record, renderer({threads, 32, InstructionSet::automatic, true})), expected);
+}
+
+std::map<std::string, std::string> hashes_now() {
+  std::map<std::string, std::string> hashes;
+  for (const std::string& name : scene_names()) {
+    const Scene scene = scene_of(name);
+    const Fingerprint f = stored(scene.framebuffer, [&](Frame& frame) { record(scene, frame); }, renderer({}));
+    std::ostringstream line;
+    line << std::hex << std::setfill('0') << std::setw(16) << f.color << ' ' << std::setw(16) << f.depth;
+    hashes[name] = line.str();
+  }
+  return hashes;
+}
+
+TEST(PictureHashes, EverySceneComesToItsHash) {
+  const std::map<std::string, std::string> now = hashes_now();
+  const char* const write = std::getenv("TESSERA_WRITE_HASHES");
+  if (write != nullptr && std::string(write) == "1") {
+    std::ofstream out(kHashes);
+    for (const auto& [name, hashes] : now) out << name << ' ' << hashes << '\n';
+    ASSERT_TRUE(out.flush()) << kHashes << " cannot be written";
+    GTEST_SKIP() << "wrote " << kHashes;
+  }
+  std::ifstream in(kHashes);
+  ASSERT_TRUE(in) << kHashes << " cannot be read";
+  std::map<std::string, std::string> expected;
+  for (std::string line; std::getline(in, line);) expected[line.substr(0, line.find(' '))] = line.substr(line.find(' ') + 1);
+  for (const auto& [name, hashes] : now) {
+    if (!expected.contains(name))
+      ADD_FAILURE() << name << " has no hash in " << kHashes;
+    else
+      EXPECT_EQ(hashes, expected[name]) << name << ": colour and depth";
+    expected.erase(name);
+  }
+  for (const auto& [name, hashes] : expected) ADD_FAILURE() << kHashes << " has a hash of " << name << ", which is no scene";
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,160 @@
+// Tasks run once each, on as many workers as were asked for, in the default floating-point mode.
+#include "engine/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace tessera {
+namespace {
+
+void spin(std::chrono::microseconds time) {
+  const auto end = std::chrono::steady_clock::now() + time;
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
+
+TEST(Parallel, EightThreadsAreEightDistinctWorkers) {
+  const ThreadLimit limit(8);
+  Parallel parallel(8);
+  ASSERT_EQ(parallel.threads(), 8);
+  int seen = 0;
+  for (int round = 0; round < 50 && seen < 8; ++round) {  // workers need a moment to arrive
+    parallel.for_each(400, [](std::size_t, int) { spin(std::chrono::microseconds(200)); });
+    seen = parallel.distinct_workers_seen();
+  }
+  EXPECT_EQ(seen, 8);
+  EXPECT_EQ(parallel.distinct_workers_seen(), 0) << "asking starts the count anew";
+}
+
+TEST(Parallel, EachTaskRunsOnceForAnyNumberOfThreads) {
+  const ThreadLimit limit(8);
+  for (const int threads : {1, 2, 3, 8}) {
+    Parallel parallel(threads);
+    for (const std::size_t count : {0, 1, 2, 7, 1000}) {
+      std::vector<std::atomic<int>> runs(count);
+      parallel.for_each(count, [&](std::size_t task, int) { ++runs.at(task); });
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(runs[i], 1) << "task " << i << " of " << count << " on " << threads << " threads";
+    }
+  }
+}
+
+TEST(Parallel, NoTwoTasksAtTheSameTimeShareAWorker) {
+  const ThreadLimit limit(8);
+  Parallel parallel(8);
+  std::vector<std::atomic<int>> busy(8);
+  std::atomic<bool> shared = false, beyond = false;
+  parallel.for_each(2000, [&](std::size_t, int worker) {
+    if (worker < 0 || worker >= 8) {
+      beyond = true;
+      return;
+    }
+    if (busy[static_cast<std::size_t>(worker)].fetch_add(1) != 0) shared = true;
+    spin(std::chrono::microseconds(20));
+    --busy[static_cast<std::size_t>(worker)];
+  });
+  EXPECT_FALSE(shared);
+  EXPECT_FALSE(beyond);
+}
+
+TEST(Parallel, OneThreadIsTheCallers) {
+  Parallel parallel(1);
+  const auto caller = std::this_thread::get_id();
+  std::vector<std::size_t> order;
+  parallel.for_each(5, [&](std::size_t task, int worker) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_EQ(worker, 0);
+    order.push_back(task);
+  });
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(parallel.distinct_workers_seen(), 1);
+}
+
+TEST(Parallel, AnExceptionOfATaskReachesTheCaller) {
+  const ThreadLimit limit(8);
+  for (const int threads : {1, 8}) {
+    Parallel parallel(threads);
+    const auto run = [&] {
+      parallel.for_each(100, [](std::size_t task, int) {
+        if (task == 37) throw std::out_of_range("thirty-seven");
+      });
+    };
+    EXPECT_THROW(run(), std::out_of_range);
+    std::atomic<int> after = 0;
+    parallel.for_each(100, [&](std::size_t, int) { ++after; });
+    EXPECT_EQ(after, 100) << "it works as before";
+  }
+}
+
+TEST(Parallel, AThreadCountAboveTheProcessesLimitIsLowered) {
+  const ThreadLimit limit(3);
+  EXPECT_EQ(Parallel(8).threads(), 3);
+  EXPECT_EQ(Parallel(2).threads(), 2);
+}
+
+TEST(Parallel, SurvivesBeingMoved) {
+  const ThreadLimit limit(8);
+  Parallel first(4);
+  Parallel second(std::move(first));
+  Parallel third(1);
+  third = std::move(second);
+  EXPECT_EQ(third.threads(), 4);
+  std::atomic<int> runs = 0;
+  third.for_each(50, [&](std::size_t, int) { ++runs; });
+  EXPECT_EQ(runs, 50);
+}
+
+#if defined(__x86_64__)
+
+constexpr unsigned kDefaultMode = 0x1f80, kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000, kModeBits = 0xffc0;
+
+TEST(Parallel, TasksRunInTheDefaultFloatingPointMode) {
+  const ThreadLimit limit(8);
+  const unsigned before = _mm_getcsr();
+  const unsigned odd = (kDefaultMode | kFlushToZero | kDenormalsAreZero | kRoundUp);
+  for (const int threads : {1, 8}) {
+    Parallel parallel(threads);
+    std::atomic<int> wrong = 0;
+    _mm_setcsr(odd);
+    parallel.for_each(400, [&](std::size_t, int) {
+      if ((_mm_getcsr() & kModeBits) != kDefaultMode) ++wrong;
+      spin(std::chrono::microseconds(20));
+    });
+    const unsigned after = _mm_getcsr();
+    _mm_setcsr(before);
+    EXPECT_EQ(wrong, 0) << threads << " threads";
+    EXPECT_EQ(after & kModeBits, odd & kModeBits) << "the caller's mode is the caller's";
+  }
+}
+
+TEST(Parallel, TheFloatingPointModeEndsWithItsScope) {
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(kDefaultMode | kFlushToZero | kRoundUp);
+  volatile float smallest = std::numeric_limits<float>::min();
+  float inside = 0;
+  {
+    const FloatingPointMode mode;
+    inside = smallest / 2;
+  }
+  const float outside = smallest / 2;
+  const unsigned after = _mm_getcsr();
+  _mm_setcsr(before);
+  EXPECT_GT(inside, 0) << "denormals are kept";
+  EXPECT_EQ(outside, 0) << "and then flushed again";
+  EXPECT_EQ(after & kModeBits, kDefaultMode | kFlushToZero | kRoundUp);
+}
+
+#endif
+
+}  // namespace
+}  // namespace tessera
