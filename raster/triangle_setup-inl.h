@@ -118,6 +118,42 @@ HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y, std
     if (g.depth_terms[i] > kSteepDepth) set_up_steep_depth<kFraction>(g, i, tile_x, tile_y, lift);
 }
 
+/// The same in exact integers, for triangle i: of a needle, whose gradients are steep and whose terms cancel.
+template <int kFraction>
+void set_up_exact_depth(TriangleGroup& g, int i, int tile_x, int tile_y, std::uint64_t lift) {
+  using Wide = __int128;
+  const auto area = static_cast<std::int64_t>(g.area[i]);
+  const std::int64_t dz1 = std::int64_t{g.z[1][i]} - g.z[0][i], dz2 = std::int64_t{g.z[2][i]} - g.z[0][i];
+  // Gradients in depth words for each 1/256 pixel, times the area: below 2^57.
+  const std::int64_t nx = g.a[1][i] * dz1 + g.a[2][i] * dz2, ny = g.b[1][i] * dz1 + g.b[2][i] * dz2;
+  const auto fixed = [area](Wide numerator) {  // numerator / area in fixed point, to the nearest, modulo 2^64
+    const Wide scaled = numerator * (Wide{1} << kFraction), half = area / 2;
+    return static_cast<std::uint64_t>((scaled + (scaled < 0 ? -half : half)) / area);
+  };
+  const std::int32_t x = g.x[0][i], y = g.y[0][i];
+  const std::uint64_t dx = fixed(Wide{nx} * kSubpixelScale), dy = fixed(Wide{ny} * kSubpixelScale);
+  g.fixed_dx[i] = dx;
+  g.fixed_dy[i] = dy;
+  g.fixed_base[i] = ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
+                    dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
+}
+
+/// Depth planes of a group: in doubles where those are good for 2^-8 of a depth word, else exactly.
+template <int kFraction>
+HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroupSize], int tile_x, int tile_y, std::uint64_t lift) {
+  set_up_fixed_depth<kFraction>(g, tile_x, tile_y, lift);
+  alignas(64) std::int32_t steep[kGroupSize];
+  for (int i = 0; i < kGroupSize; ++i) {
+    // A gradient is off by a few 2^-53 of its terms, and counts once for each pixel from the first vertex on.
+    const double dz1 = __builtin_fabs(z[1][i] - z[0][i]), dz2 = __builtin_fabs(z[2][i] - z[0][i]);
+    const double a1 = __builtin_fabs(g.a[1][i]), a2 = __builtin_fabs(g.a[2][i]), b1 = __builtin_fabs(g.b[1][i]), b2 = __builtin_fabs(g.b[2][i]);
+    const double terms = (a1 + b1) * dz1 + (a2 + b2) * dz2, reach = a1 + a2 + b1 + b2;  // reach in 1/256 pixel
+    steep[i] = terms * reach > 0x1p42 * g.area[i] ? 1 : 0;
+  }
+  for (int i = 0; i < g.count; ++i)
+    if (steep[i] != 0 && (g.mask >> i & 1) != 0) set_up_exact_depth<kFraction>(g, i, tile_x, tile_y, lift);
+}
+
 /// Depth gradients: per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32).
 inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y) {
   alignas(64) double z[3][kGroupSize];
@@ -141,9 +177,9 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
     g.depth_terms[i] = (ax + ay) * scale;
   }
   if (kind == DepthKind::unorm32)
-    set_up_fixed_depth<kUnorm32Fraction>(g, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
+    set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
   else if (kind != DepthKind::float32)
-    set_up_fixed_depth<kUnormFraction>(g, tile_x, tile_y, 0);
+    set_up_unorm_depth<kUnormFraction>(g, z, tile_x, tile_y, 0);
 }
 
 /// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k + shift_k, which is
