@@ -82,7 +82,7 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
     s.palette.bits = format.color_bits;
     for (std::size_t i = 0; i < format.palette.size(); ++i) {
       const Color& c = format.palette[i];
-      for (const float component : {c.r, c.g, c.b})
+      for (const float component : {c.r, c.g, c.b, c.a})
         if (!(component >= 0 && component <= 1))
           throw Error("FrameBuffer: palette entry " + std::to_string(i) + " has a component " + std::to_string(component) + ", must be 0 to 1");
       s.palette.entries.push_back(stored_color(c.r, c.g, c.b));

@@ -74,31 +74,33 @@ struct BlockEdges {
 
 alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover, row by row; `full` says
-/// that all 16 pixels are inside.
+/// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
+/// 16 pixels are inside.
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
   // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first.
-  Int to_highest[3], to_lowest[3], step[3];
+  Int to_highest[3], to_lowest[3], down[3];
   for (int k = 0; k < 3; ++k) {
     to_highest[k] = splat(3 * (std::max(t.a[k], 0) + std::max(t.b[k], 0)));
     to_lowest[k] = splat(3 * (std::min(t.a[k], 0) + std::min(t.b[k], 0)));
-    step[k] = hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
+    down[k] = splat(4 * t.b[k]);
   }
-  const int first_x = x0 & ~3;
-  for (int by = y0 & ~3; by <= y1; by += 4) {
-    for (int bx = first_x; bx <= x1; bx += 4 * kLanes) {
-      Int highest = hn::Zero(kInt), lowest = hn::Zero(kInt);
+  const int first_y = y0 & ~3;
+  for (int bx = x0 & ~3; bx <= x1; bx += 4 * kLanes) {
+    const std::uint32_t in_bounds = (1u << std::min(((x1 - bx) >> 2) + 1, kLanes)) - 1;
+    Int e[3];
+    for (int k = 0; k < 3; ++k)
+      e[k] = hn::Add(splat(t.e[k] + t.a[k] * bx + t.b[k] * first_y), hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers)));
+    for (int by = first_y; by <= y1; by += 4) {
+      const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])), hn::Add(e[2], to_highest[2]));
+      const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])), hn::Add(e[2], to_lowest[2]));
+      std::uint32_t touched = mask_bits(kInt, hn::Gt(highest, splat(-1))) & in_bounds;
+      const std::uint32_t inside = mask_bits(kInt, hn::Gt(lowest, splat(-1)));
       alignas(64) std::int32_t start[3][kLanes];
       for (int k = 0; k < 3; ++k) {
-        const Int e = hn::Add(splat(t.e[k] + t.a[k] * bx + t.b[k] * by), step[k]);
-        hn::Store(e, kInt, start[k]);
-        highest = hn::Or(highest, hn::Add(e, to_highest[k]));
-        lowest = hn::Or(lowest, hn::Add(e, to_lowest[k]));
+        hn::Store(e[k], kInt, start[k]);
+        e[k] = hn::Add(e[k], down[k]);
       }
-      const int blocks = std::min(((x1 - bx) >> 2) + 1, kLanes);
-      std::uint32_t touched = mask_bits(kInt, hn::Gt(highest, splat(-1))) & ((1u << blocks) - 1);
-      const std::uint32_t inside = mask_bits(kInt, hn::Gt(lowest, splat(-1)));
       for (; touched != 0; touched &= touched - 1) {
         const int i = std::countr_zero(touched);
         const BlockEdges edges{{splat(start[0][i]), splat(start[1][i]), splat(start[2][i])}, offsets};

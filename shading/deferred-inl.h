@@ -23,8 +23,11 @@ inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
 /// Pixels of up to four blocks that share a surface: one draw, one face.
 struct PixelBatch {
   int blocks = 0;
-  std::uint32_t draw = 0;
+  std::uint32_t draw = 0xffffffffu;
   bool back = false;
+  // Which attributes of its triangles' vertices go into which arrays of the batch.
+  int first_attribute = 0, attribute_count = 0;
+  float* target[kMaxAttributes];
   int index[kBatchBlocks];            // of each block's first pixel in tile memory
   std::uint32_t covered[kBatchBlocks];  // 16 bits
 };
@@ -74,25 +77,30 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   pixels.blocks = 0;
 }
 
-/// Adds to a slot of the batch the pixels of one triangle in one block; bits of `covered`. Lanes that no triangle fills hold
-/// what an earlier block left there.
-inline HWY_NOINLINE void gather_attributes(TileRun& run, const ShadedTriangle& triangle, int bx, int by, int slot, std::uint32_t covered) {
-  const TileDraw& draw = run.frame.draws[triangle.draw];
-  ShadingBatch& batch = run.memory.batch;
+/// Makes the batch one of another surface. @pre it is empty
+HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint32_t draw_number, bool back) {
+  const TileDraw& draw = run.frame.draws[draw_number];
   const bool per_pixel = draw.source == ColorSource::per_pixel;
-  const int count = per_pixel ? draw.attribute_count : 3;
-  const int first_attribute = per_pixel ? 0 : draw.color_attribute[triangle.back ? 1 : 0];
-  const CornerArrays values(triangle, first_attribute, count);
+  pixels.draw = draw_number;
+  pixels.back = back;
+  pixels.first_attribute = per_pixel ? 0 : draw.color_attribute[back ? 1 : 0];
+  pixels.attribute_count = per_pixel ? draw.attribute_count : 3;
+  for (int j = 0; j < pixels.attribute_count; ++j) pixels.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
+}
+
+/// Adds to the batch's next slot the pixels of one triangle in one block; bits of `covered`. Lanes that no triangle fills hold
+/// what an earlier block left there.
+HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered) {
+  const CornerArrays values(triangle, pixels.first_attribute, pixels.attribute_count);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
     if (bits == 0) continue;
     const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
     const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
-    const int point = slot * kBlockPixels + chunk * kLanes;
-    for (int j = 0; j < count; ++j) {
-      float* target = batch.field[per_pixel ? draw.fields[j] : kColorR + j] + point;
-      const Float value = interpolate(at, values[j]);
-      hn::Store(hn::IfThenElse(mask, value, hn::Load(kFloat, target)), kFloat, target);
+    const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
+    for (int j = 0; j < pixels.attribute_count; ++j) {
+      float* target = pixels.target[j] + point;
+      hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target)), kFloat, target);
     }
   }
 }
@@ -115,10 +123,9 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
       while (waiting != 0) {
         // All pixels of the block that belong to the surface of the first one still waiting.
         const ShadedTriangle& leader = memory.triangles[ids[std::countr_zero(waiting)]];
-        if (pixels.blocks == kBatchBlocks || (pixels.blocks > 0 && (pixels.draw != leader.draw || pixels.back != leader.back)))
-          shade_batch(run, pixels);
-        pixels.draw = leader.draw;
-        pixels.back = leader.back;
+        const bool other_surface = pixels.draw != leader.draw || pixels.back != leader.back;
+        if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(run, pixels);
+        if (other_surface) begin_surface(run, pixels, leader.draw, leader.back);
         std::uint32_t left = waiting, taken = 0;
         while (left != 0) {
           const std::uint32_t id = ids[std::countr_zero(left)];
@@ -129,7 +136,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
             same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
           left &= ~same;
           if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
-          gather_attributes(run, triangle, bx, by, pixels.blocks, same);
+          gather_attributes(run, pixels, triangle, bx, by, same);
           taken |= same;
         }
         waiting &= ~taken;

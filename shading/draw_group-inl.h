@@ -171,9 +171,8 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
 }
 
 /// The triangle as shading sees it.
-inline HWY_NOINLINE ShadedTriangle shaded_triangle(const TileRun& run, std::uint32_t draw, int i, bool back) {
+inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& run, std::uint32_t draw, int i, bool back) {
   const TriangleGroup& g = run.memory.group;
-  ShadedTriangle t;
   t.edges = tile_edges(g, i);
   for (int k = 0; k < 3; ++k) {
     t.scale[k] = g.wide[i] != 0 ? g.unit_scale[k][i] : g.scale[k][i];
@@ -183,7 +182,7 @@ inline HWY_NOINLINE ShadedTriangle shaded_triangle(const TileRun& run, std::uint
   t.affine = g.affine[i] != 0;
   t.back = back;
   t.draw = draw;
-  return t;
+  t.wide = -1;
 }
 
 template <class Depth, Test kTest, Seen kSeen>
@@ -212,14 +211,14 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
     WideEdges wide_edges;
     if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
 
-    ShadedTriangle triangle;
+    ShadedTriangle scratch;
+    ShadedTriangle& triangle = kSeen == Seen::collect ? memory.triangles.emplace_back() : scratch;
     if constexpr (kSeen == Seen::interpolate || kSeen == Seen::collect) {
-      triangle = shaded_triangle(run, draw_number, i, back);
+      fill_shaded_triangle(triangle, run, draw_number, i, back);
       if (wide) {
         triangle.wide = static_cast<std::int32_t>(memory.wide.size());
         memory.wide.push_back(wide_edges);
       }
-      if constexpr (kSeen == Seen::collect) memory.triangles.push_back(triangle);
     }
     TrianglePixels<Depth, kTest, kSeen> pixels(run, draw, edges, triangle);
     set_up_pixels(pixels, run, draw, i, back);

@@ -1,0 +1,86 @@
+// The scalar twin of lighting.cpp and its specification: one point at a time, the same steps in the same order.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "shading/lighting.h"
+#include "shading/power_reference.h"
+
+namespace tessera {
+
+struct PointReference {
+  std::array<float, 3> normal{}, position{};
+  Rgb vertex{};
+};
+
+inline Rgb light_point_reference(const LightingProgram& program, const PointReference& point) {
+  using Vec = std::array<float, 3>;
+  const auto dot = [](const Vec& a, const Vec& b) { return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2])); };
+  const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
+  const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
+  const auto power = [](float x, float exponent) { return exponent == 0 ? 1.0f : power_reference(x, exponent); };
+  const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] = std::fma(intensity, color[c], sum[c]);
+  };
+
+  Vec normal = point.normal;
+  const float length = program.renormalize ? inverse_length(dot(normal, normal)) : 1.0f;
+  normal = scaled(normal, program.negate_normal ? 0.0f - length : length);
+  const Vec view = scaled(point.position, 0.0f - inverse_length(dot(point.position, point.position)));
+
+  Rgb color = program.base, tracked = program.tracked_base;
+  for (const LightTerm& term : program.terms) {
+    Vec to_light = term.position;
+    float factor = 1;
+    bool reached = true;
+    if (term.kind != LightKind::directional) {
+      for (std::size_t k = 0; k < 3; ++k) to_light[k] -= point.position[k];
+      const float squared = dot(to_light, to_light), distance = std::sqrt(squared);
+      to_light = scaled(to_light, squared > 0 ? 1.0f / distance : 0.0f);
+      if (term.kind == LightKind::spot || term.kind == LightKind::attenuated_spot) {
+        const float cosine = 0.0f - dot(to_light, term.spot_direction);
+        reached = cosine >= term.spot_cosine && cosine > 0;
+        factor = reached ? power(cosine, term.spot_exponent) : 0.0f;
+      }
+      if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
+        const float denominator = std::fma(term.attenuation[2], squared, std::fma(term.attenuation[1], distance, term.attenuation[0]));
+        factor *= denominator > 0 ? 1.0f / denominator : 1.0e6f;
+      }
+    }
+    const float n_dot_l = dot(normal, to_light);
+    const bool facing = reached && n_dot_l > 0;
+    const float diffuse = facing ? n_dot_l * factor : 0.0f;
+    float highlight = 0;
+    if (facing && term.highlight != HighlightKind::none) {
+      const bool local = term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
+      const Vec eye = local ? view : Vec{0, 0, 1};
+      const float n_dot_v = local ? dot(normal, view) : normal[2];
+      float base;
+      if (term.highlight == HighlightKind::phong_infinite || term.highlight == HighlightKind::phong_local) {
+        base = (n_dot_l + n_dot_l) * n_dot_v - (local ? dot(to_light, view) : to_light[2]);  // R = 2 (L.n) n - L
+      } else if (term.kind == LightKind::directional && !local) {
+        base = dot(normal, term.half_vector);
+      } else {  // S = normalize(L + E)
+        const Vec half{to_light[0] + eye[0], to_light[1] + eye[1], to_light[2] + eye[2]};
+        base = (n_dot_l + n_dot_v) * inverse_length(dot(half, half));
+      }
+      highlight = power(base, term.shininess) * factor;
+    }
+    accumulate(color, factor, term.ambient);
+    accumulate(color, diffuse, term.diffuse);
+    accumulate(color, highlight, term.specular);
+    accumulate(tracked, factor, term.tracked_ambient);
+    accumulate(tracked, diffuse, term.tracked_diffuse);
+    accumulate(tracked, highlight, term.tracked_specular);
+  }
+  Rgb result{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float sum = program.tracked ? std::fma(tracked[c], point.vertex[c], color[c]) : color[c];
+    const float low = sum > 0 ? sum : 0.0f;
+    result[c] = low < 1 ? low : 1.0f;
+  }
+  return result;
+}
+
+}  // namespace tessera

@@ -1,0 +1,292 @@
+// The lighting kernels: the same bits as their scalar twin on every instruction set, and the specification's formula.
+#include "shading/lighting.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "shading/lighting_reference.h"
+#include "tests/raster/tile_stage.h"
+#include "tests/shading/lighting_cases.h"
+
+namespace tessera::test {
+namespace {
+
+using test::light;
+
+int rounds(int normal) {
+  const char* value = std::getenv("TESSERA_LONG");
+  return value != nullptr && *value != '\0' && *value != '0' ? normal * 30 : normal;
+}
+
+void expect_same_bits(const LightingProgram& program, const std::vector<LightingPoint>& points) {
+  for (const Isa isa : available_isas()) {
+    const std::vector<Rgb> colors = light(program, points, isa);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Rgb expected = light_point_reference(program, {points[i].normal, points[i].position, points[i].vertex});
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(colors[i][k]), std::bit_cast<std::uint32_t>(expected[k]))
+            << name_of(isa) << " point " << i << " component " << k << ": " << colors[i][k] << " for " << expected[k];
+    }
+  }
+}
+
+// Every kernel by itself: kind of light x highlight x general, each with every preparation of the normals.
+TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
+  RandomLighting random(1);
+  std::set<std::tuple<LightKind, HighlightKind, bool>> kernels;
+  for (int kind = 0; kind < kLightKinds; ++kind) {
+    for (int variant = 0; variant < 128; ++variant) {
+      for (int round = 0; round < rounds(4); ++round) {
+        LightingCase c;
+        c.material = random.material();
+        c.material.diffuse = {0.5f, 0.6f, 0.7f};
+        c.material.specular = (variant & 1) != 0 ? Rgb{0.3f, 0.4f, 0.5f} : Rgb{};
+        c.model.local_viewer = (variant & 2) != 0;
+        c.model.phong_highlight = (variant & 4) != 0;
+        c.tracked.diffuse = (variant & 8) != 0;
+        c.renormalize = (variant & 16) != 0;
+        c.negate_normal = (variant & 32) != 0;
+        c.lights.push_back(random.light(static_cast<LightKind>(kind)));
+        c.lights[0].diffuse = c.lights[0].specular = {0.9f, 0.8f, 0.7f};
+        c.lights[0].ambient = (variant & 64) != 0 ? Rgb{0.1f, 0.2f, 0.3f} : Rgb{};
+        std::vector<LightingPoint> points(64);
+        for (LightingPoint& p : points) p = random.point();
+        const LightingProgram program = c.program();
+        for (const LightTerm& term : program.terms) kernels.insert({term.kind, term.highlight, term.general});
+        expect_same_bits(program, points);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  EXPECT_EQ(kernels.size(), static_cast<std::size_t>(kLightKinds * kHighlightKinds * 2)) << "kernels that this test never ran";
+}
+TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
+  RandomLighting random(2);
+  for (int round = 0; round < rounds(2000); ++round) {
+    std::vector<LightingPoint> points(static_cast<std::size_t>(16 + 16 * (round % 4)));
+    for (LightingPoint& p : points) p = random.point();
+    expect_same_bits(random.next().program(), points);
+    if (HasFatalFailure()) return;
+  }
+}
+
+double distance_to_formula(const LightingCase& c, const std::vector<LightingPoint>& points, std::size_t* compared = nullptr) {
+  double worst = 0;
+  const std::vector<Rgb> colors = light(c.program(), points, available_isas().front());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool smooth = true;
+    const std::array<double, 3> expected = lighting_formula(c, points[i], smooth);
+    if (!smooth) continue;
+    if (compared) ++*compared;
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(colors[i][k] - expected[k]));
+  }
+  return worst;
+}
+
+TEST(Lighting, IsWithinOneLevelOfTheFormula) {
+  RandomLighting random(3);
+  double worst = 0;
+  std::size_t compared = 0, all = 0;
+  for (int round = 0; round < rounds(4000); ++round) {
+    const LightingCase c = random.next();
+    std::vector<LightingPoint> points(64);
+    for (LightingPoint& p : points) p = random.point();
+    all += points.size();
+    const double distance = distance_to_formula(c, points, &compared);
+    ASSERT_LE(distance, 1 / 255.0) << "round " << round << ", shininess " << c.material.shininess;
+    worst = std::max(worst, distance);
+  }
+  EXPECT_GT(compared, all * 9 / 10) << "too many points were called discontinuous";
+  RecordProperty("worst_1e9", static_cast<int>(worst * 1e9));
+  std::printf("[  figure  ] lighting, largest distance to the formula: %.3g (1/255 is 0.0039)\n", worst);
+}
+
+// 1 - 2^-24 to the power of 16384 is 0.999: what rounding takes from S.n or R.E counts so many times. Normals, light and halfway
+// vectors are of length 1 within 2^-23 or so each; the highlight is then off by a few times 2^-23 of its exponent.
+TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
+  for (const float shininess : {128.0f, 1000.0f, 4096.0f, 16384.0f}) {
+    RandomLighting random(4);
+    double worst[2][2][2] = {};
+    for (int round = 0; round < rounds(2000); ++round) {
+      LightingCase c;
+      c.material.specular = {1, 1, 1};
+      c.material.shininess = shininess;
+      const bool local = round % 2 != 0, phong = round % 4 > 1, point = round % 8 > 3;
+      c.model.local_viewer = local;
+      c.model.phong_highlight = phong;
+      c.renormalize = true;
+      c.lights.push_back(random.light(point ? LightKind::point : LightKind::directional));
+      c.lights[0].specular = {1, 0.7f, 0.4f};
+      c.lights[0].spot_cutoff = 180;
+      // Normals about the halfway vector, so that highlights are seen at all.
+      std::vector<LightingPoint> points(64);
+      for (LightingPoint& p : points) {
+        p = random.point();
+        std::array<double, 3> l{}, e{0, 0, 1};
+        double ll = 0, pp = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          l[k] = point ? double{c.lights[0].position[k]} - p.position[k] : c.lights[0].position[k];
+          ll += l[k] * l[k];
+          pp += double{p.position[k]} * p.position[k];
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (local) e[k] = -p.position[k] / std::sqrt(pp);
+          p.normal[k] = static_cast<float>(l[k] / std::sqrt(ll) + e[k] + 1.5 / std::sqrt(shininess) * (random.unit() - 0.5));
+        }
+      }
+      double& most = worst[point][phong][local];
+      most = std::max(most, distance_to_formula(c, points));
+    }
+    for (const bool point : {false, true}) {
+      for (const bool phong : {false, true}) {
+        for (const bool local : {false, true}) {
+          std::printf("[  figure  ] shininess %g, %s, %s, %s viewer: %.2f levels from the formula\n", shininess, point ? "point light" : "directional", phong ? "Phong" : "Blinn",
+                      local ? "local" : "infinite", 255 * worst[point][phong][local]);
+          EXPECT_LE(worst[point][phong][local], 6 * 0x1p-23 * shininess);
+          if (shininess <= 4096) EXPECT_LE(worst[point][phong][local], 1 / 255.0);
+        }
+      }
+    }
+  }
+}
+
+struct Special {
+  LightingCase c;
+  std::vector<LightingPoint> points = std::vector<LightingPoint>(16);
+  Special() {
+    c.material = {{0.1f, 0.1f, 0.1f}, {0.5f, 0.5f, 0.5f}, {0.25f, 0.25f, 0.25f}, {0.05f, 0, 0}, 10};
+    EyeLight l;
+    l.directional = false;
+    l.position = {0, 0, 0};
+    l.ambient = {0.5f, 0.5f, 0.5f};
+    c.lights.push_back(l);
+    for (LightingPoint& p : points) p = {{0, 0, 1}, {0, 0, -2}, {1, 1, 1}};
+  }
+  EyeLight& light() { return c.lights[0]; }
+  // By hand: base, then what att and spot multiply.
+  void expect(double red, double green) {
+    for (const Isa isa : available_isas()) {
+      const Rgb color = test::light(c.program(), points, isa)[5];
+      EXPECT_NEAR(color[0], red, 2e-6) << name_of(isa);
+      EXPECT_NEAR(color[1], green, 2e-6) << name_of(isa);
+      EXPECT_EQ(color[1], color[2]);
+    }
+    EXPECT_LE(distance_to_formula(c, points), 2e-6);
+  }
+};
+constexpr double kBase = 0.2 * 0.1, kGlow = 0.05, kAmbient = 0.05, kDiffuse = 0.5, kSpecular = 0.25;
+
+TEST(LightingSpecialCase, HeadOnEverythingIsSeen) { Special().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular); }
+TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
+  for (const std::array<float, 3>& coefficients : {std::array<float, 3>{0, 0, 0}, {1, -1, 0}, {1, 0, -1}, {2, -1, 0}}) {
+    Special s;
+    s.light().attenuation = coefficients;
+    s.light().diffuse = s.light().specular = {0, 0, 0};
+    s.light().ambient = {2e-6f, 2e-6f, 2e-6f};
+    s.expect(kGlow + kBase + 0.2, kBase + 0.2);
+  }
+}
+TEST(LightingSpecialCase, LightAtThePointGivesItsAmbientPartAlone) {
+  Special s;
+  s.light().position = {0, 0, -2};
+  s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
+  s.light().attenuation = {2, 5, 7};
+  s.expect(kGlow + kBase + kAmbient / 2, kBase + kAmbient / 2);
+  s.light().spot_cutoff = 90;  // V.D <= 0
+  s.expect(kGlow + kBase, kBase);
+}
+TEST(LightingSpecialCase, ZeroNormalsSeeTheAmbientPartAlone) {
+  Special s;
+  for (LightingPoint& p : s.points) p.normal = {0, 0, 0};
+  s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
+  s.c.renormalize = true;
+  s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
+  s.c.material.shininess = 0;
+  s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
+}
+TEST(LightingSpecialCase, SurfacesThatFaceAwayHaveNoHighlight) {
+  for (const float shininess : {0.0f, 1.0f, 10.0f}) {
+    for (const bool phong : {false, true}) {
+      Special s;
+      s.c.material.shininess = shininess;
+      s.c.model.phong_highlight = phong;
+      for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
+      s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
+      s.c.negate_normal = true;  // a back face seen from behind
+      s.expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular);
+    }
+  }
+}
+TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightWhereTheLightFalls) {
+  Special s;
+  s.c.material.shininess = 0;
+  for (LightingPoint& p : s.points) p.normal = {0.8f, 0, 0.6f};
+  s.expect(kGlow + kBase + kAmbient + 0.6 * kDiffuse + kSpecular, kBase + kAmbient + 0.6 * kDiffuse + kSpecular);
+}
+TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
+  Special s;
+  s.light().position = {0, 0, -4};  // L = (0, 0, -1), E = (0, 0, 1)
+  for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
+  s.expect(kGlow + kBase + kAmbient + kDiffuse, kBase + kAmbient + kDiffuse);
+  s.c.material.shininess = 0;
+  for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular, 2e-6);
+}
+TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
+  Special s;
+  s.light().spot_direction = {0, 0, -1};
+  for (const float exponent : {0.0f, 1.0f, 16384.0f}) {
+    s.light().spot_exponent = exponent;
+    for (const float cutoff : {0.0f, 90.0f, 180.0f}) {
+      s.light().spot_cutoff = cutoff;
+      for (const Isa isa : available_isas())
+        EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular, 2e-6) << "in the axis, cutoff " << cutoff;
+    }
+  }
+  // Beside the light: V.D = 0, outside every cone; 180 degrees is no cone.
+  for (LightingPoint& p : s.points) p = {{-1, 0, 0}, {2, 0, 0}, {1, 1, 1}};
+  for (const float cutoff : {0.0f, 90.0f}) {
+    s.light().spot_cutoff = cutoff;
+    for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase, 2e-6) << "beside the axis, cutoff " << cutoff;
+  }
+  s.light().spot_cutoff = 180;
+  s.light().spot_exponent = 0;
+  for (const Isa isa : available_isas()) EXPECT_GT(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse - 2e-6);
+}
+TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
+  Special s;
+  s.c.lights.push_back(s.light());
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.light().diffuse[k] = 4;  // far above 1 before the second takes some back
+    s.c.lights[1].diffuse[k] = -3.5f;
+    s.c.lights[1].ambient[k] = s.c.lights[1].specular[k] = 0;
+  }
+  s.expect(kGlow + kBase + kAmbient + 0.5 * kDiffuse + kSpecular, kBase + kAmbient + 0.5 * kDiffuse + kSpecular);
+  s.c.lights[1].diffuse = {-30, -30, -30};
+  s.expect(0, 0);
+}
+// Numbers that overflow give some colour within 0..1, and the same one everywhere.
+TEST(LightingSpecialCase, OverflowStaysWithinRange) {
+  RandomLighting random(9);
+  for (const float size : {1e-30f, 1e-20f, 1e15f, 1e20f, 1e30f, 3e38f}) {
+    for (int round = 0; round < 50; ++round) {
+      const LightingCase c = random.next();
+      std::vector<LightingPoint> points(64);
+      for (LightingPoint& p : points) {
+        p = random.point();
+        for (std::size_t k = 0; k < 3; ++k) (round % 2 != 0 ? p.normal : p.position)[k] *= size;
+      }
+      for (const Isa isa : available_isas())
+        for (const Rgb& color : light(c.program(), points, isa))
+          for (const float component : color) ASSERT_TRUE(component >= 0 && component <= 1) << name_of(isa) << " " << component;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test

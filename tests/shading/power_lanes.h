@@ -1,0 +1,15 @@
+// The power function's kernels, which only translation units for many targets can see, as plain functions over arrays.
+#pragma once
+
+#include <cstddef>
+
+#include "framebuffer/instruction_set.h"
+
+namespace tessera::test {
+
+enum class PowerFunction { power, log2, exp2 };
+/// Of `count` arguments, a multiple of 16; the exponent matters to `power` alone.
+using EvaluatePower = void(PowerFunction function, const float* arguments, float exponent, float* results, std::size_t count);
+EvaluatePower* evaluate_power(Isa isa);
+
+}  // namespace tessera::test

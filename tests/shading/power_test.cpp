@@ -1,0 +1,131 @@
+// x^y, log2 and 2^x: the bits of their scalar twins on every instruction set, and how far they are from the truth.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "shading/power_reference.h"
+#include "tests/raster/tile_stage.h"
+#include "tests/shading/power_lanes.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr float kExponents[] = {0.5f, 1, 2, 20, 128, 1000, 16384};
+
+// Every exponent of a float, each with the ends and the middle of its range and many in between; and what is no number.
+std::vector<float> all_magnitudes() {
+  std::vector<float> values;
+  std::mt19937 random(1);
+  for (std::uint32_t exponent = 0; exponent <= 255; ++exponent) {
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      const std::uint32_t mantissa = i < 4 ? i : i < 8 ? 0x7fffff - (i - 4) : i < 12 ? 0x3504f3 + i - 10 : static_cast<std::uint32_t>(random()) & 0x7fffff;
+      values.push_back(std::bit_cast<float>(exponent << 23 | mantissa));
+      if (i % 8 == 0) values.push_back(-values.back());
+    }
+  }
+  while (values.size() % 16 != 0) values.push_back(0);
+  return values;
+}
+// What lighting asks for: cosines, most of them near 1.
+std::vector<float> cosines() {
+  std::vector<float> values;
+  for (int i = 0; i < 200000; ++i) values.push_back(static_cast<float>(i) / 200000);
+  for (int i = 0; i < 100000; ++i) values.push_back(1 - static_cast<float>(i) * 0x1p-24f);
+  for (int i = 0; i <= 65536; ++i) values.push_back(std::exp2(-static_cast<float>(i) / 8192));
+  while (values.size() % 16 != 0) values.push_back(1);
+  return values;
+}
+
+std::vector<float> evaluate(PowerFunction function, const std::vector<float>& arguments, float exponent, Isa isa) {
+  std::vector<float> results(arguments.size());
+  evaluate_power(isa)(function, arguments.data(), exponent, results.data(), arguments.size());
+  return results;
+}
+
+template <class Reference>
+void expect_same_bits(PowerFunction function, const std::vector<float>& arguments, float exponent, const Reference& reference) {
+  for (const Isa isa : available_isas()) {
+    const std::vector<float> results = evaluate(function, arguments, exponent, isa);
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(results[i]), std::bit_cast<std::uint32_t>(reference(arguments[i])))
+          << name_of(isa) << ": " << arguments[i] << " to " << exponent << " is " << results[i] << ", not " << reference(arguments[i]);
+  }
+}
+
+TEST(Power, HasTheBitsOfItsTwin) {
+  for (const float y : {0x1p-20f, 0.1f, 0.5f, 1.0f, 2.0f, 20.0f, 76.8f, 128.0f, 1000.0f, 16384.0f}) {
+    expect_same_bits(PowerFunction::power, all_magnitudes(), y, [y](float x) { return power_reference(x, y); });
+    expect_same_bits(PowerFunction::power, cosines(), y, [y](float x) { return power_reference(x, y); });
+  }
+}
+TEST(Power, Log2HasTheBitsOfItsTwin) {
+  std::vector<float> arguments;
+  for (const float x : all_magnitudes())
+    if (std::isnormal(x) && x > 0) arguments.push_back(x);
+  while (arguments.size() % 16 != 0) arguments.push_back(1);
+  expect_same_bits(PowerFunction::log2, arguments, 1, [](float x) { return log2_reference(x); });
+  long double worst = 0;
+  for (const float x : arguments) {
+    const long double exact = std::log2(static_cast<long double>(x));
+    if (exact != 0) worst = std::max(worst, std::abs((log2_reference(x) - exact) / exact));
+  }
+  std::printf("[  figure  ] log2, largest relative error: %.3Lg\n", worst);
+  EXPECT_LE(worst, 2.1e-7L);
+}
+TEST(Power, Exp2HasTheBitsOfItsTwin) {
+  std::vector<float> arguments;
+  for (int i = -126 * 512; i <= 127 * 512; ++i) arguments.push_back(static_cast<float>(i) / 512 + (i % 3 != 0 && i < 127 * 512 ? 0.0007f : 0));
+  while (arguments.size() % 16 != 0) arguments.push_back(0);
+  expect_same_bits(PowerFunction::exp2, arguments, 1, [](float x) { return exp2_reference(x); });
+  long double worst = 0;
+  for (const float x : arguments) {
+    const long double exact = std::exp2(static_cast<long double>(x));
+    worst = std::max(worst, std::abs((exp2_reference(x) - exact) / exact));
+  }
+  std::printf("[  figure  ] exp2, largest relative error: %.3Lg\n", worst);
+  EXPECT_LE(worst, 1.3e-7L);
+}
+TEST(Power, IsExactAtOneAndPowersOfTwo) {
+  for (const float y : kExponents) EXPECT_EQ(power_reference(1, y), 1.0f);
+  for (int e = -60; e <= 60; ++e) EXPECT_EQ(power_reference(std::ldexp(1.0f, e), 2), std::ldexp(1.0f, 2 * e));
+}
+TEST(Power, OfNothingPositiveIsZero) {
+  for (const float x : {0.0f, -0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+    for (const float y : kExponents) EXPECT_EQ(power_reference(x, y), 0.0f);
+}
+
+// x^y = 2^(y log2 x). log2 is off by about 2^-23 of itself, and so is its product with y; an absolute error of d in the
+// exponent is a relative one of d ln 2 in the result. With p = y log2 x that is (2 |p| 2^-24 + 2^-23) or so: 126 at most,
+// where x^y has fallen to 2^-126, but where the result counts (|p| <= 8) below 20 units in the last place. The absolute
+// error peaks where |p| 2^-|p| does, at p = -1 / ln 2.
+TEST(Power, IsAsExactAsItSays) {
+  struct Bound {
+    float y;
+    double absolute, ulp_of_visible;
+  };
+  for (const Bound& bound : {Bound{0.5f, 0, 0}, Bound{1, 0, 0}, Bound{2, 0, 0}, Bound{20, 0, 0}, Bound{128, 0, 0}, Bound{1000, 0, 0}, Bound{16384, 0, 0}}) {
+    double absolute = 0, visible = 0, any = 0;
+    for (const float x : cosines()) {
+      const long double exact = std::pow(static_cast<long double>(x), static_cast<long double>(bound.y));
+      if (exact < 0x1p-126L) continue;
+      const float power = power_reference(x, bound.y);
+      const int exponent = std::ilogb(static_cast<float>(exact));
+      const double error = static_cast<double>(std::abs(power - exact)), ulp = error / std::ldexp(1.0, exponent - 23);
+      absolute = std::max(absolute, error);
+      any = std::max(any, ulp);
+      if (exact >= 1 / 256.0L) visible = std::max(visible, ulp);
+    }
+    std::printf("[  figure  ] x^%g for x in 0..1: absolute error at most %.3g, %.3g ulp where it is at least 1/256, %.4g ulp anywhere\n", bound.y, absolute, visible, any);
+    EXPECT_LE(absolute, 2.0e-7);
+    EXPECT_LE(visible, 20);
+    EXPECT_LE(any, 260);
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
