@@ -5,6 +5,7 @@
 
 #include "engine/frame_buffer_state.h"
 #include "engine/image_target.h"
+#include "engine/parallel.h"
 #include "engine/tessera.hpp"
 #include "framebuffer/scan_out.h"
 
@@ -65,6 +66,7 @@ std::vector<Color> default_palette(int color_bits) {
 }
 
 FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique<FrameBufferState>()) {
+  const FloatingPointMode mode;
   require_range("width", format.width, 1, kMaxFrameBufferSize, " px");
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
   require_range("color_bits", format.color_bits, 1, 24);
@@ -167,6 +169,7 @@ void FrameBuffer::read_color_words(std::span<std::uint32_t> words) const {
 void FrameBuffer::read_depth(std::span<float> depth) const {
   require_pixels(depth, state_->format, "FrameBuffer::read_depth");
   const DepthKind kind = state_->depth_kind;
+  const FloatingPointMode mode;
   for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
     for (std::size_t x = 0; x < row.size(); ++x) depth[y * row.size() + x] = static_cast<float>(depth_from_word(kind, row[x]));
   });

@@ -161,6 +161,19 @@ void connect_draws(FrameCommands& commands) {
   }
 }
 
+void check_stencil_clears(const FrameRecording& recording) {
+  const FrameBufferState& target = *recording.target;
+  bool lost = target.stencil.content == StoredBuffer::Content::lost;
+  for (const RecordedClear& recorded : recording.clears) {
+    if (!recorded.clear.stencil) continue;
+    const PixelRect rect = clear_rect(recorded.clear, target);
+    if (covers(rect, whole_buffer(target)))
+      lost = false;
+    else if (lost && !rect.empty())
+      throw Error("Renderer::finish: a part of the stencil buffer is cleared, but the frame before did not keep it; clear the whole of it first");
+  }
+}
+
 void run_stencil_clears(FrameRecording& recording, bool keep) {
   FrameBufferState& target = *recording.target;
   StoredBuffer& stencil = target.stencil;
@@ -176,8 +189,6 @@ void run_stencil_clears(FrameRecording& recording, bool keep) {
     if (covers(rect, whole)) {
       stencil.become_uniform(*recorded.clear.stencil);
     } else if (!rect.empty()) {
-      if (stencil.content == StoredBuffer::Content::lost)
-        throw Error("Renderer::finish: a part of the stencil buffer is cleared, but the frame before did not keep it; clear the whole of it first");
       stencil.materialize();
       for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x) stencil.planes.set_word(x, y, *recorded.clear.stencil);

@@ -30,8 +30,22 @@ Matrix operator*(const Matrix& left, const Matrix& right) { return from_glm(to_g
 Matrix translate(double x, double y, double z) { return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}}; }
 Matrix scale(double x, double y, double z) { return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}}; }
 
+namespace {
+
+// The same direction, its square within a double's range: very long and very short vectors are scaled by a power of two.
+glm::dvec3 measurable(const glm::dvec3& v) {
+  const double largest = std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
+  if (!(largest > 0) || !std::isfinite(largest) || (largest > 1e-100 && largest < 1e100)) return v;
+  const int exponent = std::ilogb(largest);
+  return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
+}
+
+}  // namespace
+
 // [GL 2.1, 2.11.2, Rotate]
 Matrix rotate(double degrees, double x, double y, double z) {
+  const glm::dvec3 axis = measurable({x, y, z});
+  x = axis.x, y = axis.y, z = axis.z;
   const double length = std::sqrt(x * x + y * y + z * z);
   if (!(length > 0) || !std::isfinite(length)) throw Error("rotate: the axis has no direction, it must be a finite vector other than 0 0 0");
   if (!std::isfinite(degrees)) throw Error("rotate: the angle is not finite");
@@ -45,7 +59,7 @@ Matrix rotate(double degrees, double x, double y, double z) {
 }
 
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up) {
-  const glm::dvec3 e(eye.x, eye.y, eye.z), t(target.x, target.y, target.z), u(up.x, up.y, up.z);
+  const glm::dvec3 e(eye.x, eye.y, eye.z), t(target.x, target.y, target.z), u = measurable({up.x, up.y, up.z});
   const double span = glm::length(glm::cross(t - e, u));
   if (!(span > 0) || !std::isfinite(span)) throw Error("look_at: eye, target and up do not span a frame; eye and target must differ, and up must not lie along the view");
   return from_glm(glm::lookAtRH(e, t, u));

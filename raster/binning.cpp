@@ -189,7 +189,7 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     ++bins.counts.outside;
     return;
   }
-  WindowVertex window[9];
+  WindowVertex window[kMaxClippedVertices];
   for (int i = 0; i < polygon.count; ++i) window[i] = project(*draw.transform, polygon.vertices[i].position);
   // Facing belongs to the whole polygon; a sliver of a piece that snapping turned over has no say.
   double polygon_area = 0;

@@ -39,14 +39,16 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
     // every plane is looked at.
     if (plane == kNoPositiveW || ((codes & plane) == 0 && (codes & (kBeforeNear | kBehindFar)) == 0)) continue;
     ClippedPolygon kept;
+    const auto keep = [&kept](const ClipVertex& v) {  // a convex polygon gains one vertex a plane; only rounding could make more
+      if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;
+    };
     for (int i = 0; i < polygon.count; ++i) {
       const ClipVertex& a = polygon.vertices[i];
       const ClipVertex& b = polygon.vertices[(i + 1) % polygon.count];
       const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
-      if (da >= 0) kept.vertices[kept.count++] = a;
-      if (da >= 0 && db < 0) kept.vertices[kept.count++] = cut(a, b, da, db, attribute_count);
-      if (da < 0 && db >= 0) kept.vertices[kept.count++] = cut(b, a, db, da, attribute_count);
-      if (kept.count >= 8) break;  // a convex polygon gains one vertex a plane; only rounding could make more
+      if (da >= 0) keep(a);
+      if (da >= 0 && db < 0) keep(cut(a, b, da, db, attribute_count));
+      if (da < 0 && db >= 0) keep(cut(b, a, db, da, attribute_count));
     }
     polygon = kept;
     if (polygon.count < 3) return {};

@@ -18,12 +18,14 @@ struct ClipVertex {
   float attributes[kMaxAttributes] = {};
 };
 
+inline constexpr int kMaxClippedVertices = 3 + 6;
+
 /// The part of the triangle inside every plane in `codes` (the three vertices' codes or-ed), as a convex polygon of at most
-/// 3 + 6 vertices in the triangle's own order; empty if nothing is left. An edge is always cut from its inner to its outer
+/// kMaxClippedVertices vertices in the triangle's own order; empty if nothing is left. An edge is always cut from its inner to its outer
 /// end, so neighbours that share it get the very same point. All in double.
 /// Based on: I. Sutherland, G. Hodgman, Reentrant Polygon Clipping, CACM 1974.
 struct ClippedPolygon {
-  ClipVertex vertices[9];
+  ClipVertex vertices[kMaxClippedVertices];
   int count = 0;
 };
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count);

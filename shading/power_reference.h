@@ -35,7 +35,7 @@ inline float power_reference(float x, float y) {
   const float safe = x > kSmallestNormal ? x : kSmallestNormal;
   const float product = log2_reference(safe) * y;
   const float low = product > -126.0f ? product : -126.0f;
-  return exp2_reference(low < 127.0f ? low : 127.0f);
+  return exp2_reference(low < kLargestLog2 ? low : kLargestLog2);
 }
 
 }  // namespace tessera

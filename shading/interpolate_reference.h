@@ -1,0 +1,48 @@
+// The scalar twin of interpolate-inl.h and of the weights' setup, and their specification: one pixel of one triangle, its exact
+// edges in 128-bit integers, the floats in the kernel's order.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "raster/coverage_reference.h"
+
+namespace tessera {
+
+/// Coordinates of vertices 1 and 2.
+struct BarycentricReference {
+  float b1 = 0, b2 = 0;
+  float interpolate(float at_first, float at_second, float at_third) const {
+    return std::fma(b1, at_second - at_first, std::fma(b2, at_third - at_first, at_first));
+  }
+};
+
+inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], int x, int y) {
+  const TriangleReference exact(v);
+  const auto [low_x, high_x] = std::minmax({v[0].x, v[1].x, v[2].x});
+  const auto [low_y, high_y] = std::minmax({v[0].y, v[1].y, v[2].y});
+  const bool wide = std::max(high_x - low_x, high_y - low_y) > kNarrowExtent * kSubpixelScale;
+  const float largest = std::max({v[0].rw, v[1].rw, v[2].rw});
+  const bool affine = (v[0].rw == v[1].rw && v[1].rw == v[2].rw) || !(largest > 0x1p-120f && largest < 0x1p120f);
+  const auto inverse_area = static_cast<float>(1.0 / static_cast<double>(exact.area));
+
+  float weight[3];
+  for (int k = 0; k < 3; ++k) {
+    const Exact edge = exact.edge[k].at(x, y);
+    const float unit = inverse_area * (affine ? 1.0f : v[k].rw / largest);
+    if (wide) {
+      weight[k] = static_cast<float>(static_cast<double>(edge)) * unit;
+    } else {
+      // Narrow edges are kept in units of 256, rounded down; what is lost is the same at every pixel.
+      const auto whole = static_cast<std::int64_t>((edge - (exact.edge[k].owns_border ? 0 : 1)) >> kSubpixelBits);
+      const auto rest = static_cast<std::int64_t>(edge - (static_cast<Exact>(whole) << kSubpixelBits));
+      weight[k] = std::fma(static_cast<float>(whole), 256.0f * unit, static_cast<float>(rest) * unit);
+    }
+  }
+  if (affine) return {weight[1], weight[2]};
+  const float inverse = 1.0f / (weight[0] + weight[1] + weight[2]);
+  return {weight[1] * inverse, weight[2] * inverse};
+}
+
+}  // namespace tessera

@@ -1,0 +1,236 @@
+// The vertex stage: the kernel against its scalar twins bit for bit, both against long double, and the edges of the clip codes.
+#include "raster/vertex_transform.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "tests/raster/depth_cases.h"
+#include "tests/raster/tile_stage.h"
+
+namespace tessera::test {
+namespace {
+
+class RandomTransforms {
+ public:
+  explicit RandomTransforms(std::uint32_t seed) : random_(seed) {}
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(random_) == 1; }
+  VertexTransform next(int round) {
+    VertexTransform t;
+    const double near = 0.1, far = 50;
+    // A perspective after a random affine map; sometimes any matrix at all.
+    double affine[12];
+    for (double& m : affine) m = in(-1, 1);
+    for (int c = 0; c < 4; ++c) {
+      t.clip_from_object[c] = 1.5 * affine[c];
+      t.clip_from_object[4 + c] = 2 * affine[4 + c];
+      t.clip_from_object[8 + c] = -(far + near) / (far - near) * (affine[8 + c] - (c == 3 ? 3 : 0)) - (c == 3 ? 2 * far * near / (far - near) : 0);
+      t.clip_from_object[12 + c] = -(affine[8 + c] - (c == 3 ? 3 : 0));
+    }
+    if (round % 3 == 0)
+      for (double& m : t.clip_from_object) m = in(-2, 2) * (one_in(8) ? 1e6 : 1);
+    const int width = 1 + static_cast<int>(in(0, 16384)), height = 1 + static_cast<int>(in(0, 16384));
+    t.half_width = width / 2.0;
+    t.half_height = height / 2.0;
+    t.guard_x = kGuardBandPixels / t.half_width;
+    t.guard_y = kGuardBandPixels / t.half_height;
+    t.center_x = static_cast<std::int32_t>(in(-100, 100)) * 256 + 128 * width;
+    t.center_y = static_cast<std::int32_t>(in(-100, 100)) * 256 + 128 * height;
+    t.reversed = one_in(2);
+    if (one_in(3)) t.depth_near = in(0, 1), t.depth_far = in(0, 1);
+    t.depth = static_cast<DepthKind>(round % 5);
+    return t;
+  }
+  float coordinate() {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kOdd[] = {0.0f, -0.0f, 1e-40f, 1e30f, -1e30f, 3e38f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
+    if (one_in(60)) return kOdd[std::uniform_int_distribution<std::size_t>(0, std::size(kOdd) - 1)(random_)];
+    return static_cast<float>(in(-2, 2));
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+TEST(VertexTransform, HasTheBitsOfItsTwins) {
+  RandomTransforms random(1);
+  std::size_t usable = 0, coded = 0, odd = 0;
+  for (int round = 0; round < (long_tests() ? 60000 : 2000); ++round) {
+    const VertexTransform t = random.next(round);
+    const int components = 3 + round % 2;
+    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
+    std::vector<float> positions(count * static_cast<std::size_t>(components));
+    for (float& p : positions) p = random.coordinate();
+    for (const Isa isa : available_isas()) {
+      std::vector<WindowVertex> vertices(count);
+      std::vector<std::uint8_t> codes(count);
+      const std::uint8_t all = transform_vertices(isa)(t, positions.data(), components, count, vertices.data(), codes.data());
+      std::uint8_t seen = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const float* p = positions.data() + i * static_cast<std::size_t>(components);
+        const ClipPosition clip = clip_position(t, p[0], p[1], p[2], components == 4 ? p[3] : 1.0f);
+        const std::uint8_t code = clip_code(t, clip);
+        seen |= codes[i];
+        if ((code & kNonFinite) != 0) {
+          ++odd;
+          ASSERT_NE(codes[i] & kNonFinite, 0);  // its other bits say nothing
+        } else {
+          ASSERT_EQ(codes[i], code) << name_of(isa);
+        }
+        if (codes[i] != 0) {
+          ++coded;
+          ASSERT_EQ(vertices[i].x, t.center_x);
+          ASSERT_EQ(vertices[i].y, t.center_y);
+          continue;
+        }
+        ++usable;
+        const WindowVertex v = project(t, clip);
+        ASSERT_EQ(vertices[i].x, v.x) << name_of(isa);
+        ASSERT_EQ(vertices[i].y, v.y) << name_of(isa);
+        ASSERT_EQ(vertices[i].z, v.z) << name_of(isa) << " " << name_of(t.depth);
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(vertices[i].rw), std::bit_cast<std::uint32_t>(v.rw)) << name_of(isa);
+      }
+      ASSERT_EQ(all, seen);
+    }
+  }
+  EXPECT_GT(usable, coded / 20);
+  EXPECT_GT(odd, 100u);
+}
+
+// Snapping is floor(256 x + 1/2) of the true position except where rounding in double crosses the border between two steps;
+// depth is then within one word at 32 bits.
+TEST(VertexTransform, IsWithinOneStepOfTheTruth) {
+  RandomTransforms random(2);
+  std::size_t all = 0, moved = 0;
+  for (int round = 0; round < 30000; ++round) {
+    VertexTransform t = random.next(round);
+    t.depth = DepthKind::unorm32;
+    const float p[3] = {static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1))};
+    const ClipPosition clip = clip_position(t, p[0], p[1], p[2], 1);
+    if (clip_code(t, clip) != 0 || clip.w < 1e-3) continue;
+    long double c[4];
+    for (int r = 0; r < 4; ++r) {
+      const double* m = t.clip_from_object + 4 * r;
+      c[r] = static_cast<long double>(m[0]) * p[0] + static_cast<long double>(m[1]) * p[1] + static_cast<long double>(m[2]) * p[2] + m[3];
+    }
+    const WindowVertex v = project(t, clip);
+    const auto x = t.center_x + static_cast<std::int64_t>(std::floor(c[0] / c[3] * t.half_width * 256 + 0.5L));
+    const auto y = t.center_y - static_cast<std::int64_t>(std::floor(c[1] / c[3] * t.half_height * 256 + 0.5L));
+    ASSERT_LE(std::abs(v.x - x), 1);
+    ASSERT_LE(std::abs(v.y - y), 1);
+    const long double unit = t.reversed ? c[2] / c[3] : (c[2] / c[3] + 1) / 2;
+    const long double z = std::min(1.0L, std::max(0.0L, t.depth_near + unit * (static_cast<long double>(t.depth_far) - t.depth_near)));
+    const auto word = static_cast<std::int64_t>(std::floor(z * 4294967295.0L + 0.5L));
+    ASSERT_LE(std::abs(static_cast<std::int64_t>(v.z) - word), 1);
+    ASSERT_NEAR(v.rw * static_cast<double>(c[3]), 1, 1e-7);
+    ++all;
+    moved += v.x != x || v.y != y ? 1 : 0;
+  }
+  EXPECT_GT(all, 3000u);
+  EXPECT_LT(moved, all / 1000);
+}
+
+// A vertex on a plane is inside, the next number beyond it is not.
+TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
+  VertexTransform t;
+  for (int i = 0; i < 4; ++i) t.clip_from_object[5 * i] = 1;
+  t.half_width = t.half_height = 8191.5;  // the guard band ends at 2 w
+  t.guard_x = kGuardBandPixels / t.half_width;
+  t.guard_y = kGuardBandPixels / t.half_height;
+  ASSERT_EQ(t.guard_x, 2);
+  struct Edge {
+    std::array<float, 4> position;
+    int moving;
+    float towards;
+    std::uint8_t code;
+    bool reversed = false;
+  };
+  const float w = 1.25f;
+  for (const Edge& edge : {Edge{{2 * w, 0, 0, w}, 0, 9, kRightOfGuardBand}, Edge{{-2 * w, 0, 0, w}, 0, -9, kLeftOfGuardBand}, Edge{{0, 2 * w, 0, w}, 1, 9, kAboveGuardBand},
+                           Edge{{0, -2 * w, 0, w}, 1, -9, kBelowGuardBand}, Edge{{0, 0, w, w}, 2, 9, kBehindFar}, Edge{{0, 0, -w, w}, 2, -9, kBeforeNear},
+                           Edge{{0, 0, w, w}, 2, 9, kBeforeNear, true}, Edge{{0, 0, 0, w}, 2, -9, kBehindFar, true}}) {
+    t.reversed = edge.reversed;
+    std::array<float, 8> positions{};
+    std::copy(edge.position.begin(), edge.position.end(), positions.begin());
+    std::copy(edge.position.begin(), edge.position.end(), positions.begin() + 4);
+    float& moved = positions[static_cast<std::size_t>(4 + edge.moving)];
+    moved = std::nextafter(moved, edge.towards);
+    for (const Isa isa : available_isas()) {
+      WindowVertex vertices[2];
+      std::uint8_t codes[2];
+      EXPECT_EQ(transform_vertices(isa)(t, positions.data(), 4, 2, vertices, codes), edge.code);
+      EXPECT_EQ(codes[0], 0) << name_of(isa) << ": on the plane " << int{edge.code};
+      EXPECT_EQ(codes[1], edge.code) << name_of(isa) << ": beyond it";
+      // The guard band's end is the farthest that a vertex gets.
+      EXPECT_LE(std::abs(vertices[0].x), kGuardBandPixels * 256);
+      EXPECT_LE(std::abs(vertices[0].y), kGuardBandPixels * 256);
+    }
+  }
+}
+TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
+  VertexTransform t;
+  for (int i = 0; i < 4; ++i) t.clip_from_object[5 * i] = 1;
+  t.half_width = t.half_height = 100;
+  t.guard_x = t.guard_y = kGuardBandPixels / 100.0;
+  for (const float w : {0.0f, -0.0f, -1e-45f, -1.0f, -1e30f}) {
+    const float position[4] = {0, 0, 0, w};
+    for (const Isa isa : available_isas()) {
+      WindowVertex vertex;
+      std::uint8_t code;
+      transform_vertices(isa)(t, position, 4, 1, &vertex, &code);
+      EXPECT_NE(code & kNoPositiveW, 0) << name_of(isa) << " w = " << w;
+    }
+  }
+}
+
+TEST(EyeTransform, NormalizesAndDividesOnEveryInstructionSetAlike) {
+  RandomTransforms random(3);
+  for (int round = 0; round < 500; ++round) {
+    EyeTransform t;
+    for (double& m : t.eye_from_object) m = random.in(-3, 3);
+    for (double& m : t.normal_matrix) m = random.in(-3, 3);
+    t.normalize = round % 2 != 0;
+    std::vector<float> in(4 * kVertexBatch);
+    for (float& p : in) p = static_cast<float>(random.in(-2, 2));
+    if (round % 5 == 0) in[0] = in[1] = in[2] = 0;
+    using Out = std::array<std::array<float, kVertexBatch>, 3>;
+    Out normals[2], points[2];
+    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
+    for (const Isa isa : available_isas()) {
+      Out& n = normals[isa == Isa::scalar ? 0 : 1];
+      Out& p = points[isa == Isa::scalar ? 0 : 1];
+      eye_normals(isa)(t, in.data(), count, n[0].data(), n[1].data(), n[2].data());
+      eye_positions(isa)(t, in.data(), 4, count, p[0].data(), p[1].data(), p[2].data());
+      for (std::size_t i = 0; i < count; ++i) {
+        double exact[3], at[3], squared = 0;
+        for (int r = 0; r < 3; ++r) {
+          exact[r] = t.normal_matrix[3 * r] * in[3 * i] + t.normal_matrix[3 * r + 1] * in[3 * i + 1] + t.normal_matrix[3 * r + 2] * in[3 * i + 2];
+          squared += exact[r] * exact[r];
+          at[r] = 0;
+          for (std::size_t k = 0; k < 4; ++k) at[r] += t.eye_from_object[static_cast<std::size_t>(4 * r) + k] * in[4 * i + k];
+        }
+        const double length = t.normalize && squared > 0 ? std::sqrt(squared) : 1;
+        for (std::size_t r = 0; r < 3; ++r) {
+          ASSERT_NEAR(n[r][i], exact[r] / length, 1e-6 * std::max(1.0, std::sqrt(squared) / length));
+          ASSERT_NEAR(p[r][i], at[r] / in[4 * i + 3], 1e-6 * (std::abs(at[r] / in[4 * i + 3]) + 1e-3));
+        }
+      }
+    }
+    if (available_isas().size() < 2) continue;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(normals[0][r][i]), std::bit_cast<std::uint32_t>(normals[1][r][i]));
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(points[0][r][i]), std::bit_cast<std::uint32_t>(points[1][r][i]));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test

@@ -1,0 +1,83 @@
+// Barycentric coordinates: the bits of their scalar twin on every instruction set, and perspective as exact arithmetic has it.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "shading/interpolate_reference.h"
+#include "tests/raster/random_triangles.h"
+#include "tests/raster/tile_stage.h"
+#include "tests/shading/interpolate_lanes.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kTile = 32;
+
+// 1/w of the corners: equal, or apart by up to `decades`.
+void set_random_w(RandomTriangles& source, Triangle& t, double decades) {
+  const double base = std::pow(10.0, 6 * source.unit() - 3);
+  for (WindowVertex& v : t) v.rw = static_cast<float>(base * std::pow(10.0, source.between(0, 2) == 0 ? -decades : -decades * source.unit()));
+  if (source.between(0, 4) == 0) t[1].rw = t[2].rw = t[0].rw;
+}
+
+template <class CheckPixel>
+void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckPixel& check) {
+  RandomTriangles source(seed, kTile);
+  std::vector<float> b1(kTile * kTile), b2(kTile * kTile);
+  for (int round = 0; round < rounds; ++round) {
+    Triangle t = source.next();
+    set_random_w(source, t, decades);
+    const WindowVertex vertices[3] = {t[0], t[1], t[2]};
+    const TriangleReference reference(vertices);
+    if (reference.area == 0) continue;
+    for (const Isa isa : available_isas()) {
+      bool touched = tile_barycentrics(isa)(vertices, 0, 0, kTile, b1.data(), b2.data());
+      reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
+        ASSERT_TRUE(touched) << Describe{t};
+        check(t, reference, x, y, b1[static_cast<std::size_t>(y * kTile + x)], b2[static_cast<std::size_t>(y * kTile + x)], isa);
+      });
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+int rounds(int normal) { return long_tests() ? normal * 30 : normal; }
+
+TEST(Interpolate, HasTheBitsOfItsTwin) {
+  for_each_pixel(31, rounds(1500), 6, [](const Triangle& t, const TriangleReference&, int x, int y, float b1, float b2, Isa isa) {
+    const WindowVertex v[3] = {t[0], t[1], t[2]};
+    const BarycentricReference expected = barycentric_reference(v, x, y);
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(b1), std::bit_cast<std::uint32_t>(expected.b1)) << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(b2), std::bit_cast<std::uint32_t>(expected.b2)) << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
+  });
+}
+
+// All terms are positive and each is rounded a handful of times: 1/area, its product with 1/w, the edge, the multiply-add, two
+// sums, the quotient and the product: nine roundings, 9 * 2^-24 of a number that is at most 1.
+TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
+  for (const double decades : {0.5, 6.0, 12.0}) {
+    double worst = 0;
+    for_each_pixel(32, rounds(1500), decades, [&](const Triangle& t, const TriangleReference& reference, int x, int y, float b1, float b2, Isa) {
+      long double weight[3], sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
+      const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)), error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
+      worst = std::max({worst, error1, error2});
+      ASSERT_LE(std::max(error1, error2), 9 * 0x1p-24) << Describe{t};
+      ASSERT_GE(b1, 0);
+      ASSERT_GE(b2, 0);
+      ASSERT_LE(b1 + b2, 1 + 0x1p-21f);
+    });
+    std::printf("[  figure  ] barycentric coordinates, w apart by up to 10^%g: off by at most %.3g\n", decades, worst);
+  }
+}
+
+TEST(Interpolate, ConstantsStayExactlyConstant) {
+  for_each_pixel(33, rounds(500), 6, [](const Triangle&, const TriangleReference&, int, int, float b1, float b2, Isa) {
+    for (const float value : {0.0f, 0.1f, 1.0f, 255.5f, -3e30f}) ASSERT_EQ((BarycentricReference{b1, b2}.interpolate(value, value, value)), value);
+  });
+}
+
+}  // namespace
+}  // namespace tessera::test

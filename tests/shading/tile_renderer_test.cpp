@@ -1,0 +1,208 @@
+// A pixel's colour does not depend on the way that it came about: at once or later, by the path of small triangles or that of
+// large ones, alone or among others, on whichever instruction set.
+#include "shading/tile_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "shading/interpolate_reference.h"
+#include "shading/tile_workspace.h"
+#include "tests/raster/depth_cases.h"
+#include "tests/raster/random_triangles.h"
+#include "tests/raster/tile_stage.h"
+#include "tests/shading/lighting_cases.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kTile = 64;
+
+// Triangles with depths, 1/w and attributes.
+struct Mesh {
+  std::vector<WindowVertex> vertices;
+  std::vector<float> attributes;
+  std::vector<std::uint32_t> visible;  // those with an area
+  int stride = 3;
+};
+Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthKind kind, double low, double high) {
+  Mesh mesh;
+  mesh.stride = stride;
+  for (int i = 0; i < triangles; ++i) {
+    DepthTriangle t = with_random_depths(source, source.next());
+    set_words(t, kind);
+    const bool flat = source.between(0, 2) == 0;
+    for (WindowVertex v : t.corners) {
+      v.rw = flat ? 0.5f : static_cast<float>(std::exp2(20 * source.unit() - 10));
+      mesh.vertices.push_back(v);
+    }
+    if (reference_of(t.corners).area != 0) mesh.visible.push_back(static_cast<std::uint32_t>(i));
+  }
+  mesh.attributes.resize(mesh.vertices.size() * static_cast<std::size_t>(stride) + kAttributePadding);
+  for (float& a : mesh.attributes) a = static_cast<float>(low + (high - low) * source.unit());
+  return mesh;
+}
+TileDraw& add(TileStage& stage, const Mesh& mesh) {
+  TileDraw& draw = stage.add_draw(mesh.vertices.data());
+  draw.source = ColorSource::interpolated;
+  draw.attributes = mesh.attributes.data();
+  draw.attribute_stride = draw.attribute_count = mesh.stride;
+  for (const std::uint32_t id : mesh.visible) stage.push(0, stage.draw_count() - 1, id);
+  return draw;
+}
+
+TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
+  for (const int bits : {3, 8, 16, 24}) {
+    RandomTriangles source(static_cast<std::uint32_t>(41 + bits), kTile);
+    TileStage stage(kTile, kTile, kTile);
+    stage.frame().layout = rgb_layout(bits);
+    const ColorLayout layout = stage.frame().layout;
+    for (int round = 0; round < 100; ++round) {
+      stage.forget_draws();
+      Mesh mesh = random_mesh(source, 1, 3, DepthKind::none, 0, 1);
+      const float levels[3] = {static_cast<float>((1 << layout.r_bits) - 1), static_cast<float>((1 << layout.g_bits) - 1), static_cast<float>((1 << layout.b_bits) - 1)};
+      for (std::size_t i = 0; i < 9; ++i) mesh.attributes[i] = mesh.attributes[i] * levels[i % 3] + 0.5f;
+      if (mesh.visible.empty()) continue;
+      add(stage, mesh);
+      const WindowVertex v[3] = {mesh.vertices[0], mesh.vertices[1], mesh.vertices[2]};
+      for (const Isa isa : available_isas()) {
+        stage.render(isa, 0, 0xffffffffu);
+        TriangleReference(v).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
+          const BarycentricReference at = barycentric_reference(v, x, y);
+          const float* a = mesh.attributes.data();
+          const auto level = [&](int c) { return static_cast<std::uint32_t>(at.interpolate(a[c], a[3 + c], a[6 + c])); };
+          ASSERT_EQ(stage.color(x, y), level(0) << layout.r_shift() | level(1) << layout.g_shift() | level(2)) << name_of(isa) << " " << bits << " bits";
+        });
+      }
+    }
+  }
+}
+
+TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
+  for (const DepthKind kind : {DepthKind::none, DepthKind::unorm24, DepthKind::float32}) {
+    RandomTriangles source(42, kTile);
+    TileStage stage(kTile, kTile, kTile, kind);
+    for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
+      const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 3, kind, 0.5, 255.5);
+      for (const Isa isa : available_isas()) {
+        std::vector<std::uint32_t> colors[3];
+        std::vector<std::int32_t> depths[3];
+        for (int way = 0; way < 3; ++way) {
+          stage.forget_draws();
+          TileDraw& draw = add(stage, mesh);
+          draw.uses_depth = kind != DepthKind::none;
+          draw.deferred = way != 0;
+          stage.frame().shade_at_once = way == 2;
+          stage.render(isa, 0, 0x123456, depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u : 0xffffffu));
+          colors[way] = stage.colors();
+          depths[way] = stage.depths();
+        }
+        ASSERT_EQ(colors[1], colors[0]) << name_of(isa) << ": later";
+        ASSERT_EQ(colors[2], colors[0]) << name_of(isa) << ": gathered for each triangle";
+        if (kind != DepthKind::none) {
+          ASSERT_EQ(depths[1], depths[0]);
+        }
+      }
+    }
+  }
+}
+
+TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
+  RandomTriangles source(43, kTile);
+  for (const bool deferred : {false, true}) {
+    for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
+      TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
+      const Mesh mesh = random_mesh(source, 1, 3, DepthKind::unorm24, 0.5, 255.5);
+      const Isa isa = available_isas()[static_cast<std::size_t>(round) % available_isas().size()];
+      const auto draw_in = [&](int step) {
+        stage.forget_draws();
+        for (int y = 0; y < kTile; y += step) {
+          for (int x = 0; x < kTile; x += step) {
+            TileDraw& draw = add(stage, mesh);
+            draw.rect = {x, y, std::min(x + step, kTile), std::min(y + step, kTile)};
+            draw.uses_depth = true;
+            draw.deferred = deferred;
+          }
+        }
+        stage.render(isa, 0, 0x123456, 0xffffff);
+        return std::pair(stage.colors(), stage.depths());
+      };
+      const auto whole = draw_in(kTile);
+      const int step = source.between(1, 9);
+      ASSERT_EQ(draw_in(step), whole) << name_of(isa) << ", windows of " << step << ": " << mesh.vertices[0].x << " " << mesh.vertices[0].y;
+    }
+  }
+}
+
+TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
+  RandomTriangles source(44, kTile);
+  for (int round = 0; round < 200; ++round) {
+    TileStage stage(kTile, kTile, kTile);
+    Mesh mesh = random_mesh(source, 8, 3, DepthKind::none, 0, 0);
+    const std::uint32_t r = static_cast<std::uint32_t>(source.between(0, 255)), g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      mesh.attributes[3 * i] = static_cast<float>(r) + 0.5f;
+      mesh.attributes[3 * i + 1] = static_cast<float>(g);  // a hair less would be a level less
+      mesh.attributes[3 * i + 2] = static_cast<float>(b) + 0.5f;
+    }
+    add(stage, mesh);
+    for (const Isa isa : available_isas()) {
+      stage.render(isa, 0, 0xff000000u);
+      for (const std::uint32_t word : stage.colors()) ASSERT_TRUE(word == 0xff000000u || word == (r << 16 | g << 8 | b)) << name_of(isa) << std::hex << " " << word;
+    }
+  }
+}
+
+// Lighting at each pixel gathers pixels of many triangles into batches; which ones share a batch must not matter.
+TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
+  RandomTriangles source(45, kTile);
+  RandomLighting lights(46);
+  for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
+    LightingCase c = lights.next();
+    c.renormalize = true;
+    c.negate_normal = false;
+    c.tracked = {};
+    const LightingProgram front = c.program();
+    c.negate_normal = true;
+    const LightingProgram back = c.program();
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::unorm24, -3, 3);
+    std::vector<std::uint32_t> first;
+    for (const Isa isa : available_isas()) {
+      for (const bool at_once : {false, true}) {
+        TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
+        TileDraw& draw = add(stage, mesh);
+        draw.source = ColorSource::per_pixel;
+        draw.deferred = true;
+        draw.uses_depth = true;
+        draw.programs[0] = &front;
+        draw.programs[1] = &back;
+        for (std::uint8_t k = 0; k < 6; ++k) draw.fields[k] = static_cast<std::uint8_t>(kNormalX + k);
+        stage.frame().shade_at_once = at_once;
+        stage.render(isa, 0, 0x123456, 0xffffff);
+        if (first.empty()) first = stage.colors();
+        ASSERT_EQ(stage.colors(), first) << name_of(isa) << (at_once ? ", each triangle by itself" : "");
+      }
+    }
+  }
+}
+
+// More triangles wait for their colours than a tile collects.
+TEST(TileRenderer, CollectingInPortionsChangesNothing) {
+  RandomTriangles source(47, kTile);
+  Mesh mesh = random_mesh(source, static_cast<int>(2 * kMaxCollected) + 100, 3, DepthKind::none, 0.5, 255.5);
+  TileStage stage(kTile, kTile, kTile);
+  for (const Isa isa : available_isas()) {
+    stage.forget_draws();
+    add(stage, mesh).deferred = false;
+    stage.render(isa, 0);
+    const std::vector<std::uint32_t> expected = stage.colors();
+    stage.forget_draws();
+    add(stage, mesh).deferred = true;
+    stage.render(isa, 0);
+    EXPECT_EQ(stage.colors(), expected) << name_of(isa);
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
