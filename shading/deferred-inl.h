@@ -89,19 +89,28 @@ HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint3
 }
 
 /// Adds to the batch's next slot the pixels of one triangle in one block; bits of `covered`. Lanes that no triangle fills hold
-/// what an earlier block left there.
-HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered) {
-  const CornerArrays values(triangle, pixels.first_attribute, pixels.attribute_count);
+/// what an earlier block left there. kCount: attributes, where known.
+template <int kCount>
+HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered) {
+  const int count = kCount > 0 ? kCount : pixels.attribute_count;
+  const CornerArrays values(triangle, pixels.first_attribute, count);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
     if (bits == 0) continue;
     const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
     const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
     const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
-    for (int j = 0; j < pixels.attribute_count; ++j) {
+    for (int j = 0; j < count; ++j) {
       float* target = pixels.target[j] + point;
       hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target)), kFloat, target);
     }
+  }
+}
+HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered) {
+  switch (pixels.attribute_count) {
+    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered);
+    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered);
+    default: return gather_counted<0>(run, pixels, triangle, bx, by, covered);
   }
 }
 

@@ -74,10 +74,11 @@ struct TrianglePixels {
   std::int32_t id = 0;
   Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
+  const bool cut;                // the draw's rectangle cuts through blocks
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
-        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)) {}
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut) {}
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
@@ -86,7 +87,7 @@ struct TrianglePixels {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
       auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : block_edges.covered(chunk);
-      if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+      if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
       if constexpr (kHasDepth<Depth>) {
         std::int32_t* stored_at = run.memory.depth + index;
         const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
