@@ -8,6 +8,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task.h>
 #include <oneapi/tbb/task_arena.h>
 
 #if defined(__x86_64__)
@@ -42,14 +43,17 @@ void Parallel::for_each(std::size_t count, const std::function<void(std::size_t,
     for (std::size_t i = 0; i < count; ++i) task(i, 0);
     return;
   }
+  // Workers take the next task in order when they are free, so that callers can put the long ones first.
+  std::atomic<std::size_t> next{0};
+  const int workers = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count));
   arena_->arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
+        tbb::blocked_range<int>(0, workers, 1),
+        [&](const tbb::blocked_range<int>&) {
           const FloatingPointMode mode;
           const int worker = tbb::this_task_arena::current_thread_index();
           arena_->seen[static_cast<std::size_t>(worker)].store(true, std::memory_order_relaxed);
-          for (std::size_t i = range.begin(); i < range.end(); ++i) task(i, worker);
+          for (std::size_t i = next.fetch_add(1); i < count && !tbb::is_current_task_group_canceling(); i = next.fetch_add(1)) task(i, worker);
         },
         tbb::simple_partitioner());
   });

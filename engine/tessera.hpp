@@ -263,8 +263,8 @@ class TESSERA_API Frame {
   /// Throws Error for spans that do not fit together, indices out of bounds and values out of range.
   void draw(const Mesh& mesh, const DrawState& state);
 
-  /// Which buffers the frame buffer holds afterwards; the others are not stored, and reading them is an error until they
-  /// are cleared whole. Default: with an ImageTarget none, without one every buffer that the frame touched.
+  /// Which buffers the frame buffer holds afterwards; of the others those that the frame touches are not stored, and reading
+  /// them is an error until they are cleared whole. Default: with an ImageTarget none, without one every buffer.
   void keep(std::initializer_list<Buffer> buffers);
 
   /// What the code that runs for draw i contains, and why: one line for each effect. For people who want to know what they pay for.

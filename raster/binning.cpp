@@ -129,7 +129,7 @@ void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::u
 }
 
 void Bins::reset(int tile_count) {
-  tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone});
+  tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone, 0});
   used_ = 0;
   clipped.clear();
   counts = {};

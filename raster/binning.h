@@ -49,10 +49,13 @@ class Bins {
       append(tail, kDrawMarker | draw);
     }
     append(tail, id);
+    ++tail.triangles;
     ++counts.entries;
   }
   /// The first block of a tile, or kNone.
   std::uint32_t first(int tile) const { return tails_[static_cast<std::size_t>(tile)].first; }
+  /// How many triangles a tile's bin holds.
+  std::uint32_t triangles(int tile) const { return tails_[static_cast<std::size_t>(tile)].triangles; }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
 
   std::vector<ClippedTriangle> clipped;
@@ -60,7 +63,7 @@ class Bins {
 
  private:
   struct Tail {
-    std::uint32_t first, last, draw;
+    std::uint32_t first, last, draw, triangles;
   };
   void append(Tail& tail, std::uint32_t entry) {
     if (tail.last == kNone || blocks_[tail.last].count == kBlockEntries) add_block(tail);

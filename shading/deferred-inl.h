@@ -28,6 +28,7 @@ struct PixelBatch {
   // Which attributes of its triangles' vertices go into which arrays of the batch.
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
+  bool adjacent = false;              // the arrays follow each other
   int index[kBatchBlocks];            // of each block's first pixel in tile memory
   std::uint32_t covered[kBatchBlocks];  // 16 bits
 };
@@ -85,32 +86,40 @@ HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint3
   pixels.back = back;
   pixels.first_attribute = per_pixel ? 0 : draw.color_attribute[back ? 1 : 0];
   pixels.attribute_count = per_pixel ? draw.attribute_count : 3;
-  for (int j = 0; j < pixels.attribute_count; ++j) pixels.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
+  pixels.adjacent = true;
+  for (int j = 0; j < pixels.attribute_count; ++j) {
+    pixels.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
+    pixels.adjacent &= pixels.target[j] == pixels.target[0] + j * kBatchPoints;
+  }
 }
 
-/// Adds to the batch's next slot the pixels of one triangle in one block; bits of `covered`. Lanes that no triangle fills hold
-/// what an earlier block left there. kCount: attributes, where known.
+/// Adds to the batch's next slot the pixels of one triangle in one block; bits of `covered`, `taken` those of the triangles before
+/// it. Lanes that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0.
 template <int kCount>
-HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered) {
+HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
+                               std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
     if (bits == 0) continue;
-    const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
     const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
     const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
-    for (int j = 0; j < count; ++j) {
-      float* target = pixels.target[j] + point;
-      hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target)), kFloat, target);
+    const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
+    if ((taken >> (chunk * kLanes) & ((1u << kLanes) - 1)) == 0) {  // the first triangle of a chunk may fill all of it
+      for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
+    } else {
+      const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
+      for (int j = 0; j < count; ++j) hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target(j))), kFloat, target(j));
     }
   }
 }
-HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered) {
-  switch (pixels.attribute_count) {
-    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered);
-    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered);
-    default: return gather_counted<0>(run, pixels, triangle, bx, by, covered);
+HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
+                                  std::uint32_t taken) {
+  switch (pixels.adjacent ? pixels.attribute_count : 0) {
+    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
+    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);
+    default: return gather_counted<0>(run, pixels, triangle, bx, by, covered, taken);
   }
 }
 
@@ -145,7 +154,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
             same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
           left &= ~same;
           if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
-          gather_attributes(run, pixels, triangle, bx, by, same);
+          gather_attributes(run, pixels, triangle, bx, by, same, taken);
           taken |= same;
         }
         waiting &= ~taken;
