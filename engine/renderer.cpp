@@ -200,12 +200,13 @@ void RendererState::render_tiles(const FrameCommands& commands, const TileFrame&
                             std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) {
                               return c.rect.x0 == 0 && c.rect.y0 == 0 && c.rect.x1 == grid.width_px && c.rect.y1 == grid.height_px;
                             });
-  alignas(64) std::uint8_t cleared_row[4 * kMaxTileSize] = {};
+  std::vector<std::uint8_t> cleared_row;
   if (whole_clears) {
     std::uint32_t word = 0;
     for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
-    const std::vector<std::uint32_t> words(kMaxTileSize, word);
-    scan_out->row(words.data(), kMaxTileSize, cleared_row);
+    const std::vector<std::uint32_t> words(static_cast<std::size_t>(grid.width_px), word);
+    cleared_row.resize(4 * words.size());
+    scan_out->row(words.data(), grid.width_px, cleared_row.data());
   }
   const auto untouched = [&](int tile) {
     for (std::uint32_t b = 0; b < frame.bin_count; ++b)
@@ -213,21 +214,18 @@ void RendererState::render_tiles(const FrameCommands& commands, const TileFrame&
     return true;
   };
 
+  const auto shown_at = [&](int x, int y) { return static_cast<std::uint8_t*>(image->pixels) + y * image->stride_bytes + std::ptrdiff_t{4} * x; };
+
   const auto run_tile = [&](int tile, TileWorkspace& workspace, TileCounts& counts) {
     const int x0 = tile % grid.columns() * size, y0 = tile / grid.columns() * size;
-    const int width = std::min(size, grid.width_px - x0), height = std::min(size, grid.height_px - y0);
-    std::uint8_t* const shown = image ? static_cast<std::uint8_t*>(image->pixels) + y0 * image->stride_bytes + std::ptrdiff_t{4} * x0 : nullptr;
-    if (whole_clears && untouched(tile)) {
-      for (int y = 0; y < height; ++y) std::memcpy(shown + y * image->stride_bytes, cleared_row, std::size_t{4} * static_cast<std::size_t>(width));
-      return false;
-    }
     const TilePlace color_place{x0, y0, size, 0}, depth_place{x0, y0, size, depth_flip};
     auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
     load(commands.color, target.color, workspace.color(), color_place);
     load(commands.depth, target.depth, depth_words, depth_place);
     const TileCounts tile_counts = render(frame, tile, workspace);
     counts.shaded_pixels += tile_counts.shaded_pixels;
-    if (image) scan_out->tile(workspace.color(), size, width, height, shown, image->stride_bytes);
+    if (image)
+      scan_out->tile(workspace.color(), size, std::min(size, grid.width_px - x0), std::min(size, grid.height_px - y0), shown_at(x0, y0), image->stride_bytes);
     if (commands.color.store) store_planes(workspace.color(), color_place, target.color.planes, ~0u);
     if (commands.depth.store) store_planes(depth_words, depth_place, target.depth.planes, ~0u);
     return tile_counts.touched;
@@ -236,7 +234,6 @@ void RendererState::render_tiles(const FrameCommands& commands, const TileFrame&
   // Tiles that share a cache line of a plane belong to one task.
   const bool planes = commands.color.store || commands.depth.store;
   const int run_length = planes ? kPlaneLinePixels / size : 1;
-  const int runs = (grid.columns() + run_length - 1) / run_length;
   struct alignas(64) WorkerCounts {
     TileCounts counts;
     std::uint64_t touched = 0;
@@ -245,23 +242,36 @@ void RendererState::render_tiles(const FrameCommands& commands, const TileFrame&
   while (workspaces.size() < counts.size()) workspaces.emplace_back();
   // The longest runs first: nobody waits for one that began last. Which order they take changes no bit.
   struct Run {
-    int row, first_column;
-    std::uint64_t triangles;
+    int row, first_column, last_column;
+    bool cleared = false;
+    std::uint64_t triangles = 0;
   };
   std::vector<Run> order;
   for (int row = 0; row < grid.rows(); ++row) {
-    for (int r = 0; r < runs; ++r) {
-      Run run{row, r * run_length, 0};
-      for (int column = run.first_column; column < std::min(run.first_column + run_length, grid.columns()); ++column)
-        for (std::uint32_t b = 0; b < frame.bin_count; ++b) run.triangles += frame.bins[b].triangles(row * grid.columns() + column);
+    for (int column = 0; column < grid.columns();) {
+      Run run{row, column, std::min(column + run_length, grid.columns()) - 1};
+      if (whole_clears && untouched(row * grid.columns() + column)) {
+        run.cleared = true;
+        while (run.last_column + 1 < grid.columns() && untouched(row * grid.columns() + run.last_column + 1)) ++run.last_column;
+      } else {
+        for (int c = column; c <= run.last_column; ++c)
+          for (std::uint32_t b = 0; b < frame.bin_count; ++b) run.triangles += frame.bins[b].triangles(row * grid.columns() + c);
+      }
       order.push_back(run);
+      column = run.last_column + 1;
     }
   }
   std::stable_sort(order.begin(), order.end(), [](const Run& a, const Run& b) { return a.triangles > b.triangles; });
   parallel.for_each(order.size(), [&](std::size_t task, int worker) {
     WorkerCounts& mine = counts[static_cast<std::size_t>(worker)];
     const Run& run = order[task];
-    for (int column = run.first_column; column < std::min(run.first_column + run_length, grid.columns()); ++column)
+    if (run.cleared) {
+      const int x0 = run.first_column * size, width = std::min((run.last_column + 1) * size, grid.width_px) - x0;
+      for (int y = run.row * size; y < std::min((run.row + 1) * size, grid.height_px); ++y)
+        std::memcpy(shown_at(x0, y), cleared_row.data(), std::size_t{4} * static_cast<std::size_t>(width));
+      return;
+    }
+    for (int column = run.first_column; column <= run.last_column; ++column)
       mine.touched += run_tile(run.row * grid.columns() + column, workspaces[static_cast<std::size_t>(worker)], mine.counts) ? 1 : 0;
   });
   for (const WorkerCounts& c : counts) {

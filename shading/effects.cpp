@@ -1,5 +1,7 @@
 // Plans what a surface's lighting consists of: the one home of 'only the effects a scene calls for'.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "shading/lighting.h"
@@ -108,6 +110,8 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
     term.spot_exponent = light.spot_exponent;
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
     term.shininess = material.shininess;
+    // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.
+    term.highlight_floor = material.shininess == 0 ? -std::numeric_limits<float>::infinity() : exp2_reference(std::max(-32.0f / material.shininess, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;

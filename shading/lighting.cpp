@@ -91,7 +91,8 @@ void add_light(const LightTerm& term, ShadingBatch& batch, int count) {
           base = hn::Sub(hn::Mul(hn::Add(n_dot_l, n_dot_l), n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
         }
       }
-      highlight = hn::IfThenElseZero(facing, hn::Mul(power_or_one(base, term.shininess), factor));
+      const auto shiny = hn::And(facing, hn::Gt(base, splat(term.highlight_floor)));
+      if (!hn::AllFalse(kFloat, shiny)) highlight = hn::IfThenElseZero(shiny, hn::Mul(power_or_one(base, term.shininess), factor));
     }
 
     Vector color = load_vector(batch, kColorR, point);

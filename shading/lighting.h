@@ -79,6 +79,8 @@ struct LightTerm {
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
   float spot_exponent = 0, spot_cosine = 0, shininess = 0;
+  /// S.n or R.E up to here makes no highlight: its power is below 2^-32. -infinity where the power is 1 for every number.
+  float highlight_floor = 0;
   Rgb ambient{}, diffuse{}, specular{};                            ///< light times material
   Rgb tracked_ambient{}, tracked_diffuse{}, tracked_specular{};    ///< the light's, for the vertex colour to multiply
 };

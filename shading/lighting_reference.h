@@ -65,7 +65,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
         const Vec half{to_light[0] + eye[0], to_light[1] + eye[1], to_light[2] + eye[2]};
         base = (n_dot_l + n_dot_v) * inverse_length(dot(half, half));
       }
-      highlight = power(base, term.shininess) * factor;
+      highlight = base > term.highlight_floor ? power(base, term.shininess) * factor : 0.0f;
     }
     accumulate(color, factor, term.ambient);
     accumulate(color, diffuse, term.diffuse);

@@ -30,7 +30,7 @@ HWY_INLINE Float log2_lanes(Float x) {
 HWY_INLINE Float exp2_lanes(Float x) {
   // Adding and taking away 1.5 * 2^23 rounds to the nearest integer, ties to even, by the same exact steps everywhere.
   const Float rounded = hn::Sub(hn::Add(x, splat(kRoundingBias)), splat(kRoundingBias));
-  const Int whole = hn::ConvertTo(kInt, rounded);
+  const Int whole = truncate(rounded);
   const Float t = hn::Sub(x, rounded);
   Float p = splat(kExp2Coefficients[0]);
   for (int k = 1; k < kExp2Terms; ++k) p = mul_add(p, t, splat(kExp2Coefficients[k]));
