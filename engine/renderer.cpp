@@ -1,6 +1,5 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
-#include <cstring>
 #include <deque>
 #include <new>
 #include <string>
@@ -10,8 +9,7 @@
 #include "engine/image_target.h"
 #include "engine/parallel.h"
 #include "engine/recording.h"
-#include "framebuffer/bit_transpose.h"
-#include "framebuffer/scan_out.h"
+#include "engine/tile_stage.h"
 #include "raster/binning.h"
 #include "shading/tile_renderer.h"
 
@@ -20,7 +18,6 @@ namespace {
 
 constexpr std::size_t kVerticesPerTask = 512;
 constexpr std::size_t kTrianglesPerBatch = 1024;
-constexpr int kPlaneLinePixels = 512;  // one cache line of a plane: stored by one thread
 
 InstructionSet public_name(Isa isa) {
   return isa == Isa::avx512 ? InstructionSet::avx512 : isa == Isa::avx2 ? InstructionSet::avx2 : InstructionSet::scalar;
@@ -60,7 +57,7 @@ struct RendererState {
  private:
   void process_geometry(FrameCommands& commands);
   std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid);
-  void render_tiles(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, FrameStats& stats);
+  void render_tiles(const TileStage& stage, FrameStats& stats);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
 
@@ -178,104 +175,19 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
   return batches;
 }
 
-void RendererState::render_tiles(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, FrameStats& stats) {
-  const TileGrid& grid = frame.grid;
-  const int size = grid.tile_size;
-  std::optional<ScanOut> scan_out;
-  if (image) scan_out.emplace(target.layout, target.layout.index ? &target.palette : nullptr, image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, isa);
-  RenderTile* const render = render_tile(isa);
-  StorePlanesFn* const store_planes = store_planes_for(isa);
-  LoadPlanesFn* const load_planes = load_planes_for(isa);
-  const std::uint32_t depth_flip = depth_word_from_key(target.depth_kind, 0);
-
-  const auto load = [&](const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) {
-    if (!traffic.used || !traffic.load) return;
-    if (stored.content == StoredBuffer::Content::uniform)
-      std::fill_n(words, size * size, stored.word ^ place.flip);
-    else
-      load_planes(words, place, stored.planes);
-  };
-  // A tile that no triangle touches shows the last clear: no need to go through tile memory.
-  const bool whole_clears = image != nullptr && !commands.color.store && !commands.depth.store && !commands.color.load && !commands.clears.empty() &&
-                            std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) {
-                              return c.rect.x0 == 0 && c.rect.y0 == 0 && c.rect.x1 == grid.width_px && c.rect.y1 == grid.height_px;
-                            });
-  std::vector<std::uint8_t> cleared_row;
-  if (whole_clears) {
-    std::uint32_t word = 0;
-    for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
-    const std::vector<std::uint32_t> words(static_cast<std::size_t>(grid.width_px), word);
-    cleared_row.resize(4 * words.size());
-    scan_out->row(words.data(), grid.width_px, cleared_row.data());
-  }
-  const auto untouched = [&](int tile) {
-    for (std::uint32_t b = 0; b < frame.bin_count; ++b)
-      if (frame.bins[b].first(tile) != Bins::kNone) return false;
-    return true;
-  };
-
-  const auto shown_at = [&](int x, int y) { return static_cast<std::uint8_t*>(image->pixels) + y * image->stride_bytes + std::ptrdiff_t{4} * x; };
-
-  const auto run_tile = [&](int tile, TileWorkspace& workspace, TileCounts& counts) {
-    const int x0 = tile % grid.columns() * size, y0 = tile / grid.columns() * size;
-    const TilePlace color_place{x0, y0, size, 0}, depth_place{x0, y0, size, depth_flip};
-    auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
-    load(commands.color, target.color, workspace.color(), color_place);
-    load(commands.depth, target.depth, depth_words, depth_place);
-    const TileCounts tile_counts = render(frame, tile, workspace);
-    counts.shaded_pixels += tile_counts.shaded_pixels;
-    if (image)
-      scan_out->tile(workspace.color(), size, std::min(size, grid.width_px - x0), std::min(size, grid.height_px - y0), shown_at(x0, y0), image->stride_bytes);
-    if (commands.color.store) store_planes(workspace.color(), color_place, target.color.planes, ~0u);
-    if (commands.depth.store) store_planes(depth_words, depth_place, target.depth.planes, ~0u);
-    return tile_counts.touched;
-  };
-
-  // Tiles that share a cache line of a plane belong to one task.
-  const bool planes = commands.color.store || commands.depth.store;
-  const int run_length = planes ? kPlaneLinePixels / size : 1;
+void RendererState::render_tiles(const TileStage& stage, FrameStats& stats) {
   struct alignas(64) WorkerCounts {
-    TileCounts counts;
-    std::uint64_t touched = 0;
+    std::uint64_t shaded_pixels = 0, touched = 0;
   };
   std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
   while (workspaces.size() < counts.size()) workspaces.emplace_back();
-  // The longest runs first: nobody waits for one that began last. Which order they take changes no bit.
-  struct Run {
-    int row, first_column, last_column;
-    bool cleared = false;
-    std::uint64_t triangles = 0;
-  };
-  std::vector<Run> order;
-  for (int row = 0; row < grid.rows(); ++row) {
-    for (int column = 0; column < grid.columns();) {
-      Run run{row, column, std::min(column + run_length, grid.columns()) - 1};
-      if (whole_clears && untouched(row * grid.columns() + column)) {
-        run.cleared = true;
-        while (run.last_column + 1 < grid.columns() && untouched(row * grid.columns() + run.last_column + 1)) ++run.last_column;
-      } else {
-        for (int c = column; c <= run.last_column; ++c)
-          for (std::uint32_t b = 0; b < frame.bin_count; ++b) run.triangles += frame.bins[b].triangles(row * grid.columns() + c);
-      }
-      order.push_back(run);
-      column = run.last_column + 1;
-    }
-  }
-  std::stable_sort(order.begin(), order.end(), [](const Run& a, const Run& b) { return a.triangles > b.triangles; });
-  parallel.for_each(order.size(), [&](std::size_t task, int worker) {
+  const std::vector<TileStrip> strips = stage.strips();
+  parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
     WorkerCounts& mine = counts[static_cast<std::size_t>(worker)];
-    const Run& run = order[task];
-    if (run.cleared) {
-      const int x0 = run.first_column * size, width = std::min((run.last_column + 1) * size, grid.width_px) - x0;
-      for (int y = run.row * size; y < std::min((run.row + 1) * size, grid.height_px); ++y)
-        std::memcpy(shown_at(x0, y), cleared_row.data(), std::size_t{4} * static_cast<std::size_t>(width));
-      return;
-    }
-    for (int column = run.first_column; column <= run.last_column; ++column)
-      mine.touched += run_tile(run.row * grid.columns() + column, workspaces[static_cast<std::size_t>(worker)], mine.counts) ? 1 : 0;
+    mine.touched += stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], mine.shaded_pixels);
   });
   for (const WorkerCounts& c : counts) {
-    stats.shaded_pixels += c.counts.shaded_pixels;
+    stats.shaded_pixels += c.shaded_pixels;
     stats.tiles_touched += c.touched;
   }
 }
@@ -316,7 +228,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.bins = bins.data();
   frame.bin_count = static_cast<std::uint32_t>(batches);
   frame.shade_at_once = !options.defer_shading;
-  if (commands.color.store || commands.depth.store || image || !commands.plans.empty()) render_tiles(commands, frame, target, image, stats);
+  if (commands.color.store || commands.depth.store || image || !commands.plans.empty()) render_tiles(TileStage(commands, frame, target, image, isa), stats);
 
   const auto settle = [](const BufferTraffic& traffic, StoredBuffer& stored) {
     if (traffic.store)

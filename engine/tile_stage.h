@@ -1,0 +1,51 @@
+// The last stage of a frame: tiles are loaded, rendered, and stored where somebody will read them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/frame_buffer_state.h"
+#include "engine/frame_commands.h"
+#include "framebuffer/bit_transpose.h"
+#include "framebuffer/scan_out.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera {
+
+/// Neighbouring tiles of a row that one worker takes.
+struct TileStrip {
+  int row = 0, first_column = 0, last_column = 0;
+  bool cleared = false;          ///< no triangle touches them: they show the last clear
+  std::uint64_t triangles = 0;
+};
+
+class TileStage {
+ public:
+  /// All but the image's pixels and the target's planes is only read. `image` may be null.
+  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, Isa isa);
+
+  /// The frame's tiles, the strips with most triangles first: nobody waits for one that began last. Their order changes no bit.
+  std::vector<TileStrip> strips() const;
+  /// Distinct strips may be rendered at the same time, each in a workspace of its own. Returns how many tiles were touched.
+  std::uint64_t render(const TileStrip& strip, TileWorkspace& workspace, std::uint64_t& shaded_pixels) const;
+
+ private:
+  bool untouched(int tile) const;
+  bool render_tile_at(int row, int column, TileWorkspace& workspace, std::uint64_t& shaded_pixels) const;
+  void load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const;
+  void fill_cleared(const TileStrip& strip) const;
+  std::uint8_t* shown_at(int x, int y) const;
+
+  const FrameCommands& commands_;
+  const TileFrame& frame_;
+  FrameBufferState& target_;
+  const ImageTarget* image_;
+  std::optional<ScanOut> scan_out_;
+  RenderTile* render_;
+  StorePlanesFn* store_planes_;
+  LoadPlanesFn* load_planes_;
+  std::vector<std::uint8_t> cleared_row_;  ///< a row of the picture after the last clear; empty: tiles differ without triangles
+};
+
+}  // namespace tessera
