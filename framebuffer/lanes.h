@@ -14,7 +14,11 @@
 // takes the scalar path, whose multiply-adds are fused by std::fma.
 #ifndef TESSERA_LANES_CONFIGURED
 #define TESSERA_LANES_CONFIGURED
+#if defined(TESSERA_WITHOUT_AVX512)
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_AVX3)
+#else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#endif
 #define HWY_BROKEN_EMU128 1  // one baseline for every compiler: a single lane
 #if defined(TESSERA_SCALAR_ONLY)
 #define HWY_COMPILE_ONLY_SCALAR
