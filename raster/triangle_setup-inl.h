@@ -83,22 +83,6 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
   return ((w - kBiasBits) << kFraction) + (b - kBiasBits);
 }
 
-/// The plane of a unorm depth where doubles do not hold its gradients well enough: from exact quotients.
-template <int kFraction>
-HWY_NOINLINE void set_up_steep_depth(TriangleGroup& g, int i, int tile_x, int tile_y, std::uint64_t lift) {
-  __extension__ using Wide = __int128;
-  const std::int32_t x = g.x[0][i], y = g.y[0][i];
-  const std::int64_t dz1 = std::int64_t{g.z[1][i]} - g.z[0][i], dz2 = std::int64_t{g.z[2][i]} - g.z[0][i];
-  // Change of depth over 1/256 pixel, times the area: below 2^58.
-  const Wide nx = g.a[1][i] * dz1 + g.a[2][i] * dz2, ny = g.b[1][i] * dz1 + g.b[2][i] * dz2;
-  const Wide area = static_cast<std::int64_t>(g.area[i]);
-  const auto quotient = [area](Wide numerator) { return static_cast<std::uint64_t>(numerator * (Wide{1} << kFraction) / area); };
-  g.fixed_dx[i] = quotient(nx * kSubpixelScale);
-  g.fixed_dy[i] = quotient(ny * kSubpixelScale);
-  g.fixed_base[i] = ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + quotient(nx * (kHalfPixel - (x & 255)) + ny * (kHalfPixel - (y & 255))) +
-                    g.fixed_dx[i] * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + g.fixed_dy[i] * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
-}
-
 /// The planes of a group's unorm depths in fixed point: exact steps from the first vertex's pixel to the tile's first.
 template <int kFraction>
 HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y, std::uint64_t lift) {
@@ -111,11 +95,6 @@ HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y, std
     g.fixed_base[i] = ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed_modulo<kFraction>(to_center) +
                       dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
   }
-  double steepest = 0;
-  for (int i = 0; i < kGroupSize; ++i) steepest = g.depth_terms[i] > steepest ? g.depth_terms[i] : steepest;
-  if (steepest <= kSteepDepth) return;
-  for (int i = 0; i < g.count; ++i)
-    if (g.depth_terms[i] > kSteepDepth) set_up_steep_depth<kFraction>(g, i, tile_x, tile_y, lift);
 }
 
 /// The same in exact integers, for triangle i: of a needle, whose gradients are steep and whose terms cancel.
@@ -173,8 +152,6 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
     const double scale = 256.0 / g.area[i], dz1 = z[1][i] - z[0][i], dz2 = z[2][i] - z[0][i];
     g.depth_dx[i] = (g.a[1][i] * dz1 + g.a[2][i] * dz2) * scale;
     g.depth_dy[i] = (g.b[1][i] * dz1 + g.b[2][i] * dz2) * scale;
-    const double ax = std::abs(g.a[1][i] * dz1) + std::abs(g.a[2][i] * dz2), ay = std::abs(g.b[1][i] * dz1) + std::abs(g.b[2][i] * dz2);
-    g.depth_terms[i] = (ax + ay) * scale;
   }
   if (kind == DepthKind::unorm32)
     set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));

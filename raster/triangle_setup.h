@@ -16,10 +16,6 @@ inline constexpr int kUnormFraction = 32;
 inline constexpr int kUnorm32Fraction = 30;
 inline constexpr std::int64_t kUnorm32Lift = std::int64_t{1} << 32;
 
-/// A gradient's error counts once for each pixel between a triangle's first vertex and its farthest one, 2^15 at most in x and
-/// in y. Up to this bound of its terms that makes at most half a depth word; needles, which go beyond, need more care.
-inline constexpr double kSteepDepth = 0x1p35;
-
 /// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
 struct TriangleGroup {
   int count = 0;
@@ -37,7 +33,6 @@ struct TriangleGroup {
   alignas(64) std::int32_t wide[kGroupSize], affine[kGroupSize];
   // Depth planes: float32 as they are, unorm in fixed point modulo 2^64 with the value at the tile's first pixel; see depth-inl.h.
   alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
-  alignas(64) double depth_terms[kGroupSize];  ///< bound of what the gradients are sums of: their error is below 2^-52 times it
   alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
   std::uint32_t mask = 0;  ///< those with a pixel in the tile

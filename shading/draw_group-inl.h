@@ -159,7 +159,7 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
   const TriangleGroup& g = run.memory.group;
   pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
   if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
-  if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size() - 1);
+  if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
   if constexpr (kSeen == Seen::word) {
     std::uint32_t word = draw.word;
     if (draw.source == ColorSource::triangle_word) word = draw.words[back ? 1 : 0][run.memory.source[i]];
@@ -184,6 +184,11 @@ inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& 
   t.back = back;
   t.draw = draw;
   t.wide = -1;
+}
+
+HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory& memory, const WideEdges& edges) {
+  triangle.wide = static_cast<std::int32_t>(memory.wide.size());
+  memory.wide.push_back(edges);
 }
 
 template <class Depth, Test kTest, Seen kSeen>
@@ -212,14 +217,10 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
     WideEdges wide_edges;
     if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
 
-    ShadedTriangle scratch;
-    ShadedTriangle& triangle = kSeen == Seen::collect ? memory.triangles.emplace_back() : scratch;
-    if constexpr (kSeen == Seen::interpolate || kSeen == Seen::collect) {
+    ShadedTriangle triangle;
+    if constexpr (kSeen == Seen::interpolate) {
       fill_shaded_triangle(triangle, run, draw_number, i, back);
-      if (wide) {
-        triangle.wide = static_cast<std::int32_t>(memory.wide.size());
-        memory.wide.push_back(wide_edges);
-      }
+      if (wide) keep_wide_edges(triangle, memory, wide_edges);
     }
     TrianglePixels<Depth, kTest, kSeen> pixels(run, draw, edges, triangle);
     set_up_pixels(pixels, run, draw, i, back);
@@ -233,10 +234,11 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kSeen == Seen::collect) {
-      if (hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)))) {
-        memory.triangles.pop_back();
-        if (wide) memory.wide.pop_back();
-      } else if (run.frame.shade_at_once) {
+      if (hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)))) continue;
+      fill_shaded_triangle(triangle, run, draw_number, i, back);
+      if (wide) keep_wide_edges(triangle, memory, wide_edges);
+      memory.triangles.push_back(triangle);
+      if (run.frame.shade_at_once) {
         shade_collected(run, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
         memory.triangles.clear();
         memory.wide.clear();
