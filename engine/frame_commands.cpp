@@ -161,39 +161,39 @@ void connect_draws(FrameCommands& commands) {
   }
 }
 
-void check_stencil_clears(const FrameRecording& recording) {
-  const FrameBufferState& target = *recording.target;
-  bool lost = target.stencil.content == StoredBuffer::Content::lost;
+void prepare_stencil_clears(FrameRecording& recording) {
+  FrameBufferState& target = *recording.target;
+  bool lost = target.stencil.content == StoredBuffer::Content::lost, in_part = false;
   for (const RecordedClear& recorded : recording.clears) {
     if (!recorded.clear.stencil) continue;
     const PixelRect rect = clear_rect(recorded.clear, target);
-    if (covers(rect, whole_buffer(target)))
+    if (covers(rect, whole_buffer(target))) {
       lost = false;
-    else if (lost && !rect.empty())
-      throw Error("Renderer::finish: a part of the stencil buffer is cleared, but the frame before did not keep it; clear the whole of it first");
+    } else if (!rect.empty()) {
+      if (lost) throw Error("Renderer::finish: a part of the stencil buffer is cleared, but the frame before did not keep it; clear the whole of it first");
+      in_part = true;
+    }
   }
+  if (in_part && !target.stencil.planes.allocated()) target.stencil.planes.allocate(target.stencil.word);
 }
 
 void run_stencil_clears(FrameRecording& recording, bool keep) {
   FrameBufferState& target = *recording.target;
   StoredBuffer& stencil = target.stencil;
-  const PixelRect whole = whole_buffer(target);
-  if (!keep) {
-    stencil.planes.release();
-    stencil.content = StoredBuffer::Content::lost;
-    return;
-  }
   for (const RecordedClear& recorded : recording.clears) {
-    if (!recorded.clear.stencil) continue;
+    if (!keep || !recorded.clear.stencil) continue;
     const PixelRect rect = clear_rect(recorded.clear, target);
-    if (covers(rect, whole)) {
-      stencil.become_uniform(*recorded.clear.stencil);
+    if (covers(rect, whole_buffer(target))) {
+      stencil.content = StoredBuffer::Content::uniform;
+      stencil.word = *recorded.clear.stencil;
     } else if (!rect.empty()) {
       stencil.materialize();
       for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x) stencil.planes.set_word(x, y, *recorded.clear.stencil);
     }
   }
+  if (!keep) stencil.content = StoredBuffer::Content::lost;
+  if (stencil.content != StoredBuffer::Content::planes) stencil.planes.release();
 }
 
 }  // namespace tessera

@@ -39,9 +39,11 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
 /// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
 void connect_draws(FrameCommands& commands);
 
-/// Throws Error where a clear of a part of the stencil buffer would start from one that was not kept.
-void check_stencil_clears(const FrameRecording& recording);
+/// Takes the memory for clears of parts of the stencil buffer. Throws std::bad_alloc, and Error where such a clear would start
+/// from a buffer that was not kept; then nothing changed.
+void prepare_stencil_clears(FrameRecording& recording);
 /// Clears of the stencil buffer, straight on its planes: no draw of this version reads or writes it. `keep`: else it is lost.
+/// @pre prepare_stencil_clears, where it is kept
 void run_stencil_clears(FrameRecording& recording, bool keep);
 
 }  // namespace tessera

@@ -200,9 +200,8 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   const bool stencil_touched = std::any_of(recording.clears.begin(), recording.clears.end(), [](const RecordedClear& c) { return c.clear.stencil.has_value(); });
   const bool keep_stencil = recording.keep ? std::count(recording.keep->begin(), recording.keep->end(), Buffer::stencil) > 0 : !(image != nullptr && stencil_touched);
 
-  if (stencil_touched && keep_stencil) check_stencil_clears(recording);
-
   // Memory for what will be stored is taken before anything changes.
+  if (stencil_touched && keep_stencil) prepare_stencil_clears(recording);
   if (commands.color.store && !target.color.planes.allocated()) target.color.planes.allocate(target.color.word);
   if (commands.depth.store && !target.depth.planes.allocated()) target.depth.planes.allocate(target.depth.word);
 

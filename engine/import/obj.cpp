@@ -21,6 +21,11 @@ class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
 
+  MtlColors given(const std::string& material) const {
+    const auto found = given_.find(material);
+    return found == given_.end() ? MtlColors{} : found->second;
+  }
+
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning,
                   std::string* error) override {
     const std::string path = (std::filesystem::path(folder_) / name).string();
@@ -31,7 +36,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
       *warning += std::string(missing.what()) + "\n";
       return false;
     }
-    check_mtl(text, path);
+    given_.merge(check_mtl(text, path));
     std::istringstream stream(text);
     tinyobj::LoadMtl(by_name, materials, &stream, warning, error);
     return true;
@@ -39,7 +44,17 @@ class MaterialFiles : public tinyobj::MaterialReader {
 
  private:
   std::string folder_;
+  std::map<std::string, MtlColors, std::less<>> given_;
 };
+
+// tinyobjloader leaves a colour that is not given black; such a surface has the default diffuse colour, and reflects ambient
+// light as it reflects all other.
+void fill_in_colors(tinyobj::material_t& material, MtlColors given) {
+  const Color diffuse = Material{}.diffuse;
+  const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
+  if (!given.diffuse) std::copy_n(standard, 3, material.diffuse);
+  if (!given.ambient) std::copy_n(material.diffuse, 3, material.ambient);
+}
 
 struct Obj {
   tinyobj::attrib_t attributes;
@@ -72,6 +87,7 @@ Obj load(const std::string& path) {
     error.erase(std::remove(error.begin(), error.end(), '\n'), error.end());
     throw Error(path + ": " + (error.empty() ? "is no OBJ file" : error));
   }
+  for (tinyobj::material_t& material : obj.materials) fill_in_colors(material, material_files.given(material.name));
   obj.warnings = warning_lines(warning, path);
   return obj;
 }

@@ -104,11 +104,17 @@ void check_obj(std::string_view text, const std::string& file) {
   });
 }
 
-void check_mtl(std::string_view text, const std::string& file) {
+std::map<std::string, MtlColors, std::less<>> check_mtl(std::string_view text, const std::string& file) {
+  std::map<std::string, MtlColors, std::less<>> given;
+  MtlColors* material = nullptr;
   for_each_line(text, file, [&](std::string_view keyword, Line& line) {
+    if (keyword == "newmtl") material = &given[std::string(line.word())];
+    if (material != nullptr && keyword == "Ka") material->ambient = true;
+    if (material != nullptr && keyword == "Kd") material->diffuse = true;
     if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke") line.expect_numbers(keyword, 3);
     if (keyword == "Ns" || keyword == "d") line.expect_numbers(keyword, 1);
   });
+  return given;
 }
 
 }  // namespace tessera

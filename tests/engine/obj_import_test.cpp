@@ -84,6 +84,18 @@ TEST_F(ObjImport, MaterialsArriveAndGroupTheTriangles) {
   EXPECT_EQ(hot.indices, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
+TEST_F(ObjImport, ColorsThatAMaterialDoesNotGiveAreNotBlack) {
+  write("few.mtl", "newmtl nothing\nNs 5\nnewmtl green\nKd 0 0.5 0\nnewmtl dark\nKa 0 0 0\nKd 0 0 0\n");
+  const Model model = import_model(write("few.obj", "mtllib few.mtl\n" + std::string(kTriangle) + "usemtl nothing\nf 1 2 3\nusemtl green\nf 1 2 3\nusemtl dark\nf 1 2 3\n"));
+  ASSERT_EQ(model.parts.size(), 3u);
+  EXPECT_FLOAT_EQ(model.parts[0].material.diffuse.g, 0.8f);
+  EXPECT_FLOAT_EQ(model.parts[0].material.ambient.g, 0.8f);
+  EXPECT_FLOAT_EQ(model.parts[1].material.diffuse.r, 0);
+  EXPECT_FLOAT_EQ(model.parts[1].material.ambient.g, 0.5f);
+  EXPECT_FLOAT_EQ(model.parts[2].material.diffuse.g, 0);
+  EXPECT_FLOAT_EQ(model.parts[2].material.ambient.g, 0);
+}
+
 TEST_F(ObjImport, AMissingMaterialFileIsAWarning) {
   const Model model = import_model(write("w.obj", "mtllib nowhere.mtl\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n"));
   ASSERT_FALSE(model.warnings.empty());
