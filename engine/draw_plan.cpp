@@ -105,7 +105,7 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, std::string* reasons)
   const glm::dmat4 view = to_glm(draw.surroundings->camera.view);
   std::vector<EyeLight> lights;
   for (const Light& light : draw.surroundings->lights) lights.push_back(eye_light(light, view));
-  const TrackedColors tracked = draw.mesh.colors.empty() ? TrackedColors{} : tracked_colors(draw.state.color_material);
+  const TrackedColors tracked = draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong};
   plan.front = plan_lighting(surface(draw.state.material), tracked, lights, lighting, reasons);
   if (model.two_sided && plan.keep_back) {
@@ -128,7 +128,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     return;
   }
   if (!state.lighting) {
-    plan.uses_vertex_colors = !draw.mesh.colors.empty();
+    plan.uses_vertex_colors = draw.mesh.has_colors();
     if (!plan.uses_vertex_colors) {
       plan.constant_color = rgb(state.material.diffuse);
       note("unlit, no vertex colours: one colour for the draw");
@@ -147,7 +147,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.lit = true;
   }
   const bool needs_normal = plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
-  const bool generate = needs_normal && draw.mesh.normals.empty();
+  const bool generate = needs_normal && !draw.mesh.normals;
   if (state.shading == Shading::phong && plan.lit) {
     plan.source = ColorSource::per_pixel;
     plan.deferred = true;

@@ -1,5 +1,5 @@
 // Recording: everything is checked here, before a pixel is touched.
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/draw_plan.h"
+#include "engine/out_of_memory.h"
 #include "engine/recording.h"
-#include "raster/binning.h"
 #include "raster/fixed_point.h"
 
 namespace tessera {
@@ -53,33 +53,6 @@ void check_light(const std::string& what, const Light& l) {
     throw Error(what + ".spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
 }
 
-void check_mesh(const Mesh& mesh) {
-  if (mesh.position_components != 3 && mesh.position_components != 4)
-    throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) + ", must be 3 or 4");
-  const auto components = static_cast<std::size_t>(mesh.position_components);
-  if (mesh.positions.size() % components != 0)
-    throw Error("Frame::draw: the mesh has " + std::to_string(mesh.positions.size()) + " floats of positions, must be a multiple of " + std::to_string(components));
-  const std::size_t vertices = vertex_count(mesh);
-  if (vertices > 0xffffffffu) throw Error("Frame::draw: the mesh has " + std::to_string(vertices) + " vertices, at most 4294967295 are possible");
-  const auto require_count = [&](const char* what, std::size_t floats, std::size_t each) {
-    if (floats != 0 && floats != vertices * each)
-      throw Error("Frame::draw: the mesh has " + std::to_string(floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * each));
-  };
-  require_count("normals", mesh.normals.size(), 3);
-  require_count("colors", mesh.colors.size(), 4);
-  const std::size_t corners = mesh.indices.empty() ? vertices : mesh.indices.size();
-  if (corners % 3 != 0)
-    throw Error("Frame::draw: the mesh has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", triangles need a multiple of 3");
-  if (corners / 3 > kMaxTriangles)
-    throw Error("Frame::draw: the mesh has " + std::to_string(corners / 3) + " triangles, at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
-  std::uint32_t largest = 0;
-  for (const std::uint32_t index : mesh.indices) largest = std::max(largest, index);
-  if (!mesh.indices.empty() && largest >= vertices) {
-    const auto at = std::find_if(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t i) { return i >= vertices; }) - mesh.indices.begin();
-    throw Error("Frame::draw: index " + std::to_string(at) + " of the mesh is " + std::to_string(mesh.indices[static_cast<std::size_t>(at)]) + ", must be below the number of vertices, " + std::to_string(vertices));
-  }
-}
-
 void check_rect(const char* what, const Rect& rect) {
   if (rect.width < 0 || rect.height < 0)
     throw Error(std::string(what) + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) + " pixels, must not be negative");
@@ -105,9 +78,19 @@ void check_state(const DrawState& s, const FrameBufferState& target) {
   if (split && target.layout.luminance) throw Error("Frame::draw: the colour mask differs between components, a buffer of 1 or 2 bits has luminance alone: all or none");
 }
 
+// What is recorded already keeps its surroundings.
+template <class Change>
+void change(FrameRecording& recording, const char* function, const Change& edit) {
+  with_memory(function, [&] {
+    auto changed = std::make_shared<Surroundings>(*recording.surroundings);
+    edit(*changed);
+    recording.surroundings = std::move(changed);
+  });
+}
+
 }  // namespace
 
-Frame::Frame(FrameBuffer& target) : recording_(std::make_unique<FrameRecording>()) { recording_->target = target.state_.get(); }
+Frame::Frame(FrameBuffer& target) : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) { recording_->target = target.state_.get(); }
 Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
@@ -115,23 +98,17 @@ Frame& Frame::operator=(Frame&&) noexcept = default;
 void Frame::set_camera(const Camera& camera) {
   require_finite("Frame::set_camera: view", camera.view);
   require_finite("Frame::set_camera: projection", camera.projection);
-  auto changed = std::make_shared<Surroundings>(*recording_->surroundings);
-  changed->camera = camera;
-  recording_->surroundings = std::move(changed);
+  change(*recording_, "Frame::set_camera", [&](Surroundings& changed) { changed.camera = camera; });
 }
 
 void Frame::set_lights(std::span<const Light> lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) check_light("Frame::set_lights: light " + std::to_string(i), lights[i]);
-  auto changed = std::make_shared<Surroundings>(*recording_->surroundings);
-  changed->lights.assign(lights.begin(), lights.end());
-  recording_->surroundings = std::move(changed);
+  change(*recording_, "Frame::set_lights", [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
 }
 
 void Frame::set_light_model(const LightModel& model) {
   require_finite("Frame::set_light_model: ambient", model.ambient);
-  auto changed = std::make_shared<Surroundings>(*recording_->surroundings);
-  changed->light_model = model;
-  recording_->surroundings = std::move(changed);
+  change(*recording_, "Frame::set_light_model", [&](Surroundings& changed) { changed.light_model = model; });
 }
 
 void Frame::clear(const Clear& clear) {
@@ -154,25 +131,31 @@ void Frame::clear(const Clear& clear) {
       throw Error("Frame::clear: the stencil value is " + std::to_string(*clear.stencil) + ", must be at most " + std::to_string((1u << bits) - 1));
   }
   if (clear.scissor) check_rect("Frame::clear: scissor", *clear.scissor);
-  recording_->clears.push_back({clear, recording_->draws.size()});
+  with_memory("Frame::clear", [&] { recording_->clears.push_back({clear, recording_->draws.size()}); });
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
-  check_mesh(mesh);
+  const MeshArrays arrays = check_mesh(mesh);
   check_state(state, *recording_->target);
-  recording_->draws.push_back({mesh, state, recording_->surroundings});
+  with_memory("Frame::draw", [&] { recording_->draws.push_back({arrays, state, recording_->surroundings}); });
 }
 
-void Frame::keep(std::initializer_list<Buffer> buffers) { recording_->keep.emplace(buffers); }
+void Frame::keep(std::initializer_list<Buffer> buffers) {
+  with_memory("Frame::keep", [&] { recording_->keep.emplace(buffers); });
+}
+
+void Frame::reset() noexcept { recording_->clear(); }
 
 std::size_t Frame::draw_count() const noexcept { return recording_->draws.size(); }
 
 std::string Frame::explain(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
     throw Error("Frame::explain: draw " + std::to_string(draw_index) + ", the frame has " + std::to_string(recording_->draws.size()));
-  std::string reasons;
-  plan_draw(recording_->draws[draw_index], *recording_->target, &reasons);
-  return reasons;
+  return with_memory("Frame::explain", [&] {
+    std::string reasons;
+    plan_draw(recording_->draws[draw_index], *recording_->target, &reasons);
+    return reasons;
+  });
 }
 
 }  // namespace tessera

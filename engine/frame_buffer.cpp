@@ -5,8 +5,9 @@
 
 #include "engine/frame_buffer_state.h"
 #include "engine/image_target.h"
+#include "engine/out_of_memory.h"
 #include "engine/parallel.h"
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 #include "framebuffer/scan_out.h"
 
 namespace tessera {
@@ -123,7 +124,7 @@ template <class Use>
 void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
   const StoredBuffer& buffer = require_kept(state, which, function);
   const auto width = static_cast<std::size_t>(buffer.planes.width_px());
-  std::vector<std::uint32_t> row(width, buffer.word);
+  auto row = with_memory(function, [&] { return std::vector<std::uint32_t>(width, buffer.word); });
   const bool uniform = buffer.content == StoredBuffer::Content::uniform;
   for (int y = 0; y < buffer.planes.height_px(); ++y) {
     if (!uniform) {
@@ -153,8 +154,10 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
 
 void FrameBuffer::read_color(const ImageTarget& target) const {
   require_image(target, state_->format, "FrameBuffer::read_color");
-  const ScanOut scan_out(state_->layout, state_->layout.index ? &state_->palette : nullptr,
-                         target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());
+  const auto scan_out = with_memory("FrameBuffer::read_color", [&] {
+    return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr,
+                   target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());
+  });
   for_each_row(*state_, Buffer::color, "FrameBuffer::read_color", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
     scan_out.row(row.data(), target.width, static_cast<std::uint8_t*>(target.pixels) + static_cast<std::ptrdiff_t>(y) * target.stride_bytes);
   });

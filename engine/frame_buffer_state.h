@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 #include "framebuffer/bitplane.h"
 #include "framebuffer/format.h"
 #include "framebuffer/palette.h"

@@ -74,7 +74,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   for (std::size_t i = 0; i < recording.draws.size(); ++i) {
     first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
     DrawPlan plan = plan_draw(recording.draws[i], target, nullptr);
-    if (plan.invisible || triangle_count(recording.draws[i].mesh) == 0) continue;
+    if (plan.invisible || recording.draws[i].mesh.triangles == 0) continue;
     commands.plans.push_back(std::move(plan));
     commands.plan_draw.push_back(i);
   }
@@ -127,7 +127,7 @@ void connect_draws(FrameCommands& commands) {
     DrawBuffers& buffers = *geometry.buffers;
     TileDraw draw;
     draw.vertices = buffers.vertices.data();
-    draw.indices = geometry.mesh->indices.empty() ? nullptr : geometry.mesh->indices.data();
+    draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
     draw.attribute_stride = draw.attribute_count = plan.attribute_count;
     draw.provoking = static_cast<int>(geometry.provoking);

@@ -7,21 +7,20 @@
 
 #include <glm/glm.hpp>
 
-#include "engine/recording.h"
 
 namespace tessera {
 namespace {
 
-glm::dvec3 position(const Mesh& mesh, std::size_t vertex) {
-  const float* p = mesh.positions.data() + vertex * static_cast<std::size_t>(mesh.position_components);
+glm::dvec3 position(const MeshArrays& mesh, std::size_t vertex) {
+  const float* p = mesh.positions.at(vertex);
   const glm::dvec3 xyz(p[0], p[1], p[2]);
-  return mesh.position_components == 4 && p[3] != 0 ? xyz / double{p[3]} : xyz;
+  return mesh.components == 4 && p[3] != 0 ? xyz / double{p[3]} : xyz;
 }
 
-std::size_t corner(const Mesh& mesh, std::size_t triangle, std::size_t k) { return mesh.indices.empty() ? 3 * triangle + k : mesh.indices[3 * triangle + k]; }
+std::size_t corner(const MeshArrays& mesh, std::size_t triangle, std::size_t k) { return mesh.vertex_at(3 * triangle + k); }
 
 // Twice the area times the unit normal.
-glm::dvec3 area_normal(const Mesh& mesh, std::size_t triangle) {
+glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t triangle) {
   const glm::dvec3 a = position(mesh, corner(mesh, triangle, 0));
   return glm::cross(position(mesh, corner(mesh, triangle, 1)) - a, position(mesh, corner(mesh, triangle, 2)) - a);
 }
@@ -33,15 +32,15 @@ void store_unit(const glm::dvec3& v, float* out) {
 }
 
 // For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
-std::vector<std::uint32_t> first_at_position(const Mesh& mesh) {
-  const std::size_t count = vertex_count(mesh);
+std::vector<std::uint32_t> first_at_position(const MeshArrays& mesh) {
+  const std::size_t count = mesh.vertices;
   std::size_t slots = 16;
   while (slots < 2 * count) slots *= 2;
   constexpr std::uint32_t kEmpty = 0xffffffffu;
   std::vector<std::uint32_t> table(slots, kEmpty), first(count);
   const auto key = [&](std::size_t v) {
-    const float* p = mesh.positions.data() + v * static_cast<std::size_t>(mesh.position_components);
-    std::array<float, 4> k{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.position_components == 4 ? p[3] : 1.0f};  // + 0: -0 is 0
+    const float* p = mesh.positions.at(v);
+    std::array<float, 4> k{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.components == 4 ? p[3] : 1.0f};  // + 0: -0 is 0
     return k;
   };
   for (std::size_t v = 0; v < count; ++v) {
@@ -63,10 +62,10 @@ std::vector<std::uint32_t> first_at_position(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<float> smooth_normals(const Mesh& mesh) {
+std::vector<float> smooth_normals(const MeshArrays& mesh) {
   const std::vector<std::uint32_t> first = first_at_position(mesh);
   std::vector<glm::dvec3> sums(first.size(), glm::dvec3(0));
-  for (std::size_t t = 0; t < triangle_count(mesh); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles; ++t) {
     const glm::dvec3 normal = area_normal(mesh, t);
     if (!std::isfinite(normal.x + normal.y + normal.z)) continue;  // this triangle will be dropped; its neighbours keep theirs
     for (std::size_t k = 0; k < 3; ++k) sums[first[corner(mesh, t, k)]] += normal;
@@ -76,9 +75,9 @@ std::vector<float> smooth_normals(const Mesh& mesh) {
   return normals;
 }
 
-std::vector<float> face_normals(const Mesh& mesh) {
-  std::vector<float> normals(3 * triangle_count(mesh));
-  for (std::size_t t = 0; t < triangle_count(mesh); ++t) store_unit(area_normal(mesh, t), &normals[3 * t]);
+std::vector<float> face_normals(const MeshArrays& mesh) {
+  std::vector<float> normals(3 * mesh.triangles);
+  for (std::size_t t = 0; t < mesh.triangles; ++t) store_unit(area_normal(mesh, t), &normals[3 * t]);
   return normals;
 }
 

@@ -10,23 +10,23 @@ namespace {
 
 constexpr int kNormalField = kNormalX, kPositionField = kPositionX, kVertexField = kVertexR;
 
-std::span<const float> normals_of(const GeometryDraw& draw) {
-  return draw.buffers->normals.empty() ? draw.mesh->normals : std::span<const float>(draw.buffers->normals);
+StridedFloats normals_of(const GeometryDraw& draw) {
+  return draw.buffers->normals.empty() ? draw.mesh->normals : StridedFloats{draw.buffers->normals.data(), 3};
 }
 
 // Vertex colours of a batch; `vertex(i)` is the vertex of point i.
 template <class VertexOf>
-void load_vertex_colors(const Mesh& mesh, ShadingBatch& batch, std::size_t count, const VertexOf& vertex) {
+void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count, const VertexOf& vertex) {
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.colors[4 * vertex(i) + c];
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.color(vertex(i), c);
 }
 
 // A vertex whose normal or colour is not finite is dropped like one whose position is not.
-std::uint8_t mark_non_finite(std::span<const float> values, std::size_t each, std::size_t first, std::size_t count, std::uint8_t* codes) {
+std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count, std::uint8_t* codes) {
   std::uint8_t any = 0;
   for (std::size_t i = 0; i < count; ++i) {
     float probe = 0;
-    for (std::size_t k = 0; k < each; ++k) probe += values[(first + i) * each + k] * 0.0f;
+    for (std::size_t k = 0; k < each; ++k) probe += values.at(i)[k] * 0.0f;
     if (!(probe == 0)) any = codes[i] |= kNonFinite;
   }
   return any;
@@ -104,13 +104,14 @@ void clear_batch(ShadingBatch& batch) {
 void prepare_geometry(const GeometryDraw& draw) {
   const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
-  const std::size_t vertices = vertex_count(*draw.mesh), triangles = triangle_count(*draw.mesh);
+  const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->triangles;
   buffers.vertices.resize(vertices);
   buffers.codes.resize(vertices);
   buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) + 2 * kAttributePadding);  // read in whole vectors
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
+  if (const std::uint16_t* const indices = draw.mesh->short_indices) std::copy_n(indices, 3 * triangles, buffers.indices.resize(3 * triangles));
   buffers.normals.clear();
   if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
   if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);
@@ -118,28 +119,27 @@ void prepare_geometry(const GeometryDraw& draw) {
 }
 
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {
-  const Mesh& mesh = *draw.mesh;
+  const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
-  const auto components = static_cast<std::size_t>(mesh.position_components);
   TransformVertices* const transform = transform_vertices(isa);
   const bool colors_matter = plan.source == ColorSource::vertex_word || plan.source == ColorSource::interpolated || plan.source == ColorSource::per_pixel;
-  const std::span<const float> normals = normals_of(draw);
+  const StridedFloats normals = normals_of(draw);
   ShadingBatch batch;
   clear_batch(batch);
   std::uint8_t codes = 0;
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
-    const float* positions = mesh.positions.data() + at * components;
-    codes |= transform(plan.transform, positions, mesh.position_components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
-    if (plan.uses_vertex_colors) codes |= mark_non_finite(mesh.colors, 4, at, count, buffers.codes.data() + at);
+    const StridedFloats positions = mesh.positions.from(at);
+    codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
+    if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
     if (!colors_matter) continue;
     if (needs_normal(plan)) {
-      eye_normals(isa)(plan.eye, normals.data() + 3 * at, count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
-      codes |= mark_non_finite(normals, 3, at, count, buffers.codes.data() + at);
+      eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+      codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
     }
     if (needs_position(plan))
-      eye_positions(isa)(plan.eye, positions, mesh.position_components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
+      eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
     if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
     if (plan.source == ColorSource::per_pixel)
       store_inputs(draw, batch, at, count);
@@ -150,20 +150,19 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
 }
 
 void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {
-  const Mesh& mesh = *draw.mesh;
+  const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
-  const auto components = static_cast<std::size_t>(mesh.position_components);
-  const std::size_t provoking = draw.provoking;
-  const auto vertex_of = [&](std::size_t triangle) { return mesh.indices.empty() ? 3 * triangle + provoking : mesh.indices[3 * triangle + provoking]; };
+  const auto components = static_cast<std::size_t>(mesh.components);
+  const auto vertex_of = [&](std::size_t triangle) { return mesh.vertex_at(3 * triangle + draw.provoking); };
   ShadingBatch batch;
   clear_batch(batch);
   float positions[4 * kVertexBatch];
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
-    eye_normals(isa)(plan.eye, draw.buffers->normals.data() + 3 * at, count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+    eye_normals(isa)(plan.eye, normals_of(draw).from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
     if (needs_position(plan)) {
-      for (std::size_t i = 0; i < count; ++i) std::copy_n(mesh.positions.data() + vertex_of(at + i) * components, components, positions + i * components);
-      eye_positions(isa)(plan.eye, positions, mesh.position_components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
+      for (std::size_t i = 0; i < count; ++i) std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
+      eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
     }
     if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
     shade_batch(draw, batch, at, count, isa);

@@ -17,18 +17,22 @@ struct DrawBuffers {
   Scratch<std::uint8_t> codes;
   Scratch<float> attributes;
   Scratch<std::uint32_t> words[2];
+  Scratch<std::uint32_t> indices;        ///< widened from 16 bits
   std::vector<float> normals;            ///< generated
   std::atomic<bool> any_code = false;    ///< some vertex has a clip code
 };
 
 /// What the vertex stage works on.
 struct GeometryDraw {
-  const Mesh* mesh = nullptr;
+  const MeshArrays* mesh = nullptr;
   const DrawPlan* plan = nullptr;
   DrawBuffers* buffers = nullptr;
   const ColorLayout* layout = nullptr;
   const PaletteSearch* search = nullptr;
   std::size_t provoking = 2;             ///< corner
+
+  /// Of 32 bits, or null: vertices in order. @pre prepare_geometry
+  const std::uint32_t* indices() const { return mesh->short_indices ? buffers->indices.data() : mesh->indices; }
 };
 
 /// Takes the memory and makes normals where the mesh has none. Throws std::bad_alloc.

@@ -1,7 +1,7 @@
 // Checks of the caller's image memory.
 #pragma once
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/matrix.h"
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 #include "shading/trigonometry.h"
 
 namespace tessera {
@@ -80,6 +80,13 @@ void require_depths(const char* function, double near, double far, bool infinite
                 (infinite_allowed ? " (far may be infinity)" : ""));
 }
 
+// Finite numbers can be so far apart, or so near, that the matrix is not.
+Matrix finite(const char* function, const Matrix& matrix) {
+  for (const double element : matrix.m)
+    if (!std::isfinite(element)) throw Error(std::string(function) + ": the volume is too large or too thin, an element of its matrix is " + std::to_string(element));
+  return matrix;
+}
+
 }  // namespace
 
 // [GL 2.1, 2.11.2, Frustum]; for an infinite far plane its limit; reversed: z = w at near and 0 at far.
@@ -99,10 +106,10 @@ Matrix frustum(double left, double right, double bottom, double top, double near
     a = -(far + near) / (far - near);
     b = -2 * far * near / (far - near);
   }
-  return {{2 * near / (right - left), 0, (right + left) / (right - left), 0,  //
-           0, 2 * near / (top - bottom), (top + bottom) / (top - bottom), 0,  //
-           0, 0, a, b,                                                        //
-           0, 0, -1, 0}};
+  return finite("frustum", {{2 * near / (right - left), 0, (right + left) / (right - left), 0,  //
+                             0, 2 * near / (top - bottom), (top + bottom) / (top - bottom), 0,  //
+                             0, 0, a, b,                                                        //
+                             0, 0, -1, 0}});
 }
 
 Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed) {
@@ -119,10 +126,10 @@ Matrix orthographic(double left, double right, double bottom, double top, double
   require_depths("orthographic", near, far, false);
   const double a = reversed ? 1 / (far - near) : -2 / (far - near);
   const double b = reversed ? far / (far - near) : -(far + near) / (far - near);
-  return {{2 / (right - left), 0, 0, -(right + left) / (right - left),  //
-           0, 2 / (top - bottom), 0, -(top + bottom) / (top - bottom),  //
-           0, 0, a, b,                                                  //
-           0, 0, 0, 1}};
+  return finite("orthographic", {{2 / (right - left), 0, 0, -(right + left) / (right - left),  //
+                                  0, 2 / (top - bottom), 0, -(top + bottom) / (top - bottom),  //
+                                  0, 0, a, b,                                                  //
+                                  0, 0, 0, 1}});
 }
 
 }  // namespace tessera

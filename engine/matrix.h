@@ -3,7 +3,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/frame_buffer_state.h"
-#include "engine/tessera.hpp"
+#include "engine/mesh_arrays.h"
 
 namespace tessera {
 
@@ -19,7 +19,7 @@ struct Surroundings {
 };
 
 struct RecordedDraw {
-  Mesh mesh;
+  MeshArrays mesh;
   DrawState state;
   std::shared_ptr<const Surroundings> surroundings;
 };
@@ -34,9 +34,13 @@ struct FrameRecording {
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::optional<std::vector<Buffer>> keep;
-};
 
-inline std::size_t vertex_count(const Mesh& mesh) { return mesh.positions.size() / static_cast<std::size_t>(mesh.position_components); }
-inline std::size_t triangle_count(const Mesh& mesh) { return (mesh.indices.empty() ? vertex_count(mesh) : mesh.indices.size()) / 3; }
+  /// Camera, lights and light model stay.
+  void clear() noexcept {
+    draws.clear();
+    clears.clear();
+    keep.reset();
+  }
+};
 
 }  // namespace tessera

@@ -1,12 +1,12 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
 #include <deque>
-#include <new>
 #include <string>
 #include <utility>
 
 #include "engine/frame_commands.h"
 #include "engine/image_target.h"
+#include "engine/out_of_memory.h"
 #include "engine/parallel.h"
 #include "engine/recording.h"
 #include "engine/tile_stage.h"
@@ -34,7 +34,7 @@ std::vector<Range> cut_into_tasks(const std::vector<GeometryDraw>& draws, bool t
   std::vector<Range> tasks;
   for (std::size_t d = 0; d < draws.size(); ++d) {
     if (triangles && draws[d].plan->source != ColorSource::triangle_word) continue;
-    const std::size_t count = triangles ? triangle_count(*draws[d].mesh) : vertex_count(*draws[d].mesh);
+    const std::size_t count = triangles ? draws[d].mesh->triangles : draws[d].mesh->vertices;
     for (std::size_t first = 0; first < count; first += kVerticesPerTask) tasks.push_back({d, first, std::min(count, first + kVerticesPerTask)});
   }
   return tasks;
@@ -60,6 +60,8 @@ struct RendererState {
   void render_tiles(const TileStage& stage, FrameStats& stats);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
+
+std::string_view version() { return TESSERA_VERSION; }
 
 std::vector<InstructionSet> available_instruction_sets() {
   std::vector<InstructionSet> sets;
@@ -89,7 +91,7 @@ Renderer::Renderer(RendererOptions options) {
     throw Error("Renderer: the instruction set " + std::string(name(options.instruction_set)) + " is not in this build or machine, which have " + known);
   }
   if (options.threads == 0) options.threads = available_cores();
-  state_ = std::make_unique<RendererState>(options);
+  state_ = with_memory("Renderer", [&] { return std::make_unique<RendererState>(options); });
   state_->options.threads = state_->parallel.threads();
   state_->isa = internal_name(options.instruction_set);
 }
@@ -101,15 +103,11 @@ const RendererOptions& Renderer::options() const noexcept { return state_->optio
 namespace {
 
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
-  try {
+  return with_memory("Renderer::finish", [&] {
     const FrameStats stats = state.run(recording, image);
-    recording.draws.clear();
-    recording.clears.clear();
-    recording.keep.reset();
+    recording.clear();
     return stats;
-  } catch (const std::bad_alloc&) {
-    throw Error("Renderer::finish: not enough memory for the frame");
-  }
+  });
 }
 
 }  // namespace
@@ -138,7 +136,7 @@ void RendererState::process_geometry(FrameCommands& commands) {
 
 std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid) {
   std::vector<std::size_t> first_triangle{0};  // of each draw, counted through the frame
-  for (const GeometryDraw& draw : commands.geometry) first_triangle.push_back(first_triangle.back() + triangle_count(*draw.mesh));
+  for (const GeometryDraw& draw : commands.geometry) first_triangle.push_back(first_triangle.back() + draw.mesh->triangles);
   const std::size_t total = first_triangle.back();
   const std::size_t batches = std::clamp<std::size_t>(total / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
   if (bins.size() < batches) bins.resize(batches);
@@ -149,7 +147,7 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     BinDraw draw;
     draw.draw = static_cast<std::uint32_t>(d);
     draw.vertices = geometry.buffers->vertices.data();
-    draw.indices = geometry.mesh->indices.empty() ? nullptr : geometry.mesh->indices.data();
+    draw.indices = geometry.indices();
     draw.codes = geometry.buffers->codes.data();
     draw.any_code = geometry.buffers->any_code;
     draw.keep_front = plan.keep_front;
@@ -157,8 +155,8 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     draw.front_is_clockwise = plan.front_is_clockwise;
     draw.rect = plan.rect;
     draw.transform = &plan.transform;
-    draw.positions = geometry.mesh->positions.data();
-    draw.components = geometry.mesh->position_components;
+    draw.positions = geometry.mesh->positions;
+    draw.components = geometry.mesh->components;
     draw.attributes = geometry.buffers->attributes.data();
     draw.attribute_count = draw.attribute_stride = plan.attribute_count;
     draws.push_back(draw);
@@ -206,7 +204,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   if (commands.depth.store && !target.depth.planes.allocated()) target.depth.planes.allocate(target.depth.word);
 
   FrameStats stats;
-  for (const GeometryDraw& draw : commands.geometry) stats.vertices += vertex_count(*draw.mesh);
+  for (const GeometryDraw& draw : commands.geometry) stats.vertices += draw.mesh->vertices;
   const TileGrid grid{target.format.width, target.format.height, tile_size_for(target.format)};
   stats.tiles = static_cast<std::uint64_t>(grid.count());
   stats.tile_size = grid.tile_size;

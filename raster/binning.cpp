@@ -179,7 +179,7 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
   ClipVertex corners[3];
   for (int k = 0; k < 3; ++k) {
     const std::uint32_t i = vertex_index(draw, triangle, k);
-    const float* p = draw.positions + std::size_t{i} * static_cast<std::size_t>(draw.components);
+    const float* p = draw.positions.at(i);
     corners[k].position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
     const float* a = draw.attributes + std::size_t{i} * static_cast<std::size_t>(draw.attribute_stride);
     for (int j = 0; j < draw.attribute_count; ++j) corners[k].attributes[j] = a[j];

@@ -89,7 +89,7 @@ struct BinDraw {
   PixelRect rect;                            ///< scissor, viewport and frame buffer
   // For clipping.
   const VertexTransform* transform = nullptr;
-  const float* positions = nullptr;
+  StridedFloats positions;
   int components = 3;
   const float* attributes = nullptr;
   int attribute_count = 0, attribute_stride = 0;

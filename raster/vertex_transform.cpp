@@ -23,9 +23,9 @@ struct PositionBatch {
 };
 
 // Positions as four arrays; lanes beyond `count` repeat harmless zeros.
-HWY_INLINE void gather_positions(const float* positions, int components, std::size_t count, PositionBatch& batch) {
+HWY_INLINE void gather_positions(StridedFloats positions, int components, std::size_t count, PositionBatch& batch) {
   for (std::size_t i = 0; i < count; ++i) {
-    const float* p = positions + i * static_cast<std::size_t>(components);
+    const float* p = positions.at(i);
     batch.x[i] = p[0];
     batch.y[i] = p[1];
     batch.z[i] = p[2];
@@ -34,7 +34,7 @@ HWY_INLINE void gather_positions(const float* positions, int components, std::si
   for (std::size_t i = count; i < kVertexBatch; ++i) batch.x[i] = batch.y[i] = batch.z[i] = batch.w[i] = 0;
 }
 
-std::uint8_t transform_vertices_lanes(const VertexTransform& t, const float* positions, int components, std::size_t count, WindowVertex* vertices,
+std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components, std::size_t count, WindowVertex* vertices,
                                       std::uint8_t* codes) {
   PositionBatch p;
   gather_positions(positions, components, count, p);
@@ -102,7 +102,7 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, const float* pos
   return static_cast<std::uint8_t>(all_codes);
 }
 
-void eye_positions_lanes(const EyeTransform& t, const float* positions, int components, std::size_t count, float* x, float* y, float* z) {
+void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int components, std::size_t count, float* x, float* y, float* z) {
   PositionBatch p;
   gather_positions(positions, components, count, p);
   const double* m = t.eye_from_object;
@@ -119,9 +119,12 @@ void eye_positions_lanes(const EyeTransform& t, const float* positions, int comp
   }
 }
 
-void eye_normals_lanes(const EyeTransform& t, const float* normals, std::size_t count, float* x, float* y, float* z) {
+void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t count, float* x, float* y, float* z) {
   alignas(64) double nx[kVertexBatch], ny[kVertexBatch], nz[kVertexBatch];
-  for (std::size_t i = 0; i < count; ++i) nx[i] = normals[3 * i], ny[i] = normals[3 * i + 1], nz[i] = normals[3 * i + 2];
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* n = normals.at(i);
+    nx[i] = n[0], ny[i] = n[1], nz[i] = n[2];
+  }
   for (std::size_t i = count; i < kVertexBatch; ++i) nx[i] = ny[i] = nz[i] = 0;
   const double* m = t.normal_matrix;
   for (int i = 0; i < kVertexBatch; ++i) {

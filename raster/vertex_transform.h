@@ -25,6 +25,16 @@ enum ClipCode : std::uint8_t {
   kNonFinite = 128
 };
 
+/// Floats of each vertex; the stride counts floats.
+struct StridedFloats {
+  const float* data = nullptr;
+  std::size_t stride = 0;
+
+  const float* at(std::size_t vertex) const { return data + vertex * stride; }
+  StridedFloats from(std::size_t vertex) const { return {at(vertex), stride}; }
+  explicit operator bool() const { return data != nullptr; }
+};
+
 struct ClipPosition {
   double x = 0, y = 0, z = 0, w = 1;
 };
@@ -46,9 +56,9 @@ std::uint8_t clip_code(const VertexTransform& transform, const ClipPosition& pos
 /// The scalar twin of the kernel, and the way for single vertices that clipping makes. @pre position.w > 0
 WindowVertex project(const VertexTransform& transform, const ClipPosition& position);
 
-/// Transforms `count` vertices. `positions` holds x y z or x y z w; `components` is 3 or 4. Vertices with a code are left
+/// Transforms `count` vertices, at most kVertexBatch. `positions` holds x y z or x y z w; `components` is 3 or 4. Vertices with a code are left
 /// at the viewport's centre. Returns all codes or-ed together.
-using TransformVertices = std::uint8_t(const VertexTransform& transform, const float* positions, int components, std::size_t count,
+using TransformVertices = std::uint8_t(const VertexTransform& transform, StridedFloats positions, int components, std::size_t count,
                                        WindowVertex* vertices, std::uint8_t* codes);
 TransformVertices* transform_vertices(Isa isa);
 
@@ -59,9 +69,9 @@ struct EyeTransform {
   bool normalize = true;
 };
 /// Eye-space positions of up to kVertexBatch vertices, as three arrays.
-using EyePositions = void(const EyeTransform& transform, const float* positions, int components, std::size_t count, float* x, float* y, float* z);
+using EyePositions = void(const EyeTransform& transform, StridedFloats positions, int components, std::size_t count, float* x, float* y, float* z);
 /// Eye-space normals, of length 1 with `normalize`; normalize(0) = 0.
-using EyeNormals = void(const EyeTransform& transform, const float* normals, std::size_t count, float* x, float* y, float* z);
+using EyeNormals = void(const EyeTransform& transform, StridedFloats normals, std::size_t count, float* x, float* y, float* z);
 EyePositions* eye_positions(Isa isa);
 EyeNormals* eye_normals(Isa isa);
 

@@ -76,7 +76,6 @@ struct TileFrame {
   std::uint32_t clear_count = 0;
   const Bins* bins = nullptr;
   std::uint32_t bin_count = 0;
-  bool uses_color = true, uses_depth = true;
   bool shade_at_once = false;                     ///< never gather triangles before shading
 };
 

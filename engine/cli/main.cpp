@@ -10,7 +10,7 @@
 
 #include "engine/cli/render_command.h"
 #include "engine/scene/suggest.h"
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera::cli {
 namespace {

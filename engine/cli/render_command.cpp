@@ -1,5 +1,7 @@
 #include "engine/cli/render_command.h"
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -28,7 +30,9 @@ Scene read_input(const RenderRequest& request) {
     return model_scene(import_model(request.input), request.input, request.overrides.width.value_or(standard.width),
                        request.overrides.height.value_or(standard.height));
   }
-  if (fs::path(request.input).extension() != ".json")
+  std::string ending = fs::path(request.input).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".json")
     throw Error("cannot render \"" + request.input + "\": it ends neither in .json (a scene) nor in .obj (a model)");
   return load_scene(request.input);
 }

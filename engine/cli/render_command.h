@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/scene/scene.h"
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera::cli {
 

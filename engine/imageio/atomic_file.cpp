@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 namespace {

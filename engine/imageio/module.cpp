@@ -9,7 +9,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "engine/export.h"
+#include "engine/tessera/export.h"
 #include "engine/imageio/module_interface.h"
 
 namespace {

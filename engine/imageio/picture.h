@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 

@@ -32,7 +32,7 @@ Model import_model(const std::string& path);
 MeshData part_mesh(const Model& model, std::size_t part);
 
 /// Fills in normals: the area-weighted mean over the faces whose vertices have the very same position. The parts of a model
-/// then stay smooth across their seams.
+/// then stay smooth across their seams, which normals made for each draw could not know of.
 void add_smooth_normals(MeshData& mesh);
 
 }  // namespace tessera

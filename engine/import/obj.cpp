@@ -11,6 +11,7 @@
 
 #include "engine/import/model.h"
 #include "engine/import/obj_check.h"
+#include "engine/import/obj_text.h"
 #include "engine/scene/text_file.h"
 
 namespace tessera {
@@ -21,13 +22,24 @@ class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
 
-  MtlColors given(const std::string& material) const {
+  MtlGiven given(const std::string& material) const {
     const auto found = given_.find(material);
-    return found == given_.end() ? MtlColors{} : found->second;
+    return found == given_.end() ? MtlGiven{} : found->second;
   }
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning,
+  /// `names` is one name with spaces, or several names.
+  bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning,
                   std::string* error) override {
+    const std::string whole = with_spaces(names);
+    if (names == whole || std::filesystem::exists(std::filesystem::path(folder_) / whole)) return read(whole, materials, by_name, warning, error);
+    bool is_read = false;
+    std::istringstream several(whole);
+    for (std::string name; several >> name;) is_read |= read(name, materials, by_name, warning, error);
+    return is_read;
+  }
+
+ private:
+  bool read(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning, std::string* error) {
     const std::string path = (std::filesystem::path(folder_) / name).string();
     std::string text;
     try {
@@ -36,24 +48,32 @@ class MaterialFiles : public tinyobj::MaterialReader {
       *warning += std::string(missing.what()) + "\n";
       return false;
     }
+    std::vector<std::string> warnings;
+    text = normalized_mtl(text, path, warnings);
     given_.merge(check_mtl(text, path));
     std::istringstream stream(text);
-    tinyobj::LoadMtl(by_name, materials, &stream, warning, error);
+    std::string more;  // LoadMtl overwrites what stands there
+    tinyobj::LoadMtl(by_name, materials, &stream, &more, error);
+    for (const std::string& line : warnings) *warning += line + "\n";
+    *warning += more;
     return true;
   }
 
- private:
   std::string folder_;
-  std::map<std::string, MtlColors, std::less<>> given_;
+  std::map<std::string, MtlGiven, std::less<>> given_;
 };
 
 // tinyobjloader leaves a colour that is not given black; such a surface has the default diffuse colour, and reflects ambient
-// light as it reflects all other.
-void fill_in_colors(tinyobj::material_t& material, MtlColors given) {
+// light as it reflects all other. Below illum 2 there is no highlight.
+void fill_in(tinyobj::material_t& material, const MtlGiven& given, std::string& warning) {
   const Color diffuse = Material{}.diffuse;
   const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
   if (!given.diffuse) std::copy_n(standard, 3, material.diffuse);
   if (!given.ambient) std::copy_n(material.diffuse, 3, material.ambient);
+  if (given.illum && material.illum < 2) std::fill_n(material.specular, 3, 0.0f);
+  material.name = with_spaces(material.name);
+  if (given.texture) warning += "map_Kd of material \"" + material.name + "\" is left out: textures are not supported\n";
+  if (given.dissolve && material.dissolve < 1) warning += "d of material \"" + material.name + "\" is left out: transparency is not supported\n";
 }
 
 struct Obj {
@@ -76,7 +96,7 @@ std::vector<std::string> warning_lines(const std::string& text, const std::strin
 }
 
 Obj load(const std::string& path) {
-  const std::string text = read_text_file(path);
+  const std::string text = normalized_obj(read_text_file(path));
   check_obj(text, path);
   Obj obj;
   MaterialFiles material_files(std::filesystem::path(path).parent_path().string());
@@ -87,7 +107,7 @@ Obj load(const std::string& path) {
     error.erase(std::remove(error.begin(), error.end(), '\n'), error.end());
     throw Error(path + ": " + (error.empty() ? "is no OBJ file" : error));
   }
-  for (tinyobj::material_t& material : obj.materials) fill_in_colors(material, material_files.given(material.name));
+  for (tinyobj::material_t& material : obj.materials) fill_in(material, material_files.given(material.name), warning);
   obj.warnings = warning_lines(warning, path);
   return obj;
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 namespace {
@@ -104,13 +104,18 @@ void check_obj(std::string_view text, const std::string& file) {
   });
 }
 
-std::map<std::string, MtlColors, std::less<>> check_mtl(std::string_view text, const std::string& file) {
-  std::map<std::string, MtlColors, std::less<>> given;
-  MtlColors* material = nullptr;
+std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, const std::string& file) {
+  std::map<std::string, MtlGiven, std::less<>> given;
+  MtlGiven* material = nullptr;
   for_each_line(text, file, [&](std::string_view keyword, Line& line) {
     if (keyword == "newmtl") material = &given[std::string(line.word())];
-    if (material != nullptr && keyword == "Ka") material->ambient = true;
-    if (material != nullptr && keyword == "Kd") material->diffuse = true;
+    if (material != nullptr) {
+      material->ambient |= keyword == "Ka";
+      material->diffuse |= keyword == "Kd";
+      material->illum |= keyword == "illum";
+      material->texture |= keyword == "map_Kd";
+      material->dissolve |= keyword == "d" || keyword == "Tr";
+    }
     if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke") line.expect_numbers(keyword, 3);
     if (keyword == "Ns" || keyword == "d") line.expect_numbers(keyword, 1);
   });

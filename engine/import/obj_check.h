@@ -13,12 +13,12 @@ namespace tessera {
 /// face with fewer than three corners or an index that points to no vertex or normal before it.
 void check_obj(std::string_view text, const std::string& file);
 
-/// Which colours an MTL file gives for a material: one that is not given is not black.
-struct MtlColors {
-  bool ambient = false, diffuse = false;
+/// What an MTL file says of a material: a colour that is not given is not black, and what is given may not be supported.
+struct MtlGiven {
+  bool ambient = false, diffuse = false, illum = false, texture = false, dissolve = false;
 };
 
 /// The same for the colours and numbers of an MTL file that are used. Materials by their names.
-std::map<std::string, MtlColors, std::less<>> check_mtl(std::string_view text, const std::string& file);
+std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, const std::string& file);
 
 }  // namespace tessera

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "shading/trigonometry.h"
 
 namespace tessera {
 namespace {
@@ -25,14 +26,14 @@ Vec3 middle_of_bounds(const MeshData& mesh) {
 // From the front, a little from above and from the right; as near as the picture's edges allow. A vertex at x, y and z
 // towards the viewer is inside if |y| <= (distance - z) tan(fovy / 2), and likewise for x.
 SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::string& name) {
-  const double azimuth = 25 * std::numbers::pi / 180, elevation = 17 * std::numbers::pi / 180;
-  const Vec3 right{std::cos(azimuth), 0, -std::sin(azimuth)};
-  const Vec3 back{std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};  // towards the viewer
-  const Vec3 up{-std::sin(elevation) * std::sin(azimuth), std::cos(elevation), -std::sin(elevation) * std::cos(azimuth)};
+  const SinCos azimuth = sin_cos_degrees(25), elevation = sin_cos_degrees(17), half_fovy = sin_cos_degrees(kFovy / 2);
+  const Vec3 right{azimuth.cosine, 0, -azimuth.sine};
+  const Vec3 back{elevation.cosine * azimuth.sine, elevation.sine, elevation.cosine * azimuth.cosine};  // towards the viewer
+  const Vec3 up{-elevation.sine * azimuth.sine, elevation.cosine, -elevation.sine * azimuth.cosine};
   const Vec3 centre = middle_of_bounds(mesh);
 
   constexpr double kMargin = 1.08;
-  const double tangent_y = std::tan(kFovy / 2 * std::numbers::pi / 180) / kMargin, tangent_x = tangent_y * aspect;
+  const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin, tangent_x = tangent_y * aspect;
   double distance = 0, radius = 0;
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
     const Vec3 p{mesh.positions[i] - centre.x, mesh.positions[i + 1] - centre.y, mesh.positions[i + 2] - centre.z};
@@ -69,6 +70,7 @@ Scene model_scene(const Model& model, const std::string& name, int width, int he
     scene.meshes.push_back(is_split ? part_mesh(source, part) : source.mesh);
     DrawCommand draw{.mesh = part};
     draw.state.material = source.parts[part].material;
+    if (source.parts[part].material_name.empty()) draw.state.color_material = ColorMaterial::ambient_and_diffuse;  // where there are colours
     draw.state.shading = Shading::phong;
     scene.frame.push_back({draw, ""});
   }

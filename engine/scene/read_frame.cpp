@@ -124,7 +124,12 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   draw.mesh = read_name(object.require("draw"), "mesh", names.meshes);
   read_shading(object, names, draw.state);
   read_target(object, names.scene, draw.state);
-  if (const auto mode = object.find("polygon_mode"); !mode || mode->json() != Json{"fill", "fill"}) object.only_default("polygon_mode", "fill");
+  if (const auto mode = object.find("polygon_mode"); !mode || mode->json() != Json{"fill", "fill"}) {
+    Json others{"line", "point"};
+    for (const char* front : {"fill", "line", "point"})
+      for (const char* back : {"fill", "line", "point"}) others.push_back(Json{front, back});
+    object.only_default("polygon_mode", "fill", others);
+  }
   object.only_default("point_size", 1);
   object.only_default("line_width", 1);
   object.only_default("polygon_offset", {0, 0});

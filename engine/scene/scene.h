@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/scene/mesh_data.h"
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <memory>
 
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/scene/mesh_data.h"
-#include "engine/tessera.hpp"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera::test {
 

@@ -81,8 +81,8 @@ const BadScene kBadScenes[] = {
     // Camera
     {R"("camera": {"eye": [0, 0]})", "/camera/eye", "found an array of 2, expected an array of 3 numbers"},
     {R"("camera": {"eye": [0, 0, "4"]})", "/camera/eye/2", "found \"4\", expected a number"},
-    {R"("camera": {"eye": [0, 0, 0], "target": [0, 0, 0]})", "/camera", ""},
-    {R"("camera": {"up": [0, 0, 1]})", "/camera", ""},
+    {R"("camera": {"eye": [0, 0, 0], "target": [0, 0, 0]})", "/camera", "eye and target must differ"},
+    {R"("camera": {"up": [0, 0, 1]})", "/camera", "up must not lie along the view"},
     {R"("camera": {"reversed": true})", "/camera/reversed", "stands in \"projection\""},
     {R"("camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})", "/camera", "key \"projection\" is missing"},
     {R"("camera": {"view": [1,2,3], "projection": [1,2,3]})", "/camera/view", "expected an array of 16 numbers"},
@@ -97,7 +97,9 @@ const BadScene kBadScenes[] = {
     {projection(R"("left": 1)"), "/camera/projection/left", "unknown key"},
     {projection(R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1)"), "/camera/projection", "key \"far\" is missing"},
     {projection(R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": "infinity")"), "/camera/projection/far", "finite"},
-    {projection(R"("type": "frustum", "left": 1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": 2)"), "/camera/projection", ""},
+    {projection(R"("type": "frustum", "left": 1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": 2)"), "/camera/projection", "left is 1.000000 and right is 1.000000"},
+    {projection(R"("far": 1e308)"), "/camera/projection", "the volume is too large or too thin"},
+    {projection(R"("type": "orthographic", "left": -1e-320, "right": 1e-320, "bottom": -1, "top": 1, "near": 1, "far": 2)"), "/camera/projection", "the volume is too large or too thin"},
     {projection(R"("fovy": {"keys": [[0, 30], [1, 60]]})"), "/camera/projection/fovy", "{\"keys\": ...}) is part of the format but not supported"},
 
     // Lights and materials
@@ -168,7 +170,7 @@ const BadScene kBadScenes[] = {
     {draw(R"("lighting": "off")"), "/frame/0/lighting", "found \"off\", expected true or false"},
     {draw(R"("transform": {"translate": [0,0,0]})"), "/frame/0/transform", "expected an array"},
     {draw(R"("transform": [{"translate": [0,0,0], "scale": [1,1,1]}])"), "/frame/0/transform/0", "expected an object with one of"},
-    {draw(R"("transform": [{"rotate": [30, 0, 0, 0]}])"), "/frame/0/transform/0/rotate", ""},
+    {draw(R"("transform": [{"rotate": [30, 0, 0, 0]}])"), "/frame/0/transform/0/rotate", "axis"},
     {draw(R"("transform": [{"scale": [1,1,1]}, {"matrix": [1]}])"), "/frame/0/transform/1/matrix", "expected an array of 16 numbers"},
     {draw(R"("depth": true)"), "/frame/0/depth", "expected false or an object"},
     {draw(R"("depth": {"test": "lower"})"), "/frame/0/depth/test", "expected one of \"never\""},

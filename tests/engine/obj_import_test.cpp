@@ -77,8 +77,9 @@ TEST_F(ObjImport, MaterialsArriveAndGroupTheTriangles) {
   EXPECT_FLOAT_EQ(red.emission.b, 0.25f);
   EXPECT_FLOAT_EQ(red.shininess, 50);
   EXPECT_FLOAT_EQ(model.parts[1].material.shininess, 16384);
-  ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_NE(model.warnings[0].find("Ns of material \"hot\""), std::string::npos);
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_NE(model.warnings[0].find("d of material \"red\" is left out"), std::string::npos);
+  EXPECT_NE(model.warnings[1].find("Ns of material \"hot\""), std::string::npos);
   const MeshData hot = part_mesh(model, 1);
   EXPECT_EQ(hot.vertex_count(), 3u);
   EXPECT_EQ(hot.indices, (std::vector<std::uint32_t>{0, 1, 2}));
@@ -94,6 +95,42 @@ TEST_F(ObjImport, ColorsThatAMaterialDoesNotGiveAreNotBlack) {
   EXPECT_FLOAT_EQ(model.parts[1].material.ambient.g, 0.5f);
   EXPECT_FLOAT_EQ(model.parts[2].material.diffuse.g, 0);
   EXPECT_FLOAT_EQ(model.parts[2].material.ambient.g, 0);
+}
+
+TEST_F(ObjImport, NamesMayHaveSpaces) {
+  write("my materials.mtl", "\xef\xbb\xbfnewmtl dark red \nKd 0.5 0 0\n");
+  const Model model = import_model(write("my model.obj", "mtllib my materials.mtl\n" + std::string(kTriangle) + "usemtl dark red\nf 1 2 3\n"));
+  EXPECT_EQ(model.parts.at(0).material_name, "dark red");
+  EXPECT_FLOAT_EQ(model.parts[0].material.diffuse.r, 0.5f);
+  EXPECT_TRUE(model.warnings.empty());
+  write("a.mtl", "newmtl a\nKd 1 0 0\n");
+  write("b.mtl", "newmtl b\nKd 0 1 0\n");
+  const Model two = import_model(write("two.obj", "mtllib a.mtl b.mtl\n" + std::string(kTriangle) + "usemtl b\nf 1 2 3\nusemtl a\nf 1 2 3\n"));
+  EXPECT_FLOAT_EQ(two.parts.at(0).material.diffuse.g, 1);
+  EXPECT_FLOAT_EQ(two.parts.at(1).material.diffuse.r, 1);
+}
+
+TEST_F(ObjImport, ColorsOfOneNumberAreGreyAndOthersThanRgbAreLeftOut) {
+  write("k.mtl", "newmtl grey\nKd 0.5\nnewmtl curve\nKd spectral x.rfl\n");
+  const Model model = import_model(write("k.obj", "mtllib k.mtl\n" + std::string(kTriangle) + "usemtl grey\nf 1 2 3\nusemtl curve\nf 1 2 3\n"));
+  EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.b, 0.5f);
+  EXPECT_FLOAT_EQ(model.parts.at(1).material.diffuse.b, 0.8f);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("Kd of material \"curve\""), std::string::npos);
+}
+
+TEST_F(ObjImport, BelowIllum2ThereIsNoHighlight) {
+  write("i.mtl", "newmtl dull\nKs 1 1 1\nillum 1\nnewmtl shiny\nKs 1 1 1\nillum 2\nnewmtl unsaid\nKs 1 1 1\n");
+  const Model model = import_model(write("i.obj", "mtllib i.mtl\n" + std::string(kTriangle) + "usemtl dull\nf 1 2 3\nusemtl shiny\nf 1 2 3\nusemtl unsaid\nf 1 2 3\n"));
+  EXPECT_EQ(model.parts.at(0).material.specular.r, 0);
+  EXPECT_EQ(model.parts.at(1).material.specular.r, 1);
+  EXPECT_EQ(model.parts.at(2).material.specular.r, 1);
+}
+
+TEST_F(ObjImport, ContinuedLinesKeepTheirNumbers) {
+  EXPECT_EQ(import_model(write("cont.obj", std::string(kTriangle) + "f 1 \\\n2 3\n")).mesh.vertex_count(), 3u);
+  const std::string message = message_of(std::string(kTriangle) + "f 1 \\\n2 3\nf 1 2 9\n");
+  EXPECT_NE(message.find("bad.obj:6: index 9"), std::string::npos) << message;
 }
 
 TEST_F(ObjImport, AMissingMaterialFileIsAWarning) {

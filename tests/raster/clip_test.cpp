@@ -186,7 +186,7 @@ TEST(Clip, PaintsWhatARayHits) {
     WindowVertex vertices[3];
     std::uint8_t codes[3];
     const Isa isa = available_isas()[static_cast<std::size_t>(round) % available_isas().size()];
-    const std::uint8_t any = transform_vertices(isa)(t, positions, 4, 3, vertices, codes);
+    const std::uint8_t any = transform_vertices(isa)(t, {positions, 4}, 4, 3, vertices, codes);
     stage.add_draw(vertices).word = 1;
     BinDraw bin;
     bin.vertices = vertices;
@@ -194,7 +194,7 @@ TEST(Clip, PaintsWhatARayHits) {
     bin.any_code = any != 0;
     bin.rect = {0, 0, kSize, kSize};
     bin.transform = &t;
-    bin.positions = positions;
+    bin.positions = {positions, 4};
     bin.components = 4;
     const float none[3 * 16] = {};
     bin.attributes = none;

@@ -70,7 +70,7 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
     for (const Isa isa : available_isas()) {
       std::vector<WindowVertex> vertices(count);
       std::vector<std::uint8_t> codes(count);
-      const std::uint8_t all = transform_vertices(isa)(t, positions.data(), components, count, vertices.data(), codes.data());
+      const std::uint8_t all = transform_vertices(isa)(t, {positions.data(), static_cast<std::size_t>(components)}, components, count, vertices.data(), codes.data());
       std::uint8_t seen = 0;
       for (std::size_t i = 0; i < count; ++i) {
         const float* p = positions.data() + i * static_cast<std::size_t>(components);
@@ -164,7 +164,7 @@ TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
     for (const Isa isa : available_isas()) {
       WindowVertex vertices[2];
       std::uint8_t codes[2];
-      EXPECT_EQ(transform_vertices(isa)(t, positions.data(), 4, 2, vertices, codes), edge.code);
+      EXPECT_EQ(transform_vertices(isa)(t, {positions.data(), 4}, 4, 2, vertices, codes), edge.code);
       EXPECT_EQ(codes[0], 0) << name_of(isa) << ": on the plane " << int{edge.code};
       EXPECT_EQ(codes[1], edge.code) << name_of(isa) << ": beyond it";
       // The guard band's end is the farthest that a vertex gets.
@@ -183,7 +183,7 @@ TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
     for (const Isa isa : available_isas()) {
       WindowVertex vertex;
       std::uint8_t code;
-      transform_vertices(isa)(t, position, 4, 1, &vertex, &code);
+      transform_vertices(isa)(t, {position, 4}, 4, 1, &vertex, &code);
       EXPECT_NE(code & kNoPositiveW, 0) << name_of(isa) << " w = " << w;
     }
   }
@@ -205,8 +205,8 @@ TEST(EyeTransform, NormalizesAndDividesOnEveryInstructionSetAlike) {
     for (const Isa isa : available_isas()) {
       Out& n = normals[isa == Isa::scalar ? 0 : 1];
       Out& p = points[isa == Isa::scalar ? 0 : 1];
-      eye_normals(isa)(t, in.data(), count, n[0].data(), n[1].data(), n[2].data());
-      eye_positions(isa)(t, in.data(), 4, count, p[0].data(), p[1].data(), p[2].data());
+      eye_normals(isa)(t, {in.data(), 3}, count, n[0].data(), n[1].data(), n[2].data());
+      eye_positions(isa)(t, {in.data(), 4}, 4, count, p[0].data(), p[1].data(), p[2].data());
       for (std::size_t i = 0; i < count; ++i) {
         double exact[3], at[3], squared = 0;
         for (int r = 0; r < 3; ++r) {

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -31,9 +32,13 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/export.h"
+#include "export.h"
+#include "version.h"
 
 namespace tessera {
+
+/// The version of the library that runs, "0.1.0"; TESSERA_VERSION is that of the header.
+TESSERA_API std::string_view version();
 
 // What stands behind the classes; nobody's business.
 struct FrameBufferState;
@@ -143,13 +148,66 @@ class TESSERA_API FrameBuffer {
 
 // ---- scene description --------------------------------------------------------------------------------------------
 
-/// Triangles, borrowed from the caller until the frame is finished. Spans other than positions may be empty.
+/// Numbers of the vertices, in the caller's memory: packed, from anything that is a span of floats, or with a stride.
+struct FloatArray {
+  const float* data = nullptr;
+  std::size_t floats = 0;                   ///< packed: all of them
+  std::size_t vertices = 0;                 ///< strided: how many
+  std::size_t stride_bytes = 0;             ///< from one vertex to the next, a multiple of 4; 0: packed
+
+  constexpr FloatArray() = default;
+  template <class Range>
+    requires std::convertible_to<const Range&, std::span<const float>>
+  constexpr FloatArray(const Range& packed) : FloatArray(std::span<const float>(packed), 0) {}
+  constexpr FloatArray(const float* first, std::size_t vertex_count, std::size_t stride) : data(first), vertices(vertex_count), stride_bytes(stride) {}
+  constexpr bool empty() const { return floats == 0 && vertices == 0; }
+
+ private:
+  constexpr FloatArray(std::span<const float> packed, int) : data(packed.data()), floats(packed.size()) {}
+};
+
+/// Colours of the vertices: r g b a as floats, or as bytes where 255 is 1.
+struct ColorArray {
+  FloatArray floats{};
+  const std::uint8_t* bytes = nullptr;
+  std::size_t vertices = 0;                 ///< of the bytes
+  std::size_t stride_bytes = 4;             ///< of the bytes: from one vertex to the next
+
+  constexpr ColorArray() = default;
+  template <class Range>
+    requires std::convertible_to<const Range&, std::span<const float>>
+  constexpr ColorArray(const Range& packed) : floats(packed) {}
+  template <class Range>
+    requires std::convertible_to<const Range&, std::span<const std::uint8_t>>
+  constexpr ColorArray(const Range& packed) : ColorArray(std::span<const std::uint8_t>(packed).data(), std::span<const std::uint8_t>(packed).size() / 4, 4) {}
+  constexpr ColorArray(const float* first, std::size_t vertex_count, std::size_t stride) : floats(first, vertex_count, stride) {}
+  constexpr ColorArray(const std::uint8_t* first, std::size_t vertex_count, std::size_t stride) : bytes(first), vertices(vertex_count), stride_bytes(stride) {}
+  constexpr bool empty() const { return floats.empty() && vertices == 0; }
+};
+
+/// Numbers of vertices, of 16 or 32 bits.
+struct IndexArray {
+  const void* data = nullptr;
+  std::size_t count = 0;
+  int bits = 32;                            ///< 16 or 32
+
+  constexpr IndexArray() = default;
+  template <class Range>
+    requires std::convertible_to<const Range&, std::span<const std::uint32_t>>
+  constexpr IndexArray(const Range& packed) : data(std::span<const std::uint32_t>(packed).data()), count(std::span<const std::uint32_t>(packed).size()) {}
+  template <class Range>
+    requires std::convertible_to<const Range&, std::span<const std::uint16_t>>
+  constexpr IndexArray(const Range& packed) : data(std::span<const std::uint16_t>(packed).data()), count(std::span<const std::uint16_t>(packed).size()), bits(16) {}
+  constexpr bool empty() const { return count == 0; }
+};
+
+/// Triangles, borrowed from the caller until the frame is finished. Arrays other than positions may be empty.
 struct Mesh {
-  std::span<const float> positions{};       ///< x y z, or x y z w with position_components 4
+  FloatArray positions{};                   ///< x y z, or x y z w with position_components 4
   int position_components = 3;
-  std::span<const float> normals{};         ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
-  std::span<const float> colors{};          ///< r g b a for each vertex
-  std::span<const std::uint32_t> indices{}; ///< three a triangle; empty: vertices in order
+  FloatArray normals{};                     ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
+  ColorArray colors{};                      ///< r g b a for each vertex
+  IndexArray indices{};                     ///< three a triangle; empty: vertices in order
 };
 
 struct Material {
@@ -245,7 +303,7 @@ struct FrameStats {
   std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
 };
 
-/// Records what happens in a frame, in order. Nothing runs until Renderer::finish.
+/// Records what happens in a frame, in order. Nothing runs until Renderer::finish. The frame buffer must outlive it.
 class TESSERA_API Frame {
  public:
   explicit Frame(FrameBuffer& target);
@@ -270,6 +328,8 @@ class TESSERA_API Frame {
   /// What the code that runs for draw i contains, and why: one line for each effect. For people who want to know what they pay for.
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
+  /// Forgets the clears and draws, and what to keep. Camera, lights and light model stay.
+  void reset() noexcept;
 
  private:
   friend class Renderer;
@@ -297,7 +357,8 @@ class TESSERA_API Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Runs the frame. It is empty afterwards and may be recorded anew; camera, lights and light model stay.
+  /// Runs the frame. It is empty afterwards and may be recorded anew; camera, lights and light model stay. If this throws, the
+  /// frame is still recorded: it may be finished again, or reset.
   FrameStats finish(Frame& frame);
   /// Runs the frame and scans the colour buffer out into the caller's memory, straight from the tiles.
   FrameStats finish(Frame& frame, const ImageTarget& target);

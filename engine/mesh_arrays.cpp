@@ -1,0 +1,104 @@
+#include "engine/mesh_arrays.h"
+
+#include <algorithm>
+#include <string>
+
+#include "raster/binning.h"
+
+namespace tessera {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
+
+std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
+  if (positions.stride_bytes != 0) return positions.vertices;
+  if (positions.floats % components != 0)
+    fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " + std::to_string(components));
+  return positions.floats / components;
+}
+
+void require_all(const char* what, std::size_t given, std::size_t vertices) {
+  if (given != vertices) fail(std::string("has ") + what + " of " + std::to_string(given) + " vertices, but " + std::to_string(vertices) + " vertices");
+}
+
+void require_stride(const char* what, std::size_t stride_bytes, std::size_t multiple, std::size_t least) {
+  if (stride_bytes % multiple != 0 || stride_bytes < least)
+    fail("has a stride of " + std::to_string(stride_bytes) + " bytes for " + what + ", must be " + (multiple > 1 ? "a multiple of " + std::to_string(multiple) + " and " : "") +
+         "at least " + std::to_string(least));
+}
+
+void require_address(const char* what, const void* data, std::size_t multiple) {
+  if (data == nullptr) fail(std::string("has no address for ") + what);
+  if (reinterpret_cast<std::uintptr_t>(data) % multiple != 0) fail(std::string("has ") + what + " at an address that is no multiple of " + std::to_string(multiple));
+}
+
+StridedFloats strided(const FloatArray& array, const char* what, std::size_t components, std::size_t vertices) {
+  if (array.empty()) return {};
+  require_address(what, array.data, alignof(float));
+  if (array.stride_bytes == 0) {
+    if (array.floats != vertices * components)
+      fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
+    return {array.data, components};
+  }
+  require_all(what, array.vertices, vertices);
+  require_stride(what, array.stride_bytes, sizeof(float), components * sizeof(float));
+  return {array.data, array.stride_bytes / sizeof(float)};
+}
+
+void add_colors(const ColorArray& colors, MeshArrays& mesh) {
+  if (colors.vertices == 0) {
+    mesh.colors = strided(colors.floats, "colors", 4, mesh.vertices);
+    return;
+  }
+  if (!colors.floats.empty()) fail("has colors twice, as floats and as bytes");
+  require_address("colors", colors.bytes, 1);
+  require_all("colors", colors.vertices, mesh.vertices);
+  require_stride("colors", colors.stride_bytes, 1, 4);
+  mesh.color_bytes = colors.bytes;
+  mesh.color_stride = colors.stride_bytes;
+}
+
+template <class Index>
+const Index* check_indices(const IndexArray& array, std::size_t vertices) {
+  require_address("indices", array.data, alignof(Index));
+  const auto* const indices = static_cast<const Index*>(array.data);
+  Index largest = 0;
+  for (std::size_t i = 0; i < array.count; ++i) largest = std::max(largest, indices[i]);
+  if (largest < vertices) return indices;
+  const auto* const wrong = std::find_if(indices, indices + array.count, [&](Index i) { return i >= vertices; });
+  throw Error("Frame::draw: index " + std::to_string(wrong - indices) + " of the mesh is " + std::to_string(*wrong) + ", must be below the number of vertices, " + std::to_string(vertices));
+}
+
+void add_indices(const IndexArray& array, MeshArrays& mesh) {
+  if (array.empty()) return;
+  if (array.bits == 32)
+    mesh.indices = check_indices<std::uint32_t>(array, mesh.vertices);
+  else if (array.bits == 16)
+    mesh.short_indices = check_indices<std::uint16_t>(array, mesh.vertices);
+  else
+    fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
+}
+
+}  // namespace
+
+MeshArrays check_mesh(const Mesh& mesh) {
+  if (mesh.position_components != 3 && mesh.position_components != 4)
+    throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) + ", must be 3 or 4");
+  const auto components = static_cast<std::size_t>(mesh.position_components);
+  MeshArrays arrays;
+  arrays.components = mesh.position_components;
+  arrays.vertices = vertices_of(mesh.positions, components);
+  if (arrays.vertices > 0xffffffffu) fail("has " + std::to_string(arrays.vertices) + " vertices, at most 4294967295 are possible");
+  arrays.positions = strided(mesh.positions, "positions", components, arrays.vertices);
+  arrays.normals = strided(mesh.normals, "normals", 3, arrays.vertices);
+  add_colors(mesh.colors, arrays);
+  const std::size_t corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
+  if (corners % 3 != 0) fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", triangles need a multiple of 3");
+  arrays.triangles = corners / 3;
+  if (arrays.triangles > kMaxTriangles)
+    fail("has " + std::to_string(arrays.triangles) + " triangles, at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
+  add_indices(mesh.indices, arrays);
+  return arrays;
+}
+
+}  // namespace tessera

@@ -1,0 +1,37 @@
+// A mesh as the stages read it: pointers and strides, checked. The memory is the caller's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/tessera/tessera.hpp"
+#include "raster/vertex_transform.h"
+
+namespace tessera {
+
+struct MeshArrays {
+  std::size_t vertices = 0, triangles = 0;
+  StridedFloats positions;
+  int components = 3;                          ///< of a position
+  StridedFloats normals;                       ///< or none
+  StridedFloats colors;                        ///< or none
+  const std::uint8_t* color_bytes = nullptr;   ///< or none
+  std::size_t color_stride = 0;                ///< bytes
+  const std::uint32_t* indices = nullptr;      ///< null: 16 bits, or vertices in order
+  const std::uint16_t* short_indices = nullptr;
+
+  bool indexed() const { return indices != nullptr || short_indices != nullptr; }
+  bool has_colors() const { return colors || color_bytes != nullptr; }
+  /// The vertex at a corner, three corners a triangle.
+  std::size_t vertex_at(std::size_t corner) const { return indices ? indices[corner] : short_indices ? short_indices[corner] : corner; }
+  /// Component c of a vertex's colour.
+  float color(std::size_t vertex, std::size_t c) const {
+    return color_bytes ? static_cast<float>(color_bytes[vertex * color_stride + c]) / 255.0f : colors.at(vertex)[c];
+  }
+};
+
+/// Checks a mesh. Throws Error for arrays that do not fit together, strides and pointers that floats cannot have, and indices
+/// out of bounds.
+MeshArrays check_mesh(const Mesh& mesh);
+
+}  // namespace tessera

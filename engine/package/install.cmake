@@ -1,0 +1,36 @@
+# What `cmake --install` lays down, in components that are also the Debian packages:
+#   runtime      libtessera.so.N                      libtesseraN
+#   development  headers, CMake package, pkg-config   libtessera-dev
+#   imageio      the module that reads and writes     libtessera-imageioN
+#   program      bin/tessera                          tessera
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
+set(built_dir ${CMAKE_CURRENT_BINARY_DIR}/package)
+
+install(TARGETS tessera EXPORT tessera-shared
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
+install(TARGETS tessera_static EXPORT tessera-static ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(DIRECTORY engine/tessera DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+
+# The static library has a file of its own: only who asks for it needs oneTBB's package.
+install(EXPORT tessera-shared NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
+install(EXPORT tessera-static NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tessera-config.cmake.in ${built_dir}/tessera-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${built_dir}/tessera-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${built_dir}/tessera-config.cmake ${built_dir}/tessera-config-version.cmake DESTINATION ${package_dir} COMPONENT development)
+
+# Relocatable: the prefix is found from where the file lies.
+file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/tessera.pc.in ${built_dir}/tessera.pc @ONLY)
+install(FILES ${built_dir}/tessera.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+if(TARGET tessera_cli)
+  file(RELATIVE_PATH lib_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+  set_target_properties(tessera_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+  install(TARGETS tessera_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(TARGETS tessera_imageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT imageio NAMELINK_SKIP)
+endif()
+
+include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

@@ -1,0 +1,136 @@
+// Vertices and indices in the caller's own layouts: the picture is that of the packed floats, bit for bit.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+
+#include "tests/engine/api_support.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+constexpr FrameBufferFormat kFormat{.width = 90, .height = 70};
+constexpr std::size_t kVertices = 60;
+
+// What many programs hold: everything of a vertex together.
+struct Vertex {
+  std::uint16_t before;
+  std::uint8_t color[4];
+  std::uint16_t between;
+  float position[3];
+  std::uint32_t more;
+  float normal[3];
+  float float_color[4];
+};
+
+struct Meshes {
+  std::vector<Vertex> vertices;
+  std::vector<float> positions, normals, colors;
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint16_t> short_indices;
+
+  Meshes() {
+    Random random(11);
+    for (std::size_t i = 0; i < kVertices; ++i) {
+      Vertex v{};
+      for (float& p : v.position) positions.push_back(p = random.between(-1, 1));
+      for (float& n : v.normal) normals.push_back(n = random.between(-1, 1));
+      for (std::size_t c = 0; c < 4; ++c) {
+        bytes.push_back(v.color[c] = static_cast<std::uint8_t>(random.next()));
+        colors.push_back(v.float_color[c] = static_cast<float>(v.color[c]) / 255.0f);
+      }
+      vertices.push_back(v);
+    }
+    for (std::size_t i = 0; i < 3 * kVertices; ++i) indices.push_back(random.next() % kVertices);
+    short_indices.assign(indices.begin(), indices.end());
+  }
+  Mesh packed() const { return {.positions = positions, .normals = normals, .colors = colors, .indices = indices}; }
+};
+
+Fingerprint drawn(const Mesh& mesh, const DrawState& state) {
+  Renderer renderer({.threads = 1});
+  FrameBuffer buffer(kFormat);
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+  frame.draw(mesh, state);
+  renderer.finish(frame);
+  return fingerprint(buffer);
+}
+
+class MeshArrays : public testing::TestWithParam<DrawState> {
+ protected:
+  const Meshes m;
+  void expect_same(const char* what, Mesh packed, Mesh mesh) const { EXPECT_EQ(drawn(packed, GetParam()), drawn(mesh, GetParam())) << what; }
+};
+
+TEST_P(MeshArrays, MayBeInterleaved) {
+  Mesh mesh = m.packed();
+  mesh.positions = {m.vertices[0].position, kVertices, sizeof(Vertex)};
+  expect_same("positions", m.packed(), mesh);
+  mesh.normals = {m.vertices[0].normal, kVertices, sizeof(Vertex)};
+  expect_same("normals", m.packed(), mesh);
+  mesh.colors = {m.vertices[0].float_color, kVertices, sizeof(Vertex)};
+  expect_same("colours", m.packed(), mesh);
+  mesh.colors = {m.vertices[0].color, kVertices, sizeof(Vertex)};
+  expect_same("colours of bytes", m.packed(), mesh);
+  mesh.indices = m.short_indices;
+  expect_same("indices of 16 bits", m.packed(), mesh);
+}
+
+TEST_P(MeshArrays, MayBePackedBytesAndShortIndices) {
+  Mesh mesh = m.packed();
+  mesh.colors = m.bytes;
+  expect_same("colours", m.packed(), mesh);
+  mesh.indices = m.short_indices;
+  expect_same("indices", m.packed(), mesh);
+  Mesh no_normals = m.packed(), short_no_normals = mesh;
+  no_normals.normals = short_no_normals.normals = {};
+  short_no_normals.positions = {m.vertices[0].position, kVertices, sizeof(Vertex)};
+  expect_same("without normals", no_normals, short_no_normals);
+}
+
+INSTANTIATE_TEST_SUITE_P(States, MeshArrays,
+                         testing::Values(DrawState{.shading = Shading::flat, .color_material = ColorMaterial::diffuse},
+                                         DrawState{.shading = Shading::gouraud, .color_material = ColorMaterial::diffuse},
+                                         DrawState{.shading = Shading::phong, .color_material = ColorMaterial::diffuse},
+                                         DrawState{.shading = Shading::gouraud, .lighting = false}));
+
+TEST(MeshArraysErrors, NameWhatDoesNotFit) {
+  const Meshes m;
+  const float* const floats = m.positions.data();
+  const struct {
+    const char* what;
+    void (*change)(Mesh&, const float*, const Meshes&);
+    const char* says;
+  } rows[] = {
+      {"stride", [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {p, 6, 14}; }, "stride of 14 bytes for positions, must be a multiple of 4 and at least 12"},
+      {"small stride", [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {p, 6, 8}; }, "stride of 8 bytes for positions"},
+      {"four components", [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {p, 6, 12}, mesh.position_components = 4; }, "at least 16"},
+      {"odd address",
+       [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {reinterpret_cast<const float*>(reinterpret_cast<const char*>(p) + 2), 6, 12}; },
+       "positions at an address that is no multiple of 4"},
+      {"no address", [](Mesh& mesh, const float*, const Meshes&) { mesh.positions = {nullptr, 6, 12}; }, "no address for positions"},
+      {"normals", [](Mesh& mesh, const float* p, const Meshes&) { mesh.normals = {p, 5, 12}; }, "normals of 5 vertices, but 60 vertices"},
+      {"bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), kVertices, 3}; }, "stride of 3 bytes for colors, must be at least 4"},
+      {"too few bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), 2, 4}; }, "colors of 2 vertices"},
+      {"both", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.floats = n.colors; }, "colors twice"},
+      {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; }, "indices of 8 bits, must be 16 or 32"},
+      {"short index", [](Mesh& mesh, const float*, const Meshes& n) { mesh.positions = {n.positions.data(), 3, 12}, mesh.normals = {}, mesh.colors = {}, mesh.indices = n.short_indices; },
+       "must be below the number of vertices, 3"},
+  };
+  for (const auto& row : rows) {
+    FrameBuffer buffer(kFormat);
+    Frame frame(buffer);
+    Mesh mesh = m.packed();
+    row.change(mesh, floats, m);
+    EXPECT_THAT(error_of([&] { frame.draw(mesh, {}); }).value_or("(none)"), testing::HasSubstr(row.says)) << row.what;
+    EXPECT_EQ(frame.draw_count(), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace tessera
