@@ -179,7 +179,7 @@ PixelRect raster_rect(const Rect& rect, int frame_height) {
   return {clamp(rect.x), clamp(top), clamp(std::int64_t{rect.x} + rect.width), clamp(top + rect.height)};
 }
 
-DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, std::string* reasons) {
+DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
   const DrawState& state = draw.state;
   DrawPlan plan;
   plan_transform(plan, draw, target);
@@ -201,6 +201,10 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, std::stri
     if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) *reasons += "  some colour planes are masked\n";
   }
   plan_color(plan, draw, target.layout, reasons);
+  if (capture_normals && plan.source != ColorSource::none) {
+    plan.captured_normal = plan.attribute_count;
+    plan.attribute_count += 3;
+  }
   const bool writes_depth = plan.uses_depth && plan.depth_write;
   plan.invisible = plan.rect.empty() || (plan.write_mask == 0 && !writes_depth) || (has_depth && state.depth.test == Compare::never);
   if (reasons && plan.invisible) *reasons += "  can change no pixel: left out\n";

@@ -33,12 +33,15 @@ struct DrawPlan {
   bool face_normals = false;      ///< the mesh has none: flat
   bool scaled_colors = true;      ///< interpolated colours are carried in levels
 
-  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back].
+  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back]; then the normal
+  /// that a capture wants.
   int attribute_count = 0;
+  int captured_normal = -1;       ///< where it begins; -1: none is wanted
 };
 
+/// @param capture_normals  each pixel's normal is wanted besides its colour
 /// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
-DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, std::string* reasons);
+DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons);
 
 /// A rectangle in window coordinates as pixels in raster space.
 PixelRect raster_rect(const Rect& rect, int frame_height);

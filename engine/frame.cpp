@@ -20,37 +20,48 @@ std::string text(double value) {
   return buffer;
 }
 
-void require_range(const std::string& what, double value, double low, double high) {
-  if (!(value >= low && value <= high)) throw Error(what + " is " + text(value) + ", must be " + text(low) + " to " + text(high));
-}
-
-void require_finite(const std::string& what, std::initializer_list<double> values) {
+// Names are put together where something is wrong only: a frame has thousands of draws.
+struct Name {
+  const char* owner;
+  const char* field = "";
+  std::string text() const { return std::string(owner) + field; }
+};
+void require_finite(const Name& name, std::initializer_list<double> values) {
   for (const double v : values)
-    if (!std::isfinite(v)) throw Error(what + " holds " + text(v) + ", must be finite");
+    if (!std::isfinite(v)) throw Error(name.text() + " holds " + text(v) + ", must be finite");
 }
-void require_finite(const std::string& what, const Color& c) { require_finite(what, {c.r, c.g, c.b, c.a}); }
-void require_finite(const std::string& what, const Matrix& matrix) {
-  for (const double v : matrix.m) require_finite(what, {v});
+void require_finite(const Name& name, const Color& c) { require_finite(name, {c.r, c.g, c.b, c.a}); }
+void require_finite(const Name& name, const Matrix& matrix) {
+  for (const double v : matrix.m) require_finite(name, {v});
 }
-
-void check_material(const std::string& what, const Material& m) {
-  require_finite(what + ".ambient", m.ambient);
-  require_finite(what + ".diffuse", m.diffuse);
-  require_finite(what + ".specular", m.specular);
-  require_finite(what + ".emission", m.emission);
-  require_range(what + ".shininess", m.shininess, 0, 16384);
+void require_range(const Name& name, double value, double low, double high) {
+  if (!(value >= low && value <= high)) throw Error(name.text() + " is " + text(value) + ", must be " + text(low) + " to " + text(high));
 }
 
-void check_light(const std::string& what, const Light& l) {
-  require_finite(what + ".ambient", l.ambient);
-  require_finite(what + ".diffuse", l.diffuse);
-  require_finite(what + ".specular", l.specular);
-  require_finite(what + ".position", {l.position[0], l.position[1], l.position[2], l.position[3]});
-  require_finite(what + ".spot_direction", {l.spot_direction[0], l.spot_direction[1], l.spot_direction[2]});
-  require_finite(what + ".attenuation", {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
-  require_range(what + ".spot_exponent", l.spot_exponent, 0, 16384);
-  if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90))
-    throw Error(what + ".spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
+void check_material(const char* what, const Material& m) {
+  require_finite({what, ".ambient"}, m.ambient);
+  require_finite({what, ".diffuse"}, m.diffuse);
+  require_finite({what, ".specular"}, m.specular);
+  require_finite({what, ".emission"}, m.emission);
+  require_range({what, ".shininess"}, m.shininess, 0, 16384);
+}
+
+void check_light(std::size_t number, const Light& l) {
+  const auto check = [&] {
+    require_finite({"", "ambient"}, l.ambient);
+    require_finite({"", "diffuse"}, l.diffuse);
+    require_finite({"", "specular"}, l.specular);
+    require_finite({"", "position"}, {l.position[0], l.position[1], l.position[2], l.position[3]});
+    require_finite({"", "spot_direction"}, {l.spot_direction[0], l.spot_direction[1], l.spot_direction[2]});
+    require_finite({"", "attenuation"}, {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
+    require_range({"", "spot_exponent"}, l.spot_exponent, 0, 16384);
+    if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90)) throw Error("spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
+  };
+  try {
+    check();
+  } catch (const Error& error) {
+    throw Error("Frame::set_lights: light " + std::to_string(number) + "." + error.what());
+  }
 }
 
 void check_rect(const char* what, const Rect& rect) {
@@ -61,15 +72,15 @@ void check_rect(const char* what, const Rect& rect) {
 void check_state(const DrawState& s, const FrameBufferState& target) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
-  require_finite("Frame::draw: transform", s.transform);
-  require_range("Frame::draw: depth_near", s.depth_near, 0, 1);
-  require_range("Frame::draw: depth_far", s.depth_far, 0, 1);
+  require_finite({"Frame::draw: transform"}, s.transform);
+  require_range({"Frame::draw: depth_near"}, s.depth_near, 0, 1);
+  require_range({"Frame::draw: depth_far"}, s.depth_far, 0, 1);
   if (s.viewport) {
     check_rect("Frame::draw: viewport", *s.viewport);
-    require_range("Frame::draw: viewport width", s.viewport->width, 1, kMaxFrameBufferSize);
-    require_range("Frame::draw: viewport height", s.viewport->height, 1, kMaxFrameBufferSize);
-    require_range("Frame::draw: viewport x", s.viewport->x, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
-    require_range("Frame::draw: viewport y", s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
+    require_range({"Frame::draw: viewport width"}, s.viewport->width, 1, kMaxFrameBufferSize);
+    require_range({"Frame::draw: viewport height"}, s.viewport->height, 1, kMaxFrameBufferSize);
+    require_range({"Frame::draw: viewport x"}, s.viewport->x, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
+    require_range({"Frame::draw: viewport y"}, s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
   }
   if (s.scissor) check_rect("Frame::draw: scissor", *s.scissor);
   const auto& m = s.color_mask;
@@ -96,25 +107,25 @@ Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
 void Frame::set_camera(const Camera& camera) {
-  require_finite("Frame::set_camera: view", camera.view);
-  require_finite("Frame::set_camera: projection", camera.projection);
+  require_finite({"Frame::set_camera: view"}, camera.view);
+  require_finite({"Frame::set_camera: projection"}, camera.projection);
   change(*recording_, "Frame::set_camera", [&](Surroundings& changed) { changed.camera = camera; });
 }
 
 void Frame::set_lights(std::span<const Light> lights) {
-  for (std::size_t i = 0; i < lights.size(); ++i) check_light("Frame::set_lights: light " + std::to_string(i), lights[i]);
+  for (std::size_t i = 0; i < lights.size(); ++i) check_light(i, lights[i]);
   change(*recording_, "Frame::set_lights", [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
 }
 
 void Frame::set_light_model(const LightModel& model) {
-  require_finite("Frame::set_light_model: ambient", model.ambient);
+  require_finite({"Frame::set_light_model: ambient"}, model.ambient);
   change(*recording_, "Frame::set_light_model", [&](Surroundings& changed) { changed.light_model = model; });
 }
 
 void Frame::clear(const Clear& clear) {
   const FrameBufferState& target = *recording_->target;
   if (clear.color)
-    for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a}) require_range("Frame::clear: a component of color", c, 0, 1);
+    for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a}) require_range({"Frame::clear: a component of color"}, c, 0, 1);
   if (clear.index) {
     if (!target.layout.index) throw Error("Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
     if (*clear.index > target.layout.word_mask())
@@ -122,7 +133,7 @@ void Frame::clear(const Clear& clear) {
   }
   if (clear.depth) {
     if (target.depth_kind == DepthKind::none) throw Error("Frame::clear: a depth is given, but the frame buffer has no depth buffer");
-    require_range("Frame::clear: depth", *clear.depth, 0, 1);
+    require_range({"Frame::clear: depth"}, *clear.depth, 0, 1);
   }
   if (clear.stencil) {
     const int bits = target.format.stencil_bits;
@@ -135,13 +146,28 @@ void Frame::clear(const Clear& clear) {
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
-  const MeshArrays arrays = check_mesh(mesh);
-  check_state(state, *recording_->target);
-  with_memory("Frame::draw", [&] { recording_->draws.push_back({arrays, state, recording_->surroundings}); });
+  with_memory("Frame::draw", [&] {
+    const MeshArrays arrays = check_mesh(mesh);
+    check_state(state, *recording_->target);
+    recording_->draws.push_back({arrays, state, recording_->surroundings});
+  });
 }
 
 void Frame::keep(std::initializer_list<Buffer> buffers) {
   with_memory("Frame::keep", [&] { recording_->keep.emplace(buffers); });
+}
+
+void Frame::capture(const Capture& capture) {
+  const FrameBufferFormat& format = recording_->target->format;
+  const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
+  const auto require_size = [&](const char* what, std::size_t found, std::size_t needed) {
+    if (found != 0 && found != needed)
+      throw Error(std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) + " elements, the frame buffer needs " + std::to_string(needed));
+  };
+  require_size("objects", capture.objects.size(), pixels);
+  require_size("primitives", capture.primitives.size(), pixels);
+  require_size("normals", capture.normals.size(), 3 * pixels);
+  recording_->capture = capture;
 }
 
 void Frame::reset() noexcept { recording_->clear(); }
@@ -153,7 +179,7 @@ std::string Frame::explain(std::size_t draw_index) const {
     throw Error("Frame::explain: draw " + std::to_string(draw_index) + ", the frame has " + std::to_string(recording_->draws.size()));
   return with_memory("Frame::explain", [&] {
     std::string reasons;
-    plan_draw(recording_->draws[draw_index], *recording_->target, &reasons);
+    plan_draw(recording_->draws[draw_index], *recording_->target, false, &reasons);
     return reasons;
   });
 }

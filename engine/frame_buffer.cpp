@@ -3,6 +3,7 @@
 #include <new>
 #include <string>
 
+#include "engine/draw_plan.h"
 #include "engine/frame_buffer_state.h"
 #include "engine/image_target.h"
 #include "engine/out_of_memory.h"
@@ -38,6 +39,9 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
   if (target.height > 1 && std::abs(target.stride_bytes) < row)
     throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) + " bytes, a row takes " + std::to_string(row));
+  if (target.part && (target.part->width < 0 || target.part->height < 0))
+    throw Error(std::string(function) + ": the target's part is " + std::to_string(target.part->width) + " x " + std::to_string(target.part->height) +
+                " pixels, must not be negative");
 }
 
 template <class T>
@@ -50,6 +54,13 @@ void require_pixels(std::span<T> span, const FrameBufferFormat& format, const ch
 }  // namespace
 
 void check_image_target(const ImageTarget& target, const FrameBufferFormat& format) { require_image(target, format, "Renderer::finish"); }
+
+PixelRect shown_part(const ImageTarget& target) {
+  const PixelRect whole{0, 0, target.width, target.height};
+  if (!target.part) return whole;
+  const PixelRect part = intersect(whole, raster_rect(*target.part, target.height));
+  return part.empty() ? PixelRect{} : part;
+}
 
 std::vector<Color> named_palette(std::string_view palette_name, int color_bits) {
   require_range("color_bits", color_bits, 1, 24);
@@ -66,18 +77,33 @@ std::vector<Color> default_palette(int color_bits) {
   return to_colors(default_palette_of(color_bits).entries);
 }
 
-FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique<FrameBufferState>()) {
-  const FloatingPointMode mode;
+namespace {
+
+void check_format(const FrameBufferFormat& format) {
   require_range("width", format.width, 1, kMaxFrameBufferSize, " px");
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
   require_range("color_bits", format.color_bits, 1, 24);
   require_range("stencil_bits", format.stencil_bits, 0, 8);
-  FrameBufferState& s = *state_;
-  const bool index = format.color_mode == ColorMode::index;
-  if (!index && !format.palette.empty()) throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
+  if (format.color_mode == ColorMode::rgb && !format.palette.empty())
+    throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
   if (format.palette.size() > std::size_t{1} << format.color_bits)
     throw Error("FrameBuffer: the palette has " + std::to_string(format.palette.size()) + " entries, " + std::to_string(format.color_bits) +
                 " bits hold at most " + std::to_string(std::size_t{1} << format.color_bits));
+}
+
+void make_planes(FrameBufferState& s) {
+  s.color.planes = BitplaneStack(s.format.width, s.format.height, s.format.color_bits);
+  s.depth.planes = BitplaneStack(s.format.width, s.format.height, depth_bits(s.depth_kind));
+  s.stencil.planes = BitplaneStack(s.format.width, s.format.height, s.format.stencil_bits);
+}
+
+}  // namespace
+
+FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique<FrameBufferState>()) {
+  const FloatingPointMode mode;
+  check_format(format);
+  FrameBufferState& s = *state_;
+  const bool index = format.color_mode == ColorMode::index;
   s.layout = index ? index_layout(format.color_bits) : rgb_layout(format.color_bits);
   s.depth_kind = static_cast<DepthKind>(format.depth);
   if (index) {
@@ -92,13 +118,34 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
     }
   }
   s.format = std::move(format);
-  const FrameBufferFormat& f = s.format;
-  s.color.planes = BitplaneStack(f.width, f.height, f.color_bits);
-  s.depth.planes = BitplaneStack(f.width, f.height, depth_bits(s.depth_kind));
-  s.stencil.planes = BitplaneStack(f.width, f.height, f.stencil_bits);
+  make_planes(s);
   if (s.depth_kind != DepthKind::none) s.depth.become_uniform(depth_word(s.depth_kind, 1.0));
 } catch (const std::bad_alloc&) {
   throw Error("FrameBuffer: not enough memory");
+}
+
+FrameBuffer::FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory) : FrameBuffer(std::move(format)) {
+  const std::size_t needed = memory_bytes(state_->format);
+  if (memory.size() < needed)
+    throw Error("FrameBuffer: the memory given takes " + std::to_string(memory.size()) + " bytes, the format needs " + std::to_string(needed));
+  if (reinterpret_cast<std::uintptr_t>(memory.data()) % kPlaneAlignment != 0)
+    throw Error("FrameBuffer: the memory given is at an address that is no multiple of " + std::to_string(kPlaneAlignment));
+  auto* at = reinterpret_cast<std::uint8_t*>(memory.data());
+  for (StoredBuffer* buffer : {&state_->color, &state_->depth, &state_->stencil}) {
+    buffer->planes.use_memory(at);
+    at += buffer->planes.needed_bytes();
+    buffer->settle_lent_memory();
+  }
+}
+
+std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
+  check_format(format);
+  FrameBufferState state;
+  state.format.width = format.width, state.format.height = format.height;
+  state.format.color_bits = format.color_bits, state.format.stencil_bits = format.stencil_bits;
+  state.depth_kind = static_cast<DepthKind>(format.depth);
+  make_planes(state);
+  return state.color.planes.needed_bytes() + state.depth.planes.needed_bytes() + state.stencil.planes.needed_bytes();
 }
 
 FrameBuffer::~FrameBuffer() = default;
@@ -158,8 +205,11 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
     return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr,
                    target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());
   });
+  const PixelRect part = shown_part(target);
   for_each_row(*state_, Buffer::color, "FrameBuffer::read_color", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
-    scan_out.row(row.data(), target.width, static_cast<std::uint8_t*>(target.pixels) + static_cast<std::ptrdiff_t>(y) * target.stride_bytes);
+    if (static_cast<int>(y) < part.y0 || static_cast<int>(y) >= part.y1) return;
+    auto* const pixels = static_cast<std::uint8_t*>(target.pixels) + static_cast<std::ptrdiff_t>(y) * target.stride_bytes;
+    scan_out.row(row.data() + part.x0, part.x1 - part.x0, pixels + 4 * static_cast<std::ptrdiff_t>(part.x0));
   });
 }
 

@@ -38,6 +38,10 @@ struct StoredBuffer {
     content = Content::uniform;
     word = value & planes.word_mask();
   }
+  /// The caller looks at memory of its own: what is known has to stand there.
+  void settle_lent_memory() {
+    if (planes.uses_lent_memory() && planes.plane_count() > 0) materialize();
+  }
 };
 
 struct FrameBufferState {

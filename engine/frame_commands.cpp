@@ -73,7 +73,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   std::vector<std::uint32_t> first_plan_at(recording.draws.size() + 1);
   for (std::size_t i = 0; i < recording.draws.size(); ++i) {
     first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
-    DrawPlan plan = plan_draw(recording.draws[i], target, nullptr);
+    DrawPlan plan = plan_draw(recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
     if (plan.invisible || recording.draws[i].mesh.triangles == 0) continue;
     commands.plans.push_back(std::move(plan));
     commands.plan_draw.push_back(i);
@@ -129,7 +129,8 @@ void connect_draws(FrameCommands& commands) {
     draw.vertices = buffers.vertices.data();
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
-    draw.attribute_stride = draw.attribute_count = plan.attribute_count;
+    draw.attribute_stride = plan.attribute_count;
+    draw.attribute_count = plan.captured_normal >= 0 ? plan.captured_normal : plan.attribute_count;
     draw.provoking = static_cast<int>(geometry.provoking);
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
@@ -194,6 +195,7 @@ void run_stencil_clears(FrameRecording& recording, bool keep) {
   }
   if (!keep) stencil.content = StoredBuffer::Content::lost;
   if (stencil.content != StoredBuffer::Content::planes) stencil.planes.release();
+  stencil.settle_lent_memory();
 }
 
 }  // namespace tessera

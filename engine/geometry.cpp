@@ -95,6 +95,17 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
   if (plan.uses_vertex_colors) store(kVertexField);
 }
 
+// What a capture wants: eye-space normals, whatever the shading does with them.
+void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count, Isa isa) {
+  const StridedFloats normals = draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->captured_normals.data(), 3};
+  float eye[3][kVertexBatch];
+  eye_normals(isa)(draw.plan->eye, normals.from(first), count, eye[0], eye[1], eye[2]);
+  const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
+  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal;
+  for (std::size_t i = 0; i < count; ++i, out += stride)
+    for (std::size_t c = 0; c < 3; ++c) out[c] = eye[c][i];
+}
+
 void clear_batch(ShadingBatch& batch) {
   for (auto& field : batch.field) std::fill(std::begin(field), std::end(field), 0.0f);
 }
@@ -115,6 +126,8 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.normals.clear();
   if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
   if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);
+  buffers.captured_normals.clear();
+  if (plan.captured_normal >= 0 && !draw.mesh->normals) buffers.captured_normals = smooth_normals(*draw.mesh);
   buffers.any_code = false;
 }
 
@@ -133,6 +146,7 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     const StridedFloats positions = mesh.positions.from(at);
     codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
     if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
+    if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
     if (!colors_matter) continue;
     if (needs_normal(plan)) {
       eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);

@@ -19,6 +19,7 @@ struct DrawBuffers {
   Scratch<std::uint32_t> words[2];
   Scratch<std::uint32_t> indices;        ///< widened from 16 bits
   std::vector<float> normals;            ///< generated
+  std::vector<float> captured_normals;   ///< generated, where a capture wants normals
   std::atomic<bool> any_code = false;    ///< some vertex has a clip code
 };
 

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "engine/tessera/tessera.hpp"
+#include "framebuffer/tile_grid.h"
 
 namespace tessera {
 
 /// Throws Error where the target cannot take a picture of that format.
 void check_image_target(const ImageTarget& target, const FrameBufferFormat& format);
+
+/// The pixels of a checked target that are to be written, rows counted from the top.
+PixelRect shown_part(const ImageTarget& target);
 
 }  // namespace tessera

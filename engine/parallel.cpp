@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task.h>
 #include <oneapi/tbb/task_arena.h>
 
 #if defined(__x86_64__)
@@ -19,17 +20,73 @@ namespace tessera {
 
 namespace tbb = oneapi::tbb;
 
-struct Parallel::Arena {
-  explicit Arena(int threads) : arena(threads), seen(static_cast<std::size_t>(threads)) {}
-  tbb::task_arena arena;
-  std::vector<std::atomic<bool>> seen;
+namespace {
+
+/// oneTBB's threads, in an arena that nobody else works in.
+class ArenaExecutor : public Executor {
+ public:
+  explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
+  int workers() const noexcept override { return threads_; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    arena_.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); }, tbb::simple_partitioner());
+    });
+  }
+
+ private:
+  int threads_;
+  tbb::task_arena arena_;
 };
 
-Parallel::Parallel(int threads) : threads_(threads) {
-  // An arena above the process's limit would make oneTBB print a warning and not run more threads anyway.
-  const auto limit = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  threads_ = std::clamp(threads, 1, std::max(1, limit));
-  arena_ = std::make_unique<Arena>(threads_);
+class SerialExecutor : public Executor {
+ public:
+  int workers() const noexcept override { return 1; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    for (int k = 0; k < count; ++k) work(context, k);
+  }
+};
+
+/// Tasks of one call, taken in order by whichever worker is free, so that callers can put the long ones first.
+struct TaskQueue {
+  const std::function<void(std::size_t, int)>& task;
+  const std::size_t count;
+  std::vector<char>& seen;
+  std::atomic<std::size_t> next{0}, done{0};
+  std::atomic<bool> failed{false};
+  std::exception_ptr failure{};
+
+  static void work(void* queue, int worker) noexcept { static_cast<TaskQueue*>(queue)->run(worker); }
+  void run(int worker) noexcept {
+    const FloatingPointMode mode;
+    bool idle = true;
+    for (std::size_t i = next.fetch_add(1); i < count && !failed.load(std::memory_order_relaxed); i = next.fetch_add(1)) {
+      if (idle) seen[static_cast<std::size_t>(worker)] = 1;
+      idle = false;
+      try {
+        task(i, worker);
+      } catch (...) {
+        if (!failed.exchange(true)) failure = std::current_exception();
+      }
+      done.fetch_add(1, std::memory_order_release);
+    }
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<Executor> serial_executor() { return std::make_shared<SerialExecutor>(); }
+
+Parallel::Parallel(int threads, std::shared_ptr<Executor> executor) : executor_(std::move(executor)) {
+  if (executor_) {
+    threads_ = std::clamp(threads, 1, std::max(1, executor_->workers()));
+  } else {
+    // An arena above the process's limit would make oneTBB print a warning and not run more threads anyway.
+    const auto limit = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    threads_ = std::clamp(threads, 1, std::max(1, limit));
+    executor_ = threads_ == 1 ? serial_executor() : std::make_shared<ArenaExecutor>(threads_);
+  }
+  seen_.resize(static_cast<std::size_t>(threads_));
 }
 Parallel::~Parallel() = default;
 Parallel::Parallel(Parallel&&) noexcept = default;
@@ -37,32 +94,17 @@ Parallel& Parallel::operator=(Parallel&&) noexcept = default;
 
 void Parallel::for_each(std::size_t count, const std::function<void(std::size_t, int)>& task) {
   if (count == 0) return;
-  if (threads_ == 1) {
-    const FloatingPointMode mode;
-    arena_->seen[0] = true;
-    for (std::size_t i = 0; i < count; ++i) task(i, 0);
-    return;
-  }
-  // Workers take the next task in order when they are free, so that callers can put the long ones first.
-  std::atomic<std::size_t> next{0};
-  const int workers = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count));
-  arena_->arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, workers, 1),
-        [&](const tbb::blocked_range<int>&) {
-          const FloatingPointMode mode;
-          const int worker = tbb::this_task_arena::current_thread_index();
-          arena_->seen[static_cast<std::size_t>(worker)].store(true, std::memory_order_relaxed);
-          for (std::size_t i = next.fetch_add(1); i < count && !tbb::is_current_task_group_canceling(); i = next.fetch_add(1)) task(i, worker);
-        },
-        tbb::simple_partitioner());
-  });
+  TaskQueue queue{task, count, seen_};
+  executor_->run(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count)), &TaskQueue::work, &queue);
+  if (queue.failure) std::rethrow_exception(queue.failure);
+  if (queue.done.load(std::memory_order_acquire) != count)
+    throw Error("Renderer: the executor returned before its work was done; run() must call work for each worker and wait for all of them");
 }
 
 int Parallel::distinct_workers_seen() {
-  int count = 0;
-  for (std::atomic<bool>& seen : arena_->seen) count += seen.exchange(false) ? 1 : 0;
-  return count;
+  const auto count = std::count(seen_.begin(), seen_.end(), 1);
+  std::fill(seen_.begin(), seen_.end(), 0);
+  return static_cast<int>(count);
 }
 
 int available_cores() { return std::max(1, tbb::info::default_concurrency()); }

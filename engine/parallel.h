@@ -4,14 +4,18 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
+
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 
-/// Runs tasks on a oneTBB arena of its own.
+/// Runs tasks on the workers of an executor.
 class Parallel {
  public:
-  /// @param threads  1 or more, the caller's included.
-  explicit Parallel(int threads);
+  /// @param threads  1 or more, the caller's included
+  /// @param executor  null: a oneTBB arena of its own, or for one thread the caller's
+  explicit Parallel(int threads, std::shared_ptr<Executor> executor = nullptr);
   ~Parallel();
   Parallel(Parallel&&) noexcept;
   Parallel& operator=(Parallel&&) noexcept;
@@ -19,15 +23,15 @@ class Parallel {
   int threads() const noexcept { return threads_; }
   /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below threads(); no two
   /// tasks that run at the same time share one. Each task runs in the default floating-point mode: rounding to nearest,
-  /// denormals kept. An exception of a task is thrown here, after the running tasks have ended.
+  /// denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not start.
   void for_each(std::size_t count, const std::function<void(std::size_t task, int worker)>& task);
   /// How many distinct workers have run tasks since the last call: what tests of thread counts assert.
   int distinct_workers_seen();
 
  private:
-  struct Arena;
   int threads_;
-  std::unique_ptr<Arena> arena_;
+  std::shared_ptr<Executor> executor_;
+  std::vector<char> seen_;  // one for each worker
 };
 
 /// Cores that the process may use.

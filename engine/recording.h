@@ -34,12 +34,14 @@ struct FrameRecording {
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::optional<std::vector<Buffer>> keep;
+  Capture capture;
 
   /// Camera, lights and light model stay.
   void clear() noexcept {
     draws.clear();
     clears.clear();
     keep.reset();
+    capture = {};
   }
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/image_target.h"
+
 namespace tessera {
 namespace {
 
@@ -14,14 +16,16 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
 
 }  // namespace
 
-TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, Isa isa)
-    : commands_(commands), frame_(frame), target_(target), image_(image), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
+TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture,
+                     Isa isa)
+    : commands_(commands), frame_(frame), target_(target), image_(image), capture_(capture), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
       load_planes_(load_planes_for(isa)) {
   if (image == nullptr) return;
+  shown_ = shown_part(*image);
   scan_out_.emplace(target.layout, target.layout.index ? &target.palette : nullptr, image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, isa);
   // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles need not go
   // through tile memory.
-  const bool uniform = !commands.color.store && !commands.depth.store && !commands.color.load && !commands.clears.empty() &&
+  const bool uniform = !capture.any() && !commands.color.store && !commands.depth.store && !commands.color.load && !commands.clears.empty() &&
                        std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) { return covers_frame(c, frame.grid); });
   if (!uniform) return;
   std::uint32_t word = 0;
@@ -60,30 +64,44 @@ std::vector<TileStrip> TileStage::strips() const {
   return strips;
 }
 
-std::uint64_t TileStage::render(const TileStrip& strip, TileWorkspace& workspace, std::uint64_t& shaded_pixels) const {
-  if (strip.cleared) {
-    fill_cleared(strip);
-    return 0;
-  }
-  std::uint64_t touched = 0;
-  for (int column = strip.first_column; column <= strip.last_column; ++column) touched += render_tile_at(strip.row, column, workspace, shaded_pixels) ? 1 : 0;
-  return touched;
+void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {
+  if (strip.cleared) return fill_cleared(strip);
+  for (int column = strip.first_column; column <= strip.last_column; ++column) render_tile_at(strip.row, column, workspace, counts);
 }
 
-bool TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, std::uint64_t& shaded_pixels) const {
+void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const {
   const TileGrid& grid = frame_.grid;
   const int size = grid.tile_size, x0 = column * size, y0 = row * size;
+  const bool shown = !intersect(shown_, {x0, y0, x0 + size, y0 + size}).empty();
+  if (!shown && !commands_.color.store && !commands_.depth.store && !capture_.any()) return;
   const TilePlace color_place{x0, y0, size, 0}, depth_place{x0, y0, size, depth_word_from_key(target_.depth_kind, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
+  const auto load_depth = [&] { load(commands_.depth, target_.depth, depth_words, depth_place); };
+  if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_depth);
   load(commands_.color, target_.color, workspace.color(), color_place);
-  load(commands_.depth, target_.depth, depth_words, depth_place);
-  const TileCounts counts = render_(frame_, row * grid.columns() + column, workspace);
-  shaded_pixels += counts.shaded_pixels;
-  if (image_)
-    scan_out_->tile(workspace.color(), size, std::min(size, grid.width_px - x0), std::min(size, grid.height_px - y0), shown_at(x0, y0), image_->stride_bytes);
+  load_depth();
+  const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
+  counts.shaded_pixels += tile.shaded_pixels;
+  counts.touched += tile.touched ? 1 : 0;
+  if (shown) scan_out(x0, y0, workspace);
   if (commands_.color.store) store_planes_(workspace.color(), color_place, target_.color.planes, ~0u);
   if (commands_.depth.store) store_planes_(depth_words, depth_place, target_.depth.planes, ~0u);
-  return counts.touched;
+}
+
+void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
+  const int size = frame_.grid.tile_size;
+  const PixelRect in_frame = intersect({x0, y0, x0 + size, y0 + size}, {0, 0, frame_.grid.width_px, frame_.grid.height_px});
+  const PixelRect part = intersect(in_frame, shown_);
+  const int width = in_frame.x1 - x0, height = in_frame.y1 - y0;
+  if (part == in_frame) {
+    scan_out_->tile(workspace.color(), size, width, height, shown_at(x0, y0), image_->stride_bytes);
+    return;
+  }
+  // The image's edge runs through the tile: by way of a picture of the whole tile.
+  std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
+  scan_out_->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
+  for (int y = part.y0; y < part.y1; ++y)
+    std::memcpy(shown_at(part.x0, y), pixels + 4 * ((y - y0) * size + part.x0 - x0), 4 * static_cast<std::size_t>(part.x1 - part.x0));
 }
 
 void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const {
@@ -95,9 +113,10 @@ void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, s
 }
 
 void TileStage::fill_cleared(const TileStrip& strip) const {
-  const int size = frame_.grid.tile_size, x0 = strip.first_column * size;
-  const int width = std::min((strip.last_column + 1) * size, frame_.grid.width_px) - x0, end = std::min((strip.row + 1) * size, frame_.grid.height_px);
-  for (int y = strip.row * size; y < end; ++y) std::memcpy(shown_at(x0, y), cleared_row_.data(), std::size_t{4} * static_cast<std::size_t>(width));
+  const int size = frame_.grid.tile_size;
+  const PixelRect part = intersect(shown_, {strip.first_column * size, strip.row * size, (strip.last_column + 1) * size, (strip.row + 1) * size});
+  if (part.empty()) return;
+  for (int y = part.y0; y < part.y1; ++y) std::memcpy(shown_at(part.x0, y), cleared_row_.data(), 4 * static_cast<std::size_t>(part.x1 - part.x0));
 }
 
 std::uint8_t* TileStage::shown_at(int x, int y) const {

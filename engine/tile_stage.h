@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/capture_stage.h"
 #include "engine/frame_buffer_state.h"
 #include "engine/frame_commands.h"
 #include "framebuffer/bit_transpose.h"
@@ -20,19 +21,24 @@ struct TileStrip {
   std::uint64_t triangles = 0;
 };
 
+struct StripCounts {
+  std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
+};
+
 class TileStage {
  public:
   /// All but the image's pixels and the target's planes is only read. `image` may be null.
-  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, Isa isa);
+  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, Isa isa);
 
   /// The frame's tiles, the strips with most triangles first: nobody waits for one that began last. Their order changes no bit.
   std::vector<TileStrip> strips() const;
-  /// Distinct strips may be rendered at the same time, each in a workspace of its own. Returns how many tiles were touched.
-  std::uint64_t render(const TileStrip& strip, TileWorkspace& workspace, std::uint64_t& shaded_pixels) const;
+  /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
+  void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
  private:
   bool untouched(int tile) const;
-  bool render_tile_at(int row, int column, TileWorkspace& workspace, std::uint64_t& shaded_pixels) const;
+  void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
+  void scan_out(int x0, int y0, TileWorkspace& workspace) const;
   void load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const;
   void fill_cleared(const TileStrip& strip) const;
   std::uint8_t* shown_at(int x, int y) const;
@@ -41,6 +47,8 @@ class TileStage {
   const TileFrame& frame_;
   FrameBufferState& target_;
   const ImageTarget* image_;
+  const CaptureStage& capture_;
+  PixelRect shown_;                        ///< of the image
   std::optional<ScanOut> scan_out_;
   RenderTile* render_;
   StorePlanesFn* store_planes_;

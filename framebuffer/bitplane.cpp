@@ -17,8 +17,7 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
 
 void BitplaneStack::allocate(std::uint32_t word) {
   if (allocated() || plane_count_ == 0) return;
-  const std::size_t bytes = plane_stride_bytes_ * static_cast<std::size_t>(plane_count_);
-  memory_.reset(static_cast<std::uint8_t*>(::operator new(bytes, std::align_val_t{kPlaneAlignment})));
+  memory_.reset(lent_ != nullptr ? lent_ : static_cast<std::uint8_t*>(::operator new(needed_bytes(), std::align_val_t{kPlaneAlignment})));
   fill(word);
 }
 

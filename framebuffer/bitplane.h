@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include "framebuffer/check.h"
 
@@ -22,6 +23,16 @@ inline constexpr int kPlaneAlignment = 64;  ///< bytes; rows of a plane are padd
 class BitplaneStack {
  public:
   BitplaneStack() = default;
+  ~BitplaneStack() { release(); }
+  BitplaneStack(BitplaneStack&&) noexcept = default;
+  BitplaneStack& operator=(BitplaneStack&& other) noexcept {
+    release();
+    width_px_ = other.width_px_, height_px_ = other.height_px_, plane_count_ = other.plane_count_;
+    stride_bytes_ = other.stride_bytes_, plane_stride_bytes_ = other.plane_stride_bytes_;
+    memory_ = std::move(other.memory_);
+    lent_ = other.lent_;
+    return *this;
+  }
   /// @param width_px, height_px  at least 1;  @param plane_count  0 .. kMaxPlanes
   BitplaneStack(int width_px, int height_px, int plane_count) noexcept;
 
@@ -33,10 +44,23 @@ class BitplaneStack {
     return plane_count_ == 0 ? 0 : ~std::uint32_t{0} >> (kMaxPlanes - plane_count_);
   }
 
+  /// Bytes that the planes take, allocated or not.
+  std::size_t needed_bytes() const noexcept { return plane_stride_bytes_ * static_cast<std::size_t>(plane_count_); }
+  /// From now on the planes stand in this memory, needed_bytes() at a multiple of kPlaneAlignment, which outlives the stack;
+  /// taking and giving back allocates nothing. @pre not allocated
+  void use_memory(std::uint8_t* memory) noexcept {
+    TESSERA_ASSERT(!allocated() && reinterpret_cast<std::uintptr_t>(memory) % kPlaneAlignment == 0);
+    lent_ = memory;
+  }
+  bool uses_lent_memory() const noexcept { return lent_ != nullptr; }
+
   bool allocated() const noexcept { return memory_ != nullptr; }
   /// Takes the memory, if it is not there yet, and fills every pixel with `word`. Throws std::bad_alloc; then nothing changed.
   void allocate(std::uint32_t word);
-  void release() noexcept { memory_.reset(); }
+  void release() noexcept {
+    if (lent_ != nullptr) static_cast<void>(memory_.release());
+    memory_.reset();
+  }
 
   /// Every pixel becomes `word` (bits beyond the planes are ignored). Allocated stacks only, as for all that follows.
   void fill(std::uint32_t word) noexcept { fill_rows(0, height_px_, word); }
@@ -61,7 +85,7 @@ class BitplaneStack {
   /// From a plane to the next.
   std::size_t plane_stride_bytes() const noexcept { return plane_stride_bytes_; }
   /// Memory taken now; 0 while not allocated.
-  std::size_t bytes() const noexcept { return allocated() ? plane_stride_bytes_ * static_cast<std::size_t>(plane_count_) : 0; }
+  std::size_t bytes() const noexcept { return allocated() ? needed_bytes() : 0; }
 
  private:
   struct Free {
@@ -71,6 +95,7 @@ class BitplaneStack {
   std::ptrdiff_t stride_bytes_ = 0;
   std::size_t plane_stride_bytes_ = 0;
   std::unique_ptr<std::uint8_t[], Free> memory_;
+  std::uint8_t* lent_ = nullptr;  // the caller's memory; else the stack takes its own
 };
 
 }  // namespace tessera

@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kMaxTriangles = kClippedTriangle - 1;
 /// A piece of a triangle that clipping cut, with its own vertices.
 struct ClippedTriangle {
   WindowVertex vertices[3];
-  float attributes[3][kAttributePadding] = {};
+  float attributes[3][kMaxAttributes + kAttributePadding] = {};
   std::uint32_t source;  ///< the triangle that it was cut from
 };
 

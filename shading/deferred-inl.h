@@ -58,12 +58,26 @@ HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch,
                 level(b, layout.b_bits));
 }
 
+/// Lit points have normals of length 1 in the batch.
+inline HWY_NOINLINE void store_normals(TileRun& run, const PixelBatch& pixels) {
+  for (int slot = 0; slot < pixels.blocks; ++slot)
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const auto covered = hn::RebindMask(kFloat, mask_from_bits(pixels.covered[slot] >> (chunk * kLanes) & ((1u << kLanes) - 1)));
+      for (int c = 0; c < 3; ++c) {
+        float* const to = run.memory.normals->component[c] + pixels.index[slot] + chunk * kLanes;
+        const Float normal = hn::Load(kFloat, run.memory.batch.field[kNormalX + c] + slot * kBlockPixels + chunk * kLanes);
+        hn::Store(hn::IfThenElse(covered, normal, hn::Load(kFloat, to)), kFloat, to);
+      }
+    }
+}
+
 inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   if (pixels.blocks == 0) return;
   const TileDraw& draw = run.frame.draws[pixels.draw];
   ShadingBatch& batch = run.memory.batch;
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
+  if (draw.captures_normals) store_normals(run, pixels);
   for (int slot = 0; slot < pixels.blocks; ++slot) {
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
@@ -84,7 +98,7 @@ HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint3
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   pixels.draw = draw_number;
   pixels.back = back;
-  pixels.first_attribute = per_pixel ? 0 : draw.color_attribute[back ? 1 : 0];
+  pixels.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
   pixels.attribute_count = per_pixel ? draw.attribute_count : 3;
   pixels.adjacent = true;
   for (int j = 0; j < pixels.attribute_count; ++j) {

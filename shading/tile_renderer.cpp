@@ -197,6 +197,10 @@ TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
+float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
+void TileWorkspace::allocate_normals() {
+  if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
+}
 
 std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b) {
   return layout.index ? search->nearest(r, g, b) & layout.word_mask() : quantize_rgb(layout, r, g, b);

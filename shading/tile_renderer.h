@@ -50,9 +50,11 @@ struct TileDraw {
   int color_attribute[2] = {0, 0};
   bool scaled_colors = true;
   bool deferred = false;                   ///< shade once for each visible pixel
-  /// per_pixel: programs for front and back, and which batch field each attribute goes to.
+  /// per_pixel: programs for front and back, and which batch field each attribute goes to, from first_attribute on.
   const LightingProgram* programs[2] = {};
+  int first_attribute = 0;
   std::uint8_t fields[kMaxAttributes] = {};
+  bool captures_normals = false;           ///< per_pixel: the normals go to the workspace's normals(), too
 };
 
 /// A clear inside a frame, in words; before draw `before_draw`.
@@ -97,6 +99,9 @@ class TileWorkspace {
   Memory& memory() { return *memory_; }
   std::uint32_t* color();     ///< tile_size^2 words in tile order
   std::int32_t* depth();      ///< depth keys
+  float* normals(int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
+  /// Throws std::bad_alloc.
+  void allocate_normals();
 
  private:
   std::unique_ptr<Memory> memory_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raster/triangle_setup.h"
@@ -15,6 +16,10 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 /// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
 inline constexpr std::size_t kMaxCollected = 1024;
 
+struct alignas(64) TileNormals {
+  float component[3][kMaxTileSize * kMaxTileSize];
+};
+
 struct alignas(64) TileWorkspace::Memory {
   alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
   alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
@@ -27,6 +32,7 @@ struct alignas(64) TileWorkspace::Memory {
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
+  std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
 };
 
 }  // namespace tessera

@@ -23,6 +23,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -49,6 +50,11 @@ struct RendererState;
 class TESSERA_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+/// The one that Renderer::finish throws because a progress callback asked it to stop.
+class TESSERA_API Cancelled : public Error {
+ public:
+  using Error::Error;
 };
 
 struct Vec3 {
@@ -112,6 +118,7 @@ struct ImageTarget {
   int width = 0, height = 0;                ///< must equal the frame buffer's
   std::ptrdiff_t stride_bytes = 0;
   PixelOrder order = PixelOrder::rgba8;
+  std::optional<Rect> part{};               ///< only these pixels of it are written; what else the memory holds stays
 };
 
 /// A stack of bitplanes: colour, depth and stencil, one bit for each pixel in each plane. New buffers hold colour 0,
@@ -120,6 +127,11 @@ class TESSERA_API FrameBuffer {
  public:
   /// Throws Error for sizes, bits or palettes out of range, and where memory runs out.
   explicit FrameBuffer(FrameBufferFormat format);
+  /// The same in the caller's memory, which must outlive it: memory_bytes(format) of it, at a multiple of 64. There are the
+  /// planes of colour, then of depth, then of stencil, each as plane() shows it; they are current for buffers that the last
+  /// frame kept.
+  FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory);
+  static std::size_t memory_bytes(const FrameBufferFormat& format);
   ~FrameBuffer();
   FrameBuffer(FrameBuffer&&) noexcept;
   FrameBuffer& operator=(FrameBuffer&&) noexcept;
@@ -134,7 +146,7 @@ class TESSERA_API FrameBuffer {
   PlaneView plane(Buffer buffer, int k) const;
 
   // Reading back, rows from the top; throws Error for a wrong size or a buffer that the last frame did not keep.
-  void read_color(const ImageTarget& target) const;                ///< what a display would show, through the palette
+  void read_color(const ImageTarget& target) const;                ///< what a display would show, through the palette; or a part of it
   void read_color_words(std::span<std::uint32_t> words) const;     ///< stored words R:G:B or indices, width * height
   void read_depth(std::span<float> depth) const;                   ///< 0 near .. 1 far
   void read_depth_words(std::span<std::uint32_t> words) const;     ///< stored levels; the bits of the float for float32
@@ -288,6 +300,18 @@ struct Clear {
 
 // ---- frames -------------------------------------------------------------------------------------------------------
 
+/// What a frame can tell of each pixel besides its colour: for picking, and for tools. Rows from the top, width * height
+/// pixels. Each costs one more pass over the tiles, and nothing where its span is empty.
+struct Capture {
+  static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
+
+  std::span<std::uint32_t> objects{};       ///< which draw of the frame, counted from 0
+  std::span<std::uint32_t> primitives{};    ///< which triangle of that draw's mesh
+  /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated, in eye space, of
+  /// length 1; 0 0 0 where nothing was drawn.
+  std::span<float> normals{};
+};
+
 struct FrameStats {
   std::uint64_t vertices = 0;
   std::uint64_t triangles_in = 0;
@@ -300,7 +324,9 @@ struct FrameStats {
   std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles in them
   std::uint64_t tiles = 0, tiles_touched = 0;
   int tile_size = 0;                        ///< pixels, as chosen for the frame
+  std::uint64_t fragments = 0;              ///< pixels covered by triangles, before any test; counted if RendererOptions asks for it
   std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
+  double plan_seconds = 0, vertex_seconds = 0, binning_seconds = 0, tile_seconds = 0;  ///< of each stage; tiles with scan-out and store
 };
 
 /// Records what happens in a frame, in order. Nothing runs until Renderer::finish. The frame buffer must outlive it.
@@ -325,6 +351,9 @@ class TESSERA_API Frame {
   /// them is an error until they are cleared whole. Default: with an ImageTarget none, without one every buffer.
   void keep(std::initializer_list<Buffer> buffers);
 
+  /// What finish() also writes, once. The spans are borrowed until then. Throws Error for a span of another size.
+  void capture(const Capture& capture);
+
   /// What the code that runs for draw i contains, and why: one line for each effect. For people who want to know what they pay for.
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
@@ -341,11 +370,34 @@ enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
 TESSERA_API std::vector<InstructionSet> available_instruction_sets();
 TESSERA_API std::string_view name(InstructionSet set);
 
+/// Who runs the work of frames. The library brings two: threads of oneTBB (without one named here), and serial_executor().
+class TESSERA_API Executor {
+ public:
+  virtual ~Executor();
+  /// How many workers may be busy at the same time, at least 1.
+  virtual int workers() const noexcept = 0;
+  /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
+  /// the other, on any threads. Returns when all of them have returned. `work` throws nothing.
+  virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
+};
+/// Everything on the thread that calls finish().
+TESSERA_API std::shared_ptr<Executor> serial_executor();
+
+enum class LogLevel : std::uint8_t { debug, info, warning };
+
 struct RendererOptions {
-  int threads = 0;                          ///< 0: one for each core that the process may use; otherwise 1 .. 1024
+  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor; otherwise 1 .. 1024
   int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen for each frame by its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
+  bool count_fragments = false;             ///< one more pass over the tiles, for FrameStats::fragments
+  std::shared_ptr<Executor> executor{};     ///< absent: oneTBB's threads
+  /// Called now and then while a frame runs, at most about a hundred times a second, on any of the threads that work, never by
+  /// two at once: `done` rises from 0 to 1. Where it returns false, finish() throws Cancelled; where it throws, finish() throws
+  /// that. The frame buffer then holds what it held before, but for tiles of the buffers kept that were done already.
+  std::function<bool(double done)> progress{};
+  /// What the library has to say; it never prints. Called by the thread that calls the Renderer.
+  std::function<void(LogLevel level, std::string_view message)> log{};
 };
 
 /// Owns the working memory of frames in flight and the threads' arena. Create once, use for many frames and frame buffers.

@@ -109,7 +109,7 @@ TEST(Bitplane, MovingHandsTheMemoryOn) {
   EXPECT_FALSE(from.allocated());  // NOLINT: that is what is tested
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer's allocator ends the program instead
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
 TEST(Bitplane, ThrowsBadAllocWhereMemoryRunsOutAndStaysUnallocated) {
   const int most = std::numeric_limits<int>::max();
   BitplaneStack stack(most, most, 32);  // 18 exabytes

@@ -1,0 +1,85 @@
+#include "engine/capture_stage.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "shading/lighting.h"
+
+namespace tessera {
+
+CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture, bool count_fragments, Isa isa)
+    : capture_(capture), grid_(frame.grid), render_(tessera::render_tile(isa)) {
+  normal_program_.needs_normal = normal_program_.renormalize = true;
+  if (!capture.primitives.empty()) {
+    std::size_t most = 0;
+    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->triangles);
+    numbers_.resize(most);
+    std::iota(numbers_.begin(), numbers_.end(), 0u);
+  }
+  passes_.reserve(4);  // frames of passes point into them
+  if (!capture.objects.empty()) add_pass(What::objects, commands, frame);
+  if (!capture.primitives.empty()) add_pass(What::primitives, commands, frame);
+  if (!capture.normals.empty()) add_pass(What::normals, commands, frame);
+  if (count_fragments) add_pass(What::fragments, commands, frame);
+}
+
+void CaptureStage::add_pass(What what, const FrameCommands& commands, const TileFrame& frame) {
+  Pass& pass = passes_.emplace_back(Pass{what, frame, commands.tile_draws, commands.clears});
+  for (std::size_t i = 0; i < pass.draws.size(); ++i) {
+    TileDraw& draw = pass.draws[i];
+    if (what == What::fragments) draw.uses_depth = false;
+    if (draw.source == ColorSource::none && what != What::fragments) continue;  // depth alone
+    draw.write_mask = 0xffffffffu;
+    draw.deferred = what == What::normals;
+    draw.source = ColorSource::constant;
+    draw.word = static_cast<std::uint32_t>(commands.plan_draw[i]);
+    if (what == What::primitives) {
+      draw.source = ColorSource::triangle_word;
+      draw.words[0] = draw.words[1] = numbers_.data();
+    } else if (what == What::normals) {
+      draw.source = ColorSource::per_pixel;
+      draw.captures_normals = true;
+      draw.first_attribute = commands.plans[i].captured_normal;
+      draw.attribute_count = 3;
+      for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
+      draw.programs[0] = draw.programs[1] = &normal_program_;
+    }
+  }
+  for (TileClear& clear : pass.clears) clear.color_word = Capture::kNothing;
+  pass.frame.layout = rgb_layout(24);
+  pass.frame.palette_search = nullptr;
+  pass.frame.draws = pass.draws.data();
+  pass.frame.clears = pass.clears.data();
+}
+
+std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, x0 = column * size, y0 = row * size;
+  std::fill_n(workspace.color(), size * size, Capture::kNothing);
+  const TileCounts counts = render_(pass.frame, row * grid_.columns() + column, workspace);
+  if (pass.what == What::objects) write_numbers(capture_.objects, x0, y0, workspace);
+  if (pass.what == What::primitives) write_numbers(capture_.primitives, x0, y0, workspace);
+  if (pass.what == What::normals) write_normals(x0, y0, workspace);
+  return pass.what == What::fragments ? counts.shaded_pixels : 0;
+}
+
+void CaptureStage::write_numbers(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0), height = std::min(size, grid_.height_px - y0);
+  for (int y = 0; y < height; ++y) {
+    std::uint32_t* const out = to.data() + static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + x0;
+    for (int x = 0; x < width; ++x) out[x] = workspace.color()[tile_index(x, y, size)];
+  }
+}
+
+void CaptureStage::write_normals(int x0, int y0, TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0), height = std::min(size, grid_.height_px - y0);
+  for (int y = 0; y < height; ++y) {
+    float* out = capture_.normals.data() + 3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + static_cast<std::size_t>(x0));
+    for (int x = 0; x < width; ++x, out += 3) {
+      const int at = tile_index(x, y, size);
+      const bool drawn = workspace.color()[at] != Capture::kNothing;
+      for (int c = 0; c < 3; ++c) out[c] = drawn ? workspace.normals(c)[at] : 0.0f;
+    }
+  }
+}
+
+}  // namespace tessera

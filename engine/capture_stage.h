@@ -1,0 +1,54 @@
+// What a frame tells of its pixels besides their colour: the tiles are rendered once more for each thing asked for, with the
+// frame's own coverage, depth and order, and with numbers where colours were.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/frame_commands.h"
+#include "engine/recording.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera {
+
+class CaptureStage {
+ public:
+  /// `frame` and `commands` are read as long as this lives. Throws std::bad_alloc.
+  CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture, bool count_fragments, Isa isa);
+
+  bool needs_normals() const { return !capture_.normals.empty(); }
+  bool any() const { return !passes_.empty(); }
+  /// Renders a tile for each pass. `load_depth(words)` brings the tile's depth before the frame. Returns the fragments counted.
+  /// Distinct tiles may run at the same time, each in a workspace of its own.
+  template <class LoadDepth>
+  std::uint64_t render_tile(int row, int column, TileWorkspace& workspace, const LoadDepth& load_depth) const {
+    std::uint64_t fragments = 0;
+    for (const Pass& pass : passes_) {
+      load_depth();
+      fragments += render_pass(pass, row, column, workspace);
+    }
+    return fragments;
+  }
+
+ private:
+  enum class What : std::uint8_t { objects, primitives, normals, fragments };
+  struct Pass {
+    What what;
+    TileFrame frame;
+    std::vector<TileDraw> draws;
+    std::vector<TileClear> clears;
+  };
+  void add_pass(What what, const FrameCommands& commands, const TileFrame& frame);
+  std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
+  void write_numbers(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
+  void write_normals(int x0, int y0, TileWorkspace& workspace) const;
+
+  Capture capture_;
+  TileGrid grid_;
+  RenderTile* render_;
+  LightingProgram normal_program_;            ///< makes normals of length 1, and no light
+  std::vector<std::uint32_t> numbers_;        ///< 0, 1, 2, ...: the triangles of the longest mesh
+  std::vector<Pass> passes_;
+};
+
+}  // namespace tessera

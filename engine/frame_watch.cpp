@@ -1,0 +1,24 @@
+#include "engine/frame_watch.h"
+
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera {
+
+void FrameWatch::report() {
+  constexpr auto kPause = std::chrono::milliseconds(10);
+  const std::size_t done = done_.fetch_add(1) + 1;
+  const bool is_last = done == tasks_;
+  std::unique_lock<std::mutex> lock(calling_, std::defer_lock);
+  if (is_last)
+    lock.lock();
+  else if (!lock.try_lock())
+    return;
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_last && now - last_call_ < kPause) return;
+  last_call_ = now;
+  // Read under the lock, so that it never falls.
+  const double share = before_ + share_ * static_cast<double>(done_.load()) / static_cast<double>(tasks_);
+  if (!progress_(share < 1 ? share : 1)) throw Cancelled("Renderer::finish: cancelled by the progress callback");
+}
+
+}  // namespace tessera

@@ -1,0 +1,44 @@
+// What stands behind a Renderer: the working memory of frames, and the stages that a frame runs through.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "engine/frame_commands.h"
+#include "engine/frame_watch.h"
+#include "engine/parallel.h"
+#include "engine/tile_stage.h"
+#include "raster/binning.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera {
+
+struct RendererState {
+  RendererOptions options;
+  Isa isa = Isa::scalar;
+  Parallel parallel;
+  std::deque<DrawBuffers> draw_buffers;
+  std::vector<Bins> bins;
+  std::vector<TileWorkspace> workspaces;  // one for each worker
+
+  explicit RendererState(RendererOptions o) : options(std::move(o)), parallel(options.threads, options.executor) {}
+
+  FrameStats run(FrameRecording& recording, const ImageTarget* image);
+
+  /// Logs what is worth saying of a frame.
+  void report(const FrameStats& stats) const;
+
+  /// `message()` is only made where somebody listens.
+  template <class Message>
+  void log(LogLevel level, const Message& message) const {
+    if (options.log) options.log(level, message());
+  }
+
+ private:
+  void process_geometry(FrameCommands& commands, FrameWatch& watch);
+  std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid, FrameWatch& watch);
+  void render_tiles(const TileStage& stage, bool capture_normals, FrameStats& stats, FrameWatch& watch);
+  int tile_size_for(const FrameBufferFormat& format) const;
+};
+
+}  // namespace tessera

@@ -1,0 +1,165 @@
+// Progress, cancelling, exceptions of the caller's own, and what the library has to say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+
+#include "tests/engine/api_random_frame.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+const RandomFrame& scene() {
+  static const RandomFrame frame({.width = 420, .height = 260}, 600);
+  return frame;
+}
+
+Fingerprint finished(Renderer& renderer, FrameBuffer& buffer) {
+  Frame frame(buffer);
+  scene().record(frame);
+  renderer.finish(frame);
+  return fingerprint(buffer);
+}
+
+TEST(Progress, RisesToOneAndIsNeverCalledByTwoAtOnce) {
+  for (const int threads : {1, 2}) {
+    std::vector<double> calls;
+    std::atomic<int> inside = 0;
+    bool shared = false;
+    Renderer renderer({.threads = threads, .progress = [&](double done) {
+                         shared |= inside.fetch_add(1) != 0;
+                         calls.push_back(done);
+                         --inside;
+                         return true;
+                       }});
+    FrameBuffer buffer(scene().format);
+    const Fingerprint watched = finished(renderer, buffer);
+    EXPECT_FALSE(shared);
+    ASSERT_GE(calls.size(), 2u);
+    EXPECT_TRUE(std::is_sorted(calls.begin(), calls.end()));
+    EXPECT_GT(calls.front(), 0);
+    EXPECT_DOUBLE_EQ(calls.back(), 1);
+    Renderer plain({.threads = 1});
+    EXPECT_EQ(watched, finished(plain, buffer));
+  }
+}
+
+// Ends a frame at every call of the callback in turn, then finishes it.
+template <class End>
+void end_at_every_call(const End& expect_end) {
+  Renderer plain({.threads = 1});
+  FrameBuffer fresh(scene().format);
+  const Fingerprint expected = finished(plain, fresh);
+  bool ended = true;
+  for (int at = 0; ended; ++at) {
+    ASSERT_LT(at, 1000);
+    int call = 0;
+    bool armed = true;
+    ended = false;
+    Renderer renderer({.threads = 1, .progress = [&](double) {
+                         if (!armed || call++ != at) return true;
+                         ended = true;
+                         return false;
+                       }});
+    FrameBuffer buffer(scene().format);
+    Frame frame(buffer);
+    scene().record(frame);
+    const std::size_t draws = frame.draw_count();
+    if (!expect_end(renderer, frame)) break;
+    if (!ended) break;
+    armed = false;
+    EXPECT_EQ(frame.draw_count(), draws) << "still recorded";
+    color_words(buffer);  // readable
+    renderer.finish(frame);
+    EXPECT_EQ(fingerprint(buffer), expected) << "after call " << at;
+    EXPECT_EQ(frame.draw_count(), 0u);
+  }
+}
+
+TEST(Progress, MayCancelAtAnyCallAndTheFrameMayBeFinishedAfterAll) {
+  int cancelled = 0;
+  end_at_every_call([&](Renderer& renderer, Frame& frame) {
+    try {
+      renderer.finish(frame);
+      return false;
+    } catch (const Cancelled& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("cancelled"));
+      ++cancelled;
+      return true;
+    }
+  });
+  EXPECT_GE(cancelled, 2);
+}
+
+TEST(Progress, AnExceptionOfTheCallersComesBackToTheCaller) {
+  struct OwnError {
+    int number;
+  };
+  for (const int threads : {1, 2}) {
+    bool armed = true;
+    Renderer renderer({.threads = threads, .progress = [&](double done) {
+                         if (armed && done > 0.5) throw OwnError{42};
+                         return true;
+                       }});
+    FrameBuffer buffer(scene().format);
+    Frame frame(buffer);
+    scene().record(frame);
+    try {
+      renderer.finish(frame);
+      FAIL();
+    } catch (const OwnError& error) {
+      EXPECT_EQ(error.number, 42);
+    }
+    armed = false;
+    renderer.finish(frame);
+    Renderer plain({.threads = 1});
+    FrameBuffer fresh(scene().format);
+    EXPECT_EQ(fingerprint(buffer), finished(plain, fresh));
+  }
+}
+
+TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
+  // The frame before is one colour, the cancelled one another: nothing else may be seen.
+  int call = 0;
+  bool armed = false;
+  Renderer renderer({.threads = 1, .tile_size = 32, .progress = [&](double done) { return !armed || done < 0.6 || call++ < 1; }});
+  FrameBuffer buffer({.width = 300, .height = 200});
+  Frame frame(buffer);
+  const MeshData whole = whole_window();
+  frame.draw(whole.view(), unlit({1, 0, 0, 1}));
+  renderer.finish(frame);
+  armed = true;
+  frame.clear({.depth = 1.0});
+  for (int i = 0; i < 200; ++i) frame.draw(whole.view(), [] { DrawState s = unlit({0, 1, 0, 1}); s.depth.test = Compare::always; return s; }());
+  EXPECT_THROW(renderer.finish(frame), Cancelled);
+  std::size_t before = 0, after = 0;
+  for (const std::uint32_t word : color_words(buffer)) {
+    ASSERT_TRUE(word == 0xff0000u || word == 0x00ff00u) << std::hex << word;
+    ++(word == 0xff0000u ? before : after);
+  }
+  EXPECT_EQ(before + after, pixel_count(buffer));
+}
+
+TEST(Log, SaysWhatRunsAndWarnsOfDroppedTriangles) {
+  std::vector<std::pair<LogLevel, std::string>> lines;
+  Renderer renderer({.threads = 1, .log = [&](LogLevel level, std::string_view text) { lines.emplace_back(level, text); }});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].first, LogLevel::info);
+  EXPECT_THAT(lines[0].second, testing::HasSubstr("1 threads"));
+  FrameBuffer buffer({.width = 16, .height = 16});
+  Frame frame(buffer);
+  MeshData mesh = whole_window();
+  mesh.positions[0] = std::numeric_limits<float>::quiet_NaN();
+  frame.draw(mesh.view(), {});
+  renderer.finish(frame);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[1].first, LogLevel::warning);
+  EXPECT_THAT(lines[1].second, testing::HasSubstr("2 triangles with a NaN"));
+  EXPECT_EQ(lines[2].first, LogLevel::debug);
+}
+
+}  // namespace
+}  // namespace tessera

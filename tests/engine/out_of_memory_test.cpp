@@ -1,0 +1,125 @@
+// Every allocation of a frame fails once, one after the other: each failure is one Error, and nothing is lost by it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/engine/api_random_frame.h"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they bring an allocator of their own
+
+namespace {
+std::atomic<long> allocations_left = -1;  // below 0: as many as anybody likes
+
+void* take(std::size_t size, std::size_t alignment) {
+  if (allocations_left.load() >= 0 && allocations_left.fetch_sub(1) == 0) throw std::bad_alloc();
+  void* const memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return take(size == 0 ? 1 : size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return take(size == 0 ? 1 : size, static_cast<std::size_t>(alignment)); }
+// Who asks this way can do without: std::stable_sort.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size == 0 ? 1 : size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at what is left.
+template <class Act, class AfterFailure>
+int fail_every_allocation(const Act& act, const AfterFailure& after_failure) {
+  for (int at = 0; at < 100000; ++at) {
+    allocations_left = at;
+    std::string message;
+    bool failed = false;
+    try {
+      act();
+    } catch (const Error& error) {
+      allocations_left = -1;
+      failed = true;
+      message = error.what();
+    } catch (const std::bad_alloc&) {
+      allocations_left = -1;
+      failed = true;
+      message = "(a bare bad_alloc)";
+    }
+    const bool was_spent = allocations_left < 0;
+    allocations_left = -1;
+    if (!failed && !was_spent) return at;
+    EXPECT_TRUE(failed) << "allocation " << at << " was lost";
+    EXPECT_THAT(message, testing::HasSubstr("memory")) << "allocation " << at;
+    EXPECT_THAT(message, testing::Not(testing::HasSubstr("bare"))) << "allocation " << at;
+    after_failure(at);
+    if (testing::Test::HasFailure()) return at;
+  }
+  return -1;
+}
+
+TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
+  const RandomFrame scene({.width = 150, .height = 90}, 60);
+  Renderer plain({.threads = 1});
+  FrameBuffer reference(scene.format);
+  Frame once(reference);
+  scene.record(once);
+  plain.finish(once);
+  const Fingerprint expected = fingerprint(reference);
+
+  for (const bool stencil : {false, true}) {
+    std::optional<Renderer> renderer;
+    std::optional<FrameBuffer> buffer;
+    std::optional<Frame> frame;
+    const auto start = [&] {
+      frame.reset();
+      buffer.emplace(scene.format);
+      renderer.emplace(RendererOptions{.threads = 1});  // without working memory yet
+      frame.emplace(*buffer);
+      scene.record(*frame);
+      if (stencil) frame->clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
+    };
+    start();
+    const int allocations = fail_every_allocation([&] { renderer->finish(*frame); },
+                                                  [&](int at) {
+                                                    EXPECT_GT(frame->draw_count(), 0u) << "still recorded";
+                                                    renderer->finish(*frame);
+                                                    EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
+                                                    start();
+                                                  });
+    EXPECT_GT(allocations, 20);
+  }
+}
+
+TEST(OutOfMemory, RecordingAndReadingSayErrorToo) {
+  const RandomFrame scene({.width = 40, .height = 30}, 20);
+  Renderer renderer({.threads = 1});
+  FrameBuffer buffer(scene.format);
+  Image image(buffer);
+  const auto nothing = [](int) {};
+  EXPECT_GT(fail_every_allocation([&] { FrameBuffer fresh(scene.format); }, nothing), 0);
+  EXPECT_GT(fail_every_allocation([&] { Renderer fresh({.threads = 1}); }, nothing), 0);
+  EXPECT_GT(fail_every_allocation(
+                [&] {
+                  Frame frame(buffer);
+                  scene.record(frame);
+                  frame.keep({Buffer::color});
+                  frame.explain(0);
+                },
+                nothing),
+            5);
+  EXPECT_GT(fail_every_allocation([&] { buffer.read_color(image.target()); }, nothing), 0);
+  EXPECT_GT(fail_every_allocation([&] { buffer.plane(Buffer::depth, 0); }, nothing), 0);
+}
+
+}  // namespace
+}  // namespace tessera
+
+#endif
