@@ -48,10 +48,17 @@ struct BlueFirstPixels {
 /// The same with red and blue exchanged.
 struct RedFirstPixels {
   WordsVec operator()(Words d, WordsVec words) const noexcept {
+#if HWY_TARGET == HWY_SCALAR
     const auto red = hn::And(hn::ShiftRight<16>(words), hn::Set(d, 0xffu));
     const auto green = hn::And(words, hn::Set(d, 0xff00u));
     const auto blue = hn::ShiftLeft<16>(hn::And(words, hn::Set(d, 0xffu)));
     return hn::Or(hn::Or(red, blue), hn::Or(green, hn::Set(d, 0xff000000u)));
+#else
+    const hn::Repartition<std::uint8_t, Words> bytes;
+    alignas(16) static constexpr std::uint8_t kRedFirst[16] = {2, 1, 0, 3, 6, 5, 4, 7, 10, 9, 8, 11, 14, 13, 12, 15};
+    const auto exchanged = hn::TableLookupBytes(hn::BitCast(bytes, words), hn::LoadDup128(bytes, kRedFirst));
+    return hn::Or(hn::BitCast(d, exchanged), hn::Set(d, 0xff000000u));
+#endif
   }
 };
 

@@ -114,10 +114,11 @@ HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, con
                                std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
+  const NarrowEdges edges(triangle, bx, by);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
     if (bits == 0) continue;
-    const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
+    const Barycentric at = triangle.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
     const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
     const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
     if ((taken >> (chunk * kLanes) & ((1u << kLanes) - 1)) == 0) {  // the first triangle of a chunk may fill all of it

@@ -34,13 +34,22 @@ HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, I
   return from_weights(t.affine ? w1 : weight(0, e0), w1, w2, t.affine);
 }
 
-HWY_INLINE Barycentric barycentric_narrow(const ShadedTriangle& t, int bx, int by, int chunk) {
-  const Int column = hn::Add(splat(bx), block_columns(chunk)), row = hn::Add(splat(by), block_rows(chunk));
-  const auto edge = [&](int k) HWY_ATTR {
-    return hn::Add(splat(t.edges.e[k]), hn::Add(hn::Mul(splat(t.edges.a[k]), column), hn::Mul(splat(t.edges.b[k]), row)));
-  };
-  return barycentric_from_edges(t, edge(0), edge(1), edge(2));
-}
+/// The exact edges of a narrow triangle at the pixels of a block. Chunks are whole rows, or single pixels.
+struct NarrowEdges {
+  const ShadedTriangle& triangle;
+  Int first[3];  // at the first chunk
+
+  HWY_INLINE NarrowEdges(const ShadedTriangle& t, int bx, int by) : triangle(t) {
+    for (int k = 0; k < 3; ++k) {
+      const Int start = splat(t.edges.e[k] + t.edges.a[k] * bx + t.edges.b[k] * by);
+      first[k] = hn::Add(start, hn::Add(hn::Mul(splat(t.edges.a[k]), block_columns(0)), hn::Mul(splat(t.edges.b[k]), block_rows(0))));
+    }
+  }
+  HWY_INLINE Int at(int k, int chunk) const {
+    return hn::Add(first[k], splat(triangle.edges.a[k] * kBlockColumn[chunk * kLanes] + triangle.edges.b[k] * kBlockRow[chunk * kLanes]));
+  }
+  HWY_INLINE Barycentric barycentric(int chunk) const { return barycentric_from_edges(triangle, at(0, chunk), at(1, chunk), at(2, chunk)); }
+};
 
 inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const WideEdges& wide, int bx, int by, int chunk) {
   alignas(64) float w[3][kLanes];
@@ -55,7 +64,7 @@ inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const 
 }
 
 HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by, int chunk) {
-  return t.wide < 0 ? barycentric_narrow(t, bx, by, chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
+  return t.wide < 0 ? NarrowEdges(t, bx, by).barycentric(chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
 }
 
 /// One attribute at the three vertices.
