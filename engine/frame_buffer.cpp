@@ -234,6 +234,21 @@ void FrameBuffer::read_depth_words(std::span<std::uint32_t> words) const {
                [&](const std::vector<std::uint32_t>& row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
 }
 
+void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, float background) const {
+  require_pixels(depth, state_->format, "FrameBuffer::read_view_depth");
+  const DepthKind kind = state_->depth_kind;
+  const FloatingPointMode mode;
+  // depth is (a z + b) / (c z + e) of eye space's z, or half of one more than that.
+  const auto& m = camera.projection.m;
+  const double a = m[10], b = m[11], c = m[14], e = m[15], far_end = camera.reversed ? 0 : 1;
+  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_view_depth", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      const double stored = depth_from_word(kind, row[x]), z_ndc = camera.reversed ? stored : 2 * stored - 1;
+      depth[y * row.size() + x] = stored == far_end ? background : static_cast<float>((e * z_ndc - b) / (c * z_ndc - a));
+    }
+  });
+}
+
 void FrameBuffer::read_stencil(std::span<std::uint8_t> stencil) const {
   require_pixels(stencil, state_->format, "FrameBuffer::read_stencil");
   for_each_row(*state_, Buffer::stencil, "FrameBuffer::read_stencil", [&](const std::vector<std::uint32_t>& row, std::size_t y) {

@@ -132,4 +132,23 @@ Matrix orthographic(double left, double right, double bottom, double top, double
                                   0, 0, 0, 1}});
 }
 
+// x/z of OpenCV's axes is x/w here; pixel coordinates count from the first pixel's centre, the window's from its corner.
+Camera calibrated_camera(const Intrinsics& i, const Matrix& camera_from_world, double near, double far, CameraAxes axes, bool reversed) {
+  for (const double f : {i.fx, i.fy})
+    if (!(f > 0) || !std::isfinite(f)) throw Error("calibrated_camera: a focal length is " + std::to_string(f) + " pixels, must be finite and above 0");
+  if (!std::isfinite(i.cx) || !std::isfinite(i.cy))
+    throw Error("calibrated_camera: the principal point is " + std::to_string(i.cx) + ", " + std::to_string(i.cy) + ", must be finite");
+  if (i.width < 1 || i.height < 1)
+    throw Error("calibrated_camera: the picture's size is " + std::to_string(i.width) + "x" + std::to_string(i.height) + ", must be at least 1x1");
+  Camera camera{.view = camera_from_world, .projection = frustum(-1, 1, -1, 1, near, far, reversed), .reversed = reversed};
+  auto& m = camera.projection.m;
+  m[0] = 2 * i.fx / i.width;
+  m[2] = 1 - (2 * i.cx + 1) / i.width;
+  m[5] = 2 * i.fy / i.height;
+  m[6] = (2 * i.cy + 1) / i.height - 1;
+  finite("calibrated_camera", camera.projection);
+  if (axes == CameraAxes::opencv) camera.view = scale(1, -1, -1) * camera.view;
+  return camera;
+}
+
 }  // namespace tessera

@@ -123,6 +123,7 @@ struct ImageTarget {
 
 /// A stack of bitplanes: colour, depth and stencil, one bit for each pixel in each plane. New buffers hold colour 0,
 /// depth 1, stencil 0. A buffer is allocated when a frame first stores something else in it.
+struct Camera;
 class TESSERA_API FrameBuffer {
  public:
   /// Throws Error for sizes, bits or palettes out of range, and where memory runs out.
@@ -150,6 +151,9 @@ class TESSERA_API FrameBuffer {
   void read_color_words(std::span<std::uint32_t> words) const;     ///< stored words R:G:B or indices, width * height
   void read_depth(std::span<float> depth) const;                   ///< 0 near .. 1 far
   void read_depth_words(std::span<std::uint32_t> words) const;     ///< stored levels; the bits of the float for float32
+  /// Distances from the eye's plane along the view, in the camera's units (metres), for draws with that projection and the
+  /// whole depth range; `background` where the depth is the far end's.
+  void read_view_depth(std::span<float> depth, const Camera& camera, float background = 0) const;
   void read_stencil(std::span<std::uint8_t> stencil) const;
 
  private:
@@ -256,6 +260,19 @@ struct Camera {
 TESSERA_API Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed = false);
 TESSERA_API Matrix frustum(double left, double right, double bottom, double top, double near, double far, bool reversed = false);
 TESSERA_API Matrix orthographic(double left, double right, double bottom, double top, double near, double far, bool reversed = false);
+
+/// Where a camera's own axes point: opencv x right, y down, z forwards; opengl x right, y up, z backwards.
+enum class CameraAxes : std::uint8_t { opencv, opengl };
+/// A calibrated camera without distortion. A point (x, y, z) before it, in OpenCV's axes, falls on the pixel coordinates
+/// (fx x/z + cx, fy y/z + cy), where (0, 0) is the centre of the top left pixel.
+struct Intrinsics {
+  double fx = 0, fy = 0, cx = 0, cy = 0;    ///< pixels; fx and fy above 0
+  int width = 0, height = 0;                ///< of the picture that they are meant for, pixels
+};
+/// `camera_from_world` is the 4x4 extrinsic matrix, in the given axes; near and far as in perspective(), in its units (metres).
+/// Throws Error for focal lengths, sizes and volumes out of range.
+TESSERA_API Camera calibrated_camera(const Intrinsics& intrinsics, const Matrix& camera_from_world, double near, double far,
+                                     CameraAxes axes = CameraAxes::opencv, bool reversed = false);
 
 enum class Shading : std::uint8_t { flat, gouraud, phong };
 enum class ColorMaterial : std::uint8_t { none, ambient_and_diffuse, diffuse, ambient, emission, specular };
