@@ -5,6 +5,7 @@
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(tinyobjloader CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(PNG REQUIRED)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET "OpenImageIO>=2.4" Imath)  # Debian's CMake package of OpenImageIO is broken
 
 set(tessera_embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp)
@@ -16,21 +17,21 @@ add_custom_command(OUTPUT ${tessera_embedded}
   COMMENT "Embedding the teapot and the built-in scene" VERBATIM)
 
 file(GLOB tessera_scene_sources CONFIGURE_DEPENDS engine/scene/*.cpp engine/import/*.cpp engine/imageio/*.cpp)
-list(REMOVE_ITEM tessera_scene_sources ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp)
+list(REMOVE_ITEM tessera_scene_sources ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/indexed_png.cpp)
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
 # Designated initializers leave members at their defaults on purpose; -Wrestrict is wrong about std::string in GCC 12 (bug 105651).
 target_compile_options(tessera_scene PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(tessera_scene PRIVATE tessera_options nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader ${CMAKE_DL_LIBS})
 
-add_library(tessera_imageio SHARED engine/imageio/module.cpp)
-target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO)
+add_library(tessera_imageio SHARED engine/imageio/module.cpp engine/imageio/indexed_png.cpp)
+target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO PNG::PNG)
 set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
 
 # The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
-add_executable(tessera_cli engine/cli/main.cpp engine/cli/render_command.cpp engine/cli/stats_text.cpp engine/parallel.cpp)
-target_compile_definitions(tessera_cli PRIVATE TESSERA_VERSION="${PROJECT_VERSION}")
-target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 TBB::tbb)
+file(GLOB tessera_cli_sources CONFIGURE_DEPENDS engine/cli/*.cpp)
+add_executable(tessera_cli ${tessera_cli_sources} engine/parallel.cpp)
+target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 target_compile_options(tessera_cli PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio)

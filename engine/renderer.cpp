@@ -57,7 +57,7 @@ Renderer::Renderer(RendererOptions options) try {
   RendererState& state = *state_;
   state.options.threads = state.parallel.threads();
   state.isa = internal_name(state.options.instruction_set);
-  state.log(LogLevel::info, [&] { return "tessera " TESSERA_VERSION ": " + std::to_string(state.options.threads) + " threads, " + std::string(name(state.options.instruction_set)); });
+  state.log(LogLevel::info, [&] { return "tessera " TESSERA_VERSION ": " + std::to_string(state.options.threads) + (state.options.threads == 1 ? " thread, " : " threads, ") + std::string(name(state.options.instruction_set)); });
 } catch (const std::bad_alloc&) {
   throw Error("Renderer: not enough memory");
 }

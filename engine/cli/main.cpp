@@ -1,13 +1,20 @@
-// The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly; then one line on stderr says why.
+// The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference, 130 it was
+// interrupted; then one line on stderr says why.
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "engine/cli/command_docs.h"
+#include "engine/cli/info_command.h"
 #include "engine/cli/render_command.h"
 #include "engine/scene/suggest.h"
 #include "engine/tessera/tessera.hpp"
@@ -22,7 +29,16 @@ constexpr const char* kExamples = R"(Examples:
   tessera render scene.json -o picture.png        a scene
   tessera render bunny.obj --size 1280x720        a model, framed, as bunny.png
   tessera render --palette ega16 -o ega.png       16 colours, nearest entry
-  tessera render --planes planes --stats          also every bitplane, and what the frame took)";
+  tessera render --planes planes --stats          also every bitplane, and what the frame took
+  tessera render scene.json --frames 50 -o 'frames/{frame}.png'    an animation
+  tessera render -o term                          the picture in the terminal
+  tessera render scene.json --compare right.png --threshold 2      exits with 3 where it differs)";
+
+constexpr const char* kProgramExamples = R"(Examples:
+  tessera render                                  the built-in teapot, as tessera.png
+  tessera render --help                           all that it can render, and how
+  tessera info                                    this machine, and what is used of it
+  tessera completion bash > /etc/bash_completion.d/tessera)";
 
 using Names = std::vector<std::string_view>;
 
@@ -57,15 +73,51 @@ bool parse_size(const std::string& text, SceneOverrides& overrides) {
   return parse(text.substr(0, cross), overrides.width) && parse(text.substr(cross + 1), overrides.height);
 }
 
+// Numbers with commas between: at least `least`, at most `most` of them.
+std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+    if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+  }
+  return numbers.size() >= least && numbers.size() <= most ? numbers : std::vector<double>{};
+}
+
+bool parse_camera(const std::string& text, SceneOverrides& overrides) {
+  const std::vector<double> n = numbers_in(text, 6, 7);
+  if (n.empty()) return false;
+  const double distance = std::hypot(n[0] - n[3], n[1] - n[4], n[2] - n[5]);
+  Lens lens;
+  if (n.size() == 7) lens.fovy = n[6];
+  lens.near = distance / 100;
+  lens.far = distance * 100;
+  if (!(lens.fovy > 0 && lens.fovy < 180) || distance == 0) return false;
+  const bool along_y = n[0] == n[3] && n[2] == n[5];
+  overrides.camera = SceneCamera{.view = look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, along_y ? Vec3{0, 0, -1} : Vec3{0, 1, 0}), .projection = lens};
+  return true;
+}
+
+bool parse_light(const std::string& text, SceneOverrides& overrides) {
+  const std::vector<double> n = numbers_in(text, 3, 4);
+  if (n.empty()) return false;
+  overrides.lights.push_back(Light{.position = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]), n.size() == 4 ? static_cast<float>(n[3]) : 1.0f}});
+  return true;
+}
+
 CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   CLI::App* command = program.add_subcommand("render", "Render a scene (.json) or a model (.obj); without one, the built-in teapot");
   command->footer(kExamples);
   command->option_defaults()->take_last();
   command->add_option("input", request.input, "scene or model")->option_text("[SCENE.json | MODEL.obj]");
   command
-      ->add_option("-o,--output", request.output,
-                   "picture to write: .png, .ppm, .pgm, .raw or another format of OpenImageIO; default: the input's name with .png, here")
+      ->add_option("-o,--output", request.output.path,
+                   "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO, {frame} in its name is the number; - is the "
+                   "standard output (PPM), term the terminal; default: the input's name with .png, here")
       ->option_text("FILE");
+  command->add_option("--compression", request.output.compression, "of PNG files: 0 (none) .. 9 (smallest); default: 3")->option_text("N")->check(integer_from(0, 9));
   command
       ->add_option_function<std::string>(
           "--size",
@@ -90,7 +142,34 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
       ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
   command->add_option("--planes", request.planes_folder, "folder for every plane of colour, depth and stencil as color_00.pbm, ...; set bits are PBM's 1")
       ->option_text("DIR");
-  command->add_option("--threads", request.options.threads, "threads; default: all cores")->option_text("N")->check(integer_from(1, 1024));
+  command
+      ->add_option_function<std::string>(
+          "--camera",
+          [&request](const std::string& text) {
+            if (!parse_camera(text, request.overrides)) throw CLI::ValidationError("--camera", "found \"" + text + "\", expected EX,EY,EZ,TX,TY,TZ[,FOVY]: the eye, what it looks at, degrees");
+          },
+          "camera for the whole frame, in place of the scene's or the model's")
+      ->option_text("EX,EY,EZ,TX,TY,TZ[,FOVY]");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--light",
+          [&request](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+              if (!parse_light(text, request.overrides)) throw CLI::ValidationError("--light", "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
+          },
+          "white light for the whole frame, in place of the scene's; may be given more than once")
+      ->option_text("X,Y,Z[,W]")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->expected(1)
+      ->take_all();
+  command->add_option("--frames", request.frames, "pictures of an animation, t = 0 .. 1; {frame} in names is the number")->option_text("N")->check(integer_from(1, 1000000));
+  command->add_option("--repeat", request.repeat, "render each picture N times; --stats tells the median")->option_text("N")->check(integer_from(1, 1000000));
+  command->add_option("--compare", request.reference, "picture that the last frame should be; exits with 3 where it is not")->option_text("FILE");
+  command->add_option("--threshold", request.threshold, "levels of 255 that --compare lets pass; default: 0")->option_text("N")->check(integer_from(0, 255));
+  command->add_option("--threads", request.options.threads, "threads; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->envname("TESSERA_THREADS")
+      ->check(integer_from(1, 1024));
   command->add_option("--tile-size", request.options.tile_size, "pixels of a tile's side; default: chosen by the frame")
       ->option_text("32|64|128")
       ->check(one_of({"32", "64", "128"}));
@@ -104,7 +183,28 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
       ->option_text("scalar|avx2|avx512")
       ->check(one_of({"scalar", "avx2", "avx512"}));
   command->add_flag("--explain", request.explain, "say for each draw what the code that runs for it contains, and why");
-  command->add_flag("--stats", request.stats, "say on stderr what the frame took");
+  command
+      ->add_option_function<std::string>(
+          "--stats", [&request](const std::string& format) { request.stats = format == "json" ? StatsFormat::json : StatsFormat::text; },
+          "say what the frame took: for people on stderr, or as JSON on stdout")
+      ->option_text("[=text|json]")
+      ->expected(0, 1)
+      ->default_str("text")
+      ->check(one_of({"text", "json"}));
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [&request](const std::string& when) { request.progress = when == "always" ? ShowProgress::always : when == "never" ? ShowProgress::never : ShowProgress::automatic; },
+          "show progress on stderr; default: auto, on a terminal after a second")
+      ->option_text("auto|always|never")
+      ->check(one_of({"auto", "always", "never"}));
+  command
+      ->add_option_function<std::string>(
+          "--log",
+          [&request](const std::string& level) { request.log = level == "debug" ? LogLevel::debug : level == "info" ? LogLevel::info : LogLevel::warning; },
+          "print what the library says, on stderr")
+      ->option_text("debug|info|warning")
+      ->check(one_of({"debug", "info", "warning"}));
   return command;
 }
 
@@ -129,7 +229,7 @@ std::string unexpected_argument(const CLI::App& program) {
   if (command != nullptr) return message;
   std::error_code error;
   if (std::filesystem::exists(word, error)) return message + "; did you mean \"tessera render " + word + "\"?";
-  return "unknown command \"" + word + "\"" + did_you_mean(word, Names{"render"});
+  return "unknown command \"" + word + "\"" + did_you_mean(word, Names{"render", "info", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -138,13 +238,39 @@ int usage_error(const std::string& message, const CLI::App& program) {
   return kBadUsage;
 }
 
+std::vector<CommandDoc> docs_of(const CLI::App& program) {
+  std::vector<CommandDoc> docs;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    CommandDoc doc{.name = command->get_name(), .text = command->get_description(), .examples = command->get_footer(), .options = {}};
+    for (const CLI::Option* option : command->get_options()) {
+      OptionDoc entry{.names = {}, .value = option->get_option_text(), .text = option->get_description()};
+      for (const std::string& name : option->get_snames()) entry.names.push_back("-" + name);
+      for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
+      if (!entry.names.empty()) doc.options.push_back(entry);
+    }
+    docs.push_back(doc);
+  }
+  return docs;
+}
+
 int run(int argument_count, char** arguments) {
   CLI::App program{"Tessera, a multithreaded tile-based software rasterizer", "tessera"};
   program.set_version_flag("--version", std::string("tessera " TESSERA_VERSION));
-  program.footer(kExamples);
+  program.footer(kProgramExamples);
   program.require_subcommand(0, 1);
   RenderRequest request;
   CLI::App* render_command = add_render(program, request);
+  CLI::App* info = program.add_subcommand("info", "Say what this machine is and what is used of it");
+  CLI::App* formats = program.add_subcommand("formats", "List the formats of scenes, models and pictures");
+  CLI::App* completion = program.add_subcommand("completion", "Print a completion script for a shell");
+  std::string shell;
+  completion->add_option("shell", shell, "bash, zsh or fish")->option_text("bash|zsh|fish")->required()->check(one_of({"bash", "zsh", "fish"}));
+  CLI::App* man = program.add_subcommand("man", "Print the manual page, for man -l -");
+  info->footer("Examples:\n  tessera info");
+  formats->footer("Examples:\n  tessera formats");
+  completion->footer("Examples:\n  tessera completion bash > /etc/bash_completion.d/tessera\n  tessera completion zsh > /usr/share/zsh/vendor-completions/_tessera\n"
+                     "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
+  man->footer("Examples:\n  tessera man | man -l -");
   try {
     program.parse(argument_count, arguments);
   } catch (const CLI::Success& asked) {
@@ -154,11 +280,12 @@ int run(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), program);
   }
-  if (!render_command->parsed()) {
-    std::cout << program.help();
-    return 0;
-  }
-  render(request);
+  if (render_command->parsed()) return render(std::move(request));
+  if (info->parsed()) std::cout << info_text();
+  else if (formats->parsed()) std::cout << formats_text();
+  else if (completion->parsed()) std::cout << completion_script(shell, docs_of(program));
+  else if (man->parsed()) std::cout << man_page(docs_of(program), std::string(version()));
+  else std::cout << program.help();
   return 0;
 }
 

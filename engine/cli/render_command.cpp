@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <mutex>
 #include <optional>
 
-#include "engine/cli/stats_text.h"
-#include "engine/imageio/picture.h"
+#include "engine/cli/compare.h"
 #include "engine/import/model.h"
 #include "engine/parallel.h"
 #include "engine/scene/model_scene.h"
@@ -23,23 +23,47 @@ constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil};
 
 const char* buffer_name(Buffer buffer) { return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : "stencil"; }
 
-Scene read_input(const RenderRequest& request) {
-  if (request.input.empty()) return builtin_scene();
-  if (is_model_file(request.input)) {
-    const FrameBufferFormat standard;
-    return model_scene(import_model(request.input), request.input, request.overrides.width.value_or(standard.width),
-                       request.overrides.height.value_or(standard.height));
-  }
-  std::string ending = fs::path(request.input).extension().string();
+std::string lower_case_ending(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".json")
-    throw Error("cannot render \"" + request.input + "\": it ends neither in .json (a scene) nor in .obj (a model)");
-  return load_scene(request.input);
+  return ending;
 }
 
+/// What is rendered, frame by frame.
+class Input {
+ public:
+  explicit Input(const RenderRequest& request) : overrides_(request.overrides) {
+    if (request.input.empty()) {
+      scene_ = builtin_scene();
+    } else if (is_model_file(request.input)) {
+      const FrameBufferFormat standard;
+      scene_ = model_scene(import_model(request.input), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
+    } else if (lower_case_ending(request.input) == ".json") {
+      file_.emplace(request.input);
+      scene_ = file_->at(0);
+    } else {
+      throw Error("cannot render \"" + request.input + "\": it ends neither in .json (a scene) nor in .obj (a model)");
+    }
+    apply(overrides_, scene_);
+  }
+  const Scene& scene() const { return scene_; }
+  /// The scene becomes that of a time, 0 .. 1.
+  void move_to(double time) {
+    if (!file_ || !file_->is_animated()) return;
+    scene_ = file_->at(time);
+    apply(overrides_, scene_);
+  }
+
+ private:
+  SceneOverrides overrides_;
+  std::optional<SceneFile> file_;
+  Scene scene_;
+};
+
 std::string output_path(const RenderRequest& request) {
-  if (!request.output.empty()) return request.output;
-  return request.input.empty() ? "tessera.png" : fs::path(request.input).stem().string() + ".png";
+  if (!request.output.path.empty()) return request.output.path;
+  const std::string stem = request.input.empty() ? "tessera" : fs::path(request.input).stem().string();
+  return stem + (request.frames > 1 ? "_{frame}.png" : ".png");
 }
 
 void print_explanations(const Scene& scene, const Frame& frame) {
@@ -65,8 +89,37 @@ void write_planes(const FrameBuffer& buffer, const fs::path& folder) {
     }
 }
 
-// All that the format has, so that every plane can be read.
-void keep_all(const FrameBuffer& buffer, Frame& frame) {
+/// Frames of at most 8 bits a pixel are PNG files of that many bits.
+bool is_indexed_png(const FrameBufferFormat& format, const std::string& path) {
+  const bool few = format.color_mode == ColorMode::index ? format.color_bits <= 8 : format.color_bits <= 2;
+  return few && lower_case_ending(path) == ".png";
+}
+
+IndexedPicture indexed_picture(const FrameBuffer& buffer) {
+  const FrameBufferFormat& format = buffer.format();
+  IndexedPicture picture{.width = format.width, .height = format.height};
+  while (picture.bits / 2 >= format.color_bits) picture.bits /= 2;
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height));
+  buffer.read_color_words(words);
+  picture.indices.assign(words.begin(), words.end());
+  if (format.color_mode == ColorMode::index) {
+    // Entries that are not set show black.
+    picture.palette.resize(std::size_t{3} << format.color_bits);
+    for (std::size_t i = 0; i < format.palette.size(); ++i) {
+      const Color& c = format.palette[i];
+      const float components[3] = {c.r, c.g, c.b};
+      for (std::size_t k = 0; k < 3; ++k) picture.palette[3 * i + k] = static_cast<std::uint8_t>(components[k] * 255 + 0.5f);
+    }
+  }
+  return picture;
+}
+
+/// What has to be read after the frame.
+void keep(const FrameBuffer& buffer, bool planes, bool words, Frame& frame) {
+  if (!planes) {
+    if (words) frame.keep({Buffer::color});
+    return;
+  }
   const bool has_depth = buffer.plane_count(Buffer::depth) > 0, has_stencil = buffer.plane_count(Buffer::stencil) > 0;
   if (has_depth && has_stencil)
     frame.keep({Buffer::color, Buffer::depth, Buffer::stencil});
@@ -82,36 +135,98 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace
+void print_log(LogLevel least, LogLevel level, std::string_view message) {
+  constexpr const char* kNames[] = {"debug", "info", "warning"};
+  if (level >= least) std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << message << "\n";
+}
 
-void render(const RenderRequest& request) {
-  const auto start = std::chrono::steady_clock::now();
-  Scene scene = read_input(request);
-  apply(request.overrides, scene);
-  for (const std::string& warning : scene.warnings) std::cerr << "tessera: warning: " << warning << "\n";
-  const double load_ms = milliseconds_since(start);
-
-  std::optional<ThreadLimit> more_threads_than_cores;
-  if (request.options.threads > available_cores()) more_threads_than_cores.emplace(request.options.threads);
-  Renderer renderer(request.options);
+// In a rendering of its own, which nobody times.
+std::uint64_t count_fragments(const Scene& scene, RendererOptions options) {
+  options.count_fragments = true;
+  options.log = {};
+  Renderer renderer(options);
   FrameBuffer buffer(scene.framebuffer);
   Frame frame(buffer);
   record(scene, frame);
-  if (request.explain) print_explanations(scene, frame);
-  if (!request.planes_folder.empty()) keep_all(buffer, frame);
+  return renderer.finish(frame).fragments;
+}
 
-  Picture picture(scene.framebuffer.width, scene.framebuffer.height);
-  const auto render_start = std::chrono::steady_clock::now();
-  const FrameStats stats = renderer.finish(frame, picture.target());
-  const double render_ms = milliseconds_since(render_start);
+int report_difference(const Picture& picture, const RenderRequest& request) {
+  const Difference difference = compare(picture, read_picture(request.reference), request.threshold);
+  char text[160];
+  std::snprintf(text, sizeof text, "tessera: %zu pixels (%.4f %%) are more than %d of 255 levels from \"%s\"; the largest difference is %d\n", difference.pixels,
+                100 * difference.share, request.threshold, request.reference.c_str(), difference.largest);
+  std::cerr << text;
+  return difference.pixels == 0 ? 0 : kDiffers;
+}
 
-  const auto write_start = std::chrono::steady_clock::now();
-  const std::string output = output_path(request);
-  write_picture(picture, output);
-  if (!request.planes_folder.empty()) write_planes(buffer, request.planes_folder);
-  if (request.output.empty()) std::cerr << "tessera: wrote " << output << "\n";
-  if (request.stats)
-    std::cerr << stats_text(stats, renderer.options(), {.load_ms = load_ms, .render_ms = render_ms, .write_ms = milliseconds_since(write_start)});
+}  // namespace
+
+int render(RenderRequest request) {
+  const auto start = std::chrono::steady_clock::now();
+  const Interrupt interrupt;
+  Input input(request);
+  for (const std::string& warning : input.scene().warnings) std::cerr << "tessera: warning: " << warning << "\n";
+  RunStats run;
+  run.load_ms = milliseconds_since(start);
+
+  const std::string path = output_path(request);
+  const bool to_stdout = path == "-" || path == "term";
+  if (request.frames > 1 && !to_stdout && path.find("{frame}") == std::string::npos)
+    throw Error("--frames " + std::to_string(request.frames) + " would write \"" + path + "\" again and again; put {frame} into the name");
+  if (to_stdout && (request.stats == StatsFormat::json || request.explain)) throw Error("the picture and " + std::string(request.explain ? "--explain" : "--stats=json") + " cannot both go to the standard output");
+
+  std::optional<ThreadLimit> more_threads_than_cores;
+  if (request.options.threads > available_cores()) more_threads_than_cores.emplace(request.options.threads);
+  Progress progress(request.progress);
+  int done_renders = 0;
+  std::string what;
+  request.options.progress = [&](double done) {
+    progress.show((done_renders + done) / (static_cast<double>(request.frames) * request.repeat), what);
+    return !Interrupt::pressed();
+  };
+  if (request.log) request.options.log = [least = *request.log](LogLevel level, std::string_view message) { print_log(least, level, message); };
+  Renderer renderer(request.options);
+  run.options = renderer.options();
+
+  int exit_code = 0;
+  try {
+    for (int f = 0; f < request.frames; ++f) {
+      what = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames) : "rendering";
+      input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
+      const Scene& scene = input.scene();
+      FrameBuffer buffer(scene.framebuffer);
+      Frame frame(buffer);
+      Picture picture(scene.framebuffer.width, scene.framebuffer.height);
+      const bool indexed = is_indexed_png(buffer.format(), path);
+      for (int r = 0; r < request.repeat; ++r, ++done_renders) {
+        record(scene, frame);
+        if (request.explain && f == 0 && r == 0) print_explanations(scene, frame);
+        keep(buffer, !request.planes_folder.empty(), indexed, frame);
+        const auto render_start = std::chrono::steady_clock::now();
+        run.frame = renderer.finish(frame, picture.target());
+        run.render_ms.push_back(milliseconds_since(render_start));
+      }
+      const auto write_start = std::chrono::steady_clock::now();
+      const std::string file = frame_path(path, f, request.frames);
+      if (indexed)
+        write_indexed_png(indexed_picture(buffer), file, request.output.compression);
+      else
+        write_output(picture, file, request.output.compression);
+      if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
+      run.write_ms += milliseconds_since(write_start);
+      for (std::size_t i = 0; i < 3; ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
+      if (request.output.path.empty()) std::cerr << "tessera: wrote " << file << "\n";
+      if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
+      if (!request.reference.empty() && f + 1 == request.frames) exit_code = report_difference(picture, request);
+    }
+  } catch (const Cancelled&) {
+    std::cerr << "tessera: interrupted; finished pictures are whole\n";
+    return kInterrupted;
+  }
+  if (request.stats == StatsFormat::text) std::cerr << stats_text(run);
+  if (request.stats == StatsFormat::json) std::cout << stats_json(run);
+  return exit_code;
 }
 
 }  // namespace tessera::cli

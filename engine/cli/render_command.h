@@ -1,8 +1,12 @@
-// `tessera render`: a scene or a model becomes a picture.
+// `tessera render`: a scene or a model becomes a picture, or many.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "engine/cli/output.h"
+#include "engine/cli/progress.h"
+#include "engine/cli/stats_text.h"
 #include "engine/scene/scene.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -10,15 +14,24 @@ namespace tessera::cli {
 
 struct RenderRequest {
   std::string input;          ///< a scene or a model; empty: the built-in scene
-  std::string output;         ///< empty: the input's name with .png, in the current folder
+  OutputRequest output;       ///< path empty: the input's name with .png, in the current folder
   std::string planes_folder;  ///< empty: planes are not written
   SceneOverrides overrides;
   RendererOptions options;
-  bool explain = false, stats = false;
+  int frames = 1;             ///< pictures of an animation
+  int repeat = 1;             ///< how often each is rendered
+  bool explain = false;
+  StatsFormat stats = StatsFormat::none;
+  std::string reference;      ///< a picture to compare the last one with; empty: none
+  int threshold = 0;          ///< levels of 255
+  ShowProgress progress = ShowProgress::automatic;
+  std::optional<LogLevel> log;
 };
 
-/// Prints explanations on stdout, warnings and numbers on stderr.
+inline constexpr int kDiffers = 3, kInterrupted = 130;  ///< exit codes
+
+/// Prints explanations and JSON on stdout; warnings, numbers for people and the log on stderr. Returns the exit code.
 /// @throws Error
-void render(const RenderRequest& request);
+int render(RenderRequest request);
 
 }  // namespace tessera::cli

@@ -1,16 +1,26 @@
-// What a frame took, for people.
+// What frames took, for people and for programs.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::cli {
 
-struct Times {
-  double load_ms = 0, render_ms = 0, write_ms = 0;
+enum class StatsFormat { none, text, json };
+
+struct RunStats {
+  FrameStats frame;                       ///< of the last frame rendered
+  RendererOptions options;
+  double load_ms = 0, write_ms = 0;
+  std::vector<double> render_ms;          ///< of every rendering
+  std::array<std::size_t, 3> buffer_bytes{};  ///< colour, depth, stencil: what their planes take
 };
 
-std::string stats_text(const FrameStats& stats, const RendererOptions& options, const Times& times);
+std::string stats_text(const RunStats& stats);
+std::string stats_json(const RunStats& stats);
 
 }  // namespace tessera::cli

@@ -1,6 +1,8 @@
-// The module libtessera_imageio: the only code that sees OpenImageIO. OpenImageIO brings 260 libraries and 130 MiB with it,
+// The module libtessera_imageio: with indexed_png.cpp the only code that sees OpenImageIO and libpng. OpenImageIO brings 260 libraries and 130 MiB with it,
 // so the program loads it when the first file needs it.
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
@@ -10,6 +12,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "engine/tessera/export.h"
+#include "engine/imageio/indexed_png.h"
 #include "engine/imageio/module_interface.h"
 
 namespace {
@@ -17,40 +20,112 @@ namespace {
 // zlib's level 3 makes files 10 to 20 percent larger than its default 6, in a third of the time.
 constexpr int kPngCompression = 3;
 
-/// Returns what went wrong, or nothing.
-std::string encode(const std::string& ending, const unsigned char* rgba, int width, int height, std::ptrdiff_t stride_bytes,
-                   std::vector<unsigned char>& bytes) {
-  OIIO::attribute("threads", 1);  // the renderer's threads are the process's threads
+using Bytes = std::vector<unsigned char>;
+
+/// Thrown inside the module only.
+struct Failure {
+  std::string reason;
+};
+
+Bytes encode(const std::string& ending, const unsigned char* rgba, int width, int height, std::ptrdiff_t stride_bytes, int compression) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + ending);
   if (!output) {
     OIIO::geterror();  // names a file that does not exist
-    return "OpenImageIO knows no format " + ending;
+    throw Failure{"OpenImageIO knows no format " + ending};
   }
+  Bytes bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
-  if (!output->supports("ioproxy") || !output->set_ioproxy(&memory)) return "OpenImageIO cannot encode " + ending + " in memory";
+  if (!output->supports("ioproxy") || !output->set_ioproxy(&memory)) throw Failure{"OpenImageIO cannot encode " + ending + " in memory"};
   constexpr int kChannels = 3;
   OIIO::ImageSpec spec(width, height, kChannels, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", kPngCompression);
+  spec.attribute("png:compressionLevel", compression >= 0 ? compression : kPngCompression);
   const bool is_encoded = output->open("picture" + ending, spec) && output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) && output->close();
-  return is_encoded ? "" : "OpenImageIO: " + output->geterror();
+  if (!is_encoded) throw Failure{"OpenImageIO: " + output->geterror()};
+  return bytes;
 }
 
-}  // namespace
+/// Width and height, then RGBA.
+Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count, int most_pixels_a_side) {
+  OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, nullptr, &memory);
+  if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels_a_side || spec.height > most_pixels_a_side)
+    throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + ", at most " + std::to_string(most_pixels_a_side) + " a side are read"};
+  const int channels = spec.nchannels;
+  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  Bytes raw(pixels * static_cast<std::size_t>(channels)), bytes(2 * sizeof(int) + 4 * pixels, 255);
+  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data())) throw Failure{"OpenImageIO: " + input->geterror()};
+  const int size[2] = {spec.width, spec.height};
+  std::memcpy(bytes.data(), size, sizeof size);
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (int c = 0; c < 3; ++c)
+      bytes[sizeof size + 4 * i + static_cast<std::size_t>(c)] = raw[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channels >= 3 ? c : 0)];
+  return bytes;
+}
 
-extern "C" TESSERA_API int tessera_imageio_encode_1(const char* ending, const unsigned char* rgba, int width, int height,
-                                                    std::ptrdiff_t stride_bytes, tessera_imageio_take_function* take, void* user,
-                                                    char* message, std::size_t message_size) {
+Bytes formats() {
+  // "png:png;tiff:tif,tiff;..."
+  std::string list, all = OIIO::get_string_attribute("extension_list");
+  std::size_t at = 0;
+  while (at < all.size()) {
+    const std::size_t end = std::min(all.find(';', at), all.size()), colon = std::min(all.find(':', at), end);
+    std::string endings = colon < end ? all.substr(colon + 1, end - colon - 1) : "";
+    for (std::size_t from = 0; from < endings.size();) {
+      const std::size_t comma = std::min(endings.find(',', from), endings.size());
+      const std::string ending = "." + endings.substr(from, comma - from);
+      const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + ending);
+      if (output && output->supports("ioproxy")) list += (list.empty() ? "" : ",") + ending;
+      from = comma + 1;
+    }
+    at = end + 1;
+  }
+  OIIO::geterror();
+  return {list.begin(), list.end()};
+}
+
+/// Runs make() and hands its bytes over; no exception leaves the module.
+template <class Make>
+int handed_over(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size, const Make& make) {
   std::string reason;
   try {
-    std::vector<unsigned char> bytes;
-    reason = encode(ending, rgba, width, height, stride_bytes, bytes);
-    if (reason.empty()) {
-      take(user, bytes.data(), bytes.size());
-      return 0;
-    }
+    OIIO::attribute("threads", 1);  // the renderer's threads are the process's threads
+    const Bytes bytes = make();
+    take(user, bytes.data(), bytes.size());
+    return 0;
+  } catch (const Failure& failure) {
+    reason = failure.reason;
   } catch (const std::exception& error) {
     reason = error.what();
   }
   std::snprintf(message, message_size, "%s", reason.c_str());
   return 1;
+}
+
+}  // namespace
+
+extern "C" TESSERA_API int tessera_imageio_encode_2(const char* ending, const unsigned char* rgba, int width, int height, std::ptrdiff_t stride_bytes,
+                                                    int compression, tessera_imageio_take_function* take, void* user, char* message,
+                                                    std::size_t message_size) {
+  return handed_over(take, user, message, message_size, [&] { return encode(ending, rgba, width, height, stride_bytes, compression); });
+}
+
+extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char* indices, int width, int height, int bits, const unsigned char* palette,
+                                                            int palette_entries, int compression, tessera_imageio_take_function* take, void* user,
+                                                            char* message, std::size_t message_size) {
+  return handed_over(take, user, message, message_size, [&] {
+    Bytes bytes;
+    const std::string reason = tessera::encode_indexed_png(indices, width, height, bits, palette, palette_entries, compression >= 0 ? compression : kPngCompression, bytes);
+    if (!reason.empty()) throw Failure{reason};
+    return bytes;
+  });
+}
+
+extern "C" TESSERA_API int tessera_imageio_decode_1(const char* ending, const unsigned char* bytes, std::size_t count, int most_pixels_a_side,
+                                                    tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size) {
+  return handed_over(take, user, message, message_size, [&] { return decode(ending, bytes, count, most_pixels_a_side); });
+}
+
+extern "C" TESSERA_API int tessera_imageio_formats_1(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size) {
+  return handed_over(take, user, message, message_size, [] { return formats(); });
 }

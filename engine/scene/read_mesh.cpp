@@ -23,14 +23,15 @@ MeshData read_builtin(const Value& value) {
   return builtin_mesh(name, detail ? static_cast<int>(detail->integer(least_mesh_detail(name), kMaxMeshDetail)) : kDefaultMeshDetail);
 }
 
-MeshData read_file(const Value& value, const std::string& base_folder, Scene& scene) {
+MeshData read_file(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
   const Object object(value, {"file"});
   const Value file = object.require("file");
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
   if (!is_model_file(path.string())) file.refuse(json::Json(file.text()).dump() + ": this version of Tessera reads models from .obj files only");
-  Model model = file.checked([&] { return import_model(path.string()); });
-  scene.warnings.insert(scene.warnings.end(), model.warnings.begin(), model.warnings.end());
-  return std::move(model.mesh);
+  auto model = models.find(path.string());
+  if (model == models.end()) model = models.emplace(path.string(), file.checked([&] { return import_model(path.string()); })).first;
+  scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
+  return model->second.mesh;
 }
 
 // A list of vectors, flattened. Long lists are read without building a pointer for each number; only an error asks for one.
@@ -90,10 +91,10 @@ MeshData read_inline(const Value& value) {
 
 }  // namespace
 
-void read_meshes(const Value& value, const std::string& base_folder, Scene& scene) {
+void read_meshes(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
   value.for_each_member([&](const std::string& name, const Value& member) {
     const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors", "indices"}, {"color_indices", "texcoords"});
-    MeshData mesh = object.has("builtin") ? read_builtin(member) : object.has("file") ? read_file(member, base_folder, scene) : read_inline(member);
+    MeshData mesh = object.has("builtin") ? read_builtin(member) : object.has("file") ? read_file(member, base_folder, models, scene) : read_inline(member);
     mesh.name = name;
     scene.meshes.push_back(std::move(mesh));
   });

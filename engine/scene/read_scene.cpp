@@ -1,4 +1,5 @@
 // The top level of a scene file: frame buffer, light model, lights, materials. The other parts have files of their own.
+#include "engine/scene/animate.h"
 #include "engine/scene/read_scene.h"
 
 #include <cstdint>
@@ -128,8 +129,9 @@ Materials read_materials(const Value& value) {
   return materials;
 }
 
-Scene parse_scene(std::string_view text, const std::string& name, const std::string& base_folder) {
-  const Json json = json::parse(text, name);
+namespace {
+
+Scene read_scene(const Json& json, const std::string& name, const std::string& base_folder, ModelCache& models) {
   const Object top(Value(json, "", name), {"tessera", "title", "framebuffer", "camera", "light_model", "lights", "materials", "textures", "meshes", "frame"});
   const Value version = top.require("tessera");
   if (version.json() != Json(1)) version.fail("1, the version of the scene format");
@@ -144,15 +146,46 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   const auto materials = top.find("materials");
   const Materials named = materials ? read_materials(*materials) : Materials{};
   top.only_default("textures", Json::object());
-  if (const auto meshes = top.find("meshes")) read_meshes(*meshes, base_folder, scene);
+  if (const auto meshes = top.find("meshes")) read_meshes(*meshes, base_folder, models, scene);
   const auto frame = top.find("frame");
   scene.frame = frame ? read_frame(*frame, scene, named) : default_frame(scene);
   return scene;
 }
 
-Scene load_scene(const std::string& path) {
-  return parse_scene(read_text_file(path), path, std::filesystem::path(path).parent_path().string());
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::string& base_folder) {
+  Json json = json::parse(text, name);
+  json::animate(json, 0, name);
+  ModelCache models;
+  return read_scene(json, name, base_folder, models);
 }
+
+struct SceneFile::Content {
+  std::string path;
+  Json json;
+  bool animated = false;
+  ModelCache models;
+};
+
+SceneFile::SceneFile(const std::string& path) : content_(std::make_unique<Content>()) {
+  content_->path = path;
+  content_->json = json::parse(read_text_file(path), path);
+  Json still = content_->json;
+  content_->animated = json::animate(still, 0, path);
+}
+SceneFile::~SceneFile() = default;
+SceneFile::SceneFile(SceneFile&&) noexcept = default;
+
+bool SceneFile::is_animated() const { return content_->animated; }
+
+Scene SceneFile::at(double time) {
+  Json json = content_->json;
+  json::animate(json, time, content_->path);
+  return read_scene(json, content_->path, std::filesystem::path(content_->path).parent_path().string(), content_->models);
+}
+
+Scene load_scene(const std::string& path) { return SceneFile(path).at(0); }
 
 Scene builtin_scene() { return parse_scene(kBuiltinScene, "(built-in scene)"); }
 

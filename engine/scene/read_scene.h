@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "engine/import/model.h"
 #include "engine/scene/json_value.h"
 #include "engine/scene/scene.h"
 
@@ -15,8 +16,10 @@ SceneCamera default_camera();
 
 LightList read_lights(const json::Value& value);
 
+/// Models that were read, by their paths.
+using ModelCache = std::map<std::string, Model>;
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
-void read_meshes(const json::Value& value, const std::string& base_folder, Scene& scene);
+void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);
 
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);

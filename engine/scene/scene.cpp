@@ -58,6 +58,15 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     throw Error("the scene's palette has " + std::to_string(format.palette.size()) + " entries, " + std::to_string(format.color_bits) +
                 " color bits hold " + std::to_string(1 << format.color_bits));
 
+  // What is overridden no longer changes within the frame.
+  if (overrides.camera) {
+    scene.camera = *overrides.camera;
+    std::erase_if(scene.frame, [](const SceneCommand& command) { return std::holds_alternative<SceneCamera>(command.what); });
+  }
+  if (!overrides.lights.empty()) {
+    scene.lights = overrides.lights;
+    std::erase_if(scene.frame, [](const SceneCommand& command) { return std::holds_alternative<LightList>(command.what); });
+  }
   if (overrides.shading)
     for (SceneCommand& command : scene.frame)
       if (auto* draw = std::get_if<DrawCommand>(&command.what)) draw->state.shading = *overrides.shading;

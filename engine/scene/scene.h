@@ -6,6 +6,7 @@
 //   record(scene, frame);                    // the meshes stay the scene's: it must outlive the frame
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,8 +58,24 @@ struct Scene {
   std::vector<std::string> warnings;     ///< what was odd, but no error
 };
 
-/// Reads a scene file, format version 1. Paths in it are relative to it.
-/// @throws Error, naming file, JSON pointer, what was found and what was expected.
+/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models are read once.
+class SceneFile {
+ public:
+  /// @throws Error, naming file, JSON pointer, what was found and what was expected.
+  explicit SceneFile(const std::string& path);
+  ~SceneFile();
+  SceneFile(SceneFile&&) noexcept;
+  /// @param time  0 .. 1 over an animation
+  Scene at(double time);
+  /// Some number changes over time.
+  bool is_animated() const;
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+/// The scene of a file, at its beginning.
 Scene load_scene(const std::string& path);
 /// The same from JSON text.
 /// @param name         the file's name in messages
@@ -73,6 +90,8 @@ struct SceneOverrides {
   std::optional<Shading> shading = {};          ///< of every draw
   std::optional<int> color_bits = {};
   std::optional<std::string> palette = {};      ///< by name; turns the colour buffer into an index buffer
+  std::optional<SceneCamera> camera = {};       ///< for the whole frame
+  LightList lights = {};                        ///< for the whole frame; empty: the scene's
 };
 /// @throws Error for values out of range and for a palette that does not fit into the bits.
 void apply(const SceneOverrides& overrides, Scene& scene);

@@ -100,7 +100,10 @@ const BadScene kBadScenes[] = {
     {projection(R"("type": "frustum", "left": 1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": 2)"), "/camera/projection", "left is 1.000000 and right is 1.000000"},
     {projection(R"("far": 1e308)"), "/camera/projection", "the volume is too large or too thin"},
     {projection(R"("type": "orthographic", "left": -1e-320, "right": 1e-320, "bottom": -1, "top": 1, "near": 1, "far": 2)"), "/camera/projection", "the volume is too large or too thin"},
-    {projection(R"("fovy": {"keys": [[0, 30], [1, 60]]})"), "/camera/projection/fovy", "{\"keys\": ...}) is part of the format but not supported"},
+    {projection(R"("fovy": {"keys": [[0, 30], [0, 60]]})"), "/camera/projection/fovy/keys/1", "t must rise"},
+    {projection(R"("fovy": {"keys": [[0, 30], [1]]})"), "/camera/projection/fovy/keys/1", "expected an array of 2 numbers"},
+    {projection(R"("fovy": {"keys": []})"), "/camera/projection/fovy/keys", "expected a list of [t, value]"},
+    {projection(R"("fovy": {"keys": [[0, 200], [1, 60]]})"), "/camera/projection/fovy", "expected an angle above 0 and below 180"},
 
     // Lights and materials
     {R"("light_model": {"specular": "blin"})", "/light_model/specular", "did you mean \"blinn\"?"},

@@ -148,7 +148,7 @@ TEST(Log, SaysWhatRunsAndWarnsOfDroppedTriangles) {
   Renderer renderer({.threads = 1, .log = [&](LogLevel level, std::string_view text) { lines.emplace_back(level, text); }});
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].first, LogLevel::info);
-  EXPECT_THAT(lines[0].second, testing::HasSubstr("1 threads"));
+  EXPECT_THAT(lines[0].second, testing::HasSubstr("1 thread, "));
   FrameBuffer buffer({.width = 16, .height = 16});
   Frame frame(buffer);
   MeshData mesh = whole_window();

@@ -2,6 +2,7 @@
 #ifdef TESSERA_PROGRAM
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -78,6 +79,15 @@ TEST_F(Program, BadUsageExitsWithTwoAndOneLine) {
       {"render -o", "-o"},
       {"render a.json b.json", "unexpected argument \"b.json\""},
       {"render -x", "-x"},
+      {"render --camera 1,2,3", "EX,EY,EZ,TX,TY,TZ[,FOVY]"},
+      {"render --camera 0,0,0,0,0,0", "EX,EY,EZ,TX,TY,TZ[,FOVY]"},
+      {"render --light 1,2", "X,Y,Z[,W]"},
+      {"render --light 1,2,nan", "X,Y,Z[,W]"},
+      {"render --stats=xml", "expected one of text, json"},
+      {"render --frames 0", "expected an integer from 1"},
+      {"render --compression 10", "expected an integer from 0 to 9"},
+      {"completion csh", "expected one of bash, zsh, fish"},
+      {"inof", "did you mean \"info\"?"},
   };
   for (const auto& [arguments, fragment] : kBad) {
     const Result result = run(arguments);
@@ -92,6 +102,8 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
   write("bad.json", R"({"tessera": 1, "framebuffer": {"width": 0}})");
   write("bad.obj", "v 0 0 0\nf 1 2 3\n");
   write("fine.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
+  write("bad.ppm", "P6\n8 8\n255\nabc");
+  write("small.ppm", "P6 1 1 255 abc");
   const struct {
     const char *arguments, *fragment;
   } kFailing[] = {
@@ -105,6 +117,12 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
       {"render fine.json -o picture.xyz", "picture.xyz"},
       {"render fine.json -o x.ppm --planes fine.json", "fine.json"},
       {"render fine.json -o x.ppm --palette vga256 --color-bits 4", "256"},
+      {"render fine.json -o x.ppm --frames 2", "put {frame} into the name"},
+      {"render fine.json -o - --stats=json", "cannot both go to the standard output"},
+      {"render fine.json -o x.ppm --compare nothing.ppm", "cannot read \"nothing.ppm\""},
+      {"render fine.json -o x.ppm --compare bad.ppm", "cannot read \"bad.ppm\": it ends before its last pixel"},
+      {"render fine.json -o x.ppm --compare bad.json", "cannot read \"bad.json\""},
+      {"render fine.json -o x.ppm --compare small.ppm", "the reference 1x1"},
   };
   for (const auto& [arguments, fragment] : kFailing) {
     const Result result = run(arguments);
@@ -169,6 +187,128 @@ TEST_F(Program, AModelAloneIsFramed) {
   bool is_seen = false;
   for (std::size_t i = 13; i + 3 <= picture.size(); i += 3) is_seen |= picture.compare(i, 3, background) != 0;
   EXPECT_TRUE(is_seen);
+}
+
+TEST_F(Program, ThePictureGoesToTheStandardOutputOrTheTerminal) {
+  ASSERT_EQ(run("render --size 20x10 -o a.ppm").code, 0);
+  const Result out = run("render --size 20x10 -o -");
+  EXPECT_EQ(out.code, 0) << out.err;
+  EXPECT_TRUE(out.out == content("a.ppm"));
+  const Result term = run("render --size 20x10 -o term");
+  EXPECT_EQ(std::count(term.out.begin(), term.out.end(), '\n'), 5) << "two pixels a line";
+  EXPECT_TRUE(contains(term.out, "\x1b[38;2;")) << "colours";
+  ::setenv("NO_COLOR", "1", 1);
+  const Result letters = run("render --size 20x10 -o term");
+  ::unsetenv("NO_COLOR");
+  EXPECT_EQ(letters.out.size(), 5u * 21);
+  EXPECT_FALSE(contains(letters.out, "\x1b"));
+}
+
+TEST_F(Program, AFullDiskIsAnErrorAndLeavesNothing) {
+  fs::create_symlink("/dev/full", folder_ / "full.ppm");
+  const Result file = run("render --size 200x200 -o full.ppm");
+  EXPECT_EQ(file.code, 1);
+  EXPECT_TRUE(contains(file.err, "No space left on device")) << file.err;
+  const std::string command = "'" TESSERA_PROGRAM "' render --size 200x200 -o - 2>/dev/null >/dev/full";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1);
+}
+
+TEST_F(Program, AnimationsMoveAndCountTheirFrames) {
+  write("move.json", R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}, "frame": [{"clear": {"color": [{"keys": [[0, 0], [1, 1]]}, 0, {"keys": [[0, 1], [0.5, 0]]}, 1]}}]})");
+  const Result result = run("render move.json --frames 3 -o 'f_{frame}.ppm'");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto pixel = [&](const char* name) { return content(name).substr(11, 3); };
+  EXPECT_EQ(pixel("f_0000.ppm"), std::string("\0\0\xff", 3));
+  EXPECT_EQ(pixel("f_0001.ppm"), std::string("\x80\0\0", 3));
+  EXPECT_EQ(pixel("f_0002.ppm"), std::string("\xff\0\0", 3));
+  EXPECT_FALSE(exists("f_0003.ppm"));
+  EXPECT_EQ(run("render move.json --frames 2").code, 0);
+  EXPECT_TRUE(exists("move_0001.png"));
+}
+
+TEST_F(Program, ComparesWithAReferenceAndExitsWithThree) {
+  ASSERT_EQ(run("render --size 64x48 -o right.png").code, 0);
+  EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare right.png").code, 0);
+  EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare a.ppm --threads 1").code, 0);
+  const Result other = run("render --size 64x48 -o b.ppm --light 1,0,0,0 --compare right.png --threshold 9");
+  EXPECT_EQ(other.code, 3) << other.err;
+  EXPECT_TRUE(contains(other.err, "more than 9 of 255 levels"));
+  EXPECT_TRUE(exists("b.ppm")) << "the picture is written all the same";
+  EXPECT_EQ(run("render --size 64x48 -o b.ppm --light 1,0,0,0 --compare right.png --threshold 255").code, 0);
+}
+
+TEST_F(Program, FewBitsArePngFilesOfFewBits) {
+  const struct {
+    const char* options;
+    char bits, type;  // 3: palette, 0: grey
+  } kRows[] = {{"--palette bw", 1, 3}, {"--palette ega16", 4, 3}, {"--palette gray --color-bits 2", 2, 3}, {"--palette vga256", 8, 3}, {"--color-bits 1", 1, 0}, {"--color-bits 2", 2, 0}, {"--color-bits 3", 8, 2}};
+  for (const auto& row : kRows) {
+    const Result result = run("render --size 40x30 -o p.png " + std::string(row.options));
+    ASSERT_EQ(result.code, 0) << row.options << result.err;
+    const std::string png = content("p.png");
+    EXPECT_EQ(png[24], row.bits) << row.options;
+    EXPECT_EQ(png[25], row.type) << row.options;
+    EXPECT_EQ(run("render --size 40x30 -o q.ppm --compare p.png " + std::string(row.options)).code, 0) << row.options;
+  }
+}
+
+TEST_F(Program, StatsAreJsonForPrograms) {
+  const Result result = run("render --size 64x48 --repeat 3 --stats=json -o a.ppm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* part : {"\"triangles_in\": 9120", "\"fragments\":", "\"render_ms_median\":", "\"stages_ms\":", "\"buffer_bytes\":", "\"threads\":"})
+    EXPECT_TRUE(contains(result.out, part)) << part;
+  EXPECT_TRUE(result.out.starts_with("{") && result.out.ends_with("}\n"));
+  EXPECT_TRUE(contains(run("render --size 64x48 --repeat 3 --stats -o a.ppm").err, "median of 3"));
+}
+
+TEST_F(Program, EnvironmentAndLogAreHeard) {
+  ::setenv("TESSERA_THREADS", "1", 1);
+  const Result one = run("render --size 8x8 --log info -o a.ppm");
+  ::setenv("TESSERA_THREADS", "many", 1);
+  const Result wrong = run("render --size 8x8 -o a.ppm");
+  ::unsetenv("TESSERA_THREADS");
+  EXPECT_TRUE(contains(one.err, "1 thread, ")) << one.err;
+  EXPECT_EQ(wrong.code, 2) << wrong.err;
+  EXPECT_TRUE(contains(run("render --size 8x8 --log debug -o a.ppm").err, "tessera: debug: frame: "));
+  EXPECT_TRUE(contains(run("render --size 8x8 --progress=always -o a.ppm").err, " left ")) << "a line of progress";
+  EXPECT_FALSE(contains(run("render --size 8x8 -o a.ppm").err, "left"));
+}
+
+TEST_F(Program, TellsOfTheMachineAndItself) {
+  const Result info = run("info"), formats = run("formats"), man = run("man");
+  for (const char* part : {"instruction sets", "cores", "caches", "CPU"}) EXPECT_TRUE(contains(info.out, part)) << info.out;
+  for (const char* part : {".json", ".obj", ".ppm", ".png"}) EXPECT_TRUE(contains(formats.out, part)) << formats.out;
+  EXPECT_TRUE(man.out.starts_with(".TH TESSERA 1")) << man.out.substr(0, 80);
+  EXPECT_TRUE(contains(man.out, "\\-\\-palette"));
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const Result script = run(std::string("completion ") + shell);
+    EXPECT_EQ(script.code, 0);
+    EXPECT_TRUE(contains(script.out, "palette")) << shell;
+  }
+  write("complete.sh", run("completion bash").out + "COMP_WORDS=(tessera render --pal); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n"
+                                                    "COMP_WORDS=(tessera render --shading g); COMP_CWORD=3; _tessera; echo \"${COMPREPLY[0]}\"\n");
+  const std::string command = "cd '" + folder_.string() + "' && bash complete.sh > said.txt 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content("said.txt"), "--palette\ngouraud\n");
+}
+
+TEST_F(Program, CtrlCLeavesFinishedPicturesWhole) {
+  write("long.json", R"({"tessera": 1, "framebuffer": {"width": 500, "height": 400}})");
+  const std::string command = "cd '" + folder_.string() + "' && timeout --preserve-status -s INT 1 '" TESSERA_PROGRAM "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
+  EXPECT_TRUE(contains(content("err.txt"), "finished pictures are whole"));
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (!entry.path().filename().string().starts_with("f_")) {
+      EXPECT_FALSE(contains(entry.path().string(), ".part-")) << entry.path();
+      continue;
+    }
+    EXPECT_EQ(fs::file_size(entry.path()), 15u + 3 * 500 * 400);
+    ++pictures;
+  }
+  EXPECT_GT(pictures, 3);
 }
 
 }  // namespace
