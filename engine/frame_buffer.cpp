@@ -9,6 +9,7 @@
 #include "engine/out_of_memory.h"
 #include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
+#include "framebuffer/bit_transpose.h"
 #include "framebuffer/scan_out.h"
 
 namespace tessera {
@@ -166,22 +167,27 @@ const StoredBuffer& require_kept(FrameBufferState& state, Buffer which, const ch
   return buffer;
 }
 
-// Calls use(words of a row, y) for every row from the top.
+// Calls use(words of a row, y) for every row from the top. Planes are read in bands, tile by tile.
 template <class Use>
 void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
+  constexpr int kBand = 32;
   const StoredBuffer& buffer = require_kept(state, which, function);
-  const auto width = static_cast<std::size_t>(buffer.planes.width_px());
-  auto row = with_memory(function, [&] { return std::vector<std::uint32_t>(width, buffer.word); });
-  const bool uniform = buffer.content == StoredBuffer::Content::uniform;
-  for (int y = 0; y < buffer.planes.height_px(); ++y) {
-    if (!uniform) {
-      std::fill(row.begin(), row.end(), 0u);
-      for (int k = 0; k < buffer.planes.plane_count(); ++k) {
-        const std::uint8_t* bits = buffer.planes.plane(k) + y * buffer.planes.stride_bytes();
-        for (std::size_t x = 0; x < width; ++x) row[x] |= static_cast<std::uint32_t>(bits[x / 8] >> (7 - x % 8) & 1) << k;
+  const int width = buffer.planes.width_px(), height = buffer.planes.height_px();
+  LoadPlanesFn* const load = with_memory(function, [] { return load_planes_for(available_isas().front()); });
+  auto band = with_memory(function, [&] { return std::vector<std::uint32_t>(static_cast<std::size_t>(width) * kBand, buffer.word); });
+  const auto row = [&](int y) { return band.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); };
+  alignas(kPlaneAlignment) std::uint32_t tile[kBand * kBand];
+  for (int y0 = 0; y0 < height; y0 += kBand) {
+    const int rows = std::min(kBand, height - y0);
+    if (buffer.content != StoredBuffer::Content::uniform) {
+      for (int x0 = 0; x0 < width; x0 += kBand) {
+        load(tile, {x0, y0, kBand, 0}, buffer.planes);
+        for (int y = 0; y < rows; ++y)
+          for (int x = 0; x < std::min(kBand, width - x0); x += kBlockSize)
+            std::copy_n(tile + tile_index(x, y, kBand), std::min(kBlockSize, width - x0 - x), row(y) + x0 + x);
       }
     }
-    use(row, static_cast<std::size_t>(y));
+    for (int y = 0; y < rows; ++y) use(std::span<const std::uint32_t>(row(y), static_cast<std::size_t>(width)), static_cast<std::size_t>(y0 + y));
   }
 }
 
@@ -206,7 +212,7 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
                    target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());
   });
   const PixelRect part = shown_part(target);
-  for_each_row(*state_, Buffer::color, "FrameBuffer::read_color", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+  for_each_row(*state_, Buffer::color, "FrameBuffer::read_color", [&](std::span<const std::uint32_t> row, std::size_t y) {
     if (static_cast<int>(y) < part.y0 || static_cast<int>(y) >= part.y1) return;
     auto* const pixels = static_cast<std::uint8_t*>(target.pixels) + static_cast<std::ptrdiff_t>(y) * target.stride_bytes;
     scan_out.row(row.data() + part.x0, part.x1 - part.x0, pixels + 4 * static_cast<std::ptrdiff_t>(part.x0));
@@ -216,14 +222,14 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
 void FrameBuffer::read_color_words(std::span<std::uint32_t> words) const {
   require_pixels(words, state_->format, "FrameBuffer::read_color_words");
   for_each_row(*state_, Buffer::color, "FrameBuffer::read_color_words",
-               [&](const std::vector<std::uint32_t>& row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
+               [&](std::span<const std::uint32_t> row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
 }
 
 void FrameBuffer::read_depth(std::span<float> depth) const {
   require_pixels(depth, state_->format, "FrameBuffer::read_depth");
   const DepthKind kind = state_->depth_kind;
   const FloatingPointMode mode;
-  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth", [&](std::span<const std::uint32_t> row, std::size_t y) {
     for (std::size_t x = 0; x < row.size(); ++x) depth[y * row.size() + x] = static_cast<float>(depth_from_word(kind, row[x]));
   });
 }
@@ -231,7 +237,7 @@ void FrameBuffer::read_depth(std::span<float> depth) const {
 void FrameBuffer::read_depth_words(std::span<std::uint32_t> words) const {
   require_pixels(words, state_->format, "FrameBuffer::read_depth_words");
   for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth_words",
-               [&](const std::vector<std::uint32_t>& row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
+               [&](std::span<const std::uint32_t> row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
 }
 
 void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, float background) const {
@@ -241,7 +247,7 @@ void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, 
   // depth is (a z + b) / (c z + e) of eye space's z, or half of one more than that.
   const auto& m = camera.projection.m;
   const double a = m[10], b = m[11], c = m[14], e = m[15], far_end = camera.reversed ? 0 : 1;
-  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_view_depth", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_view_depth", [&](std::span<const std::uint32_t> row, std::size_t y) {
     for (std::size_t x = 0; x < row.size(); ++x) {
       const double stored = depth_from_word(kind, row[x]), z_ndc = camera.reversed ? stored : 2 * stored - 1;
       depth[y * row.size() + x] = stored == far_end ? background : static_cast<float>((e * z_ndc - b) / (c * z_ndc - a));
@@ -251,7 +257,7 @@ void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, 
 
 void FrameBuffer::read_stencil(std::span<std::uint8_t> stencil) const {
   require_pixels(stencil, state_->format, "FrameBuffer::read_stencil");
-  for_each_row(*state_, Buffer::stencil, "FrameBuffer::read_stencil", [&](const std::vector<std::uint32_t>& row, std::size_t y) {
+  for_each_row(*state_, Buffer::stencil, "FrameBuffer::read_stencil", [&](std::span<const std::uint32_t> row, std::size_t y) {
     for (std::size_t x = 0; x < row.size(); ++x) stencil[y * row.size() + x] = static_cast<std::uint8_t>(row[x]);
   });
 }
