@@ -63,7 +63,7 @@ PixelRect shown_part(const ImageTarget& target) {
   return part.empty() ? PixelRect{} : part;
 }
 
-std::vector<Color> named_palette(std::string_view palette_name, int color_bits) {
+std::vector<Color> named_palette(std::string_view palette_name, int color_bits) try {
   require_range("color_bits", color_bits, 1, 24);
   const auto entries = palette_entries(palette_name, color_bits);
   if (!entries) throw Error("palette: \"" + std::string(palette_name) + "\" is unknown, it must be bw, gray, ega16, vga256 or web216");
@@ -71,11 +71,13 @@ std::vector<Color> named_palette(std::string_view palette_name, int color_bits) 
     throw Error("palette: " + std::string(palette_name) + " has " + std::to_string(entries->size()) + " entries, " + std::to_string(color_bits) +
                 " bits hold at most " + std::to_string(std::size_t{1} << color_bits));
   return to_colors(*entries);
+} catch (const std::bad_alloc&) {
+  throw Error("palette: not enough memory");
 }
 
 std::vector<Color> default_palette(int color_bits) {
   require_range("color_bits", color_bits, 1, 24);
-  return to_colors(default_palette_of(color_bits).entries);
+  return with_memory("palette", [&] { return to_colors(default_palette_of(color_bits).entries); });
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "engine/frame_watch.h"
 
+#include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera {
@@ -13,12 +14,17 @@ void FrameWatch::report() {
     lock.lock();
   else if (!lock.try_lock())
     return;
+  if (stopped_) return;
   const auto now = std::chrono::steady_clock::now();
   if (!is_last && now - last_call_ < kPause) return;
   last_call_ = now;
   // Read under the lock, so that it never falls.
   const double share = before_ + share_ * static_cast<double>(done_.load()) / static_cast<double>(tasks_);
-  if (!progress_(share < 1 ? share : 1)) throw Cancelled("Renderer::finish: cancelled by the progress callback");
+  stopped_ = true;  // unless it says to go on
+  bool goes_on = false;
+  isolated([&] { goes_on = progress_(share < 1 ? share : 1); });
+  if (!goes_on) throw Cancelled("Renderer::finish: cancelled by the progress callback");
+  stopped_ = false;
 }
 
 }  // namespace tessera

@@ -34,6 +34,7 @@ class FrameWatch {
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;
   std::mutex calling_;
+  bool stopped_ = false;
   std::chrono::steady_clock::time_point last_call_{};
 };
 

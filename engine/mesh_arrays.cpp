@@ -10,8 +10,12 @@ namespace {
 
 [[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
 
-std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
+// How many floats a packed array has: all that were given, or those of its vertices.
+std::size_t packed_floats(const FloatArray& array, std::size_t components) { return array.floats != 0 ? array.floats : array.vertices * components; }
+
+std::size_t vertices_of(FloatArray positions, std::size_t components) {
   if (positions.stride_bytes != 0) return positions.vertices;
+  positions.floats = packed_floats(positions, components);
   if (positions.floats % components != 0)
     fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " + std::to_string(components));
   return positions.floats / components;
@@ -36,8 +40,9 @@ StridedFloats strided(const FloatArray& array, const char* what, std::size_t com
   if (array.empty()) return {};
   require_address(what, array.data, alignof(float));
   if (array.stride_bytes == 0) {
-    if (array.floats != vertices * components)
-      fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
+    const std::size_t floats = packed_floats(array, components);
+    if (floats != vertices * components)
+      fail("has " + std::to_string(floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
     return {array.data, components};
   }
   require_all(what, array.vertices, vertices);
@@ -46,16 +51,18 @@ StridedFloats strided(const FloatArray& array, const char* what, std::size_t com
 }
 
 void add_colors(const ColorArray& colors, MeshArrays& mesh) {
-  if (colors.vertices == 0) {
+  if (colors.byte_count == 0 && colors.vertices == 0) {
     mesh.colors = strided(colors.floats, "colors", 4, mesh.vertices);
     return;
   }
   if (!colors.floats.empty()) fail("has colors twice, as floats and as bytes");
   require_address("colors", colors.bytes, 1);
-  require_all("colors", colors.vertices, mesh.vertices);
-  require_stride("colors", colors.stride_bytes, 1, 4);
   mesh.color_bytes = colors.bytes;
-  mesh.color_stride = colors.stride_bytes;
+  mesh.color_stride = colors.stride_bytes == 0 ? 4 : colors.stride_bytes;
+  if (colors.byte_count != 0 && colors.byte_count != 4 * mesh.vertices)
+    fail("has " + std::to_string(colors.byte_count) + " bytes of colors, its " + std::to_string(mesh.vertices) + " vertices need " + std::to_string(4 * mesh.vertices));
+  if (colors.byte_count == 0) require_all("colors", colors.vertices, mesh.vertices);
+  require_stride("colors", mesh.color_stride, 1, 4);
 }
 
 template <class Index>

@@ -107,6 +107,8 @@ int Parallel::distinct_workers_seen() {
   return static_cast<int>(count);
 }
 
+void isolated(const std::function<void()>& run) { tbb::this_task_arena::isolate(run); }
+
 int available_cores() { return std::max(1, tbb::info::default_concurrency()); }
 
 struct ThreadLimit::Control {

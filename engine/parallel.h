@@ -34,6 +34,9 @@ class Parallel {
   std::vector<char> seen_;  // one for each worker
 };
 
+/// Calls run(): if it waits for oneTBB, its thread takes no task of ours meanwhile.
+void isolated(const std::function<void()>& run);
+
 /// Cores that the process may use.
 int available_cores();
 

@@ -72,8 +72,8 @@ namespace {
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
   return with_memory("Renderer::finish", [&] {
     const FrameStats stats = state.run(recording, image);
-    recording.clear();
     state.report(stats);
+    recording.clear();
     return stats;
   });
 }

@@ -6,11 +6,16 @@
 namespace tessera::cli {
 namespace {
 
+// "[=text|json]": only with a sign of equality, and not needed.
+bool is_optional(const OptionDoc& option) { return option.value.starts_with("[="); }
+
 // The values of "flat|gouraud|phong", or nothing.
 std::vector<std::string> choices(const OptionDoc& option) {
   std::vector<std::string> list;
-  if (option.value.find('|') == std::string::npos) return list;
-  std::istringstream stream(option.value);
+  if (option.value.find('|') == std::string::npos || option.value.find(' ') != std::string::npos) return list;
+  std::string values = option.value;
+  if (is_optional(option)) values = values.substr(2, values.size() - 3);
+  std::istringstream stream(values);
   for (std::string choice; std::getline(stream, choice, '|');) list.push_back(choice);
   return list;
 }
@@ -46,10 +51,12 @@ std::string bash_script(const std::vector<CommandDoc>& commands) {
     for (const OptionDoc& option : command.options) {
       all.insert(all.end(), option.names.begin(), option.names.end());
       const std::vector<std::string> values = choices(option);
-      if (!values.empty()) text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -W \"" + joined(values, " ") + "\" -- \"$word\")); return;;\n";
+      if (!values.empty() && !is_optional(option)) text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -W \"" + joined(values, " ") + "\" -- \"$word\")); return;;\n";
       else if (takes_file(option)) text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -f -- \"$word\")); return;;\n";
     }
-    text += "      esac\n      if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"" + joined(all, " ") + "\" -- \"$word\")); else COMPREPLY=($(compgen -f -- \"$word\")); fi;;\n";
+    const std::vector<std::string> operands = choices(command.operand);
+    const std::string operand = operands.empty() ? "-f" : "-W \"" + joined(operands, " ") + "\"";
+    text += "      esac\n      if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"" + joined(all, " ") + "\" -- \"$word\")); else COMPREPLY=($(compgen " + operand + " -- \"$word\")); fi;;\n";
   }
   text += "    *) COMPREPLY=($(compgen -W \"" + joined(command_names(commands), " ") + " --help --version\" -- \"$word\"));;\n  esac\n}\ncomplete -o filenames -F _tessera tessera\n";
   return text;
@@ -68,12 +75,14 @@ std::string zsh_script(const std::vector<CommandDoc>& commands) {
       for (const std::string& option_name : option.names) {
         const std::vector<std::string> values = choices(option);
         std::string spec = option_name + "[" + escaped(option.text) + "]";
-        if (!values.empty()) spec += ":value:(" + joined(values, " ") + ")";
+        if (!values.empty() && is_optional(option)) spec = option_name + "=-[" + escaped(option.text) + "]::value:(" + joined(values, " ") + ")";
+        else if (!values.empty()) spec += ":value:(" + joined(values, " ") + ")";
         else if (takes_file(option)) spec += ":file:_files";
         else if (!option.value.empty()) spec += ":" + escaped(option.value) + ":";
         text += " " + in_single_quotes(spec);
       }
-    text += " '*:file:_files';;\n";
+    const std::vector<std::string> operands = choices(command.operand);
+    text += operands.empty() ? " '*:file:_files';;\n" : " '1:value:(" + joined(operands, " ") + ")';;\n";
   }
   return text + "  esac\n}\n_tessera \"$@\"\n";
 }
@@ -88,10 +97,12 @@ std::string fish_script(const std::vector<CommandDoc>& commands) {
       text += "complete -c tessera -n '__fish_seen_subcommand_from " + command.name + "'";
       for (const std::string& option_name : option.names) text += option_name.starts_with("--") ? " -l " + option_name.substr(2) : " -s " + option_name.substr(1);
       const std::vector<std::string> values = choices(option);
-      if (!values.empty()) text += " -x -a " + in_single_quotes(joined(values, " "));
+      if (!values.empty()) text += std::string(is_optional(option) ? " -f" : " -x") + " -a " + in_single_quotes(joined(values, " "));
       else if (!option.value.empty()) text += takes_file(option) ? " -r -F" : " -x";
       text += " -d " + in_single_quotes(option.text) + "\n";
     }
+    if (const std::vector<std::string> operands = choices(command.operand); !operands.empty())
+      text += "complete -c tessera -f -n '__fish_seen_subcommand_from " + command.name + "' -a " + in_single_quotes(joined(operands, " ")) + "\n";
   }
   return text;
 }
@@ -116,7 +127,7 @@ std::string man_page(const std::vector<CommandDoc>& commands, const std::string&
   text += ".SH COMMANDS\n";
   for (const CommandDoc& command : commands) {
     if (command.name.empty()) continue;
-    text += ".SS tessera " + command.name + "\n" + roff(command.text) + "\n";
+    text += ".SS tessera " + command.name + (command.operand.value.empty() ? "" : " \\fI" + roff(command.operand.value) + "\\fR") + "\n" + roff(command.text) + "\n";
     for (const OptionDoc& option : command.options) {
       text += ".TP\n.BR ";
       std::vector<std::string> names;

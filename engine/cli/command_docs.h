@@ -14,6 +14,7 @@ struct OptionDoc {
 struct CommandDoc {
   std::string name, text, examples;  ///< name empty: the program itself
   std::vector<OptionDoc> options;
+  OptionDoc operand;                 ///< without names; value empty: it takes none
 };
 
 /// A completion script for "bash", "zsh" or "fish".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -30,7 +31,7 @@ constexpr const char* kExamples = R"(Examples:
   tessera render bunny.obj --size 1280x720        a model, framed, as bunny.png
   tessera render --palette ega16 -o ega.png       16 colours, nearest entry
   tessera render --planes planes --stats          also every bitplane, and what the frame took
-  tessera render scene.json --frames 50 -o 'frames/{frame}.png'    an animation
+  tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
   tessera render -o term                          the picture in the terminal
   tessera render scene.json --compare right.png --threshold 2      exits with 3 where it differs)";
 
@@ -83,6 +84,7 @@ std::vector<double> numbers_in(const std::string& text, std::size_t least, std::
     if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(number)) return {};
     numbers.push_back(number);
   }
+  if (text.ends_with(',')) return {};
   return numbers.size() >= least && numbers.size() <= most ? numbers : std::vector<double>{};
 }
 
@@ -151,24 +153,20 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
           "camera for the whole frame, in place of the scene's or the model's")
       ->option_text("EX,EY,EZ,TX,TY,TZ[,FOVY]");
   command
-      ->add_option_function<std::vector<std::string>>(
+      ->add_option_function<std::string>(
           "--light",
-          [&request](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts)
-              if (!parse_light(text, request.overrides)) throw CLI::ValidationError("--light", "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
+          [&request](const std::string& text) {
+            if (!parse_light(text, request.overrides)) throw CLI::ValidationError("--light", "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
           },
           "white light for the whole frame, in place of the scene's; may be given more than once")
       ->option_text("X,Y,Z[,W]")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->expected(1)
-      ->take_all();
+      ->trigger_on_parse();  // for each of them
   command->add_option("--frames", request.frames, "pictures of an animation, t = 0 .. 1; {frame} in names is the number")->option_text("N")->check(integer_from(1, 1000000));
   command->add_option("--repeat", request.repeat, "render each picture N times; --stats tells the median")->option_text("N")->check(integer_from(1, 1000000));
   command->add_option("--compare", request.reference, "picture that the last frame should be; exits with 3 where it is not")->option_text("FILE");
   command->add_option("--threshold", request.threshold, "levels of 255 that --compare lets pass; default: 0")->option_text("N")->check(integer_from(0, 255));
   command->add_option("--threads", request.options.threads, "threads; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
-      ->envname("TESSERA_THREADS")
       ->check(integer_from(1, 1024));
   command->add_option("--tile-size", request.options.tile_size, "pixels of a tile's side; default: chosen by the frame")
       ->option_text("32|64|128")
@@ -183,13 +181,8 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
       ->option_text("scalar|avx2|avx512")
       ->check(one_of({"scalar", "avx2", "avx512"}));
   command->add_flag("--explain", request.explain, "say for each draw what the code that runs for it contains, and why");
-  command
-      ->add_option_function<std::string>(
-          "--stats", [&request](const std::string& format) { request.stats = format == "json" ? StatsFormat::json : StatsFormat::text; },
-          "say what the frame took: for people on stderr, or as JSON on stdout")
+  command->add_flag("--stats{text}", request.stats_name, "say what the frame took: for people on stderr, or with =json as JSON on stdout")
       ->option_text("[=text|json]")
-      ->expected(0, 1)
-      ->default_str("text")
       ->check(one_of({"text", "json"}));
   command
       ->add_option_function<std::string>(
@@ -241,12 +234,15 @@ int usage_error(const std::string& message, const CLI::App& program) {
 std::vector<CommandDoc> docs_of(const CLI::App& program) {
   std::vector<CommandDoc> docs;
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    CommandDoc doc{.name = command->get_name(), .text = command->get_description(), .examples = command->get_footer(), .options = {}};
+    CommandDoc doc{.name = command->get_name(), .text = command->get_description(), .examples = command->get_footer(), .options = {}, .operand = {}};
     for (const CLI::Option* option : command->get_options()) {
       OptionDoc entry{.names = {}, .value = option->get_option_text(), .text = option->get_description()};
       for (const std::string& name : option->get_snames()) entry.names.push_back("-" + name);
       for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
-      if (!entry.names.empty()) doc.options.push_back(entry);
+      if (entry.names.empty())
+        doc.operand = entry;
+      else
+        doc.options.push_back(entry);
     }
     docs.push_back(doc);
   }
@@ -280,7 +276,16 @@ int run(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), program);
   }
-  if (render_command->parsed()) return render(std::move(request));
+  if (render_command->parsed()) {
+    const char* const threads = std::getenv("TESSERA_THREADS");
+    if (threads != nullptr && *threads != '\0' && request.options.threads == 0) {
+      std::string value = threads;
+      if (const std::string wrong = integer_from(1, 1024)(value); !wrong.empty()) return usage_error("TESSERA_THREADS: " + wrong, program);
+      request.options.threads = std::stoi(value);
+    }
+    if (!request.stats_name.empty()) request.stats = request.stats_name == "json" ? StatsFormat::json : StatsFormat::text;
+    return render(std::move(request));
+  }
   if (info->parsed()) std::cout << info_text();
   else if (formats->parsed()) std::cout << formats_text();
   else if (completion->parsed()) std::cout << completion_script(shell, docs_of(program));

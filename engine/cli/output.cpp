@@ -46,17 +46,19 @@ std::string color_code(const char* layer, const Mean& c) {
 }  // namespace
 
 std::string frame_path(const std::string& path, int frame, int frames) {
-  const std::size_t at = path.find(kFrame);
-  if (at == std::string::npos) return path;
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
   std::string number = std::to_string(frame);
   number.insert(0, digits - std::min(digits, number.size()), '0');
-  return path.substr(0, at) + number + path.substr(at + kFrame.size());
+  std::string result = path;
+  for (std::size_t at = 0; (at = result.find(kFrame, at)) != std::string::npos; at += number.size()) result.replace(at, kFrame.size(), number);
+  return result;
 }
 
 void write_output(const Picture& picture, const std::string& path, int compression) {
   if (path == "-") return write_to_stdout(encode_ppm(picture));
-  if (path == "term") return write_to_stdout(terminal_text(picture, terminal_columns(), std::getenv("NO_COLOR") == nullptr));
+  const char* const no_color = std::getenv("NO_COLOR");
+  const bool colored = no_color == nullptr || *no_color == '\0';
+  if (path == "term") return write_to_stdout(terminal_text(picture, terminal_columns(), colored));
   write_picture(picture, path, compression);
 }
 

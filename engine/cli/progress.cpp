@@ -9,17 +9,20 @@
 namespace tessera::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+std::atomic<bool> interrupted = false;  // any thread asks
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void interrupt(int signal) {
-  interrupted = 1;
+  interrupted = true;
   std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
-Interrupt::Interrupt() { std::signal(SIGINT, interrupt); }
-bool Interrupt::pressed() { return interrupted != 0; }
+Interrupt::Interrupt() {
+  if (std::signal(SIGINT, interrupt) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+}
+bool Interrupt::pressed() { return interrupted; }
 
 Progress::Progress(ShowProgress show)
     : enabled_(show == ShowProgress::always || (show == ShowProgress::automatic && ::isatty(STDERR_FILENO) != 0)),

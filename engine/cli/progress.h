@@ -16,15 +16,16 @@ class Progress {
   ~Progress();
   /// `done` of all frames, 0 .. 1. By one thread at a time.
   void show(double done, const std::string& what);
+  /// Takes the line away, before something else is printed.
+  void clear();
 
  private:
-  void clear();
   bool enabled_, shown_ = false;
   std::chrono::steady_clock::duration wait_;
   std::chrono::steady_clock::time_point start_, last_;
 };
 
-/// Whether Ctrl-C was pressed since the program began. A second one ends the program at once.
+/// Whether Ctrl-C was pressed since the program began, if nobody above chose to ignore it. A second one ends the program at once.
 class Interrupt {
  public:
   Interrupt();

@@ -143,6 +143,7 @@ void print_log(LogLevel least, LogLevel level, std::string_view message) {
 // In a rendering of its own, which nobody times.
 std::uint64_t count_fragments(const Scene& scene, RendererOptions options) {
   options.count_fragments = true;
+  options.progress = {};
   options.log = {};
   Renderer renderer(options);
   FrameBuffer buffer(scene.framebuffer);
@@ -151,13 +152,35 @@ std::uint64_t count_fragments(const Scene& scene, RendererOptions options) {
   return renderer.finish(frame).fragments;
 }
 
-int report_difference(const Picture& picture, const RenderRequest& request) {
-  const Difference difference = compare(picture, read_picture(request.reference), request.threshold);
-  char text[160];
-  std::snprintf(text, sizeof text, "tessera: %zu pixels (%.4f %%) are more than %d of 255 levels from \"%s\"; the largest difference is %d\n", difference.pixels,
-                100 * difference.share, request.threshold, request.reference.c_str(), difference.largest);
-  std::cerr << text;
+int report_difference(const Picture& picture, const Picture& reference, const RenderRequest& request) {
+  const Difference difference = compare(picture, reference, request.threshold);
+  char share[32];
+  std::snprintf(share, sizeof share, "%.4f %%", 100 * difference.share);
+  std::cerr << "tessera: " << difference.pixels << " pixels (" << share << ") are more than " << request.threshold << " of 255 levels from \"" << request.reference
+            << "\"; the largest difference is " << difference.largest << "\n";
   return difference.pixels == 0 ? 0 : kDiffers;
+}
+
+// What cannot go together is said before anything is rendered.
+void check_outputs(const RenderRequest& request, const std::string& path) {
+  const bool to_stdout = path == "-" || path == "term";
+  const auto require_frame = [&](const std::string& name) {
+    if (request.frames > 1 && name.find("{frame}") == std::string::npos)
+      throw Error("--frames " + std::to_string(request.frames) + " would write \"" + name + "\" again and again; put {frame} into the name");
+  };
+  if (!to_stdout) require_frame(path);
+  if (!request.planes_folder.empty()) require_frame(request.planes_folder);
+  const char* const rivals[] = {to_stdout ? "the picture" : "", request.explain ? "--explain" : "", request.stats == StatsFormat::json ? "--stats=json" : ""};
+  std::string found;
+  for (const char* rival : rivals) {
+    if (*rival == '\0') continue;
+    if (!found.empty()) throw Error(found + " and " + rival + " cannot both go to the standard output");
+    found = rival;
+  }
+  std::error_code error;
+  const std::string last = frame_path(path, request.frames - 1, request.frames);
+  if (!request.reference.empty() && fs::exists(last, error) && fs::equivalent(last, request.reference, error))
+    throw Error("\"" + last + "\" is the reference itself; name another file with -o");
 }
 
 }  // namespace
@@ -171,10 +194,9 @@ int render(RenderRequest request) {
   run.load_ms = milliseconds_since(start);
 
   const std::string path = output_path(request);
-  const bool to_stdout = path == "-" || path == "term";
-  if (request.frames > 1 && !to_stdout && path.find("{frame}") == std::string::npos)
-    throw Error("--frames " + std::to_string(request.frames) + " would write \"" + path + "\" again and again; put {frame} into the name");
-  if (to_stdout && (request.stats == StatsFormat::json || request.explain)) throw Error("the picture and " + std::string(request.explain ? "--explain" : "--stats=json") + " cannot both go to the standard output");
+  check_outputs(request, path);
+  std::optional<Picture> reference;
+  if (!request.reference.empty()) reference = read_picture(request.reference);
 
   std::optional<ThreadLimit> more_threads_than_cores;
   if (request.options.threads > available_cores()) more_threads_than_cores.emplace(request.options.threads);
@@ -185,7 +207,11 @@ int render(RenderRequest request) {
     progress.show((done_renders + done) / (static_cast<double>(request.frames) * request.repeat), what);
     return !Interrupt::pressed();
   };
-  if (request.log) request.options.log = [least = *request.log](LogLevel level, std::string_view message) { print_log(least, level, message); };
+  if (request.log)
+    request.options.log = [&progress, least = *request.log](LogLevel level, std::string_view message) {
+      progress.clear();
+      print_log(least, level, message);
+    };
   Renderer renderer(request.options);
   run.options = renderer.options();
 
@@ -207,6 +233,7 @@ int render(RenderRequest request) {
         run.frame = renderer.finish(frame, picture.target());
         run.render_ms.push_back(milliseconds_since(render_start));
       }
+      progress.clear();
       const auto write_start = std::chrono::steady_clock::now();
       const std::string file = frame_path(path, f, request.frames);
       if (indexed)
@@ -218,9 +245,10 @@ int render(RenderRequest request) {
       for (std::size_t i = 0; i < 3; ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
       if (request.output.path.empty()) std::cerr << "tessera: wrote " << file << "\n";
       if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
-      if (!request.reference.empty() && f + 1 == request.frames) exit_code = report_difference(picture, request);
+      if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);
     }
   } catch (const Cancelled&) {
+    progress.clear();
     std::cerr << "tessera: interrupted; finished pictures are whole\n";
     return kInterrupted;
   }

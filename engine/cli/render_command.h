@@ -21,6 +21,7 @@ struct RenderRequest {
   int frames = 1;             ///< pictures of an animation
   int repeat = 1;             ///< how often each is rendered
   bool explain = false;
+  std::string stats_name;     ///< as it was typed
   StatsFormat stats = StatsFormat::none;
   std::string reference;      ///< a picture to compare the last one with; empty: none
   int threshold = 0;          ///< levels of 255

@@ -83,7 +83,7 @@ Picture decode_ppm(const std::string& file) {
       at = file[at] == '#' ? std::min(file.find('\n', at), file.size()) : at + 1;
     int value = 0;
     const auto [end, error] = std::from_chars(file.data() + at, file.data() + file.size(), value);
-    if (error != std::errc{} || value < 1 || value > kMaxFrameBufferSize) throw Error("its header holds no size from 1 to " + std::to_string(kMaxFrameBufferSize));
+    if (error != std::errc{} || value < 1 || value > kMaxFrameBufferSize) throw Error("its header does not hold width, height and 255; at most " + std::to_string(kMaxFrameBufferSize) + " a side are read");
     at = static_cast<std::size_t>(end - file.data());
     return value;
   };
@@ -91,8 +91,9 @@ Picture decode_ppm(const std::string& file) {
   const int width = number(), height = number();
   if (number() != 255) throw Error("its components do not have 8 bits");
   ++at;
+  const std::size_t needed = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (file.size() - std::min(at, file.size()) < needed) throw Error("it ends before its last pixel");
   Picture picture(width, height);
-  if (file.size() - std::min(at, file.size()) < picture.rgba.size() / 4 * 3) throw Error("it ends before its last pixel");
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4, at += 3) {
     std::copy_n(file.begin() + static_cast<std::ptrdiff_t>(at), 3, picture.rgba.begin() + static_cast<std::ptrdiff_t>(i));
     picture.rgba[i + 3] = 255;

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -46,7 +47,8 @@ struct FrameBufferState;
 struct FrameRecording;
 struct RendererState;
 
-/// The one exception type of the library.
+/// The one exception type of the library: also where memory runs out, but in the small lists that name things
+/// (material_names, available_instruction_sets, serial_executor).
 class TESSERA_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -100,6 +102,7 @@ TESSERA_API std::vector<Color> named_palette(std::string_view name, int color_bi
 TESSERA_API std::vector<Color> default_palette(int color_bits);
 
 enum class Buffer : std::uint8_t { color, depth, stencil };
+struct Camera;
 
 /// One plane of the stack as a 1-bit image: rows from the top, bit 7 of a byte is the leftmost pixel. Borrowed from the
 /// frame buffer; valid until it is drawn to or destroyed.
@@ -123,7 +126,6 @@ struct ImageTarget {
 
 /// A stack of bitplanes: colour, depth and stencil, one bit for each pixel in each plane. New buffers hold colour 0,
 /// depth 1, stencil 0. A buffer is allocated when a frame first stores something else in it.
-struct Camera;
 class TESSERA_API FrameBuffer {
  public:
   /// Throws Error for sizes, bits or palettes out of range, and where memory runs out.
@@ -186,8 +188,9 @@ struct FloatArray {
 struct ColorArray {
   FloatArray floats{};
   const std::uint8_t* bytes = nullptr;
-  std::size_t vertices = 0;                 ///< of the bytes
-  std::size_t stride_bytes = 4;             ///< of the bytes: from one vertex to the next
+  std::size_t byte_count = 0;               ///< packed bytes: all of them
+  std::size_t vertices = 0;                 ///< strided bytes: of how many vertices
+  std::size_t stride_bytes = 0;             ///< of the bytes: from one vertex to the next; 0: packed
 
   constexpr ColorArray() = default;
   template <class Range>
@@ -195,10 +198,10 @@ struct ColorArray {
   constexpr ColorArray(const Range& packed) : floats(packed) {}
   template <class Range>
     requires std::convertible_to<const Range&, std::span<const std::uint8_t>>
-  constexpr ColorArray(const Range& packed) : ColorArray(std::span<const std::uint8_t>(packed).data(), std::span<const std::uint8_t>(packed).size() / 4, 4) {}
+  constexpr ColorArray(const Range& packed) : bytes(std::span<const std::uint8_t>(packed).data()), byte_count(std::span<const std::uint8_t>(packed).size()) {}
   constexpr ColorArray(const float* first, std::size_t vertex_count, std::size_t stride) : floats(first, vertex_count, stride) {}
   constexpr ColorArray(const std::uint8_t* first, std::size_t vertex_count, std::size_t stride) : bytes(first), vertices(vertex_count), stride_bytes(stride) {}
-  constexpr bool empty() const { return floats.empty() && vertices == 0; }
+  constexpr bool empty() const { return floats.empty() && byte_count == 0 && vertices == 0; }
 };
 
 /// Numbers of vertices, of 16 or 32 bits.
@@ -325,7 +328,7 @@ struct Capture {
   std::span<std::uint32_t> objects{};       ///< which draw of the frame, counted from 0
   std::span<std::uint32_t> primitives{};    ///< which triangle of that draw's mesh
   /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated, in eye space, of
-  /// length 1; 0 0 0 where nothing was drawn.
+  /// length 1; 0 0 0 where nothing was drawn and where they cancel out.
   std::span<float> normals{};
 };
 
@@ -341,7 +344,7 @@ struct FrameStats {
   std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles in them
   std::uint64_t tiles = 0, tiles_touched = 0;
   int tile_size = 0;                        ///< pixels, as chosen for the frame
-  std::uint64_t fragments = 0;              ///< pixels covered by triangles, before any test; counted if RendererOptions asks for it
+  std::uint64_t fragments = 0;              ///< pixels covered by triangles, before any test, in draws that can change one; if RendererOptions asks for it
   std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
   double plan_seconds = 0, vertex_seconds = 0, binning_seconds = 0, tile_seconds = 0;  ///< of each stage; tiles with scan-out and store
 };
@@ -394,7 +397,8 @@ class TESSERA_API Executor {
   /// How many workers may be busy at the same time, at least 1.
   virtual int workers() const noexcept = 0;
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
-  /// the other, on any threads. Returns when all of them have returned. `work` throws nothing.
+  /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
+  /// of finish().
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
 /// Everything on the thread that calls finish().
@@ -403,17 +407,20 @@ TESSERA_API std::shared_ptr<Executor> serial_executor();
 enum class LogLevel : std::uint8_t { debug, info, warning };
 
 struct RendererOptions {
-  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor; otherwise 1 .. 1024
+  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor; otherwise 1 .. 1024; no more than there are workers
   int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen for each frame by its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
   bool count_fragments = false;             ///< one more pass over the tiles, for FrameStats::fragments
   std::shared_ptr<Executor> executor{};     ///< absent: oneTBB's threads
-  /// Called now and then while a frame runs, at most about a hundred times a second, on any of the threads that work, never by
-  /// two at once: `done` rises from 0 to 1. Where it returns false, finish() throws Cancelled; where it throws, finish() throws
-  /// that. The frame buffer then holds what it held before, but for tiles of the buffers kept that were done already.
+  /// Called now and then while a frame runs, at the end of each stage and at most about a hundred times a second in between, on
+  /// any of the threads that work, never by two of one renderer at once: `done` rises, to 1 in frames that have tiles to render.
+  /// Where it returns false, it is not called again and finish() throws Cancelled; where it throws, finish() throws that. The
+  /// frame buffer then holds what it held before, but for tiles of the buffers kept that were done already; images and captures
+  /// may be written in part. Finishing the frame after all gives its picture if it starts with clears of the whole.
   std::function<bool(double done)> progress{};
-  /// What the library has to say; it never prints. Called by the thread that calls the Renderer.
+  /// What the library has to say; it never prints. Called by the thread that calls the Renderer. What it throws comes out there;
+  /// a frame is then rendered, and still recorded.
   std::function<void(LogLevel level, std::string_view message)> log{};
 };
 

@@ -107,7 +107,7 @@ inline std::uint64_t hash_of(const PlaneView& plane) {
 
 /// What a frame left behind. 0 stands for a buffer that there is none of.
 struct Fingerprint {
-  std::uint64_t color = 0, depth = 0;
+  std::uint64_t color = 0, depth = 0, stencil = 0;
   std::vector<std::uint64_t> planes;  ///< of colour, then of depth
   friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
   friend std::ostream& operator<<(std::ostream& out, const Fingerprint& f) {
@@ -120,6 +120,15 @@ inline Fingerprint fingerprint(const FrameBuffer& buffer) {
   Fingerprint f;
   f.color = hash_of(color_words(buffer));
   if (buffer.plane_count(Buffer::depth) > 0) f.depth = hash_of(depth_words(buffer));
+  if (buffer.plane_count(Buffer::stencil) > 0) {
+    try {
+      Hash hash;
+      for (const std::uint8_t value : stencil_values(buffer)) hash.add(value);
+      f.stencil = hash.value();
+    } catch (const Error&) {
+      f.stencil = 1;  // lost
+    }
+  }
   for (const Buffer which : {Buffer::color, Buffer::depth})
     for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
   return f;

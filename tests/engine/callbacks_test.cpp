@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <limits>
 
 #include "tests/engine/api_random_frame.h"
@@ -122,10 +123,21 @@ TEST(Progress, AnExceptionOfTheCallersComesBackToTheCaller) {
 }
 
 TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
-  // The frame before is one colour, the cancelled one another: nothing else may be seen.
+  // The frame before is one colour, the cancelled one another: nothing else may be seen. Tiles take their time, so that the
+  // callback is heard between two of them.
   int call = 0;
   bool armed = false;
-  Renderer renderer({.threads = 1, .tile_size = 32, .progress = [&](double done) { return !armed || done < 0.6 || call++ < 1; }});
+  class Slow : public Executor {
+   public:
+    int workers() const noexcept override { return 1; }
+    void run(int count, void (*work)(void*, int), void* context) override {
+      for (int k = 0; k < count; ++k) work(context, k);
+    }
+  };
+  Renderer renderer({.tile_size = 32, .executor = std::make_shared<Slow>(), .progress = [&](double done) {
+                       if (armed) std::this_thread::sleep_for(std::chrono::milliseconds(15));  // longer than the pause between two calls
+                       return !armed || done < 0.5 || call++ < 3;
+                     }});
   FrameBuffer buffer({.width = 300, .height = 200});
   Frame frame(buffer);
   const MeshData whole = whole_window();
@@ -140,7 +152,8 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
     ASSERT_TRUE(word == 0xff0000u || word == 0x00ff00u) << std::hex << word;
     ++(word == 0xff0000u ? before : after);
   }
-  EXPECT_EQ(before + after, pixel_count(buffer));
+  EXPECT_GT(before, 0u);
+  EXPECT_GT(after, 0u);
 }
 
 TEST(Log, SaysWhatRunsAndWarnsOfDroppedTriangles) {

@@ -87,6 +87,10 @@ TEST_P(MeshArrays, MayBePackedBytesAndShortIndices) {
   expect_same("colours", m.packed(), mesh);
   mesh.indices = m.short_indices;
   expect_same("indices", m.packed(), mesh);
+  mesh.positions = {m.positions.data(), kVertices, 0};
+  mesh.normals = {m.normals.data(), kVertices, 0};
+  mesh.colors = {m.bytes.data(), kVertices, 0};
+  expect_same("a stride of 0 is packed", m.packed(), mesh);
   Mesh no_normals = m.packed(), short_no_normals = mesh;
   no_normals.normals = short_no_normals.normals = {};
   short_no_normals.positions = {m.vertices[0].position, kVertices, sizeof(Vertex)};
@@ -117,6 +121,7 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
       {"normals", [](Mesh& mesh, const float* p, const Meshes&) { mesh.normals = {p, 5, 12}; }, "normals of 5 vertices, but 60 vertices"},
       {"bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), kVertices, 3}; }, "stride of 3 bytes for colors, must be at least 4"},
       {"too few bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), 2, 4}; }, "colors of 2 vertices"},
+      {"half a colour", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = std::span(n.bytes).first(4 * kVertices - 1); }, "239 bytes of colors, its 60 vertices need 240"},
       {"both", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.floats = n.colors; }, "colors twice"},
       {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; }, "indices of 8 bits, must be 16 or 32"},
       {"short index", [](Mesh& mesh, const float*, const Meshes& n) { mesh.positions = {n.positions.data(), 3, 12}, mesh.normals = {}, mesh.colors = {}, mesh.indices = n.short_indices; },

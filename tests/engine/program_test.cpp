@@ -119,6 +119,8 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
       {"render fine.json -o x.ppm --palette vga256 --color-bits 4", "256"},
       {"render fine.json -o x.ppm --frames 2", "put {frame} into the name"},
       {"render fine.json -o - --stats=json", "cannot both go to the standard output"},
+      {"render fine.json -o x.ppm --explain --stats=json", "cannot both go to the standard output"},
+      {"render fine.json -o 'x{frame}.ppm' --frames 2 --planes p", "put {frame} into the name"},
       {"render fine.json -o x.ppm --compare nothing.ppm", "cannot read \"nothing.ppm\""},
       {"render fine.json -o x.ppm --compare bad.ppm", "cannot read \"bad.ppm\": it ends before its last pixel"},
       {"render fine.json -o x.ppm --compare bad.json", "cannot read \"bad.json\""},
@@ -230,7 +232,13 @@ TEST_F(Program, AnimationsMoveAndCountTheirFrames) {
 TEST_F(Program, ComparesWithAReferenceAndExitsWithThree) {
   ASSERT_EQ(run("render --size 64x48 -o right.png").code, 0);
   EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare right.png").code, 0);
-  EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare a.ppm --threads 1").code, 0);
+  ASSERT_EQ(run("render --size 64x48 -o right.ppm").code, 0);
+  EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare right.ppm --threads 1").code, 0);
+  const std::string before = content("right.ppm");
+  const Result itself = run("render --size 64x48 --light 1,0,0,0 -o right.ppm --compare ./right.ppm");
+  EXPECT_EQ(itself.code, 1);
+  EXPECT_TRUE(contains(itself.err, "is the reference itself")) << itself.err;
+  EXPECT_TRUE(content("right.ppm") == before) << "untouched";
   const Result other = run("render --size 64x48 -o b.ppm --light 1,0,0,0 --compare right.png --threshold 9");
   EXPECT_EQ(other.code, 3) << other.err;
   EXPECT_TRUE(contains(other.err, "more than 9 of 255 levels"));
@@ -253,6 +261,14 @@ TEST_F(Program, FewBitsArePngFilesOfFewBits) {
   }
 }
 
+TEST_F(Program, OptionsDoNotSwallowTheScene) {
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
+  for (const char* options : {"--stats", "--stats=json", "--light 1,0,0", "--light 1,0,0,0 --light 0,1,0", "--explain", "--progress never"}) {
+    const Result result = run("render " + std::string(options) + " s.json -o s.ppm");
+    EXPECT_EQ(result.code, 0) << options << ": " << result.err;
+  }
+}
+
 TEST_F(Program, StatsAreJsonForPrograms) {
   const Result result = run("render --size 64x48 --repeat 3 --stats=json -o a.ppm");
   ASSERT_EQ(result.code, 0) << result.err;
@@ -270,6 +286,7 @@ TEST_F(Program, EnvironmentAndLogAreHeard) {
   ::unsetenv("TESSERA_THREADS");
   EXPECT_TRUE(contains(one.err, "1 thread, ")) << one.err;
   EXPECT_EQ(wrong.code, 2) << wrong.err;
+  EXPECT_TRUE(contains(wrong.err, "TESSERA_THREADS")) << wrong.err;
   EXPECT_TRUE(contains(run("render --size 8x8 --log debug -o a.ppm").err, "tessera: debug: frame: "));
   EXPECT_TRUE(contains(run("render --size 8x8 --progress=always -o a.ppm").err, " left ")) << "a line of progress";
   EXPECT_FALSE(contains(run("render --size 8x8 -o a.ppm").err, "left"));
@@ -287,10 +304,11 @@ TEST_F(Program, TellsOfTheMachineAndItself) {
     EXPECT_TRUE(contains(script.out, "palette")) << shell;
   }
   write("complete.sh", run("completion bash").out + "COMP_WORDS=(tessera render --pal); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n"
-                                                    "COMP_WORDS=(tessera render --shading g); COMP_CWORD=3; _tessera; echo \"${COMPREPLY[0]}\"\n");
+                                                    "COMP_WORDS=(tessera render --shading g); COMP_CWORD=3; _tessera; echo \"${COMPREPLY[0]}\"\n"
+                                                    "COMP_WORDS=(tessera completion z); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n");
   const std::string command = "cd '" + folder_.string() + "' && bash complete.sh > said.txt 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(content("said.txt"), "--palette\ngouraud\n");
+  EXPECT_EQ(content("said.txt"), "--palette\ngouraud\nzsh\n");
 }
 
 TEST_F(Program, CtrlCLeavesFinishedPicturesWhole) {
