@@ -39,7 +39,7 @@
 #if HWY_TARGETS & HWY_AVX2
 #define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::Isa::avx2 ? &N_AVX2::fn :
 #else
-#define TESSERA_KERNEL_AVX2(isa, fn)
+#define TESSERA_KERNEL_AVX2(isa, fn) static_cast<void>(isa),
 #endif
 /// The address of `fn` compiled for `isa`.
 #define TESSERA_KERNEL(isa, fn) (TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
