@@ -1,6 +1,7 @@
 # Everything above the core: scene files, models, image files, the program.
 #   tessera_scene    static library: scene, import, built-in meshes, image writing; link tessera (or its objects) beside it
 #   tessera_imageio  module that OpenImageIO hides in, loaded at run time
+#   tessera_import   module that assimp hides in, loaded by the child process that reads a model
 #   tessera_cli      the program bin/tessera
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(tinyobjloader CONFIG REQUIRED)
@@ -17,7 +18,9 @@ add_custom_command(OUTPUT ${tessera_embedded}
   COMMENT "Embedding the teapot and the built-in scene" VERBATIM)
 
 file(GLOB tessera_scene_sources CONFIGURE_DEPENDS engine/scene/*.cpp engine/import/*.cpp engine/imageio/*.cpp)
-list(REMOVE_ITEM tessera_scene_sources ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/indexed_png.cpp)
+set(tessera_import_sources engine/import/import_module.cpp engine/import/assimp_material.cpp engine/import/assimp_view.cpp)
+list(TRANSFORM tessera_import_sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+list(REMOVE_ITEM tessera_scene_sources ${tessera_import_sources} ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/indexed_png.cpp)
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
 # Designated initializers leave members at their defaults on purpose; -Wrestrict is wrong about std::string in GCC 12 (bug 105651).
 target_compile_options(tessera_scene PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
@@ -28,10 +31,16 @@ add_library(tessera_imageio SHARED engine/imageio/module.cpp engine/imageio/inde
 target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO PNG::PNG)
 set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
 
+find_package(assimp CONFIG REQUIRED)
+add_library(tessera_import SHARED ${tessera_import_sources} engine/import/model_bytes.cpp engine/import/model_normals.cpp)
+target_compile_options(tessera_import PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+target_link_libraries(tessera_import PRIVATE tessera_options tessera assimp::assimp)
+set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+
 # The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS engine/cli/*.cpp)
 add_executable(tessera_cli ${tessera_cli_sources} engine/parallel.cpp)
 target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 target_compile_options(tessera_cli PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
-add_dependencies(tessera_cli tessera_imageio)
+add_dependencies(tessera_cli tessera_imageio tessera_import)

@@ -114,7 +114,7 @@ std::string where(const Include& include) { return include.file + ":" + std::to_
 const std::vector<std::string> kThreads = {"tbb/", "oneapi/"};
 const std::vector<std::string> kLanes = {"hwy/"};
 const std::vector<std::string> kImageFiles = {"OpenImageIO/", "Imath/", "OpenEXR/", "png.h", "pngconf.h", "libpng"};
-const std::vector<std::string> kProgramOnly = {"nlohmann/", "CLI/", "tiny_obj_loader.h"};
+const std::vector<std::string> kProgramOnly = {"nlohmann/", "CLI/", "tiny_obj_loader.h", "assimp/"};
 const std::vector<std::string> kMath = {"glm/"};
 
 // Those includes of the four floors that name one of `prefixes` in a file that is not `allowed`.

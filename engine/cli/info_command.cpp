@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "engine/imageio/picture.h"
+#include "engine/import/model.h"
 #include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -30,6 +31,14 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string count_of(std::vector<std::string> endings(), const char* what) {
+  try {
+    return std::to_string(endings().size()) + " endings " + what;
+  } catch (const Error& missing) {
+    return missing.what();
+  }
+}
+
 }  // namespace
 
 std::string info_text() {
@@ -45,17 +54,18 @@ std::string info_text() {
   text += "cores              " + std::to_string(available_cores()) + " for this process\n";
   text += "caches             L1 " + cache(_SC_LEVEL1_DCACHE_SIZE) + ", L2 " + cache(_SC_LEVEL2_CACHE_SIZE) + ", L3 " + cache(_SC_LEVEL3_CACHE_SIZE) + "\n";
   text += "instruction sets   " + listed(sets) + "; chosen: " + sets.front() + "\n";
-  std::string module;
-  try {
-    module = std::to_string(module_endings().size()) + " endings written";
-  } catch (const Error& missing) {
-    module = missing.what();
-  }
-  return text + "image module       " + module + "\n";
+  text += "image module       " + count_of(module_endings, "written") + "\n";
+  return text + "import module      " + count_of(model_endings, "read") + "\n";
 }
 
 std::string formats_text() {
-  std::string text = "scenes    .json\nmodels    .obj\npictures  " + listed(own_endings()) + "\n";
+  std::string text = "scenes    .json\nmodels    .obj\n";
+  try {
+    text += "          by the import module: " + listed(model_endings()) + "\n";
+  } catch (const Error& missing) {
+    text += "          " + std::string(missing.what()) + "\n";
+  }
+  text += "pictures  " + listed(own_endings()) + "\n";
   try {
     text += "          by the image module: " + listed(module_endings()) + "\n";
   } catch (const Error& missing) {

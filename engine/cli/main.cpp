@@ -28,7 +28,7 @@ constexpr int kFailed = 1, kBadUsage = 2;
 constexpr const char* kExamples = R"(Examples:
   tessera render                                  the built-in teapot, as tessera.png
   tessera render scene.json -o picture.png        a scene
-  tessera render bunny.obj --size 1280x720        a model, framed, as bunny.png
+  tessera render truck.glb --size 1280x720        a model, as truck.png
   tessera render --palette ega16 -o ega.png       16 colours, nearest entry
   tessera render --planes planes --stats          also every bitplane, and what the frame took
   tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
@@ -110,10 +110,10 @@ bool parse_light(const std::string& text, SceneOverrides& overrides) {
 }
 
 CLI::App* add_render(CLI::App& program, RenderRequest& request) {
-  CLI::App* command = program.add_subcommand("render", "Render a scene (.json) or a model (.obj); without one, the built-in teapot");
+  CLI::App* command = program.add_subcommand("render", "Render a scene (.json) or a model (.obj, .gltf, .glb, .ply, .stl, ...); without one, the built-in teapot");
   command->footer(kExamples);
   command->option_defaults()->take_last();
-  command->add_option("input", request.input, "scene or model")->option_text("[SCENE.json | MODEL.obj]");
+  command->add_option("input", request.input, "scene or model")->option_text("[SCENE.json | MODEL]");
   command
       ->add_option("-o,--output", request.output.path,
                    "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO, {frame} in its name is the number; - is the "
@@ -300,6 +300,9 @@ int run(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   try {
     return tessera::cli::run(argument_count, arguments);
+  } catch (const tessera::Cancelled&) {
+    std::cerr << "tessera: interrupted; finished pictures are whole\n";
+    return tessera::cli::kInterrupted;
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera: error: out of memory\n";
   } catch (const std::exception& error) {

@@ -1,7 +1,6 @@
 #include "engine/cli/render_command.h"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "engine/cli/compare.h"
 #include "engine/import/model.h"
 #include "engine/parallel.h"
+#include "engine/scene/file_ending.h"
 #include "engine/scene/model_scene.h"
 
 namespace tessera::cli {
@@ -23,26 +23,18 @@ constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil};
 
 const char* buffer_name(Buffer buffer) { return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : "stencil"; }
 
-std::string lower_case_ending(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 /// What is rendered, frame by frame.
 class Input {
  public:
   explicit Input(const RenderRequest& request) : overrides_(request.overrides) {
     if (request.input.empty()) {
       scene_ = builtin_scene();
-    } else if (is_model_file(request.input)) {
-      const FrameBufferFormat standard;
-      scene_ = model_scene(import_model(request.input), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
     } else if (lower_case_ending(request.input) == ".json") {
       file_.emplace(request.input);
       scene_ = file_->at(0);
     } else {
-      throw Error("cannot render \"" + request.input + "\": it ends neither in .json (a scene) nor in .obj (a model)");
+      const FrameBufferFormat standard;
+      scene_ = model_scene(import_model(request.input), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
     }
     apply(overrides_, scene_);
   }
@@ -216,41 +208,35 @@ int render(RenderRequest request) {
   run.options = renderer.options();
 
   int exit_code = 0;
-  try {
-    for (int f = 0; f < request.frames; ++f) {
-      what = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames) : "rendering";
-      input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
-      const Scene& scene = input.scene();
-      FrameBuffer buffer(scene.framebuffer);
-      Frame frame(buffer);
-      Picture picture(scene.framebuffer.width, scene.framebuffer.height);
-      const bool indexed = is_indexed_png(buffer.format(), path);
-      for (int r = 0; r < request.repeat; ++r, ++done_renders) {
-        record(scene, frame);
-        if (request.explain && f == 0 && r == 0) print_explanations(scene, frame);
-        keep(buffer, !request.planes_folder.empty(), indexed, frame);
-        const auto render_start = std::chrono::steady_clock::now();
-        run.frame = renderer.finish(frame, picture.target());
-        run.render_ms.push_back(milliseconds_since(render_start));
-      }
-      progress.clear();
-      const auto write_start = std::chrono::steady_clock::now();
-      const std::string file = frame_path(path, f, request.frames);
-      if (indexed)
-        write_indexed_png(indexed_picture(buffer), file, request.output.compression);
-      else
-        write_output(picture, file, request.output.compression);
-      if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
-      run.write_ms += milliseconds_since(write_start);
-      for (std::size_t i = 0; i < 3; ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
-      if (request.output.path.empty()) std::cerr << "tessera: wrote " << file << "\n";
-      if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
-      if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);
+  for (int f = 0; f < request.frames; ++f) {
+    what = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames) : "rendering";
+    input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
+    const Scene& scene = input.scene();
+    FrameBuffer buffer(scene.framebuffer);
+    Frame frame(buffer);
+    Picture picture(scene.framebuffer.width, scene.framebuffer.height);
+    const bool indexed = is_indexed_png(buffer.format(), path);
+    for (int r = 0; r < request.repeat; ++r, ++done_renders) {
+      record(scene, frame);
+      if (request.explain && f == 0 && r == 0) print_explanations(scene, frame);
+      keep(buffer, !request.planes_folder.empty(), indexed, frame);
+      const auto render_start = std::chrono::steady_clock::now();
+      run.frame = renderer.finish(frame, picture.target());
+      run.render_ms.push_back(milliseconds_since(render_start));
     }
-  } catch (const Cancelled&) {
     progress.clear();
-    std::cerr << "tessera: interrupted; finished pictures are whole\n";
-    return kInterrupted;
+    const auto write_start = std::chrono::steady_clock::now();
+    const std::string file = frame_path(path, f, request.frames);
+    if (indexed)
+      write_indexed_png(indexed_picture(buffer), file, request.output.compression);
+    else
+      write_output(picture, file, request.output.compression);
+    if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
+    run.write_ms += milliseconds_since(write_start);
+    for (std::size_t i = 0; i < 3; ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
+    if (request.output.path.empty()) std::cerr << "tessera: wrote " << file << "\n";
+    if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
+    if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);
   }
   if (request.stats == StatsFormat::text) std::cerr << stats_text(run);
   if (request.stats == StatsFormat::json) std::cout << stats_json(run);

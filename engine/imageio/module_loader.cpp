@@ -2,49 +2,18 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <sstream>
 
-#include <dlfcn.h>
-
 #include "engine/imageio/module_interface.h"
+#include "engine/scene/loaded_module.h"
 
 namespace tessera {
 namespace {
 
-void* load_module(const std::string& wanted_for) {
-  std::error_code no_program;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", no_program).parent_path();
-  std::string reason;
-  for (const std::filesystem::path& candidate :
-       {folder / TESSERA_IMAGEIO_FILE_NAME, folder / "../lib" / TESSERA_IMAGEIO_FILE_NAME, std::filesystem::path(TESSERA_IMAGEIO_FILE_NAME)}) {
-    std::error_code error;
-    if (candidate.has_parent_path() && !std::filesystem::exists(candidate, error)) continue;
-    // Local, and bound now: what it brings stays out of the way, and what it lacks is told here.
-    if (void* module = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
-    reason = ::dlerror();
-  }
-  throw Error(wanted_for + " needs the module " TESSERA_IMAGEIO_FILE_NAME ", which could not be loaded (" + reason + "); .ppm works without it");
-}
-
 template <class Function>
 Function* function_of_module(const char* name, const std::string& wanted_for) {
-  static void* const module = load_module(wanted_for);  // a failure leaves it unset: the next call tries anew
-  void* const function = ::dlsym(module, name);
-  if (function == nullptr) throw Error("the module " TESSERA_IMAGEIO_FILE_NAME " is of another version: it has no " + std::string(name));
-  return reinterpret_cast<Function*>(function);
-}
-
-// Runs call(take, user, message, message size) and returns what it took.
-template <class Call>
-std::string taken(const Call& call) {
-  std::string bytes;
-  const auto take = [](void* user, const unsigned char* from, std::size_t count) { static_cast<std::string*>(user)->append(reinterpret_cast<const char*>(from), count); };
-  char message[512] = "";
-  if (call(+take, static_cast<void*>(&bytes), message, sizeof message) == 0) return bytes;
-  std::string reason = message;
-  std::replace(reason.begin(), reason.end(), '\n', ' ');
-  throw Error(reason);
+  static void* const module = load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for, ".ppm works without it");  // a failure leaves it unset: the next call tries anew
+  return reinterpret_cast<Function*>(function_of(module, TESSERA_IMAGEIO_FILE_NAME, name));
 }
 
 const unsigned char* bytes_of(const std::string& text) { return reinterpret_cast<const unsigned char*>(text.data()); }

@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 
 #include "engine/imageio/atomic_file.h"
 #include "engine/imageio/module_loader.h"
+#include "engine/scene/file_ending.h"
 #include "engine/scene/text_file.h"
 
 namespace tessera {
 namespace {
-
-std::string lower_case_ending(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 std::string header(const char* magic, int width, int height, bool has_maximum = true) {
   return std::string(magic) + "\n" + std::to_string(width) + " " + std::to_string(height) + "\n" + (has_maximum ? "255\n" : "");

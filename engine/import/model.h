@@ -1,7 +1,8 @@
-// Models from files: today Wavefront OBJ with its MTL materials.
+// Models from files: Wavefront OBJ with its MTL materials by tinyobjloader, everything else by assimp, in a child process.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,25 +15,35 @@ struct ModelPart {
   std::string material_name;             ///< empty: the file names none
   Material material;
   std::size_t first_index = 0, index_count = 0;
+  bool uses_colors = false;              ///< of the vertices, in place of ambient and diffuse
+};
+
+/// A camera that a file brings along, for any size of the picture.
+struct ModelCamera {
+  Matrix view;
+  bool is_orthographic = false;
+  double half_width = 0, half_height = 0;  ///< of what it sees: world units, for a perspective at distance 1; one may be 0: as the picture's aspect asks
+  double near = 0, far = 0;                ///< 0: the file does not say
 };
 
 struct Model {
   MeshData mesh;                         ///< all parts, indexed; normals and colours if the file has them at every corner
   std::vector<ModelPart> parts;          ///< in the order of first use; never empty
   std::vector<std::string> warnings;     ///< a material file that is missing, ...; one line each
+  std::vector<ModelCamera> cameras;
+  std::vector<Light> lights;             ///< world space
+  std::optional<Color> ambient_light;
 };
 
-/// By the file's ending.
-bool is_model_file(const std::string& path);
-
-/// @throws Error, naming the file and where possible the line, for a file that is missing, broken or without a triangle.
+/// Reads a model in a child process that may take 10 seconds and 1 GiB.
+/// @throws Error, naming the file and where possible the line, for a file that is missing, broken or without a triangle, and
+/// for one that takes too long or too much.
 Model import_model(const std::string& path);
+
+/// The endings of the formats that are read, in lower case with their dots. @throws Error without the import module.
+std::vector<std::string> model_endings();
 
 /// One part as a mesh of its own, without the vertices of the others.
 MeshData part_mesh(const Model& model, std::size_t part);
-
-/// Fills in normals: the area-weighted mean over the faces whose vertices have the very same position. The parts of a model
-/// then stay smooth across their seams, which normals made for each draw could not know of.
-void add_smooth_normals(MeshData& mesh);
 
 }  // namespace tessera

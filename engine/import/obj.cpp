@@ -9,7 +9,7 @@
 
 #include <tiny_obj_loader.h>
 
-#include "engine/import/model.h"
+#include "engine/import/obj.h"
 #include "engine/import/obj_check.h"
 #include "engine/import/obj_text.h"
 #include "engine/scene/text_file.h"
@@ -158,8 +158,7 @@ Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::str
 
 }  // namespace
 
-Model import_model(const std::string& path) {
-  if (!is_model_file(path)) throw Error("cannot read \"" + path + "\": this version of Tessera reads models from .obj files only");
+Model import_obj(const std::string& path) {
   Obj obj = load(path);
   Model model{.warnings = std::move(obj.warnings)};
 
@@ -186,7 +185,7 @@ Model import_model(const std::string& path) {
     }
   for (const int id : order) {
     const std::vector<std::uint32_t>& indices = triangles[id];
-    ModelPart part{.first_index = model.mesh.indices.size(), .index_count = indices.size()};
+    ModelPart part{.material_name = {}, .material = {}, .first_index = model.mesh.indices.size(), .index_count = indices.size(), .uses_colors = id < 0 && !model.mesh.colors.empty()};
     if (id >= 0) {
       part.material_name = obj.materials.at(static_cast<std::size_t>(id)).name;
       part.material = material_from_mtl(obj.materials[static_cast<std::size_t>(id)], model.warnings, path);

@@ -2,6 +2,7 @@
 #   runtime      libtessera.so.N                      libtesseraN
 #   development  headers, CMake package, pkg-config   libtessera-dev
 #   imageio      the module that reads and writes     libtessera-imageioN
+#   import       the module that reads models         libtessera-importN
 #   program      bin/tessera                          tessera
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -10,6 +11,7 @@ set(built_dir ${CMAKE_CURRENT_BINARY_DIR}/package)
 set(tessera_package_runtime libtessera${tessera_soversion})
 set(tessera_package_development libtessera-dev)
 set(tessera_package_imageio libtessera-imageio${tessera_soversion})
+set(tessera_package_import libtessera-import${tessera_soversion})
 set(tessera_package_program tessera)
 
 install(TARGETS tessera EXPORT tessera-shared
@@ -36,6 +38,7 @@ install(FILES ${built_dir}/tessera.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgcon
 if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
   file(RELATIVE_PATH lib_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(tessera_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+  set_target_properties(tessera_import PROPERTIES INSTALL_RPATH "$ORIGIN")
   install(TARGETS tessera_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   # The manual page and the completions are the program's own words.
   foreach(page "man:tessera.1" "completion bash:completion.bash" "completion zsh:completion.zsh" "completion fish:completion.fish")
@@ -49,8 +52,9 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
   install(FILES ${built_dir}/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME tessera COMPONENT program)
   install(FILES ${built_dir}/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _tessera COMPONENT program)
   install(FILES ${built_dir}/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME tessera.fish COMPONENT program)
+  install(TARGETS tessera_import LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT import NAMELINK_SKIP)
   install(TARGETS tessera_imageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT imageio NAMELINK_SKIP)
-  foreach(component imageio program)
+  foreach(component imageio import program)
     install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}} RENAME copyright COMPONENT ${component})
   endforeach()
 endif()

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
+#include "engine/import/model_normals.h"
 #include "shading/trigonometry.h"
 
 namespace tessera {
@@ -13,10 +16,12 @@ constexpr double kFovy = 36;  // degrees
 
 double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+// Vertices that are not finite are not drawn, either.
 Vec3 middle_of_bounds(const MeshData& mesh) {
-  std::array<double, 3> low, high;
-  for (std::size_t k = 0; k < 3; ++k) low[k] = high[k] = mesh.positions[k];
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!std::isfinite(mesh.positions[i])) continue;
     low[i % 3] = std::min<double>(low[i % 3], mesh.positions[i]);
     high[i % 3] = std::max<double>(high[i % 3], mesh.positions[i]);
   }
@@ -37,40 +42,90 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
   double distance = 0, radius = 0;
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
     const Vec3 p{mesh.positions[i] - centre.x, mesh.positions[i + 1] - centre.y, mesh.positions[i + 2] - centre.z};
+    if (!std::isfinite(p.x + p.y + p.z)) continue;
     distance = std::max(distance, dot(p, back) + std::max(std::abs(dot(p, right)) / tangent_x, std::abs(dot(p, up)) / tangent_y));
     radius = std::max(radius, std::sqrt(dot(p, p)));
   }
-  if (!(radius > 0)) throw Error(name + ": all vertices are at one place");
+  if (!(radius > 0) || !std::isfinite(radius)) throw Error(name + ": all vertices are at one place");
   distance = std::max(distance, 1.5 * radius);  // what is long in the direction of view stays away from the viewer's eye
   const Vec3 eye{centre.x + distance * back.x, centre.y + distance * back.y, centre.z + distance * back.z};
   return {.view = look_at(eye, centre, {0, 1, 0}), .projection = Lens{.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius}};
 }
 
+// The file's own camera, if the model is not all behind it. Near and far come as close to the model as they may, for the depth buffer's sake.
+std::optional<SceneCamera> own_camera(const ModelCamera& camera, const MeshData& mesh, double aspect) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;  // distances along the direction of view
+  const double* const row = &camera.view.m[8];
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+    const double distance = -(row[0] * mesh.positions[i] + row[1] * mesh.positions[i + 1] + row[2] * mesh.positions[i + 2] + row[3]);
+    if (!std::isfinite(distance)) continue;
+    least = std::min(least, distance);
+    most = std::max(most, distance);
+  }
+  constexpr double kMargin = 1.01, kDeepest = 1e5;
+  const double given_far = camera.far > std::max(camera.near, 0.0) ? camera.far : std::numeric_limits<double>::infinity();
+  const double far = most > 0 ? std::min(given_far, most * kMargin) : 1;
+  const double near = std::max(camera.near > 0 ? camera.near : far / kDeepest, least / kMargin);
+  if (!(near < far)) return {};
+  const double h = camera.half_height > 0 ? camera.half_height : camera.half_width / aspect, w = h * aspect;
+  return SceneCamera{.view = camera.view,
+                     .projection = camera.is_orthographic ? orthographic(-w, w, -h, h, near, far) : frustum(-w * near, w * near, -h * near, h * near, near, far)};
+}
+
+// False only if each triangle lies wholly beyond one of the planes of the view.
+bool sees_something(const SceneCamera& camera, double aspect, const MeshData& mesh) {
+  const Camera at = camera.at_aspect(aspect);
+  const auto beyond = [&](std::uint32_t vertex) {
+    const float* const p = &mesh.positions[3 * std::size_t{vertex}];
+    const auto transformed = [](const Matrix& m, const std::array<double, 4>& v) {
+      std::array<double, 4> r{};
+      for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t k = 0; k < 4; ++k) r[row] += m.m[4 * row + k] * v[k];
+      return r;
+    };
+    const std::array<double, 4> c = transformed(at.projection, transformed(at.view, {p[0], p[1], p[2], 1}));
+    unsigned planes = 0;
+    for (std::size_t k = 0; k < 3; ++k) planes |= (c[k] < -c[3] ? 1u << (2 * k) : 0u) | (c[k] > c[3] ? 2u << (2 * k) : 0u);
+    return planes;
+  };
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    if ((beyond(mesh.indices[i]) & beyond(mesh.indices[i + 1]) & beyond(mesh.indices[i + 2])) == 0) return true;
+  return false;
+}
+
+// The first camera of the file that sees anything; else one that frames the model.
+void choose_camera(const Model& model, double aspect, Scene& scene) {
+  scene.camera = framing_camera(model.mesh, aspect, scene.name);
+  for (const ModelCamera& own : model.cameras)
+    if (const auto camera = own_camera(own, model.mesh, aspect); camera && sees_something(*camera, aspect, model.mesh)) {
+      scene.camera = *camera;
+      return;
+    }
+  if (!model.cameras.empty()) scene.warnings.push_back(scene.name + ": its cameras see nothing of the model, which is framed instead");
+}
+
 }  // namespace
 
-Scene model_scene(const Model& model, const std::string& name, int width, int height) {
+Scene model_scene(Model model, const std::string& name, int width, int height) {
   Scene scene{.name = name, .title = name};
   scene.framebuffer.width = width;
   scene.framebuffer.height = height;
-  scene.camera = framing_camera(model.mesh, static_cast<double>(width) / height, name);
   scene.light_model.local_viewer = true;
   scene.light_model.two_sided = true;  // models from outside have holes, and faces wound the wrong way
-  scene.lights = {Light{.position = {0.15f, 0.75f, 0.65f, 0}}};  // towards the viewer, over the left shoulder
+  scene.lights = model.lights;
+  if (scene.lights.empty()) scene.lights = {Light{.position = {0.15f, 0.75f, 0.65f, 0}}};  // towards the viewer, over the left shoulder
+  if (model.ambient_light) scene.light_model.ambient = *model.ambient_light;
   scene.warnings = model.warnings;
+  choose_camera(model, static_cast<double>(width) / height, scene);
   scene.frame.push_back({Clear{.color = Color{0.18f, 0.2f, 0.25f, 1}, .depth = 1.0, .stencil = 0u}, ""});
 
-  const bool is_split = model.parts.size() > 1;
-  Model smooth;
-  if (is_split && model.mesh.normals.empty()) {
-    smooth = model;
-    add_smooth_normals(smooth.mesh);
-  }
-  const Model& source = smooth.parts.empty() ? model : smooth;
-  for (std::size_t part = 0; part < source.parts.size(); ++part) {
-    scene.meshes.push_back(is_split ? part_mesh(source, part) : source.mesh);
+  if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
+  wind_by_normals(model.mesh);  // two-sided lighting goes by the winding
+  for (std::size_t part = 0; part < model.parts.size(); ++part) {
+    scene.meshes.push_back(model.parts.size() > 1 ? part_mesh(model, part) : model.mesh);
     DrawCommand draw{.mesh = part};
-    draw.state.material = source.parts[part].material;
-    if (source.parts[part].material_name.empty()) draw.state.color_material = ColorMaterial::ambient_and_diffuse;  // where there are colours
+    draw.state.material = model.parts[part].material;
+    if (model.parts[part].uses_colors) draw.state.color_material = ColorMaterial::ambient_and_diffuse;
     draw.state.shading = Shading::phong;
     scene.frame.push_back({draw, ""});
   }

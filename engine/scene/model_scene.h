@@ -11,6 +11,6 @@ namespace tessera {
 /// @param name    the model's file, for messages
 /// @param width   of the picture, as height: the camera keeps the model inside both
 /// @throws Error for a model without extent.
-Scene model_scene(const Model& model, const std::string& name, int width = 640, int height = 480);
+Scene model_scene(Model model, const std::string& name, int width = 640, int height = 480);
 
 }  // namespace tessera

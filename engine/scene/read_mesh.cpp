@@ -27,7 +27,6 @@ MeshData read_file(const Value& value, const std::string& base_folder, ModelCach
   const Object object(value, {"file"});
   const Value file = object.require("file");
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
-  if (!is_model_file(path.string())) file.refuse(json::Json(file.text()).dump() + ": this version of Tessera reads models from .obj files only");
   auto model = models.find(path.string());
   if (model == models.end()) model = models.emplace(path.string(), file.checked([&] { return import_model(path.string()); })).first;
   scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());

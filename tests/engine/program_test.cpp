@@ -104,12 +104,15 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
   write("fine.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
   write("bad.ppm", "P6\n8 8\n255\nabc");
   write("small.ppm", "P6 1 1 255 abc");
+  write("notes.txt", "no model");
   const struct {
     const char *arguments, *fragment;
   } kFailing[] = {
       {"render nothing.json", "cannot read \"nothing.json\": No such file or directory"},
       {"render nothing.obj", "cannot read \"nothing.obj\""},
-      {"render model.glb", "neither in .json (a scene) nor in .obj (a model)"},
+      {"render model.txt", "cannot read \"model.txt\": No such file"},
+      {"render notes.txt", "notes.txt: found the ending \".txt\", expected one of those that"},
+      {"render model.glb", "cannot read \"model.glb\": No such file"},
       {"render bad.json", "bad.json: /framebuffer/width: found 0"},
       {"render bad.obj", "bad.obj:2: index 2 out of bounds"},
       {"render fine.json -o no/folder.ppm", "there is no folder \"no\""},

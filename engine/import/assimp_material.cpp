@@ -1,0 +1,87 @@
+#include "engine/import/assimp_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <assimp/GltfMaterial.h>
+
+namespace tessera {
+namespace {
+
+constexpr float kMostShininess = 16384;
+constexpr float kDielectric = 0.04f;  // what glass and plastics reflect head-on
+
+std::optional<Color> color(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
+  aiColor4D c;
+  if (from.Get(key, type, index, c) != AI_SUCCESS || !std::isfinite(c.r + c.g + c.b)) return {};
+  return Color{c.r, c.g, c.b, std::isfinite(c.a) ? c.a : 1};
+}
+
+std::optional<float> number(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
+  float x = 0;
+  if (from.Get(key, type, index, x) != AI_SUCCESS || !std::isfinite(x)) return {};
+  return x;
+}
+
+// Black, or what assimp's readers write where the format does not know ambient colours.
+bool is_placeholder(const Color& c) { return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f); }
+Color scaled(const Color& c, float by) { return {c.r * by, c.g * by, c.b * by, 1}; }
+
+Material phong_material(const aiMaterial& from, int model) {
+  Material material;
+  material.diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(material.diffuse);
+  const Color ambient = color(from, AI_MATKEY_COLOR_AMBIENT).value_or(Color{0, 0, 0, 1});
+  material.ambient = is_placeholder(ambient) ? material.diffuse : ambient;
+  material.emission = color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(material.emission);
+  const float shininess = number(from, AI_MATKEY_SHININESS).value_or(0);
+  const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud && model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
+  if (has_highlight) {
+    material.specular = color(from, AI_MATKEY_COLOR_SPECULAR).value_or(material.specular);
+    material.shininess = std::min(shininess, kMostShininess);
+  }
+  return material;
+}
+
+float spread(float roughness) { return 1 / (1 + 4 * roughness * roughness); }
+
+float blinn_exponent(float roughness) {
+  const float alpha = roughness * roughness;
+  return alpha > 0 ? std::clamp(2 / (alpha * alpha) - 2, 1.0f, 1024.0f) : 1024.0f;
+}
+
+Material physical_material(const aiMaterial& from, const Color& base) {
+  const auto factor = [&](std::optional<float> x) { return std::clamp(x.value_or(1), 0.0f, 1.0f); };
+  const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)), rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
+  const auto mirrored = [&](float b) { return (kDielectric * (1 - metal) + b * metal) * spread(rough); };
+  return {.ambient = base, .diffuse = base, .specular = {mirrored(base.r), mirrored(base.g), mirrored(base.b), 1},
+          .emission = color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission), .shininess = blinn_exponent(rough)};
+}
+
+Material glossy_material(const aiMaterial& from, float glossiness) {
+  const float rough = 1 - std::clamp(glossiness, 0.0f, 1.0f);
+  const Color diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(Color{1, 1, 1, 1});
+  return {.ambient = diffuse, .diffuse = diffuse, .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}), spread(rough)),
+          .emission = color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission), .shininess = blinn_exponent(rough)};
+}
+
+Material unlit_material(const Color& c) {
+  constexpr Color kNone{0, 0, 0, 1};
+  return {.ambient = kNone, .diffuse = {0, 0, 0, c.a}, .specular = kNone, .emission = {c.r, c.g, c.b, 1}};
+}
+
+}  // namespace
+
+Material material_of(const aiMaterial& from) {
+  const std::optional<Color> base = color(from, AI_MATKEY_BASE_COLOR);
+  int model = 0;
+  from.Get(AI_MATKEY_SHADING_MODEL, model);
+  if (base && model == aiShadingMode_Unlit) return unlit_material(*base);
+  if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR)) return glossy_material(from, *glossiness);
+  if (base && number(from, AI_MATKEY_METALLIC_FACTOR)) return physical_material(from, *base);
+  return phong_material(from, model);
+}
+
+bool wants_texture(const aiMaterial& from) { return from.GetTextureCount(aiTextureType_DIFFUSE) > 0 || from.GetTextureCount(aiTextureType_BASE_COLOR) > 0; }
+
+}  // namespace tessera

@@ -1,0 +1,20 @@
+// Materials of files as Phong's terms. Physically based ones (glTF 2), with base colour b, metalness m and roughness r, become
+//   diffuse   = ambient = b
+//   specular  = (0.04 (1 - m) + b m) / (1 + 4 r^2)     what mirrors in all directions is spread by roughness
+//   shininess = 2 / r^4 - 2, within 1 .. 1024          Blinn's exponent of that roughness (alpha = r^2)
+//   emission  = the emissive factor
+// With KHR_materials_pbrSpecularGlossiness, diffuse and specular are given, and r = 1 - glossiness; what is unlit only emits b.
+#pragma once
+
+#include <assimp/material.h>
+
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera {
+
+Material material_of(const aiMaterial& from);
+
+/// Whether its colour is meant to come from a picture.
+bool wants_texture(const aiMaterial& from);
+
+}  // namespace tessera

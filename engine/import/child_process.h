@@ -1,0 +1,20 @@
+// Readers of other people's files run in a child process with limits of time and memory: what goes wrong there stays there.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace tessera {
+
+struct ChildLimits {
+  std::chrono::milliseconds time{10000};
+  std::size_t memory_bytes = std::size_t{1} << 30;  ///< address space of the child
+};
+
+/// Runs work() in a child and returns what it returned there. @throws Error with the message of the Error that it threw there,
+/// or saying how the child ended: "<what> took more than 10 seconds; given up". @throws Cancelled if Ctrl-C ended it.
+std::string run_in_child(const std::string& what, const ChildLimits& limits, const std::function<std::string()>& work);
+
+}  // namespace tessera

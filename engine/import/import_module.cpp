@@ -1,0 +1,194 @@
+// The module libtessera_import: what sees assimp. It runs in a child process, where it may take what it likes.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <new>
+#include <string>
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include "engine/import/assimp_material.h"
+#include "engine/import/assimp_view.h"
+#include "engine/import/import_module_interface.h"
+#include "engine/import/model_bytes.h"
+#include "engine/import/model_normals.h"
+#include "engine/scene/file_ending.h"
+#include "engine/tessera/export.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kDeepestNode = 500;
+const std::string kNoTriangle = "holds no triangle";
+
+// Some readers leave colours at 0, or at -1, where a file has none.
+bool gives_colors(const aiMesh& mesh) {
+  bool gives = false;
+  for (unsigned v = 0; v < mesh.mNumVertices && mesh.HasVertexColors(0); ++v) {
+    const aiColor4D& c = mesh.mColors[0][v];
+    if (!(c.r >= 0 && c.g >= 0 && c.b >= 0 && c.a >= 0)) return false;
+    gives |= c.r > 0 || c.g > 0 || c.b > 0 || c.a > 0;
+  }
+  return gives;
+}
+
+/// All nodes of a scene, in world space, as one mesh.
+class Converter {
+ public:
+  Converter(const aiScene& scene, const FormatFacts& format, bool with_cameras) : scene_(scene), format_(format), with_cameras_(with_cameras) {
+    for (unsigned m = 0; m < scene_.mNumMeshes; ++m) has_colors_ |= gives_colors(*scene_.mMeshes[m]);
+    for (unsigned m = 0; m < scene_.mNumMaterials; ++m) materials_.push_back(material_of(*scene_.mMaterials[m]));
+  }
+
+  Model converted() {
+    if (scene_.mRootNode != nullptr) visit(*scene_.mRootNode, aiMatrix4x4(), 0);
+    int textures = 0;
+    for (const auto& [material, indices] : by_material_) {
+      if (indices.empty()) continue;
+      add_part(material, indices);
+      textures += material < scene_.mNumMaterials && wants_texture(*scene_.mMaterials[material]) ? 1 : 0;
+    }
+    if (model_.parts.empty()) throw Error(kNoTriangle);
+    // Where glTF gives no normals, faces are flat, by its specification.
+    add_creased_normals(model_.mesh, format_.is_gltf ? 0 : kCreaseDegrees);
+    if (textures > 0) model_.warnings.push_back("textures are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
+    return std::move(model_);
+  }
+
+ private:
+  void visit(const aiNode& node, const aiMatrix4x4& parent, int depth) {
+    if (depth > kDeepestNode) throw Error("its nodes are nested deeper than " + std::to_string(kDeepestNode) + " levels");
+    const aiMatrix4x4 world = parent * node.mTransformation;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+      if (node.mMeshes[m] >= scene_.mNumMeshes) throw Error("a node names mesh " + std::to_string(node.mMeshes[m]) + " of " + std::to_string(scene_.mNumMeshes));
+      add_mesh(*scene_.mMeshes[node.mMeshes[m]], world);
+    }
+    for (unsigned i = 0; i < scene_.mNumCameras && with_cameras_; ++i)
+      if (scene_.mCameras[i]->mName == node.mName)
+        if (auto camera = camera_of(*scene_.mCameras[i], world, format_)) model_.cameras.push_back(*camera);
+    for (unsigned i = 0; i < scene_.mNumLights; ++i)
+      if (scene_.mLights[i]->mName == node.mName) add_light(*scene_.mLights[i], world, format_, model_);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], world, depth + 1);
+  }
+
+  void add_mesh(const aiMesh& mesh, const aiMatrix4x4& world) {
+    if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;
+    const auto first = static_cast<std::uint32_t>(model_.mesh.vertex_count());
+    aiMatrix3x3 normal_matrix(world);
+    const bool mirrors = normal_matrix.Determinant() < 0;
+    normal_matrix.Inverse().Transpose();
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D p = world * mesh.mVertices[v];
+      model_.mesh.positions.insert(model_.mesh.positions.end(), {p.x, p.y, p.z});
+      aiVector3D n = mesh.HasNormals() ? normal_matrix * mesh.mNormals[v] : aiVector3D();
+      n.NormalizeSafe();
+      model_.mesh.normals.insert(model_.mesh.normals.end(), {n.x, n.y, n.z});
+      if (has_colors_) add_color(mesh, v);
+    }
+    add_triangles(mesh, first, mirrors);
+  }
+
+  // Colours of vertices are factors of the material's; with them, the colour is all in the vertices.
+  void add_color(const aiMesh& mesh, unsigned vertex) {
+    const Color base = mesh.mMaterialIndex < materials_.size() ? materials_[mesh.mMaterialIndex].diffuse : Material{}.diffuse;
+    const aiColor4D c = gives_colors(mesh) ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
+    model_.mesh.colors.insert(model_.mesh.colors.end(), {c.r * base.r, c.g * base.g, c.b * base.b, c.a * base.a});
+  }
+
+  void add_triangles(const aiMesh& mesh, std::uint32_t first, bool mirrors) {
+    std::vector<std::uint32_t>& indices = by_material_[mesh.mMaterialIndex];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      for (const unsigned k : {0u, mirrors ? 2u : 1u, mirrors ? 1u : 2u}) {
+        if (face.mIndices[k] >= mesh.mNumVertices) throw Error("a triangle names vertex " + std::to_string(face.mIndices[k]) + " of " + std::to_string(mesh.mNumVertices));
+        indices.push_back(first + face.mIndices[k]);
+      }
+    }
+  }
+
+  void add_part(unsigned material, const std::vector<std::uint32_t>& indices) {
+    ModelPart part{.material_name = {}, .material = {}, .first_index = model_.mesh.indices.size(), .index_count = indices.size(), .uses_colors = has_colors_};
+    if (material < scene_.mNumMaterials) {
+      part.material_name = scene_.mMaterials[material]->GetName().C_Str();
+      part.material = materials_[material];
+    }
+    model_.mesh.indices.insert(model_.mesh.indices.end(), indices.begin(), indices.end());
+    model_.parts.push_back(std::move(part));
+  }
+
+  const aiScene& scene_;
+  FormatFacts format_;
+  bool with_cameras_, has_colors_ = false;
+  std::vector<Material> materials_;
+  std::map<unsigned, std::vector<std::uint32_t>> by_material_;
+  Model model_;
+};
+
+bool contains(const std::string& path, const std::string& word) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {}).find(word) != std::string::npos;
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+  if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp caught it
+  throw Error(reason == "No meshes remaining" ? kNoTriangle : reason);
+}
+
+Model read(const std::string& path) {
+  Assimp::Importer importer;
+  const std::string ending = lower_case_ending(path);
+  if (ending.empty() || !importer.IsExtensionSupported(ending)) throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
+  const FormatFacts format{.is_gltf = ending == ".gltf" || ending == ".glb", .is_collada = ending == ".dae" || ending == ".zae"};
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
+  const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  if (scene == nullptr) refuse(importer.GetErrorString());
+  // assimp takes an orthographic camera of Collada for one of a few degrees.
+  const bool has_strange_cameras = ending == ".dae" && contains(path, "<orthographic>");
+  Model model = Converter(*scene, format, !has_strange_cameras).converted();
+  if (has_strange_cameras && scene->mNumCameras > 0) model.warnings.push_back("has an orthographic camera: cameras of such Collada files are left out");
+  for (std::string& warning : model.warnings) warning = path + ": " + warning;
+  return model;
+}
+
+std::string formats() {
+  Assimp::Importer importer;
+  std::string list;
+  importer.GetExtensionList(list);  // "*.3ds;*.obj"
+  std::erase(list, '*');
+  std::replace(list.begin(), list.end(), ';', ',');
+  return list;
+}
+
+template <class Work>
+int answer(const Work& work, tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
+  try {
+    const std::string bytes = work();
+    take(user, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    return 0;
+  } catch (const std::bad_alloc&) {
+    throw;  // the child tells it apart
+  } catch (const std::exception& error) {
+    std::snprintf(message, message_size, "%s", error.what());
+    return 1;
+  }
+}
+
+}  // namespace
+}  // namespace tessera
+
+extern "C" TESSERA_API int tessera_import_1(const char* path, tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
+  return tessera::answer([&] { return tessera::to_bytes(tessera::read(path)); }, take, user, message, message_size);
+}
+
+extern "C" TESSERA_API int tessera_import_formats_1(tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
+  return tessera::answer([] { return tessera::formats(); }, take, user, message, message_size);
+}

@@ -1,0 +1,13 @@
+// Wavefront OBJ with its MTL materials.
+#pragma once
+
+#include <string>
+
+#include "engine/import/model.h"
+
+namespace tessera {
+
+/// In this process. @throws Error, naming the file and where possible the line.
+Model import_obj(const std::string& path);
+
+}  // namespace tessera

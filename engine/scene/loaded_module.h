@@ -1,0 +1,32 @@
+// Modules: shared libraries that hide a heavy dependency behind C functions, loaded on first need.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera {
+
+/// A module's handle: looked for beside the running program, in ../lib from there, and where the system looks for libraries.
+/// It stays loaded. @throws Error "<wanted_for> needs the module <file_name>, ...; <otherwise>" where it is missing.
+void* load_module(const char* file_name, const std::string& wanted_for, const char* otherwise);
+
+/// @throws Error for a module of another version.
+void* function_of(void* module, const char* file_name, const char* name);
+
+/// Functions of modules hand out bytes by take(user, bytes, count), and return 0, or 1 and a reason.
+/// Runs call(take, user, message, message size) and returns what it took. @throws Error with the reason, in one line.
+template <class Call>
+std::string taken(const Call& call) {
+  std::string bytes;
+  const auto take = [](void* user, const unsigned char* from, std::size_t count) { static_cast<std::string*>(user)->append(reinterpret_cast<const char*>(from), count); };
+  char message[1024] = "";
+  if (call(+take, static_cast<void*>(&bytes), message, sizeof message) == 0) return bytes;
+  std::string reason = message;
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  throw Error(reason);
+}
+
+}  // namespace tessera
