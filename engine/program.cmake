@@ -22,8 +22,6 @@ set(tessera_import_sources engine/import/import_module.cpp engine/import/assimp_
 list(TRANSFORM tessera_import_sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 list(REMOVE_ITEM tessera_scene_sources ${tessera_import_sources} ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/indexed_png.cpp)
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
-# Designated initializers leave members at their defaults on purpose; -Wrestrict is wrong about std::string in GCC 12 (bug 105651).
-target_compile_options(tessera_scene PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(tessera_scene PRIVATE tessera_options nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader ${CMAKE_DL_LIBS})
 
@@ -33,7 +31,6 @@ set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVE
 
 find_package(assimp CONFIG REQUIRED)
 add_library(tessera_import SHARED ${tessera_import_sources} engine/import/model_bytes.cpp engine/import/model_normals.cpp)
-target_compile_options(tessera_import PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 target_link_libraries(tessera_import PRIVATE tessera_options tessera assimp::assimp)
 set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
 
@@ -41,6 +38,5 @@ set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVER
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS engine/cli/*.cpp)
 add_executable(tessera_cli ${tessera_cli_sources} engine/parallel.cpp)
 target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
-target_compile_options(tessera_cli PRIVATE -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio tessera_import)

@@ -1,5 +1,6 @@
 # Installs the library, moves what was installed somewhere else, and uses it there as a stranger would: by find_package and by
 # pkg-config, shared and static. Looks at what the shared library exports, needs and weighs.
+# Then as a part of another project (that it is also built there is left to .ci/full: it takes minutes).
 #   cmake -DBUILD=<build tree> -DCOMPILER=<C++ compiler> -DLIBDIR=<lib> -P run.cmake
 set(work ${BUILD}/consumer)
 set(prefix "${work}/moved prefix")
@@ -67,3 +68,12 @@ message(STATUS "stripped: ${size} bytes")
 if(size GREATER 2097152)
   message(FATAL_ERROR "the library takes ${size} bytes; at most 2 MiB are wanted")
 endif()
+
+message(STATUS "FetchContent")
+run(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/embedded -B ${work}/embedded -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER})
+run(COMMAND ${CMAKE_COMMAND} --build ${work}/embedded --target help OUTPUT targets)
+foreach(unwanted tessera_cli engine_tests teapot_bench package)
+  if(targets MATCHES "\n${unwanted}:")
+    message(FATAL_ERROR "a project that embeds Tessera gets its target ${unwanted}")
+  endif()
+endforeach()

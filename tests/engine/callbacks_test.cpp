@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <memory>
 
 #include "tests/engine/api_random_frame.h"
 
@@ -93,6 +94,40 @@ TEST(Progress, MayCancelAtAnyCallAndTheFrameMayBeFinishedAfterAll) {
     }
   });
   EXPECT_GE(cancelled, 2);
+}
+
+// Wherever the threads happen to be.
+TEST(Progress, MayCancelWhileTwoThreadsWork) {
+  Renderer plain({.threads = 1});
+  FrameBuffer fresh(scene().format);
+  const Fingerprint expected = finished(plain, fresh);
+  int cancelled = 0;
+  for (int round = 0; round < 20; ++round) {
+    bool armed = true;
+    Renderer renderer({.threads = 2, .tile_size = 32, .progress = [&](double done) { return !armed || done < round / 20.0; }});
+    const std::size_t size = FrameBuffer::memory_bytes(scene().format);
+    std::vector<std::byte> memory(size + 64);
+    void* at = memory.data();
+    std::size_t space = memory.size();
+    std::align(64, size, at, space);
+    FrameBuffer own(scene().format), lent(scene().format, {static_cast<std::byte*>(at), size});
+    for (FrameBuffer* buffer : {&own, &lent}) {
+      armed = true;
+      Frame frame(*buffer);
+      scene().record(frame);
+      try {
+        renderer.finish(frame);
+      } catch (const Cancelled&) {
+        ++cancelled;
+        color_words(*buffer);  // readable
+      }
+      armed = false;
+      if (frame.draw_count() == 0) scene().record(frame);
+      renderer.finish(frame);
+      EXPECT_EQ(fingerprint(*buffer), expected) << "round " << round;
+    }
+  }
+  EXPECT_EQ(cancelled, 40) << "the last call says 1";
 }
 
 TEST(Progress, AnExceptionOfTheCallersComesBackToTheCaller) {

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/scene/builtin_mesh.h"
 #include "tests/engine/api_random_frame.h"
@@ -91,6 +93,30 @@ TEST(Capture, ChangesNoBitOfThePictureAndHoldsForOneFrame) {
   with.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   renderer.finish(with);
   EXPECT_EQ(pixels.objects, first.objects) << "not asked for again";
+}
+
+// Neither how pixels are stored nor when they are shaded has a say in which triangle is seen.
+TEST(Capture, IsTheSameForIndicesAndForShadingAtOnce) {
+  const RandomFrame scene(kFormat, 400);
+  FrameBufferFormat indices = kFormat;
+  indices.color_mode = ColorMode::index;
+  indices.color_bits = 4;
+  std::optional<Pixels> first;
+  for (const FrameBufferFormat& format : {kFormat, indices})
+    for (const bool defer : {true, false}) {
+      Renderer renderer({.threads = 2, .defer_shading = defer});
+      FrameBuffer buffer(format);
+      Frame frame(buffer);
+      scene.record(frame);
+      Pixels pixels(buffer);
+      frame.capture(pixels.all());
+      renderer.finish(frame);
+      if (!first) first = pixels;
+      EXPECT_EQ(pixels.objects, first->objects);
+      EXPECT_EQ(pixels.primitives, first->primitives);
+      EXPECT_EQ(pixels.normals, first->normals);
+      EXPECT_GT(std::count(pixels.objects.begin(), pixels.objects.end(), 0u), 1000);
+    }
 }
 
 TEST(Capture, NormalsAreThoseOfASphere) {

@@ -75,6 +75,11 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
     if (stencil) once.clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
     plain.finish(once);
     const Fingerprint expected = fingerprint(reference);
+    std::vector<std::uint32_t> objects(pixel_count(reference)), expected_objects(objects.size());
+    std::vector<float> normals(3 * objects.size());
+    scene.record(once);
+    once.capture({.objects = expected_objects});
+    plain.finish(once);
     std::optional<Renderer> renderer;
     std::optional<FrameBuffer> buffer;
     std::optional<Frame> frame;
@@ -85,7 +90,10 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
       renderer.emplace(RendererOptions{.threads = 1, .count_fragments = stencil, .log = [](LogLevel, std::string_view) {}});
       frame.emplace(*buffer);
       scene.record(*frame);
-      if (stencil) frame->clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
+      if (stencil) {
+        frame->clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
+        frame->capture({.objects = objects, .normals = normals});
+      }
     };
     start();
     const int allocations = fail_every_allocation([&] { renderer->finish(*frame); },
@@ -93,6 +101,9 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
                                                     EXPECT_GT(frame->draw_count(), 0u) << "still recorded";
                                                     renderer->finish(*frame);
                                                     EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
+                                                    if (stencil) {
+                                                      EXPECT_EQ(objects, expected_objects) << "asked for before, and still";
+                                                    }
                                                     start();
                                                   });
     EXPECT_GT(allocations, 20);

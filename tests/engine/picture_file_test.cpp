@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "engine/imageio/picture.h"
+#include "engine/import/child_process.h"
 
 namespace tessera {
 namespace {
@@ -100,6 +101,23 @@ TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
     fs::create_symlink("/dev/full", folder_ / "full.ppm");
     EXPECT_NE(message_of(picture, path("full.ppm")).find("No space left"), std::string::npos);
   }
+}
+
+// As an ordinary user: root may write everywhere.
+TEST_F(PictureFile, AReadOnlyFolderIsAnErrorAndLosesNothing) {
+  write_picture(two_pixels(), path("old.ppm"));
+  const std::string before = content(path("old.ppm"));
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec);
+  const std::string said = run_in_child("writing", {}, [&] {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) return std::string("cannot become nobody");
+    return message_of(Picture(3, 3), path("new.ppm")) + "\n" + message_of(Picture(3, 3), path("old.ppm"));
+  });
+  fs::permissions(folder_, fs::perms::owner_all);
+  const std::string first = said.substr(0, said.find('\n'));
+  EXPECT_TRUE(first.find("new.ppm") != std::string::npos && first.find("Permission denied") != std::string::npos) << said;
+  EXPECT_TRUE(said.find("old.ppm") != std::string::npos) << said;
+  EXPECT_EQ(content(path("old.ppm")), before);
+  EXPECT_EQ(files_in_folder(), 1u);
 }
 
 }  // namespace
