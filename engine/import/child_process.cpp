@@ -2,10 +2,12 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -19,8 +21,11 @@
 namespace tessera {
 namespace {
 
-// The first byte that a child sends.
-constexpr char kResult = 'r', kError = 'e', kNoMemory = 'm';
+// What a child sends first.
+struct Header {
+  enum Kind : std::uint64_t { result, error, no_memory } kind;
+  std::uint64_t bytes;  // that follow
+};
 
 void write_all(int to, const char* bytes, std::size_t count) {
   while (count > 0) {
@@ -46,80 +51,114 @@ void write_all(int to, const char* bytes, std::size_t count) {
   const rlimit memory{limits.memory_bytes, limits.memory_bytes};
   ::setrlimit(RLIMIT_AS, &memory);
 #endif
+  const auto send = [&](Header::Kind kind, std::string_view text) {
+    const Header header{kind, text.size()};
+    write_all(to, reinterpret_cast<const char*>(&header), sizeof header);
+    write_all(to, text.data(), text.size());
+  };
   try {
-    const std::string result = work();
-    write_all(to, &kResult, 1);
-    write_all(to, result.data(), result.size());
+    send(Header::result, work());
   } catch (const std::bad_alloc&) {
-    write_all(to, &kNoMemory, 1);
+    send(Header::no_memory, {});
   } catch (const std::exception& error) {
-    write_all(to, &kError, 1);
-    write_all(to, error.what(), std::strlen(error.what()));
+    send(Header::error, error.what());
   } catch (...) {
-    write_all(to, &kError, 1);
+    send(Header::error, "an exception of no known kind");
   }
   ::_exit(0);
 }
 
-// Until the child closes its end; false: it took too long.
-bool read_all(int from, std::chrono::milliseconds time, std::string& bytes) {
-  const auto end = std::chrono::steady_clock::now() + time;
-  char block[1 << 16];
-  for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) return false;
+using Clock = std::chrono::steady_clock;
+enum class Read { all, ended, late };
+
+Read read_all(int from, Clock::time_point end, char* to, std::size_t count) {
+  while (count > 0) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0) return Read::late;
     pollfd waiting{from, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, static_cast<int>(left.count()));
     if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return false;
-    const ssize_t count = ::read(from, block, sizeof block);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return true;
-    bytes.append(block, static_cast<std::size_t>(count));
+    if (ready <= 0) return Read::late;
+    const ssize_t taken = ::read(from, to, count);
+    if (taken < 0 && errno == EINTR) continue;
+    if (taken <= 0) return Read::ended;
+    to += taken;
+    count -= static_cast<std::size_t>(taken);
   }
+  return Read::all;
 }
 
 std::string mebibytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
+
+// A pipe whose ends are none of the standard streams, even where those are closed.
+bool make_pipe(int (&ends)[2]) {
+  int low[2];
+  if (::pipe2(low, O_CLOEXEC) != 0) return false;
+  for (int k = 0; k < 2; ++k) ends[k] = ::fcntl(low[k], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int reason = errno;
+  ::close(low[0]), ::close(low[1]);
+  if (ends[0] >= 0 && ends[1] >= 0) return true;
+  for (const int end : ends)
+    if (end >= 0) ::close(end);
+  errno = reason;
+  return false;
+}
+
+// A child that is no longer needed ends now, and leaves nothing behind.
+class Child {
+ public:
+  explicit Child(pid_t id, int from) : id_(id), from_(from) {}
+  ~Child() {
+    if (id_ > 0) ::kill(id_, SIGKILL), wait();
+    ::close(from_);
+  }
+  int wait() {
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = 0;
+    return status;
+  }
+
+ private:
+  pid_t id_;
+  int from_;
+};
 
 }  // namespace
 
 std::string run_in_child(const std::string& what, const ChildLimits& limits, const std::function<std::string()>& work) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(what + ": cannot make a pipe to a process of its own: " + std::strerror(errno));
+  if (!make_pipe(ends)) throw Error(what + ": cannot make a pipe to a process of its own: " + std::strerror(errno));
   std::fflush(nullptr);
-  const pid_t child = ::fork();
-  if (child < 0) {
-    const int reason = errno;
-    ::close(ends[0]), ::close(ends[1]);
-    throw Error(what + ": cannot start a process of its own: " + std::strerror(reason));
-  }
-  if (child == 0) {
+  const pid_t id = ::fork();
+  if (id == 0) {
     ::close(ends[0]);
     be_child(ends[1], limits, work);
   }
+  const int reason = errno;
   ::close(ends[1]);
+  Child child(id, ends[0]);
+  if (id < 0) throw Error(what + ": cannot start a process of its own: " + std::strerror(reason));
+
+  const Clock::time_point end = Clock::now() + limits.time;
+  Header header{};
   std::string bytes;
-  bool in_time = false;
-  std::exception_ptr failure;
-  try {
-    in_time = read_all(ends[0], limits.time, bytes);
-  } catch (...) {
-    failure = std::current_exception();
+  Read read = read_all(ends[0], end, reinterpret_cast<char*>(&header), sizeof header);
+  if (read == Read::all) {
+    if (header.bytes > limits.result_bytes) throw Error(what + " gives " + mebibytes(header.bytes) + ", at most " + mebibytes(limits.result_bytes) + " are taken");
+    bytes.resize(header.bytes);
+    read = read_all(ends[0], end, bytes.data(), bytes.size());
   }
-  ::close(ends[0]);
-  if (!in_time) ::kill(child, SIGKILL);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  if (read == Read::late) throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) + " seconds; given up");
+  if (read == Read::ended) {
+    const int status = child.wait(), signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (signal == SIGINT) throw Cancelled(what + " was interrupted");
+    if (signal == SIGXCPU || signal == SIGKILL) throw Error(what + " took too much time or memory; given up");
+    throw Error(what + " broke down: the file is damaged, or of a kind that its reader cannot stand");
   }
-  if (failure) std::rethrow_exception(failure);
-  if (!in_time) throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) + " seconds; given up");
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) throw Cancelled(what + " was interrupted");
-  const char kind = bytes.empty() ? '\0' : bytes.front();
-  if (kind == kNoMemory) throw Error(what + " takes more than " + mebibytes(limits.memory_bytes) + " of memory; given up");
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) throw Error(what + " took too much time; given up");
-  if (!WIFEXITED(status) || kind == '\0') throw Error(what + " broke down: the file is damaged, or of a kind that its reader cannot stand");
-  if (kind == kError) throw Error(bytes.size() > 1 ? bytes.substr(1) : what + " failed for no known reason");
-  bytes.erase(0, 1);
+  if (header.kind == Header::no_memory) throw Error(what + " takes more than " + mebibytes(limits.memory_bytes) + " of memory; given up");
+  if (header.kind == Header::error) throw Error(bytes);
   return bytes;
 }
 

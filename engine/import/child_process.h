@@ -11,6 +11,7 @@ namespace tessera {
 struct ChildLimits {
   std::chrono::milliseconds time{10000};
   std::size_t memory_bytes = std::size_t{1} << 30;  ///< address space of the child
+  std::size_t result_bytes = std::size_t{1} << 28;  ///< what it may return
 };
 
 /// Runs work() in a child and returns what it returned there. @throws Error with the message of the Error that it threw there,

@@ -175,7 +175,7 @@ int answer(const Work& work, tessera_import_take_function* take, void* user, cha
     take(user, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     return 0;
   } catch (const std::bad_alloc&) {
-    throw;  // the child tells it apart
+    return 2;
   } catch (const std::exception& error) {
     std::snprintf(message, message_size, "%s", error.what());
     return 1;

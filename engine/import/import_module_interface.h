@@ -11,7 +11,7 @@ extern "C" {
 /* Takes bytes; called once. */
 typedef void tessera_import_take_function(void* user, const unsigned char* bytes, size_t count);
 
-/* Each function returns 0, or 1 and a reason in `message` (cut to message_size, always ended). */
+/* Each function returns 0, or 1 and a reason in `message` (cut to message_size, always ended), or 2: there is not enough memory. */
 
 /* Reads a model file; the bytes are those of model_bytes.h. */
 typedef int tessera_import_function(const char* path, tessera_import_take_function* take, void* user, char* message, size_t message_size);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
 #include <string>
 
 #include "engine/tessera/tessera.hpp"
@@ -16,14 +17,16 @@ void* load_module(const char* file_name, const std::string& wanted_for, const ch
 /// @throws Error for a module of another version.
 void* function_of(void* module, const char* file_name, const char* name);
 
-/// Functions of modules hand out bytes by take(user, bytes, count), and return 0, or 1 and a reason.
-/// Runs call(take, user, message, message size) and returns what it took. @throws Error with the reason, in one line.
+/// Functions of modules hand out bytes by take(user, bytes, count), and return 0, or 1 and a reason, or 2: not enough memory.
+/// Runs call(take, user, message, message size) and returns what it took. @throws Error with the reason, in one line; std::bad_alloc.
 template <class Call>
 std::string taken(const Call& call) {
   std::string bytes;
   const auto take = [](void* user, const unsigned char* from, std::size_t count) { static_cast<std::string*>(user)->append(reinterpret_cast<const char*>(from), count); };
   char message[1024] = "";
-  if (call(+take, static_cast<void*>(&bytes), message, sizeof message) == 0) return bytes;
+  const int result = call(+take, static_cast<void*>(&bytes), message, sizeof message);
+  if (result == 0) return bytes;
+  if (result == 2) throw std::bad_alloc();
   std::string reason = message;
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   throw Error(reason);

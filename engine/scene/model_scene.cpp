@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "engine/import/model_normals.h"
 #include "shading/trigonometry.h"
@@ -122,7 +123,7 @@ Scene model_scene(Model model, const std::string& name, int width, int height) {
   if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
   wind_by_normals(model.mesh);  // two-sided lighting goes by the winding
   for (std::size_t part = 0; part < model.parts.size(); ++part) {
-    scene.meshes.push_back(model.parts.size() > 1 ? part_mesh(model, part) : model.mesh);
+    scene.meshes.push_back(model.parts.size() > 1 ? part_mesh(model, part) : std::move(model.mesh));
     DrawCommand draw{.mesh = part};
     draw.state.material = model.parts[part].material;
     if (model.parts[part].uses_colors) draw.state.color_material = ColorMaterial::ambient_and_diffuse;
