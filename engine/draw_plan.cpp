@@ -136,6 +136,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     }
     note("unlit vertex colours");
   } else {
+    if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none) note("the mesh's colours are not used: it is lit, and color_material is none");
     plan_lights(plan, draw, reasons);
     const bool constant = plan.front.terms.empty() && !plan.front.tracked && (!plan.two_sided || (plan.back.terms.empty() && plan.back.base == plan.front.base));
     if (constant) {

@@ -101,7 +101,10 @@ void change(FrameRecording& recording, const char* function, const Change& edit)
 
 }  // namespace
 
-Frame::Frame(FrameBuffer& target) : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) { recording_->target = target.state_.get(); }
+Frame::Frame(FrameBuffer& target) : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) {
+  if (!target.state_) throw Error("Frame: the frame buffer was moved from");
+  recording_->target = target.state_.get();
+}
 Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
@@ -176,7 +179,7 @@ std::size_t Frame::draw_count() const noexcept { return recording_->draws.size()
 
 std::string Frame::explain(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
-    throw Error("Frame::explain: draw " + std::to_string(draw_index) + ", the frame has " + std::to_string(recording_->draws.size()));
+    throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " + std::to_string(recording_->draws.size()) + " draws, counted from 0");
   return with_memory("Frame::explain", [&] {
     std::string reasons;
     plan_draw(recording_->draws[draw_index], *recording_->target, false, &reasons);

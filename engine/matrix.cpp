@@ -80,6 +80,10 @@ void require_depths(const char* function, double near, double far, bool infinite
                 (infinite_allowed ? " (far may be infinity)" : ""));
 }
 
+void require_positive_depths(const char* function, double near, double far) {
+  if (!(near > 0) || !(far > 0)) throw Error(std::string(function) + ": near is " + std::to_string(near) + " and far is " + std::to_string(far) + ", both must be above 0");
+}
+
 // Finite numbers can be so far apart, or so near, that the matrix is not.
 Matrix finite(const char* function, const Matrix& matrix) {
   for (const double element : matrix.m)
@@ -94,7 +98,7 @@ Matrix frustum(double left, double right, double bottom, double top, double near
   require_span("frustum", "left", left, "right", right);
   require_span("frustum", "bottom", bottom, "top", top);
   require_depths("frustum", near, far, true);
-  if (!(near > 0) || !(far > 0)) throw Error("frustum: near is " + std::to_string(near) + " and far is " + std::to_string(far) + ", both must be above 0");
+  require_positive_depths("frustum", near, far);
   double a, b;
   if (std::isinf(far)) {
     a = reversed ? 0 : -1;
@@ -115,6 +119,8 @@ Matrix frustum(double left, double right, double bottom, double top, double near
 Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed) {
   if (!(fovy_degrees > 0 && fovy_degrees < 180)) throw Error("perspective: fovy is " + std::to_string(fovy_degrees) + " degrees, it must be above 0 and below 180");
   if (!(aspect > 0) || !std::isfinite(aspect)) throw Error("perspective: aspect is " + std::to_string(aspect) + ", it must be finite and above 0");
+  require_depths("perspective", near, far, true);
+  require_positive_depths("perspective", near, far);
   const auto [s, c] = sin_cos_degrees(fovy_degrees / 2);
   const double half_height = near * (s / c), half_width = half_height * aspect;
   return frustum(-half_width, half_width, -half_height, half_height, near, far, reversed);

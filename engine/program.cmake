@@ -18,21 +18,22 @@ add_custom_command(OUTPUT ${tessera_embedded}
   COMMENT "Embedding the teapot and the built-in scene" VERBATIM)
 
 file(GLOB tessera_scene_sources CONFIGURE_DEPENDS engine/scene/*.cpp engine/import/*.cpp engine/imageio/*.cpp)
-set(tessera_import_sources engine/import/import_module.cpp engine/import/assimp_material.cpp engine/import/assimp_view.cpp)
+set(tessera_import_sources engine/import/import_module.cpp engine/import/assimp_material.cpp engine/import/assimp_view.cpp engine/import/gltf_view.cpp)
 list(TRANSFORM tessera_import_sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 list(REMOVE_ITEM tessera_scene_sources ${tessera_import_sources} ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/indexed_png.cpp)
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
+target_compile_definitions(tessera_scene PRIVATE TESSERA_SOVERSION="${tessera_soversion}")  # of the modules
 target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(tessera_scene PRIVATE tessera_options nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader ${CMAKE_DL_LIBS})
 
 add_library(tessera_imageio SHARED engine/imageio/module.cpp engine/imageio/indexed_png.cpp)
 target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO PNG::PNG)
-set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${tessera_soversion})
 
 find_package(assimp CONFIG REQUIRED)
 add_library(tessera_import SHARED ${tessera_import_sources} engine/import/model_bytes.cpp engine/import/model_normals.cpp)
-target_link_libraries(tessera_import PRIVATE tessera_options tessera assimp::assimp)
-set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+target_link_libraries(tessera_import PRIVATE tessera_options tessera assimp::assimp nlohmann_json::nlohmann_json)
+set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${tessera_soversion})
 
 # The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS engine/cli/*.cpp)

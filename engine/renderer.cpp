@@ -69,6 +69,11 @@ const RendererOptions& Renderer::options() const noexcept { return state_->optio
 
 namespace {
 
+FrameRecording& require_recording(const std::unique_ptr<FrameRecording>& recording) {
+  if (!recording) throw Error("Renderer::finish: the frame was moved from");
+  return *recording;
+}
+
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
   return with_memory("Renderer::finish", [&] {
     const FrameStats stats = state.run(recording, image);
@@ -80,11 +85,12 @@ FrameStats finish_frame(RendererState& state, FrameRecording& recording, const I
 
 }  // namespace
 
-FrameStats Renderer::finish(Frame& frame) { return finish_frame(*state_, *frame.recording_, nullptr); }
+FrameStats Renderer::finish(Frame& frame) { return finish_frame(*state_, require_recording(frame.recording_), nullptr); }
 
 FrameStats Renderer::finish(Frame& frame, const ImageTarget& target) {
-  check_image_target(target, frame.recording_->target->format);
-  return finish_frame(*state_, *frame.recording_, &target);
+  FrameRecording& recording = require_recording(frame.recording_);
+  check_image_target(target, recording.target->format);
+  return finish_frame(*state_, recording, &target);
 }
 
 }  // namespace tessera

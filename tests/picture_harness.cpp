@@ -76,7 +76,7 @@ ThreeWayReport compare_three_ways(const std::string& path, const RendererOptions
 
 std::string write_pictures(const ThreeWayReport& report) {
   const char* const named = std::getenv("TESSERA_PICTURES");
-  const std::filesystem::path folder = named != nullptr && *named != '\0' ? named : "pictures";
+  const std::filesystem::path folder = named != nullptr && *named != '\0' ? std::filesystem::path(named) : std::filesystem::temp_directory_path() / "tessera_pictures";
   std::filesystem::create_directories(folder);
   const auto write = [&](const char* what, const Rgb& rgb) {
     reference::write_ppm((folder / (report.name + "_" + what + ".ppm")).string(), rgb, report.width_px, report.height_px);

@@ -45,7 +45,7 @@ struct ThreeWayReport {
 ThreeWayReport compare_three_ways(const std::string& path, const RendererOptions& options = {});
 
 /// Writes the pictures and their differences (16 times as strong) into the folder that the environment variable
-/// TESSERA_PICTURES names, `pictures` in the working directory by default.
+/// TESSERA_PICTURES names, `tessera_pictures` among the temporary files by default.
 /// @return the folder
 std::string write_pictures(const ThreeWayReport& report);
 

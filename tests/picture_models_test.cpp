@@ -69,7 +69,7 @@ TEST_P(PictureModel, IsTheSameByEngineReferenceAndMesa) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tessera_models_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const std::string path = (folder / (test_name({GetParam(), 0}) + ".json")).string();
-  std::ofstream(path) << json_of(model_scene(import_model(GetParam()), GetParam(), 160, 120));
+  std::ofstream(path) << json_of(model_scene(import_model(GetParam(), ModelUse::display), GetParam(), 160, 120));
   const ThreeWayReport report = compare_three_ways(path);
   std::filesystem::remove_all(folder);
   EXPECT_TRUE(report.mesa_cannot.empty()) << report.mesa_cannot;

@@ -1,13 +1,10 @@
 // The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference, 130 it was
 // interrupted; then one line on stderr says why.
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +13,8 @@
 
 #include "engine/cli/command_docs.h"
 #include "engine/cli/info_command.h"
+#include "engine/cli/parse_overrides.h"
+#include "engine/cli/printable.h"
 #include "engine/cli/render_command.h"
 #include "engine/scene/suggest.h"
 #include "engine/tessera/tessera.hpp"
@@ -60,53 +59,6 @@ CLI::Validator integer_from(int least, int most) {
     return "found \"" + value + "\", expected an integer from " + std::to_string(least) + " to " + std::to_string(most);
   };
   return {check, ""};
-}
-
-// "640x480"
-bool parse_size(const std::string& text, SceneOverrides& overrides) {
-  const std::size_t cross = text.find('x');
-  if (cross == std::string::npos) return false;
-  const auto parse = [](const std::string& digits, std::optional<int>& size) {
-    const bool is_number = !digits.empty() && digits.size() <= 5 && digits.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number) size = std::stoi(digits);
-    return is_number && *size >= 1 && *size <= kMaxFrameBufferSize;
-  };
-  return parse(text.substr(0, cross), overrides.width) && parse(text.substr(cross + 1), overrides.height);
-}
-
-// Numbers with commas between: at least `least`, at most `most` of them.
-std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most) {
-  std::vector<double> numbers;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-  }
-  if (text.ends_with(',')) return {};
-  return numbers.size() >= least && numbers.size() <= most ? numbers : std::vector<double>{};
-}
-
-bool parse_camera(const std::string& text, SceneOverrides& overrides) {
-  const std::vector<double> n = numbers_in(text, 6, 7);
-  if (n.empty()) return false;
-  const double distance = std::hypot(n[0] - n[3], n[1] - n[4], n[2] - n[5]);
-  Lens lens;
-  if (n.size() == 7) lens.fovy = n[6];
-  lens.near = distance / 100;
-  lens.far = distance * 100;
-  if (!(lens.fovy > 0 && lens.fovy < 180) || distance == 0) return false;
-  const bool along_y = n[0] == n[3] && n[2] == n[5];
-  overrides.camera = SceneCamera{.view = look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, along_y ? Vec3{0, 0, -1} : Vec3{0, 1, 0}), .projection = lens};
-  return true;
-}
-
-bool parse_light(const std::string& text, SceneOverrides& overrides) {
-  const std::vector<double> n = numbers_in(text, 3, 4);
-  if (n.empty()) return false;
-  overrides.lights.push_back(Light{.position = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]), n.size() == 4 ? static_cast<float>(n[3]) : 1.0f}});
-  return true;
 }
 
 CLI::App* add_render(CLI::App& program, RenderRequest& request) {
@@ -227,7 +179,7 @@ std::string unexpected_argument(const CLI::App& program) {
 
 int usage_error(const std::string& message, const CLI::App& program) {
   const bool in_command = !program.get_subcommands().empty();
-  std::cerr << "tessera: error: " << message << " (see tessera " << (in_command ? program.get_subcommands().front()->get_name() + " " : "") << "--help)\n";
+  std::cerr << "tessera: error: " << printable(message) << " (see tessera " << (in_command ? program.get_subcommands().front()->get_name() + " " : "") << "--help)\n";
   return kBadUsage;
 }
 
@@ -306,7 +258,7 @@ int main(int argument_count, char** arguments) {
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera: error: out of memory\n";
   } catch (const std::exception& error) {
-    std::cerr << "tessera: error: " << error.what() << "\n";
+    std::cerr << "tessera: error: " << tessera::cli::printable(error.what()) << "\n";
   }
   return tessera::cli::kFailed;
 }

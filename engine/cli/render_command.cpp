@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/cli/compare.h"
+#include "engine/cli/printable.h"
 #include "engine/import/model.h"
 #include "engine/parallel.h"
 #include "engine/scene/file_ending.h"
@@ -27,14 +28,15 @@ const char* buffer_name(Buffer buffer) { return buffer == Buffer::color ? "color
 class Input {
  public:
   explicit Input(const RenderRequest& request) : overrides_(request.overrides) {
+    const auto go_on = [] { return !Interrupt::pressed(); };
     if (request.input.empty()) {
       scene_ = builtin_scene();
     } else if (lower_case_ending(request.input) == ".json") {
-      file_.emplace(request.input);
+      file_.emplace(request.input, go_on);
       scene_ = file_->at(0);
     } else {
       const FrameBufferFormat standard;
-      scene_ = model_scene(import_model(request.input), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
+      scene_ = model_scene(import_model(request.input, ModelUse::display, go_on), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
     }
     apply(overrides_, scene_);
   }
@@ -129,7 +131,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 void print_log(LogLevel least, LogLevel level, std::string_view message) {
   constexpr const char* kNames[] = {"debug", "info", "warning"};
-  if (level >= least) std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << message << "\n";
+  if (level >= least) std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << printable(message) << "\n";
 }
 
 // In a rendering of its own, which nobody times.
@@ -181,7 +183,7 @@ int render(RenderRequest request) {
   const auto start = std::chrono::steady_clock::now();
   const Interrupt interrupt;
   Input input(request);
-  for (const std::string& warning : input.scene().warnings) std::cerr << "tessera: warning: " << warning << "\n";
+  for (const std::string& warning : input.scene().warnings) std::cerr << "tessera: warning: " << printable(warning) << "\n";
   RunStats run;
   run.load_ms = milliseconds_since(start);
 
@@ -234,7 +236,7 @@ int render(RenderRequest request) {
     if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < 3; ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
-    if (request.output.path.empty()) std::cerr << "tessera: wrote " << file << "\n";
+    if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
     if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
     if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);
   }

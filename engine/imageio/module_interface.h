@@ -36,7 +36,7 @@ typedef int tessera_imageio_formats_function(tessera_imageio_take_function* take
 #define TESSERA_IMAGEIO_ENCODE_INDEXED_NAME "tessera_imageio_encode_indexed_1"
 #define TESSERA_IMAGEIO_DECODE_NAME "tessera_imageio_decode_1"
 #define TESSERA_IMAGEIO_FORMATS_NAME "tessera_imageio_formats_1"
-#define TESSERA_IMAGEIO_FILE_NAME "libtessera_imageio.so.0"
+#define TESSERA_IMAGEIO_FILE_NAME "libtessera_imageio.so." TESSERA_SOVERSION
 
 #ifdef __cplusplus
 }

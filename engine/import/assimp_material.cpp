@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <string_view>
 
 #include <assimp/GltfMaterial.h>
 
@@ -28,12 +30,17 @@ std::optional<float> number(const aiMaterial& from, const char* key, unsigned ty
 bool is_placeholder(const Color& c) { return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f); }
 Color scaled(const Color& c, float by) { return {c.r * by, c.g * by, c.b * by, 1}; }
 
+Color emission(const aiMaterial& from) {
+  const bool has_picture = from.GetTextureCount(aiTextureType_EMISSIVE) > 0 || from.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+  return has_picture ? Material{}.emission : color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission);
+}
+
 Material phong_material(const aiMaterial& from, int model) {
   Material material;
   material.diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(material.diffuse);
   const Color ambient = color(from, AI_MATKEY_COLOR_AMBIENT).value_or(Color{0, 0, 0, 1});
   material.ambient = is_placeholder(ambient) ? material.diffuse : ambient;
-  material.emission = color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(material.emission);
+  material.emission = emission(from);
   const float shininess = number(from, AI_MATKEY_SHININESS).value_or(0);
   const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud && model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
   if (has_highlight) {
@@ -55,14 +62,14 @@ Material physical_material(const aiMaterial& from, const Color& base) {
   const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)), rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
   const auto mirrored = [&](float b) { return (kDielectric * (1 - metal) + b * metal) * spread(rough); };
   return {.ambient = base, .diffuse = base, .specular = {mirrored(base.r), mirrored(base.g), mirrored(base.b), 1},
-          .emission = color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission), .shininess = blinn_exponent(rough)};
+          .emission = emission(from), .shininess = blinn_exponent(rough)};
 }
 
 Material glossy_material(const aiMaterial& from, float glossiness) {
   const float rough = 1 - std::clamp(glossiness, 0.0f, 1.0f);
   const Color diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(Color{1, 1, 1, 1});
   return {.ambient = diffuse, .diffuse = diffuse, .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}), spread(rough)),
-          .emission = color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission), .shininess = blinn_exponent(rough)};
+          .emission = emission(from), .shininess = blinn_exponent(rough)};
 }
 
 Material unlit_material(const Color& c) {
@@ -82,6 +89,15 @@ Material material_of(const aiMaterial& from) {
   return phong_material(from, model);
 }
 
-bool wants_texture(const aiMaterial& from) { return from.GetTextureCount(aiTextureType_DIFFUSE) > 0 || from.GetTextureCount(aiTextureType_BASE_COLOR) > 0; }
+bool wants_texture(const aiMaterial& from) {
+  constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR, aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
+  return std::any_of(std::begin(kColors), std::end(kColors), [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
+}
+
+bool wants_transparency(const aiMaterial& from) {
+  aiString mode;
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS) return std::string_view(mode.C_Str()) != "OPAQUE";
+  return number(from, AI_MATKEY_OPACITY).value_or(1) < 1;
+}
 
 }  // namespace tessera

@@ -3,59 +3,43 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include <assimp/matrix3x3.h>
-#include <assimp/version.h>
 
+#include "engine/import/spot_ramp.h"
 #include "shading/trigonometry.h"
 
 namespace tessera {
 namespace {
 
-constexpr double kStandardFovy = 45;
+constexpr double kStandardFovy = 45;  // degrees
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-// Until 5.2, assimp multiplied the vertical angle of glTF by the aspect.
-bool multiplies_angles() { return aiGetVersionMajor() < 5 || (aiGetVersionMajor() == 5 && aiGetVersionMinor() < 3); }
 
 double tangent(double degrees) {
   const SinCos at = sin_cos_degrees(degrees);
   return at.sine / at.cosine;
 }
 
-// mHorizontalFOV is the whole angle in radians. Without an aspect it is the horizontal one, but for glTF. False: it is no angle.
-bool set_angle(const aiCamera& camera, const FormatFacts& format, ModelCamera& to) {
-  const double aspect = camera.mAspect > 0 ? camera.mAspect : 0;
-  if (format.is_collada && aspect == 0) {  // the file gives no angle, and what is there is none
+// mHorizontalFOV is the whole angle in radians, though its comment says half of it. False: it is no angle.
+bool set_angle(const aiCamera& camera, bool is_collada, ModelCamera& to) {
+  const bool has_aspect = camera.mAspect > 0;
+  if (is_collada && !has_aspect) {  // the file gives no angle, and what is there is none
     to.half_height = tangent(kStandardFovy / 2);
     return true;
   }
-  const bool is_multiple = format.is_gltf && aspect > 0 && multiplies_angles();
-  const double degrees = camera.mHorizontalFOV * kDegrees / (is_multiple ? aspect : 1);
+  const double degrees = camera.mHorizontalFOV * kDegrees;
   if (!(degrees > 0.01 && degrees < 179)) return false;
-  if (is_multiple || (format.is_gltf && aspect == 0))
-    to.half_height = tangent(degrees / 2);
-  else if (aspect > 0)
-    to.half_height = tangent(degrees / 2) / aspect;
-  else
-    to.half_width = tangent(degrees / 2);
+  to.half_width = tangent(degrees / 2);
+  if (has_aspect) to.half_height = std::exchange(to.half_width, 0) / camera.mAspect;
   return true;
 }
 
-// (cos t - cos outer) / (cos inner - cos outer), squared, is 1/2 at this cosine.
-float exponent_of_ramp(double inner, double outer) {
-  const double cosine = std::cos(outer) + std::sqrt(0.5) * (std::cos(inner) - std::cos(outer));
-  if (!(cosine > 0 && cosine < 1)) return 0;
-  return static_cast<float>(std::min(std::log(0.5) / std::log(cosine), 16384.0));
-}
-
-void set_attenuation(const aiLight& light, const FormatFacts& format, Light& to) {
-  const float l = light.mAttenuationLinear, q = light.mAttenuationQuadratic;
-  // Only in physical units may a light be brighter than its colour.
-  const float c = format.is_gltf ? light.mAttenuationConstant : std::max(light.mAttenuationConstant, 1.0f);
-  const bool is_said = format.is_gltf || format.is_collada || !(l == 1 && q == 0);  // a linear 1 alone is what assimp starts from
-  const bool is_sane = c >= 0 && l >= 0 && q >= 0 && std::isfinite(c + l + q) && c + l + q > 0;
-  if (!is_said || !is_sane) return;
+void set_attenuation(const aiLight& light, bool is_collada, Light& to) {
+  const float c = std::max(light.mAttenuationConstant, 1.0f), l = light.mAttenuationLinear, q = light.mAttenuationQuadratic;
+  const bool is_said = is_collada || !(l == 1 && q == 0);  // a linear 1 alone is what assimp starts from
+  if (!is_said || !(l >= 0 && q >= 0) || !std::isfinite(c + l + q)) return;
   to.attenuation_constant = c;
   to.attenuation_linear = l;
   to.attenuation_quadratic = q;
@@ -63,15 +47,13 @@ void set_attenuation(const aiLight& light, const FormatFacts& format, Light& to)
 
 }  // namespace
 
-std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& world, const FormatFacts& format) {
-  // For glTF, assimp writes the node's own translation there.
-  const aiVector3D position = format.is_gltf ? aiVector3D() : camera.mPosition;
-  const aiVector3D eye = world * position, target = world * (position + camera.mLookAt), up = aiMatrix3x3(world) * camera.mUp;
+std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& world, bool is_collada) {
+  const aiVector3D eye = world * camera.mPosition, target = world * (camera.mPosition + camera.mLookAt), up = aiMatrix3x3(world) * camera.mUp;
   ModelCamera to{.near = camera.mClipPlaneNear, .far = camera.mClipPlaneFar};
   to.is_orthographic = camera.mOrthographicWidth > 0 && std::isfinite(camera.mOrthographicWidth);
   if (to.is_orthographic)
     (camera.mAspect > 0 ? to.half_height : to.half_width) = camera.mOrthographicWidth / (camera.mAspect > 0 ? camera.mAspect : 1);
-  else if (!set_angle(camera, format, to))
+  else if (!set_angle(camera, is_collada, to))
     return {};
   try {
     to.view = look_at({eye.x, eye.y, eye.z}, {target.x, target.y, target.z}, {up.x, up.y, up.z});
@@ -81,9 +63,9 @@ std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& 
   return to;
 }
 
-void add_light(const aiLight& light, const aiMatrix4x4& world, const FormatFacts& format, Model& model) {
+void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, Model& model) {
   const aiColor3D& given = light.mType == aiLightSource_AMBIENT ? light.mColorAmbient : light.mColorDiffuse;
-  const float unit = format.is_gltf ? 1 / std::numbers::pi_v<float> : 1 / std::max({given.r, given.g, given.b, 1.0f});
+  const float unit = 1 / std::max({given.r, given.g, given.b, 1.0f});
   const Color c{given.r * unit, given.g * unit, given.b * unit, 1};
   if (!std::isfinite(c.r + c.g + c.b) || (c.r <= 0 && c.g <= 0 && c.b <= 0)) return;
   if (light.mType == aiLightSource_AMBIENT) {
@@ -99,14 +81,14 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, const FormatFacts
     case aiLightSource_SPOT: {
       to.spot_direction = {direction.x, direction.y, direction.z};
       // The outer angle of Collada is made up by assimp; its falloff angle is the inner one.
-      const double cutoff = format.is_collada ? light.mAngleInnerCone : light.mAngleOuterCone;
+      const double cutoff = is_collada ? light.mAngleInnerCone : light.mAngleOuterCone;
       to.spot_cutoff = cutoff >= std::numbers::pi ? 180 : static_cast<float>(std::clamp(cutoff * kDegrees, 0.0, 90.0));
-      if (!format.is_collada) to.spot_exponent = exponent_of_ramp(light.mAngleInnerCone, light.mAngleOuterCone);
+      if (!is_collada) to.spot_exponent = exponent_of_ramp(light.mAngleInnerCone, light.mAngleOuterCone);
       [[fallthrough]];
     }
     case aiLightSource_POINT:
       to.position = {position.x, position.y, position.z, 1};
-      set_attenuation(light, format, to);
+      set_attenuation(light, is_collada, to);
       break;
     default: model.warnings.push_back("light \"" + std::string(light.mName.C_Str()) + "\" is neither directional, point, spot nor ambient, and left out"); return;
   }

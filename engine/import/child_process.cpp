@@ -1,11 +1,13 @@
 #include "engine/import/child_process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <string_view>
 
@@ -37,18 +39,27 @@ void write_all(int to, const char* bytes, std::size_t count) {
   }
 }
 
-[[noreturn]] void be_child(int to, const ChildLimits& limits, const std::function<std::string()>& work) {
+// Bytes that this process has mapped: the first number of statm, in pages.
+std::size_t address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+[[noreturn]] void be_child(int to, pid_t parent, const ChildLimits& limits, const std::function<std::string()>& work) {
   // Libraries may print; nobody asked them to.
   if (const int nowhere = ::open("/dev/null", O_RDWR); nowhere >= 0)
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
   if (std::signal(SIGINT, SIG_DFL) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(0);  // it ended before that
   const auto seconds = static_cast<rlim_t>(limits.time.count() / 1000 + 1);
   const rlimit time{seconds, seconds + 1}, no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &no_core);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes
-  const rlimit memory{limits.memory_bytes, limits.memory_bytes};
+  const rlim_t bytes = address_space() + limits.memory_bytes;
+  const rlimit memory{bytes, bytes};
   ::setrlimit(RLIMIT_AS, &memory);
 #endif
   const auto send = [&](Header::Kind kind, std::string_view text) {
@@ -69,16 +80,18 @@ void write_all(int to, const char* bytes, std::size_t count) {
 }
 
 using Clock = std::chrono::steady_clock;
-enum class Read { all, ended, late };
+enum class Read { all, ended, late, unwanted };
 
-Read read_all(int from, Clock::time_point end, char* to, std::size_t count) {
+Read read_all(int from, Clock::time_point end, const std::function<bool()>& go_on, char* to, std::size_t count) {
+  constexpr std::chrono::milliseconds kPause(100);
   while (count > 0) {
+    if (go_on && !go_on()) return Read::unwanted;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) return Read::late;
     pollfd waiting{from, POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, static_cast<int>(left.count()));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return Read::late;
+    const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, kPause).count()));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    if (ready < 0) return Read::ended;
     const ssize_t taken = ::read(from, to, count);
     if (taken < 0 && errno == EINTR) continue;
     if (taken <= 0) return Read::ended;
@@ -96,7 +109,7 @@ bool make_pipe(int (&ends)[2]) {
   if (::pipe2(low, O_CLOEXEC) != 0) return false;
   for (int k = 0; k < 2; ++k) ends[k] = ::fcntl(low[k], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   const int reason = errno;
-  ::close(low[0]), ::close(low[1]);
+  for (const int end : low) ::close(end);
   if (ends[0] >= 0 && ends[1] >= 0) return true;
   for (const int end : ends)
     if (end >= 0) ::close(end);
@@ -109,7 +122,10 @@ class Child {
  public:
   explicit Child(pid_t id, int from) : id_(id), from_(from) {}
   ~Child() {
-    if (id_ > 0) ::kill(id_, SIGKILL), wait();
+    if (id_ > 0) {
+      ::kill(id_, SIGKILL);
+      wait();
+    }
     ::close(from_);
   }
   int wait() {
@@ -131,10 +147,10 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits, con
   int ends[2];
   if (!make_pipe(ends)) throw Error(what + ": cannot make a pipe to a process of its own: " + std::strerror(errno));
   std::fflush(nullptr);
-  const pid_t id = ::fork();
+  const pid_t parent = ::getpid(), id = ::fork();
   if (id == 0) {
     ::close(ends[0]);
-    be_child(ends[1], limits, work);
+    be_child(ends[1], parent, limits, work);
   }
   const int reason = errno;
   ::close(ends[1]);
@@ -144,12 +160,13 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits, con
   const Clock::time_point end = Clock::now() + limits.time;
   Header header{};
   std::string bytes;
-  Read read = read_all(ends[0], end, reinterpret_cast<char*>(&header), sizeof header);
+  Read read = read_all(ends[0], end, limits.go_on, reinterpret_cast<char*>(&header), sizeof header);
   if (read == Read::all) {
     if (header.bytes > limits.result_bytes) throw Error(what + " gives " + mebibytes(header.bytes) + ", at most " + mebibytes(limits.result_bytes) + " are taken");
     bytes.resize(header.bytes);
-    read = read_all(ends[0], end, bytes.data(), bytes.size());
+    read = read_all(ends[0], end, limits.go_on, bytes.data(), bytes.size());
   }
+  if (read == Read::unwanted) throw Cancelled(what + " was interrupted");
   if (read == Read::late) throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) + " seconds; given up");
   if (read == Read::ended) {
     const int status = child.wait(), signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;

@@ -9,6 +9,7 @@
 #include "engine/import/child_process.h"
 #include "engine/import/import_module_interface.h"
 #include "engine/import/model_bytes.h"
+#include "engine/import/model_normals.h"
 #include "engine/import/obj.h"
 #include "engine/scene/file_ending.h"
 #include "engine/scene/loaded_module.h"
@@ -37,13 +38,22 @@ std::string import_by_module(const std::string& path) {
 
 }  // namespace
 
-Model import_model(const std::string& path) {
+Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& go_on) {
   errno = 0;
   std::error_code error;
-  const bool is_folder = fs::is_directory(path, error);
-  if (is_folder || !std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(is_folder ? EISDIR : errno));
-  const std::string name = "reading \"" + path + "\"";
-  return model_from_bytes(run_in_child(name, {}, [&] { return lower_case_ending(path) == ".obj" ? to_bytes(import_obj(path)) : import_by_module(path); }));
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw Error("cannot read \"" + path + "\": " + (error ? error.message() : std::strerror(ENOENT)));
+  if (!fs::is_regular_file(status)) throw Error("cannot read \"" + path + "\": it is " + (fs::is_directory(status) ? "a directory" : "no regular file") + ", expected a model");
+  if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
+  const auto read = [&] {
+    Model model = lower_case_ending(path) == ".obj" ? import_obj(path) : model_from_bytes(import_by_module(path), path);
+    if (use == ModelUse::display) {
+      if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
+      wind_by_normals(model.mesh);
+    }
+    return to_bytes(model);
+  };
+  return model_from_bytes(run_in_child("reading \"" + path + "\"", {.go_on = go_on}, read), path);
 }
 
 std::vector<std::string> model_endings() {

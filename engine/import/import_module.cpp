@@ -1,6 +1,5 @@
 // The module libtessera_import: what sees assimp. It runs in a child process, where it may take what it likes.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -17,6 +16,7 @@
 
 #include "engine/import/assimp_material.h"
 #include "engine/import/assimp_view.h"
+#include "engine/import/gltf_view.h"
 #include "engine/import/import_module_interface.h"
 #include "engine/import/model_bytes.h"
 #include "engine/import/model_normals.h"
@@ -43,23 +43,27 @@ bool gives_colors(const aiMesh& mesh) {
 /// All nodes of a scene, in world space, as one mesh.
 class Converter {
  public:
-  Converter(const aiScene& scene, const FormatFacts& format, bool with_cameras) : scene_(scene), format_(format), with_cameras_(with_cameras) {
-    for (unsigned m = 0; m < scene_.mNumMeshes; ++m) has_colors_ |= gives_colors(*scene_.mMeshes[m]);
+  /// @param with_view  also cameras and lights
+  Converter(const aiScene& scene, bool with_view, bool is_collada)
+      : scene_(scene), with_view_(with_view), is_collada_(is_collada), camera_used_(scene.mNumCameras), light_used_(scene.mNumLights) {
+    for (unsigned m = 0; m < scene_.mNumMeshes; ++m) gives_colors_.push_back(gives_colors(*scene_.mMeshes[m]));
+    has_colors_ = std::find(gives_colors_.begin(), gives_colors_.end(), true) != gives_colors_.end();
     for (unsigned m = 0; m < scene_.mNumMaterials; ++m) materials_.push_back(material_of(*scene_.mMaterials[m]));
   }
 
   Model converted() {
     if (scene_.mRootNode != nullptr) visit(*scene_.mRootNode, aiMatrix4x4(), 0);
-    int textures = 0;
+    int textures = 0, transparent = 0;
     for (const auto& [material, indices] : by_material_) {
       if (indices.empty()) continue;
       add_part(material, indices);
-      textures += material < scene_.mNumMaterials && wants_texture(*scene_.mMaterials[material]) ? 1 : 0;
+      if (material >= scene_.mNumMaterials) continue;
+      textures += wants_texture(*scene_.mMaterials[material]) ? 1 : 0;
+      transparent += wants_transparency(*scene_.mMaterials[material]) ? 1 : 0;
     }
     if (model_.parts.empty()) throw Error(kNoTriangle);
-    // Where glTF gives no normals, faces are flat, by its specification.
-    add_creased_normals(model_.mesh, format_.is_gltf ? 0 : kCreaseDegrees);
     if (textures > 0) model_.warnings.push_back("textures are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
+    if (transparent > 0) model_.warnings.push_back("transparency is not supported: materials with it, " + std::to_string(transparent) + " here, are drawn opaque");
     return std::move(model_);
   }
 
@@ -69,17 +73,30 @@ class Converter {
     const aiMatrix4x4 world = parent * node.mTransformation;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
       if (node.mMeshes[m] >= scene_.mNumMeshes) throw Error("a node names mesh " + std::to_string(node.mMeshes[m]) + " of " + std::to_string(scene_.mNumMeshes));
-      add_mesh(*scene_.mMeshes[node.mMeshes[m]], world);
+      add_mesh(node.mMeshes[m], world);
     }
-    for (unsigned i = 0; i < scene_.mNumCameras && with_cameras_; ++i)
-      if (scene_.mCameras[i]->mName == node.mName)
-        if (auto camera = camera_of(*scene_.mCameras[i], world, format_)) model_.cameras.push_back(*camera);
-    for (unsigned i = 0; i < scene_.mNumLights; ++i)
-      if (scene_.mLights[i]->mName == node.mName) add_light(*scene_.mLights[i], world, format_, model_);
+    if (with_view_) add_view(node, world);
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], world, depth + 1);
   }
 
-  void add_mesh(const aiMesh& mesh, const aiMatrix4x4& world) {
+  // Cameras and lights belong to the nodes of their names; where two nodes share a name, each takes one.
+  void add_view(const aiNode& node, const aiMatrix4x4& world) {
+    for (unsigned i = 0; i < scene_.mNumCameras; ++i)
+      if (!camera_used_[i] && scene_.mCameras[i]->mName == node.mName) {
+        camera_used_[i] = true;
+        if (auto camera = camera_of(*scene_.mCameras[i], world, is_collada_)) model_.cameras.push_back(*camera);
+        break;
+      }
+    for (unsigned i = 0; i < scene_.mNumLights; ++i)
+      if (!light_used_[i] && scene_.mLights[i]->mName == node.mName) {
+        light_used_[i] = true;
+        add_light(*scene_.mLights[i], world, is_collada_, model_);
+        break;
+      }
+  }
+
+  void add_mesh(unsigned number, const aiMatrix4x4& world) {
+    const aiMesh& mesh = *scene_.mMeshes[number];
     if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;
     const auto first = static_cast<std::uint32_t>(model_.mesh.vertex_count());
     aiMatrix3x3 normal_matrix(world);
@@ -91,15 +108,15 @@ class Converter {
       aiVector3D n = mesh.HasNormals() ? normal_matrix * mesh.mNormals[v] : aiVector3D();
       n.NormalizeSafe();
       model_.mesh.normals.insert(model_.mesh.normals.end(), {n.x, n.y, n.z});
-      if (has_colors_) add_color(mesh, v);
+      if (has_colors_) add_color(mesh, gives_colors_[number], v);
     }
     add_triangles(mesh, first, mirrors);
   }
 
   // Colours of vertices are factors of the material's; with them, the colour is all in the vertices.
-  void add_color(const aiMesh& mesh, unsigned vertex) {
+  void add_color(const aiMesh& mesh, bool gives, unsigned vertex) {
     const Color base = mesh.mMaterialIndex < materials_.size() ? materials_[mesh.mMaterialIndex].diffuse : Material{}.diffuse;
-    const aiColor4D c = gives_colors(mesh) ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
+    const aiColor4D c = gives ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
     model_.mesh.colors.insert(model_.mesh.colors.end(), {c.r * base.r, c.g * base.g, c.b * base.b, c.a * base.a});
   }
 
@@ -126,8 +143,8 @@ class Converter {
   }
 
   const aiScene& scene_;
-  FormatFacts format_;
-  bool with_cameras_, has_colors_ = false;
+  bool with_view_, is_collada_, has_colors_ = false;
+  std::vector<bool> gives_colors_, camera_used_, light_used_;  // of each mesh, camera, light
   std::vector<Material> materials_;
   std::map<unsigned, std::vector<std::uint32_t>> by_material_;
   Model model_;
@@ -147,14 +164,25 @@ Model read(const std::string& path) {
   Assimp::Importer importer;
   const std::string ending = lower_case_ending(path);
   if (ending.empty() || !importer.IsExtensionSupported(ending)) throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
-  const FormatFacts format{.is_gltf = ending == ".gltf" || ending == ".glb", .is_collada = ending == ".dae" || ending == ".zae"};
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   if (scene == nullptr) refuse(importer.GetErrorString());
+  Model view;
+  const bool is_gltf2 = (ending == ".gltf" || ending == ".glb") && add_gltf_view(path, view), is_collada = ending == ".dae" || ending == ".zae";
+  Model model = Converter(*scene, !is_gltf2, is_collada).converted();
+  importer.FreeScene();
   // assimp takes an orthographic camera of Collada for one of a few degrees.
-  const bool has_strange_cameras = ending == ".dae" && contains(path, "<orthographic>");
-  Model model = Converter(*scene, format, !has_strange_cameras).converted();
-  if (has_strange_cameras && scene->mNumCameras > 0) model.warnings.push_back("has an orthographic camera: cameras of such Collada files are left out");
+  if (ending == ".dae" && !model.cameras.empty() && contains(path, "<orthographic>")) {
+    model.cameras.clear();
+    model.warnings.push_back("has an orthographic camera: cameras of such Collada files are left out");
+  }
+  // Where glTF 2 gives no normals, faces are flat, by its specification.
+  add_creased_normals(model.mesh, is_gltf2 ? 0 : kCreaseDegrees);
+  if (is_gltf2) {
+    model.cameras = std::move(view.cameras);
+    model.lights = std::move(view.lights);
+    model.warnings.insert(model.warnings.end(), view.warnings.begin(), view.warnings.end());
+  }
   for (std::string& warning : model.warnings) warning = path + ": " + warning;
   return model;
 }

@@ -22,7 +22,7 @@ typedef int tessera_import_formats_function(tessera_import_take_function* take, 
 /* The numbers change with the signatures, and with what the bytes are. */
 #define TESSERA_IMPORT_NAME "tessera_import_1"
 #define TESSERA_IMPORT_FORMATS_NAME "tessera_import_formats_1"
-#define TESSERA_IMPORT_FILE_NAME "libtessera_import.so.0"
+#define TESSERA_IMPORT_FILE_NAME "libtessera_import.so." TESSERA_SOVERSION
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct ModelCamera {
 };
 
 struct Model {
-  MeshData mesh;                         ///< all parts, indexed; normals and colours if the file has them at every corner
+  MeshData mesh;                         ///< all parts, indexed; colours if the file has some
   std::vector<ModelPart> parts;          ///< in the order of first use; never empty
   std::vector<std::string> warnings;     ///< a material file that is missing, ...; one line each
   std::vector<ModelCamera> cameras;
@@ -35,15 +36,22 @@ struct Model {
   std::optional<Color> ambient_light;
 };
 
-/// Reads a model in a child process that may take 10 seconds and 1 GiB.
+enum class ModelUse {
+  mesh,    ///< as it is: OBJ files may lack normals, and be wound as they like
+  display  ///< every corner gets a normal, and triangles are wound by theirs (model_normals.h)
+};
+
+/// Reads a model in a child process that may take 10 seconds and 1 GiB, and return 256 MiB. It is a fork of this one: call it
+/// before other threads run.
+/// @param go_on  asked a few times a second; false ends the reading
 /// @throws Error, naming the file and where possible the line, for a file that is missing, broken or without a triangle, and
-/// for one that takes too long or too much.
-Model import_model(const std::string& path);
+/// for one that takes too long or too much; Cancelled if it was ended.
+Model import_model(const std::string& path, ModelUse use = ModelUse::mesh, const std::function<bool()>& go_on = {});
 
 /// The endings of the formats that are read, in lower case with their dots. @throws Error without the import module.
 std::vector<std::string> model_endings();
 
-/// One part as a mesh of its own, without the vertices of the others.
-MeshData part_mesh(const Model& model, std::size_t part);
+/// Each part as a mesh of its own, without the vertices of the others.
+std::vector<MeshData> split_into_parts(Model model);
 
 }  // namespace tessera

@@ -1,39 +1,63 @@
 #include "engine/import/model_bytes.h"
 
 #include <cstring>
+#include <optional>
 #include <type_traits>
 
 namespace tessera {
 namespace {
+
+// Numbers without gaps between them: nothing that was never written goes out.
+template <class T>
+constexpr bool kIsPlain = std::is_arithmetic_v<T>;
+
+template <class T, class U>
+concept Either = std::is_same_v<std::remove_const_t<T>, U>;
+
+// Calls the stream for each member.
+template <class Stream>
+void members(Stream& stream, Either<Color> auto& value);
+template <class Stream>
+void members(Stream& stream, Either<Material> auto& value);
+template <class Stream>
+void members(Stream& stream, Either<Light> auto& value);
+template <class Stream>
+void members(Stream& stream, Either<ModelCamera> auto& value);
+template <class Stream>
+void members(Stream& stream, Either<ModelPart> auto& value);
+template <class Stream>
+void members(Stream& stream, Either<std::string> auto& value);
 
 class Writer {
  public:
   std::string bytes;
 
   template <class T>
+    requires kIsPlain<T>
   void operator()(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  void operator()(const std::string& text) {
-    (*this)(text.size());
-    bytes += text;
-  }
+  void operator()(const std::string& text) { list(text); }
   template <class T>
-  void operator()(const std::vector<T>& list) {
-    (*this)(list.size());
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
+  void operator()(const std::vector<T>& elements) {
+    if constexpr (kIsPlain<T>) {
+      list(elements);
     } else {
-      for (const T& element : list) (*this)(element);
+      (*this)(elements.size());
+      for (const T& element : elements) members(*this, element);
     }
   }
-  void operator()(const ModelPart& part) {
-    (*this)(part.material_name);
-    (*this)(part.material);
-    (*this)(part.first_index);
-    (*this)(part.index_count);
-    (*this)(part.uses_colors);
+  template <class T>
+  void operator()(const std::optional<T>& value) {
+    (*this)(value.has_value());
+    if (value) members(*this, *value);
+  }
+
+ private:
+  template <class List>
+  void list(const List& elements) {
+    (*this)(elements.size());
+    bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(elements[0]));
   }
 };
 
@@ -42,41 +66,50 @@ class Reader {
   explicit Reader(const std::string& bytes) : bytes_(bytes) {}
 
   template <class T>
+    requires kIsPlain<T>
   void operator()(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
     std::memcpy(&value, take(sizeof value), sizeof value);
   }
-  void operator()(std::string& text) {
-    const std::size_t size = count(1);
-    text.assign(take(size), size);
+  void operator()(bool& value) {
+    const char byte = *take(1);
+    if (byte != 0 && byte != 1) fail();
+    value = byte == 1;
   }
+  void operator()(std::string& text) { list(text); }
   template <class T>
-  void operator()(std::vector<T>& list) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      list.resize(count(sizeof(T)));
-      if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+  void operator()(std::vector<T>& elements) {
+    if constexpr (kIsPlain<T>) {
+      list(elements);
     } else {
-      list.resize(count(1));
-      for (T& element : list) (*this)(element);
+      elements.resize(count(1));
+      for (T& element : elements) members(*this, element);
     }
   }
-  void operator()(ModelPart& part) {
-    (*this)(part.material_name);
-    (*this)(part.material);
-    (*this)(part.first_index);
-    (*this)(part.index_count);
-    (*this)(part.uses_colors);
+  template <class T>
+  void operator()(std::optional<T>& value) {
+    bool has = false;
+    (*this)(has);
+    if (has) members(*this, value.emplace());
   }
+  void end() const {
+    if (at_ != bytes_.size()) fail();
+  }
+  [[noreturn]] static void fail() { throw Error("the reading process sent no sound model"); }
 
  private:
+  template <class List>
+  void list(List& elements) {
+    elements.resize(count(sizeof(elements[0])));
+    if (!elements.empty()) std::memcpy(elements.data(), take(elements.size() * sizeof(elements[0])), elements.size() * sizeof(elements[0]));
+  }
   std::size_t count(std::size_t element_bytes) {
     std::size_t size = 0;
     (*this)(size);
-    if (size > (bytes_.size() - at_) / element_bytes) throw Error("the reading process sent half a model");
+    if (size > (bytes_.size() - at_) / element_bytes) fail();
     return size;
   }
   const char* take(std::size_t size) {
-    if (size > bytes_.size() - at_) throw Error("the reading process sent half a model");
+    if (size > bytes_.size() - at_) fail();
     const char* const from = bytes_.data() + at_;
     at_ += size;
     return from;
@@ -86,8 +119,42 @@ class Reader {
 };
 
 // One list of members for both ways.
-template <class Stream, class ModelOrConst>
-void stream(Stream& stream, ModelOrConst& model) {
+template <class Stream>
+void members(Stream& stream, Either<Color> auto& c) {
+  stream(c.r), stream(c.g), stream(c.b), stream(c.a);
+}
+template <class Stream>
+void members(Stream& stream, Either<Material> auto& m) {
+  for (auto* color : {&m.ambient, &m.diffuse, &m.specular, &m.emission}) members(stream, *color);
+  stream(m.shininess);
+}
+template <class Stream>
+void members(Stream& stream, Either<Light> auto& l) {
+  for (auto* color : {&l.ambient, &l.diffuse, &l.specular}) members(stream, *color);
+  for (auto& x : l.position) stream(x);
+  for (auto& x : l.spot_direction) stream(x);
+  for (auto* x : {&l.spot_exponent, &l.spot_cutoff, &l.attenuation_constant, &l.attenuation_linear, &l.attenuation_quadratic}) stream(*x);
+}
+template <class Stream>
+void members(Stream& stream, Either<ModelCamera> auto& c) {
+  for (auto& x : c.view.m) stream(x);
+  stream(c.is_orthographic);
+  for (auto* x : {&c.half_width, &c.half_height, &c.near, &c.far}) stream(*x);
+}
+template <class Stream>
+void members(Stream& stream, Either<ModelPart> auto& p) {
+  stream(p.material_name);
+  members(stream, p.material);
+  stream(p.first_index);
+  stream(p.index_count);
+  stream(p.uses_colors);
+}
+template <class Stream>
+void members(Stream& stream, Either<std::string> auto& text) {
+  stream(text);
+}
+template <class Stream>
+void members(Stream& stream, Either<Model> auto& model) {
   stream(model.mesh.positions);
   stream(model.mesh.normals);
   stream(model.mesh.colors);
@@ -99,19 +166,38 @@ void stream(Stream& stream, ModelOrConst& model) {
   stream(model.ambient_light);
 }
 
+bool is_sound(const Model& model) {
+  const MeshData& mesh = model.mesh;
+  const std::size_t vertices = mesh.positions.size() / 3;
+  const auto fits = [&](const std::vector<float>& list, std::size_t components) { return list.empty() || list.size() == components * vertices; };
+  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) || !fits(mesh.colors, 4)) return false;
+  for (const std::uint32_t index : mesh.indices)
+    if (index >= vertices) return false;
+  std::size_t next = 0;
+  for (const ModelPart& part : model.parts) {
+    if (part.first_index != next || part.index_count % 3 != 0 || part.index_count > mesh.indices.size() - next) return false;
+    next += part.index_count;
+  }
+  return next == mesh.indices.size();
+}
+
 }  // namespace
 
 std::string to_bytes(const Model& model) {
   Writer writer;
-  stream(writer, model);
+  members(writer, model);
   return std::move(writer.bytes);
 }
 
-Model model_from_bytes(const std::string& bytes) {
+Model model_from_bytes(const std::string& bytes, const std::string& path) try {
   Model model;
   Reader reader(bytes);
-  stream(reader, model);
+  members(reader, model);
+  reader.end();
+  if (!is_sound(model)) Reader::fail();
   return model;
+} catch (const Error& error) {
+  throw Error(path + ": " + error.what());
 }
 
 }  // namespace tessera

@@ -59,4 +59,13 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
   endforeach()
 endif()
 
+# All that is installed, without the tests and benchmarks.
+add_custom_target(installed DEPENDS tessera tessera_static)
+if(TARGET tessera_cli)
+  add_dependencies(installed tessera_cli)
+endif()
+if(TARGET tessera_pages)
+  add_dependencies(installed tessera_pages)
+endif()
+
 include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

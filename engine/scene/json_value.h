@@ -87,6 +87,8 @@ class Value {
   auto checked(const Make& make) const {
     try {
       return make();
+    } catch (const Cancelled&) {
+      throw;
     } catch (const Error& error) {
       refuse(error.what());
     }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "engine/tessera/tessera.hpp"
 
@@ -21,12 +23,23 @@ void* function_of(void* module, const char* file_name, const char* name);
 /// Runs call(take, user, message, message size) and returns what it took. @throws Error with the reason, in one line; std::bad_alloc.
 template <class Call>
 std::string taken(const Call& call) {
-  std::string bytes;
-  const auto take = [](void* user, const unsigned char* from, std::size_t count) { static_cast<std::string*>(user)->append(reinterpret_cast<const char*>(from), count); };
+  struct Taken {
+    std::string bytes;
+    bool fits = true;
+  } taken;
+  // No exception crosses the C border.
+  const auto take = [](void* user, const unsigned char* from, std::size_t count) noexcept {
+    auto& to = *static_cast<Taken*>(user);
+    try {
+      to.bytes.append(reinterpret_cast<const char*>(from), count);
+    } catch (const std::exception&) {
+      to.fits = false;
+    }
+  };
   char message[1024] = "";
-  const int result = call(+take, static_cast<void*>(&bytes), message, sizeof message);
-  if (result == 0) return bytes;
-  if (result == 2) throw std::bad_alloc();
+  const int result = call(+take, static_cast<void*>(&taken), message, sizeof message);
+  if (result == 2 || !taken.fits) throw std::bad_alloc();
+  if (result == 0) return std::move(taken.bytes);
   std::string reason = message;
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   throw Error(reason);

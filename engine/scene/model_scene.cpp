@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "engine/import/model_normals.h"
 #include "shading/trigonometry.h"
 
 namespace tessera {
@@ -47,7 +46,7 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
     distance = std::max(distance, dot(p, back) + std::max(std::abs(dot(p, right)) / tangent_x, std::abs(dot(p, up)) / tangent_y));
     radius = std::max(radius, std::sqrt(dot(p, p)));
   }
-  if (!(radius > 0) || !std::isfinite(radius)) throw Error(name + ": all vertices are at one place");
+  if (!(radius > 0) || !std::isfinite(radius)) throw Error(name + ": has no extent that a camera could frame");
   distance = std::max(distance, 1.5 * radius);  // what is long in the direction of view stays away from the viewer's eye
   const Vec3 eye{centre.x + distance * back.x, centre.y + distance * back.y, centre.z + distance * back.z};
   return {.view = look_at(eye, centre, {0, 1, 0}), .projection = Lens{.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius}};
@@ -97,8 +96,9 @@ bool sees_something(const SceneCamera& camera, double aspect, const MeshData& me
 // The first camera of the file that sees anything; else one that frames the model.
 void choose_camera(const Model& model, double aspect, Scene& scene) {
   scene.camera = framing_camera(model.mesh, aspect, scene.name);
-  for (const ModelCamera& own : model.cameras)
-    if (const auto camera = own_camera(own, model.mesh, aspect); camera && sees_something(*camera, aspect, model.mesh)) {
+  constexpr std::size_t kMostTried = 16;  // each looks at the whole model
+  for (std::size_t i = 0; i < std::min(model.cameras.size(), kMostTried); ++i)
+    if (const auto camera = own_camera(model.cameras[i], model.mesh, aspect); camera && sees_something(*camera, aspect, model.mesh)) {
       scene.camera = *camera;
       return;
     }
@@ -120,13 +120,12 @@ Scene model_scene(Model model, const std::string& name, int width, int height) {
   choose_camera(model, static_cast<double>(width) / height, scene);
   scene.frame.push_back({Clear{.color = Color{0.18f, 0.2f, 0.25f, 1}, .depth = 1.0, .stencil = 0u}, ""});
 
-  if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
-  wind_by_normals(model.mesh);  // two-sided lighting goes by the winding
-  for (std::size_t part = 0; part < model.parts.size(); ++part) {
-    scene.meshes.push_back(model.parts.size() > 1 ? part_mesh(model, part) : std::move(model.mesh));
+  const std::vector<ModelPart> parts = model.parts;
+  scene.meshes = split_into_parts(std::move(model));
+  for (std::size_t part = 0; part < parts.size(); ++part) {
     DrawCommand draw{.mesh = part};
-    draw.state.material = model.parts[part].material;
-    if (model.parts[part].uses_colors) draw.state.color_material = ColorMaterial::ambient_and_diffuse;
+    draw.state.material = parts[part].material;
+    if (parts[part].uses_colors) draw.state.color_material = ColorMaterial::ambient_and_diffuse;
     draw.state.shading = Shading::phong;
     scene.frame.push_back({draw, ""});
   }

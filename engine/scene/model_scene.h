@@ -8,6 +8,7 @@
 
 namespace tessera {
 
+/// @param model   imported for display
 /// @param name    the model's file, for messages
 /// @param width   of the picture, as height: the camera keeps the model inside both
 /// @throws Error for a model without extent.

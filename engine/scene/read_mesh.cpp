@@ -23,12 +23,13 @@ MeshData read_builtin(const Value& value) {
   return builtin_mesh(name, detail ? static_cast<int>(detail->integer(least_mesh_detail(name), kMaxMeshDetail)) : kDefaultMeshDetail);
 }
 
-MeshData read_file(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
+MeshData read_file(const Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene) {
   const Object object(value, {"file"});
   const Value file = object.require("file");
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
-  auto model = models.find(path.string());
-  if (model == models.end()) model = models.emplace(path.string(), file.checked([&] { return import_model(path.string()); })).first;
+  auto model = cache.models.find(path.string());
+  if (model == cache.models.end())
+    model = cache.models.emplace(path.string(), file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.go_on); })).first;
   scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
   return model->second.mesh;
 }

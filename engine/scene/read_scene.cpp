@@ -168,7 +168,8 @@ struct SceneFile::Content {
   ModelCache models;
 };
 
-SceneFile::SceneFile(const std::string& path) : content_(std::make_unique<Content>()) {
+SceneFile::SceneFile(const std::string& path, std::function<bool()> go_on) : content_(std::make_unique<Content>()) {
+  content_->models.go_on = std::move(go_on);
   content_->path = path;
   content_->json = json::parse(read_text_file(path), path);
   Json still = content_->json;

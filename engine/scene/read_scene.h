@@ -1,6 +1,7 @@
 // The parts that a scene file is read in; used by the readers only.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -17,7 +18,10 @@ SceneCamera default_camera();
 LightList read_lights(const json::Value& value);
 
 /// Models that were read, by their paths.
-using ModelCache = std::map<std::string, Model>;
+struct ModelCache {
+  std::map<std::string, Model> models;
+  std::function<bool()> go_on;  ///< of reading one
+};
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
 void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);
 

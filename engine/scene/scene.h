@@ -6,6 +6,7 @@
 //   record(scene, frame);                    // the meshes stay the scene's: it must outlive the frame
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,8 +62,9 @@ struct Scene {
 /// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models are read once.
 class SceneFile {
  public:
+  /// @param go_on  asked while models are read; false ends it with Cancelled
   /// @throws Error, naming file, JSON pointer, what was found and what was expected.
-  explicit SceneFile(const std::string& path);
+  explicit SceneFile(const std::string& path, std::function<bool()> go_on = {});
   ~SceneFile();
   SceneFile(SceneFile&&) noexcept;
   /// @param time  0 .. 1 over an animation

@@ -17,7 +17,14 @@
 //
 // Threads. Distinct objects may be used on distinct threads at the same time; one object by one thread at a time. There is
 // no global state. The same frame gives the same bits for any number of threads, tile size and instruction set.
+//
+// Lifetimes. Meshes are borrowed: what a draw points to has to stay as it is until Renderer::finish returns; indices are checked
+// in Frame::draw, and trusted then. An object that was moved from may be assigned to or destroyed, and nothing else.
 #pragma once
+
+#if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "tessera.hpp needs C++20: -std=c++20"
+#endif
 
 #include <array>
 #include <concepts>
@@ -32,6 +39,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "export.h"
@@ -121,7 +129,7 @@ struct ImageTarget {
   int width = 0, height = 0;                ///< must equal the frame buffer's
   std::ptrdiff_t stride_bytes = 0;
   PixelOrder order = PixelOrder::rgba8;
-  std::optional<Rect> part{};               ///< only these pixels of it are written; what else the memory holds stays
+  std::optional<Rect> part{};               ///< only these pixels of it (origin lower left) are written, what lies outside is left out; what else the memory holds stays
 };
 
 /// A stack of bitplanes: colour, depth and stencil, one bit for each pixel in each plane. New buffers hold colour 0,
@@ -166,6 +174,11 @@ class TESSERA_API FrameBuffer {
 
 // ---- scene description --------------------------------------------------------------------------------------------
 
+/// What a span may be made of without being left behind: not a temporary that owns its elements.
+template <class Range, class Element>
+concept Lent = std::convertible_to<Range, std::span<const Element>> &&
+               (std::is_lvalue_reference_v<Range> || std::ranges::enable_borrowed_range<std::remove_cvref_t<Range>>);
+
 /// Numbers of the vertices, in the caller's memory: packed, from anything that is a span of floats, or with a stride.
 struct FloatArray {
   const float* data = nullptr;
@@ -175,8 +188,8 @@ struct FloatArray {
 
   constexpr FloatArray() = default;
   template <class Range>
-    requires std::convertible_to<const Range&, std::span<const float>>
-  constexpr FloatArray(const Range& packed) : FloatArray(std::span<const float>(packed), 0) {}
+    requires Lent<Range, float>
+  constexpr FloatArray(Range&& packed) : FloatArray(std::span<const float>(packed), 0) {}
   constexpr FloatArray(const float* first, std::size_t vertex_count, std::size_t stride) : data(first), vertices(vertex_count), stride_bytes(stride) {}
   constexpr bool empty() const { return floats == 0 && vertices == 0; }
 
@@ -194,11 +207,11 @@ struct ColorArray {
 
   constexpr ColorArray() = default;
   template <class Range>
-    requires std::convertible_to<const Range&, std::span<const float>>
-  constexpr ColorArray(const Range& packed) : floats(packed) {}
+    requires Lent<Range, float>
+  constexpr ColorArray(Range&& packed) : floats(packed) {}
   template <class Range>
-    requires std::convertible_to<const Range&, std::span<const std::uint8_t>>
-  constexpr ColorArray(const Range& packed) : bytes(std::span<const std::uint8_t>(packed).data()), byte_count(std::span<const std::uint8_t>(packed).size()) {}
+    requires Lent<Range, std::uint8_t>
+  constexpr ColorArray(Range&& packed) : bytes(std::span<const std::uint8_t>(packed).data()), byte_count(std::span<const std::uint8_t>(packed).size()) {}
   constexpr ColorArray(const float* first, std::size_t vertex_count, std::size_t stride) : floats(first, vertex_count, stride) {}
   constexpr ColorArray(const std::uint8_t* first, std::size_t vertex_count, std::size_t stride) : bytes(first), vertices(vertex_count), stride_bytes(stride) {}
   constexpr bool empty() const { return floats.empty() && byte_count == 0 && vertices == 0; }
@@ -212,11 +225,11 @@ struct IndexArray {
 
   constexpr IndexArray() = default;
   template <class Range>
-    requires std::convertible_to<const Range&, std::span<const std::uint32_t>>
-  constexpr IndexArray(const Range& packed) : data(std::span<const std::uint32_t>(packed).data()), count(std::span<const std::uint32_t>(packed).size()) {}
+    requires Lent<Range, std::uint32_t>
+  constexpr IndexArray(Range&& packed) : data(std::span<const std::uint32_t>(packed).data()), count(std::span<const std::uint32_t>(packed).size()) {}
   template <class Range>
-    requires std::convertible_to<const Range&, std::span<const std::uint16_t>>
-  constexpr IndexArray(const Range& packed) : data(std::span<const std::uint16_t>(packed).data()), count(std::span<const std::uint16_t>(packed).size()), bits(16) {}
+    requires Lent<Range, std::uint16_t>
+  constexpr IndexArray(Range&& packed) : data(std::span<const std::uint16_t>(packed).data()), count(std::span<const std::uint16_t>(packed).size()), bits(16) {}
   constexpr bool empty() const { return count == 0; }
 };
 
@@ -254,7 +267,8 @@ struct LightModel {
   Highlight specular = Highlight::blinn;
 };
 
-/// With `reversed`, the projection maps z to 0..w, near at 1, far at 0, and depth is z/w; otherwise z runs -w..w.
+/// With `reversed`, the projection maps z to 0..w, near at 1, far at 0, and depth is z/w; otherwise z runs -w..w. Clears and
+/// tests stay as written: a reversed depth wants a clear to 0 and Compare::greater.
 struct Camera {
   Matrix view{}, projection{};
   bool reversed = false;
@@ -272,7 +286,7 @@ struct Intrinsics {
   double fx = 0, fy = 0, cx = 0, cy = 0;    ///< pixels; fx and fy above 0
   int width = 0, height = 0;                ///< of the picture that they are meant for, pixels
 };
-/// `camera_from_world` is the 4x4 extrinsic matrix, in the given axes; near and far as in perspective(), in its units (metres).
+/// In a frame buffer of another size the picture is stretched. `camera_from_world` is the 4x4 extrinsic matrix, in the given axes; near and far as in perspective(), in its units (metres).
 /// Throws Error for focal lengths, sizes and volumes out of range.
 TESSERA_API Camera calibrated_camera(const Intrinsics& intrinsics, const Matrix& camera_from_world, double near, double far,
                                      CameraAxes axes = CameraAxes::opencv, bool reversed = false);
@@ -296,7 +310,7 @@ struct DrawState {
   Matrix transform{};                       ///< object to world
   Shading shading = Shading::gouraud;
   bool lighting = true;                     ///< false: vertex colours, or the material's diffuse colour
-  ColorMaterial color_material = ColorMaterial::none;
+  ColorMaterial color_material = ColorMaterial::none;  ///< lit: what of the material the vertices' colours replace; none: they are not used
   ProvokingVertex provoking_vertex = ProvokingVertex::last;
   bool normalize = true;
   Cull cull = Cull::none;
@@ -360,12 +374,13 @@ class TESSERA_API Frame {
   // State for the draws that follow. The initial camera is the identity; the initial lights are one default Light.
   void set_camera(const Camera& camera);
   void set_lights(std::span<const Light> lights);
+  void set_lights(std::initializer_list<Light> lights) { set_lights(std::span<const Light>(lights.begin(), lights.size())); }
   void set_light_model(const LightModel& model);
 
   /// Throws Error for values out of range and for a buffer that the frame buffer does not have.
   void clear(const Clear& clear);
   /// Throws Error for spans that do not fit together, indices out of bounds and values out of range.
-  void draw(const Mesh& mesh, const DrawState& state);
+  void draw(const Mesh& mesh, const DrawState& state = {});
 
   /// Which buffers the frame buffer holds afterwards; of the others those that the frame touches are not stored, and reading
   /// them is an error until they are cleared whole. Default: with an ImageTarget none, without one every buffer.

@@ -20,7 +20,7 @@ Picture draw_page() {
   Picture page(kColumns * kWidth, rows * kHeight);
   Renderer renderer;
   for (int i = 0; i < static_cast<int>(models.size()); ++i) {
-    const Scene scene = model_scene(import_model(models[static_cast<std::size_t>(i)]), models[static_cast<std::size_t>(i)], kWidth, kHeight);
+    const Scene scene = model_scene(import_model(models[static_cast<std::size_t>(i)], ModelUse::display), models[static_cast<std::size_t>(i)], kWidth, kHeight);
     FrameBuffer buffer(scene.framebuffer);
     Frame frame(buffer);
     record(scene, frame);

@@ -80,7 +80,7 @@ TEST_F(ObjImport, MaterialsArriveAndGroupTheTriangles) {
   ASSERT_EQ(model.warnings.size(), 2u);
   EXPECT_NE(model.warnings[0].find("d of material \"red\" is left out"), std::string::npos);
   EXPECT_NE(model.warnings[1].find("Ns of material \"hot\""), std::string::npos);
-  const MeshData hot = part_mesh(model, 1);
+  const MeshData hot = split_into_parts(model)[1];
   EXPECT_EQ(hot.vertex_count(), 3u);
   EXPECT_EQ(hot.indices, (std::vector<std::uint32_t>{0, 1, 2}));
 }

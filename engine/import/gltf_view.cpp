@@ -1,0 +1,144 @@
+#include "engine/import/gltf_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/import/spot_ramp.h"
+#include "shading/trigonometry.h"
+
+namespace tessera {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr int kDeepestNode = 500;
+constexpr int kMostVisits = 1000000;
+
+// The text of a .gltf, or the first chunk of a .glb: "glTF", version, length, length of the chunk, "JSON".
+std::string json_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(file), {});
+  if (!bytes.starts_with("glTF")) return bytes;
+  std::uint32_t header[5] = {};
+  if (bytes.size() < sizeof header) return {};
+  std::memcpy(header, bytes.data(), sizeof header);
+  return bytes.substr(sizeof header, header[3]);
+}
+
+Matrix from_quaternion(double x, double y, double z, double w) {
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0,  //
+           2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0,  //
+           2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0,  //
+           0, 0, 0, 1}};
+}
+
+Matrix local_matrix(const Json& node) {
+  if (node.contains("matrix")) {
+    const auto columns = node["matrix"].get<std::array<double, 16>>();
+    Matrix m;
+    for (std::size_t k = 0; k < 16; ++k) m.m[k] = columns[4 * (k % 4) + k / 4];
+    return m;
+  }
+  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0}), s = node.value("scale", std::array<double, 3>{1, 1, 1});
+  const auto r = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
+  return translate(t[0], t[1], t[2]) * from_quaternion(r[0], r[1], r[2], r[3]) * scale(s[0], s[1], s[2]);
+}
+
+Vec3 column(const Matrix& m, std::size_t k) { return {m.m[k], m.m[4 + k], m.m[8 + k]}; }
+
+class ViewReader {
+ public:
+  ViewReader(const Json& file, Model& model) : file_(file), model_(model) {}
+
+  void read() {
+    const Json scenes = file_.value("scenes", Json::array());
+    const auto scene = file_.value("scene", std::size_t{0});
+    if (scene >= scenes.size()) return;
+    for (const std::size_t node : scenes[scene].value("nodes", std::vector<std::size_t>{})) visit(node, Matrix{}, 0);
+  }
+
+ private:
+  void visit(std::size_t number, const Matrix& parent, int depth) {
+    if (depth > kDeepestNode || ++visits_ > kMostVisits) throw Error("its nodes are too many, or nested too deeply");
+    const Json& node = file_.at("nodes").at(number);
+    const Matrix world = parent * local_matrix(node);
+    if (node.contains("camera")) add_camera(file_.at("cameras").at(node["camera"].get<std::size_t>()), world);
+    if (const auto light = node.value("/extensions/KHR_lights_punctual/light"_json_pointer, -1); light >= 0)
+      add_light(file_.at("/extensions/KHR_lights_punctual/lights"_json_pointer).at(static_cast<std::size_t>(light)), world);
+    for (const std::size_t child : node.value("children", std::vector<std::size_t>{})) visit(child, world, depth + 1);
+  }
+
+  void add_camera(const Json& camera, const Matrix& world) {
+    ModelCamera to;
+    to.is_orthographic = camera.at("type") == "orthographic";
+    const Json& lens = camera.at(to.is_orthographic ? "orthographic" : "perspective");
+    to.near = lens.value("znear", 0.0);
+    to.far = lens.value("zfar", 0.0);
+    if (to.is_orthographic) {
+      to.half_height = std::abs(lens.value("ymag", 0.0));
+    } else {
+      const SinCos half = sin_cos_degrees(lens.value("yfov", 0.0) / 2 * kDegrees);
+      to.half_height = half.cosine > 0 ? half.sine / half.cosine : 0;
+    }
+    if (!(to.half_height > 0) || !std::isfinite(to.half_height)) return;
+    const Vec3 eye = column(world, 3), back = column(world, 2);
+    try {
+      to.view = look_at(eye, {eye.x - back.x, eye.y - back.y, eye.z - back.z}, column(world, 1));
+    } catch (const Error&) {
+      return;  // a node that is squeezed flat has no direction
+    }
+    model_.cameras.push_back(to);
+  }
+
+  void add_light(const Json& light, const Matrix& world) {
+    const auto color = light.value("color", std::array<double, 3>{1, 1, 1});
+    const double unit = light.value("intensity", 1.0) / std::numbers::pi;
+    Light to;
+    to.diffuse = to.specular = {static_cast<float>(color[0] * unit), static_cast<float>(color[1] * unit), static_cast<float>(color[2] * unit), 1};
+    const Vec3 place = column(world, 3), back = column(world, 2);
+    const std::string type = light.at("type");
+    if (type == "directional") {
+      to.position = {static_cast<float>(back.x), static_cast<float>(back.y), static_cast<float>(back.z), 0};
+    } else {
+      to.position = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), 1};
+      to.attenuation_constant = 0;
+      to.attenuation_quadratic = 1;
+    }
+    if (type == "spot") {
+      const double inner = light.value("/spot/innerConeAngle"_json_pointer, 0.0), outer = light.value("/spot/outerConeAngle"_json_pointer, std::numbers::pi / 4);
+      to.spot_direction = {static_cast<float>(-back.x), static_cast<float>(-back.y), static_cast<float>(-back.z)};
+      to.spot_cutoff = static_cast<float>(std::clamp(outer * kDegrees, 0.0, 90.0));
+      to.spot_exponent = exponent_of_ramp(inner, outer);
+    }
+    const auto is_finite = [](const auto& list) { return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); }); };
+    if (is_finite(to.position) && is_finite(to.spot_direction) && std::isfinite(to.diffuse.r + to.diffuse.g + to.diffuse.b)) model_.lights.push_back(to);
+  }
+
+  const Json& file_;
+  Model& model_;
+  int visits_ = 0;
+};
+
+}  // namespace
+
+bool add_gltf_view(const std::string& path, Model& model) {
+  const Json file = Json::parse(json_text(path), nullptr, false);
+  const Json version = file.is_object() ? file.value("/asset/version"_json_pointer, Json()) : Json();
+  if (!version.is_string() || !version.get<std::string>().starts_with("2")) return false;
+  try {
+    ViewReader(file, model).read();
+  } catch (const Json::exception& error) {
+    model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what()));
+  }
+  return true;
+}
+
+}  // namespace tessera

@@ -1,0 +1,17 @@
+// Cameras and lights of glTF 2 files, read from their JSON: assimp keeps only one node of those that share one, and other angles.
+#pragma once
+
+#include <string>
+
+#include "engine/import/model.h"
+
+namespace tessera {
+
+/// Adds those of the default scene to the model. Lights (KHR_lights_punctual) are given in physical units:
+///   diffuse = specular = color x intensity / pi       which a white surface sends back of them
+///   attenuation 1 / d^2 of points and spots           d in metres
+///   spot: the cutoff is the outer angle; the exponent halves the light where glTF's ramp between both angles does
+/// False, and nothing is added, if the file is none of glTF 2.
+bool add_gltf_view(const std::string& path, Model& model);
+
+}  // namespace tessera
