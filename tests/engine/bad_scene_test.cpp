@@ -128,7 +128,7 @@ const BadScene kBadScenes[] = {
     {mesh(R"("detail": 3)"), "/meshes/m/detail", "unknown key"},
     {mesh(""), "/meshes/m", "key \"positions\" is missing"},
     {mesh(R"("file": "no such file.obj")"), "/meshes/m/file", "cannot read \"no such file.obj\": No such file or directory"},
-    {mesh(R"("file": "model.txt")"), "/meshes/m/file", "models end in one of"},
+    {mesh(R"("file": "model.txt")"), "/meshes/m/file", "cannot read"},
     {mesh(R"("positions": [])"), "/meshes/m/positions", "found an empty array, expected at least 3 positions"},
     {mesh(R"("positions": [[0,0,0],[1,0,0]])"), "/meshes/m/positions", "three positions for each triangle"},
     {mesh(R"("positions": [[0,0,0],[1,0,0],[0,1]])"), "/meshes/m/positions/2", "expected an array of 3 numbers"},
