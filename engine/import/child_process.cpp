@@ -39,12 +39,22 @@ void write_all(int to, const char* bytes, std::size_t count) {
   }
 }
 
+// The sanitizers reserve terabytes: no limit there.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Bytes that this process has mapped: the first number of statm, in pages.
 std::size_t address_space() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
+void limit_memory(std::size_t more_bytes) {
+  const rlim_t bytes = address_space() + more_bytes;
+  const rlimit memory{bytes, bytes};
+  ::setrlimit(RLIMIT_AS, &memory);
+}
+#else
+void limit_memory(std::size_t) {}
+#endif
 
 [[noreturn]] void be_child(int to, pid_t parent, const ChildLimits& limits, const std::function<std::string()>& work) {
   // Libraries may print; nobody asked them to.
@@ -57,11 +67,7 @@ std::size_t address_space() {
   const rlimit time{seconds, seconds + 1}, no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &no_core);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes
-  const rlim_t bytes = address_space() + limits.memory_bytes;
-  const rlimit memory{bytes, bytes};
-  ::setrlimit(RLIMIT_AS, &memory);
-#endif
+  limit_memory(limits.memory_bytes);
   const auto send = [&](Header::Kind kind, std::string_view text) {
     const Header header{kind, text.size()};
     write_all(to, reinterpret_cast<const char*>(&header), sizeof header);
