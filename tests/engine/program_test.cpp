@@ -336,6 +336,9 @@ TEST_F(Program, HostileModelsCostLittle) {
   } kHostile[] = {{"pipe.stl", "no regular file"}, {"zero.stl", "no regular file"}, {"zero.obj", "no regular file"}, {"folder.glb", "a directory"},
                   {"new\nline.stl", "new\\x0aline.stl"}, {"escape.obj", "\\x1b[31mRED"}, {"bomb.gltf", "bomb.gltf"}};
   for (const auto& [name, fragment] : kHostile) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    if (std::string(name) == "bomb.gltf") continue;  // there the memory has no limit
+#endif
     const auto start = std::chrono::steady_clock::now();
     const Result result = run("render '" + std::string(name) + "' -o x.ppm");
     EXPECT_EQ(result.code, 1) << name;
