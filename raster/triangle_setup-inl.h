@@ -125,7 +125,7 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroup
   for (int i = 0; i < kGroupSize; ++i) {
     // A gradient is off by a few 2^-53 of its terms, and counts once for each pixel from the first vertex on.
     const double dz1 = __builtin_fabs(z[1][i] - z[0][i]), dz2 = __builtin_fabs(z[2][i] - z[0][i]);
-    const double a1 = __builtin_fabs(g.a[1][i]), a2 = __builtin_fabs(g.a[2][i]), b1 = __builtin_fabs(g.b[1][i]), b2 = __builtin_fabs(g.b[2][i]);
+    const double a1 = __builtin_fabs(static_cast<double>(g.a[1][i])), a2 = __builtin_fabs(static_cast<double>(g.a[2][i])), b1 = __builtin_fabs(static_cast<double>(g.b[1][i])), b2 = __builtin_fabs(static_cast<double>(g.b[2][i]));
     const double terms = (a1 + b1) * dz1 + (a2 + b2) * dz2, reach = a1 + a2 + b1 + b2;  // reach in 1/256 pixel
     steep[i] = terms * reach > 0x1p42 * g.area[i] ? 1 : 0;
   }
