@@ -43,6 +43,9 @@ std::optional<std::array<bool, 4>> component_mask(const Draw& draw, const FrameB
 std::optional<std::string> unsupported_draw(const Draw& draw, const FrameBufferFormat& format, std::size_t lights) {
   if (!component_mask(draw, format)) return "a plane mask splits a colour component";
   if (draw.lighting && lights > kMaxProgramLights) return "more lights than the programs take";
+  const bool has_offset = draw.polygon_offset.factor != 0 || draw.polygon_offset.units != 0;
+  if (draw.alpha_test || draw.stencil || draw.blend || draw.logic_op != reference::LogicOp::kCopy || has_offset)
+    return "per-fragment operations";
   if (draw.viewport && (draw.viewport->width > kLargestViewport || draw.viewport->height > kLargestViewport)) return "a viewport beyond Mesa's";
   return std::nullopt;
 }
@@ -88,6 +91,7 @@ class Renderer {
  private:
   void execute(const reference::CameraChange& change) { camera_ = change.camera; }
   void execute(const reference::LightsChange& change) { lights_ = change.lights; }
+  void execute(const reference::Accum&) {}  // refused by unsupported()
 
   void execute(const Clear& clear) {
     GLbitfield buffers = 0;
@@ -186,6 +190,9 @@ class Renderer {
 }  // namespace
 
 std::optional<std::string> unsupported(const reference::Scene& scene) {
+  const FrameBufferFormat& format = scene.framebuffer;
+  if (format.dither != reference::Dither::kNone || format.alpha_bits > 0 || format.accumulation_bits > 0 || format.samples > 1)
+    return "dither, alpha planes, accumulation or samples";
   std::size_t lights = scene.lights.size();
   for (const reference::Command& command : scene.frame) {
     if (const auto* change = std::get_if<reference::LightsChange>(&command)) lights = change->lights.size();

@@ -35,6 +35,8 @@ double highlight(const Surface& surface, const LightModel& model, Vec3 to_light)
   return std::pow(std::max(cosine, 0.0), surface.material.shininess);  // pow(0, 0) is 1
 }
 
+double luminance(Vec4 color) { return 0.30 * color.x + 0.59 * color.y + 0.11 * color.z; }
+
 double clamp01(double x) { return x > 0 ? std::min(x, 1.0) : 0; }
 
 }  // namespace
@@ -75,6 +77,18 @@ Vec4 lit_color(const Surface& surface, const LightModel& model, const std::vecto
     sum = sum + strength * (ambient + diffuse + specular);
   }
   return clamp01(Vec4{sum.x, sum.y, sum.z, material.diffuse.w});
+}
+
+double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model, const std::vector<EyeLight>& lights) {
+  double d = 0, s = 0;
+  for (const EyeLight& light : lights) {
+    const Vec3 l = to_light(light, surface.position);
+    const double strength = attenuation(light, surface.position) * spot(light, -l);
+    d += strength * std::max(dot(l, surface.normal), 0.0) * luminance(light.diffuse);
+    s += strength * highlight(surface, model, l) * luminance(light.specular);
+  }
+  const auto [ambient, diffuse, specular] = indexes;
+  return std::min(ambient + d * (1 - s) * (diffuse - ambient) + s * (specular - ambient), specular);
 }
 
 Vec4 clamp01(Vec4 c) { return {clamp01(c.x), clamp01(c.y), clamp01(c.z), clamp01(c.w)}; }

@@ -1,4 +1,4 @@
-// The lighting equation in RGBA mode, in eye space, term by term.
+// The lighting equations in eye space, in RGBA mode term by term, and in colour-index mode.
 #pragma once
 
 #include <vector>
@@ -31,6 +31,10 @@ struct Surface {
 
 /// The colour of a lit point, clamped to 0..1; its alpha is that of the material's diffuse colour.
 Vec4 lit_color(const Surface& surface, const LightModel& model, const std::vector<EyeLight>& lights);
+
+/// The palette index of a lit point as a continuous value, not yet masked.
+/// @param indexes  ambient, diffuse and specular index
+double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model, const std::vector<EyeLight>& lights);
 
 /// Clamps every component to 0..1; what is not a number counts as 0.
 Vec4 clamp01(Vec4 color);

@@ -1,5 +1,4 @@
 // The list of commands of a frame.
-#include <limits>
 #include <numbers>
 
 #include "scene_parts.h"
@@ -38,66 +37,10 @@ Mat4 parse_transform(const Value& v) {
   return product;
 }
 
-Clear parse_clear(const Value& v, const Scene& scene) {
-  ObjectReader reader(v);
-  Clear clear;
-  if (const Value color = reader.find("color")) {
-    for (std::size_t i = 0; i < array_size(color); ++i) number(color[i], 0, 1);
-    clear.color = vec4(color);
-  }
-  if (const Value index = reader.find("index")) {
-    if (scene.framebuffer.color_mode != ColorMode::kIndex) fail(index.pointer, "an index buffer to clear to an index");
-    const auto mask = (std::uint32_t{1} << scene.framebuffer.color_bits) - 1;
-    clear.index = static_cast<std::uint32_t>(integer(index, 0, std::numeric_limits<std::uint32_t>::max())) & mask;
-  }
-  if (const Value depth = reader.find("depth")) {
-    if (scene.framebuffer.depth == DepthFormat::kNone) fail(depth.pointer, "a depth buffer to clear");
-    clear.depth = number(depth, 0, 1);
-  }
-  if (const Value stencil = reader.find("stencil")) {
-    if (scene.framebuffer.stencil_bits == 0) fail(stencil.pointer, "a stencil buffer to clear");
-    clear.stencil = static_cast<std::uint32_t>(integer(stencil, 0, 255));
-  }
-  if (const Value scissor = reader.find("scissor")) clear.scissor = rect(scissor);
-  reader.finish();
-  return clear;
-}
-
-std::optional<DepthState> parse_depth(const Value& v, const Scene& scene) {
-  if (v.json->is_boolean() && !v.json->get<bool>()) return std::nullopt;
-  if (scene.framebuffer.depth == DepthFormat::kNone) fail(v.pointer, "a depth buffer to test");
-  ObjectReader reader(v);
-  DepthState depth;
-  if (const Value test = reader.find("test"))
-    depth.test = choice<Compare>(test, {{"never", Compare::kNever},
-                                        {"less", Compare::kLess},
-                                        {"equal", Compare::kEqual},
-                                        {"lequal", Compare::kLequal},
-                                        {"greater", Compare::kGreater},
-                                        {"notequal", Compare::kNotequal},
-                                        {"gequal", Compare::kGequal},
-                                        {"always", Compare::kAlways}});
-  if (const Value write = reader.find("write")) depth.write = boolean(write);
-  reader.finish();
-  return depth;
-}
-
 Material find_material(const Value& v, const Scene& scene) {
   const auto found = scene.materials.find(text(v));
   if (found == scene.materials.end()) fail(v.pointer, "the name of a material");
   return found->second;
-}
-
-void parse_masks(ObjectReader& reader, const Scene& scene, Draw& draw) {
-  if (const Value mask = reader.find("color_mask")) {
-    if (array_size(mask) != 4) fail(mask.pointer, "four of true and false");
-    for (std::size_t i = 0; i < 4; ++i) draw.color_mask[i] = boolean(mask[i]);
-    const auto [r, g, b, a] = draw.color_mask;
-    const bool one_value = scene.framebuffer.color_mode == ColorMode::kIndex || scene.framebuffer.color_bits < 3;
-    if (one_value && (r != g || g != b)) fail(mask.pointer, "all or none for a luminance or index buffer");
-  }
-  if (const Value planes = reader.find("plane_mask"))
-    draw.plane_mask = static_cast<std::uint32_t>(integer(planes, 0, std::numeric_limits<std::uint32_t>::max()));
 }
 
 // Keys of the format whose features the reference renderers do not have.
@@ -105,10 +48,8 @@ void refuse_other_features(ObjectReader& reader) {
   reader.only_default("polygon_mode", "fill");
   reader.only_default("point_size", 1);
   reader.only_default("line_width", 1);
-  reader.only_default("polygon_offset", Json::array({0, 0}));
   reader.only_default("texture_env", "modulate");
   reader.only_default("texture_env_color", Json::array({0, 0, 0, 0}));
-  reader.only_default("logic_op", "copy");
   reader.only_default("stages", Json::array());
 }
 
@@ -143,15 +84,8 @@ Draw parse_draw(const Value& v, const Scene& scene) {
   if (const Value front = reader.find("front_face"))
     draw.front_face = choice<FrontFace>(front, {{"ccw", FrontFace::kCcw}, {"cw", FrontFace::kCw}});
 
-  if (scene.framebuffer.depth == DepthFormat::kNone) draw.depth = std::nullopt;
-  if (const Value depth = reader.find("depth")) draw.depth = parse_depth(depth, scene);
-  if (const Value range = reader.find("depth_range")) {
-    draw.depth_range = numbers<2>(range);
-    for (std::size_t i = 0; i < 2; ++i) number(range[i], 0, 1);
-  }
-  parse_masks(reader, scene, draw);
   if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
-  if (const Value scissor = reader.find("scissor")) draw.scissor = rect(scissor);
+  parse_fragment_state(reader, scene.framebuffer, draw);
   refuse_other_features(reader);
   reader.finish();
   return draw;
@@ -162,9 +96,10 @@ Command parse_command(const Value& v, const Scene& scene) {
   if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene);
   ObjectReader reader(v);
   if (v.json->size() != 1) fail(v.pointer, "one command");
-  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights");
+  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"), accum = reader.find("accum");
   reader.finish();
   if (clear) return parse_clear(clear, scene);
+  if (accum) return parse_accum(accum, scene);
   if (camera) return CameraChange{parse_camera(camera, aspect)};
   return LightsChange{parse_lights(lights)};
 }

@@ -32,6 +32,7 @@ Mesh parse_inline(ObjectReader& reader, const std::string& pointer) {
   };
   for_each_vertex("normals", [&](const Value& v) { mesh.normals.push_back(vec3(v)); });
   for_each_vertex("colors", [&](const Value& v) { mesh.colors.push_back(vec4(v)); });
+  for_each_vertex("color_indices", [&](const Value& v) { mesh.color_indices.push_back(number(v)); });
   for_each_vertex("texcoords", [](const Value& v) { numbers<2>(v); });  // without textures they have no effect
 
   if (const Value indices = reader.find("indices")) {

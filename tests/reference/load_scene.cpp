@@ -1,9 +1,8 @@
-// The top level of a scene file: frame buffer, light model, lights, materials; the other parts have files of their own.
+// The top level of a scene file: light model, lights, materials; the other parts have files of their own.
 #include <fstream>
 #include <sstream>
 
 #include "material_presets.h"
-#include "palette.h"
 #include "scene_parts.h"
 
 namespace tessera::reference {
@@ -25,52 +24,6 @@ void resolve_keys(Json& json) {
   }
   if (json.is_structured())
     for (Json& member : json) resolve_keys(member);
-}
-
-std::vector<Rgb8> parse_palette(const Value& v, int bits) {
-  if (v.json->is_string()) return named_palette(text(v), bits);
-  std::vector<Rgb8> palette;
-  if (array_size(v) == 0 || array_size(v) > (std::size_t{1} << bits)) fail(v.pointer, "1 to 2^bits entries");
-  for (std::size_t i = 0; i < array_size(v); ++i) {
-    Rgb8 entry;
-    if (array_size(v[i]) != 3) fail(v[i].pointer, "r, g, b");
-    for (std::size_t c = 0; c < 3; ++c) entry[c] = static_cast<std::uint8_t>(std::floor(255 * number(v[i][c], 0, 1) + 0.5));
-    palette.push_back(entry);
-  }
-  return palette;
-}
-
-void parse_color(const Value& v, FrameBufferFormat& format) {
-  ObjectReader reader(v);
-  if (const Value mode = reader.find("mode"))
-    format.color_mode = choice<ColorMode>(mode, {{"rgb", ColorMode::kRgb}, {"index", ColorMode::kIndex}});
-  if (const Value bits = reader.find("bits")) format.color_bits = static_cast<int>(integer(bits, 1, 24));
-  reader.finish();
-}
-
-FrameBufferFormat parse_framebuffer(const Value& v) {
-  ObjectReader reader(v);
-  FrameBufferFormat format;
-  if (const Value width = reader.find("width")) format.width_px = static_cast<int>(integer(width, 1, 16384));
-  if (const Value height = reader.find("height")) format.height_px = static_cast<int>(integer(height, 1, 16384));
-  if (const Value color = reader.find("color")) parse_color(color, format);
-  const Value palette = reader.find("palette");
-  if (format.color_mode == ColorMode::kIndex)
-    format.palette = palette ? parse_palette(palette, format.color_bits) : default_palette(format.color_bits);
-  else if (palette) fail(palette.pointer, "an index buffer to go with a palette");
-  if (const Value depth = reader.find("depth"))
-    format.depth = choice<DepthFormat>(depth, {{"none", DepthFormat::kNone},
-                                               {"unorm16", DepthFormat::kUnorm16},
-                                               {"unorm24", DepthFormat::kUnorm24},
-                                               {"unorm32", DepthFormat::kUnorm32},
-                                               {"float32", DepthFormat::kFloat32}});
-  if (const Value stencil = reader.find("stencil")) format.stencil_bits = static_cast<int>(integer(stencil, 0, 8));
-  reader.only_default("dither", "none");
-  reader.only_default("alpha", 0);
-  reader.only_default("accumulation", 0);
-  reader.only_default("samples", 1);
-  reader.finish();
-  return format;
 }
 
 LightModel parse_light_model(const Value& v) {
@@ -112,6 +65,7 @@ Material parse_material(const Value& v) {
   if (const Value specular = reader.find("specular")) material.specular = vec4(specular);
   if (const Value emission = reader.find("emission")) material.emission = vec4(emission);
   if (const Value shininess = reader.find("shininess")) material.shininess = number(shininess, 0, 16384);
+  if (const Value indexes = reader.find("color_indexes")) material.color_indexes = numbers<3>(indexes);
   reader.finish();
   return material;
 }

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "fragment_state.h"
 #include "linear.h"
 
 namespace tessera::reference {
@@ -30,8 +31,12 @@ struct FrameBufferFormat {
   ColorMode color_mode = ColorMode::kRgb;
   int color_bits = 24;             ///< 1..24; RGB: split over the components, index: bits of a stored index
   std::vector<Rgb8> palette;       ///< index mode: the entries that are set, at most 2^color_bits; the others show black
+  Dither dither = Dither::kNone;
+  int alpha_bits = 0;              ///< 0 or 8; RGB only
   DepthFormat depth = DepthFormat::kUnorm24;
-  int stencil_bits = 8;
+  int stencil_bits = 8;            ///< 0..8
+  int accumulation_bits = 0;       ///< of each component: 0, 16 or 32; RGB only
+  int samples = 1;                 ///< of each pixel: 1, 4 or 8; more than 1 RGB only
 };
 
 /// A rectangle of pixels in window coordinates (origin lower left, y up): x..x+width-1, y..y+height-1.
@@ -77,6 +82,8 @@ struct Material {
   Vec4 specular{0, 0, 0, 1};
   Vec4 emission{0, 0, 0, 1};
   double shininess = 0;            ///< 0..16384
+  /// Ambient, diffuse and specular index. If present, lit draws into an index buffer use index lighting.
+  std::optional<std::array<double, 3>> color_indexes;
 };
 
 // ---- Meshes
@@ -87,6 +94,7 @@ struct Mesh {
   std::vector<Vec4> positions;       ///< object space, w = 1 unless the scene gives it
   std::vector<Vec3> normals;         ///< one for each position, or empty: the mesh has none (see generated_normals.h)
   std::vector<Vec4> colors;          ///< RGBA, one for each position, or empty: the mesh has none
+  std::vector<double> color_indices;   ///< palette indices, one for each position, or empty; unlit draws into index buffers use them
   std::vector<std::uint32_t> indices;  ///< a multiple of 3, all below positions.size()
 };
 
@@ -97,20 +105,25 @@ enum class ColorMaterial { kNone, kAmbientAndDiffuse, kDiffuse, kAmbient, kEmiss
 enum class ProvokingVertex { kLast, kFirst };  ///< of a triangle: its third or its first corner
 enum class Cull { kNone, kBack, kFront };
 enum class FrontFace { kCcw, kCw };
-enum class Compare { kNever, kLess, kEqual, kLequal, kGreater, kNotequal, kGequal, kAlways };
 
 /// Clears the buffers named, through full masks.
 struct Clear {
   std::optional<Vec4> color;           ///< 0..1; on an index buffer: its nearest palette entry
   std::optional<std::uint32_t> index;  ///< index buffers only, already masked to the buffer's bits; goes before `color`
   std::optional<double> depth;         ///< 0..1
-  std::optional<std::uint32_t> stencil;
+  std::optional<std::uint32_t> stencil;  ///< already masked to the buffer's bits
+  std::optional<Vec4> accumulation;    ///< -1..1
   std::optional<Rect> scissor;         ///< absent: the whole buffer
 };
 
-struct DepthState {
-  Compare test = Compare::kLess;
-  bool write = true;
+enum class AccumOp { kAccum, kLoad, kAdd, kMult, kReturn };
+
+/// Combines the colour buffer with the accumulation buffer.
+struct Accum {
+  AccumOp op = AccumOp::kAccum;
+  double value = 1;
+  std::optional<Rect> scissor;         ///< absent: the whole buffer
+  std::array<bool, 4> color_mask{true, true, true, true};  ///< of kReturn
 };
 
 struct Draw {
@@ -126,10 +139,15 @@ struct Draw {
   bool normalize = true;               ///< eye-space normals are normalized at the vertices
   Cull cull = Cull::kNone;
   FrontFace front_face = FrontFace::kCcw;
+  std::optional<AlphaTest> alpha_test;   ///< absent: off; so the other optional ones
+  std::optional<StencilState> stencil;
   std::optional<DepthState> depth = DepthState{};  ///< absent: no depth test and no depth write
+  std::optional<Blend> blend;
+  LogicOp logic_op = LogicOp::kCopy;
   std::array<double, 2> depth_range{0, 1};
+  PolygonOffset polygon_offset;
   std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
-  std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word R:G:B (or of the index) may change
+  std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
   std::optional<Rect> viewport;        ///< absent: the whole buffer
   std::optional<Rect> scissor;         ///< absent: off
 };
@@ -144,7 +162,7 @@ struct LightsChange {
   std::vector<Light> lights;
 };
 
-using Command = std::variant<Clear, Draw, CameraChange, LightsChange>;
+using Command = std::variant<Clear, Draw, Accum, CameraChange, LightsChange>;
 
 struct Scene {
   std::string title;

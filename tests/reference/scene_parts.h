@@ -6,6 +6,8 @@
 
 namespace tessera::reference {
 
+FrameBufferFormat parse_framebuffer(const Value& v);
+
 /// @param aspect  width / height of the picture.
 Camera parse_camera(const Value& v, double aspect);
 
@@ -16,6 +18,16 @@ std::vector<Light> parse_lights(const Value& v);
 
 /// @param directory  what file paths are relative to.
 Mesh parse_mesh(const Value& v, const std::string& name, const std::string& directory);
+
+/// Reads the keys of a draw that its fragments obey.
+/// @throws std::runtime_error for what the frame buffer has no buffer for and for what it refuses.
+void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format, Draw& draw);
+
+/// Four of true and false: red, green and blue the same if the buffer holds one value for each pixel.
+std::array<bool, 4> parse_color_mask(const Value& v, const FrameBufferFormat& format);
+
+Clear parse_clear(const Value& v, const Scene& scene);
+Accum parse_accum(const Value& v, const Scene& scene);
 
 /// @param scene  all but the frame has been read.
 std::vector<Command> parse_frame(const Value& v, const Scene& scene);

@@ -1,9 +1,9 @@
-// The corners of a draw in eye and clip space, and the colours of its triangles.
+// The corners of a draw in eye and clip space.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "lighting.h"
 #include "scene.h"
 
 namespace tessera::reference {
@@ -13,6 +13,7 @@ struct Corner {
   Vec3 position_eye;
   Vec3 normal_eye;  ///< normalized if the draw says so; null if the draw is unlit
   Vec4 color;       ///< the vertex colour as given; unused if the mesh has none
+  double index = 0; ///< the palette index as given; unused if the mesh has none
 };
 
 using Triangle = std::array<Corner, 3>;
@@ -34,28 +35,6 @@ class VertexStage {
   Mat4 clip_from_eye_;
   Mat4 normal_matrix_;
   std::vector<Vec3> mean_normals_;
-};
-
-/// Colours the points of one triangle.
-class TriangleShader {
- public:
-  TriangleShader(const Triangle& triangle, bool is_back, bool has_colors, const Draw& draw, const LightModel& model,
-                 const std::vector<EyeLight>& lights);
-
-  /// @param share  of each of the three corners, summing to 1.
-  Vec4 color(Vec3 share) const;
-
- private:
-  Vec4 corner_color(const Corner& corner) const;
-  Vec4 point_color(Vec3 position, Vec3 normal, Vec4 vertex_color) const;
-
-  const Triangle& triangle_;
-  bool lights_back_;
-  bool has_colors_;
-  const Draw& draw_;
-  const LightModel& model_;
-  const std::vector<EyeLight>& lights_;
-  std::array<Vec4, 3> corner_colors_;  // all the provoking one's if flat; unused by lit Phong
 };
 
 }  // namespace tessera::reference

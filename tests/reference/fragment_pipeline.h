@@ -1,0 +1,37 @@
+// The way of a fragment into the buffers: alpha test, stencil, depth, blend, dither, logic operation, masks, in this order.
+// The scissor is done before, by what is rasterized.
+#pragma once
+
+#include "rasterize.h"
+#include "sample_buffers.h"
+#include "triangle_shader.h"
+
+namespace tessera::reference {
+
+/// Takes the fragments of one polygon.
+class FragmentPipeline {
+ public:
+  /// What stays the same over the polygon.
+  struct Source {
+    std::int32_t command = 0;   ///< index in Scene::frame
+    std::int32_t triangle = 0;  ///< index in the mesh
+    bool is_back = false;
+  };
+
+  FragmentPipeline(const Draw& draw, const TriangleShader& shader, Source source, SampleBuffers& buffers);
+
+  void take(const Fragment& fragment);
+
+ private:
+  bool passes_stencil_and_depth(SampleBuffers::Sample& stored, double depth) const;
+  bool passes_depth(SampleBuffers::Sample& stored, double depth) const;
+  std::uint32_t new_word(const Shade& shade, std::uint32_t stored, double dither) const;
+
+  const Draw& draw_;
+  const TriangleShader& shader_;
+  Source source_;
+  SampleBuffers& buffers_;
+  std::uint32_t planes_;  // that may change
+};
+
+}  // namespace tessera::reference

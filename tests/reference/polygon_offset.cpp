@@ -1,0 +1,26 @@
+#include "polygon_offset.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::reference {
+
+double smallest_difference(DepthFormat format, double largest_depth) {
+  constexpr int kLeastExponent = -126, kFractionBits = 23;  // of float; 0 and what is denormalized have the least
+  switch (format) {
+    case DepthFormat::kNone: return 0;
+    case DepthFormat::kUnorm16: return 1 / (std::ldexp(1.0, 16) - 1);
+    case DepthFormat::kUnorm24: return 1 / (std::ldexp(1.0, 24) - 1);
+    case DepthFormat::kUnorm32: return 1 / (std::ldexp(1.0, 32) - 1);
+    case DepthFormat::kFloat32: break;
+  }
+  const int exponent = largest_depth > 0 ? std::max(std::ilogb(largest_depth), kLeastExponent) : kLeastExponent;
+  return std::ldexp(1.0, exponent - kFractionBits);
+}
+
+double depth_offset(const PolygonOffset& offset, const WindowPolygon& polygon, DepthFormat format) {
+  const double slope = offset.factor != 0 ? offset.factor * polygon.depth_slope() : 0;
+  return slope + offset.units * smallest_difference(format, polygon.largest_depth());
+}
+
+}  // namespace tessera::reference

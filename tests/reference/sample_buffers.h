@@ -1,0 +1,61 @@
+// The buffers of a frame: colour, depth and stencil for each sample, accumulation for each pixel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accumulation.h"
+#include "pixel_format.h"
+#include "render.h"
+#include "scene.h"
+
+namespace tessera::reference {
+
+/// New buffers hold colour 0, depth 1, stencil 0, accumulation 0.
+class SampleBuffers {
+ public:
+  struct Sample {
+    double depth = 1;  ///< of the fragment stored last, before rounding to a level
+    std::uint32_t depth_level = 0;
+    std::uint32_t stencil = 0;
+  };
+
+  explicit SampleBuffers(const FrameBufferFormat& format);
+
+  const FrameBufferFormat& format() const { return format_; }
+  const ColorFormat& colors() const { return colors_; }
+  Rect rect() const { return {0, 0, format_.width_px, format_.height_px}; }
+
+  /// @param x, y  window coordinates, y up, in the buffer; so in the others.
+  std::uint32_t& word(int x, int y, int sample) { return words_[first_sample(x, y) + static_cast<std::size_t>(sample)]; }
+  Sample& sample(int x, int y, int index) { return samples_[first_sample(x, y) + static_cast<std::size_t>(index)]; }
+  AccumPixel& accumulation(int x, int y) { return accumulation_[pixel(x, y)]; }
+
+  /// What is read back of a pixel: the mean of its samples.
+  std::uint32_t resolved(int x, int y) const;
+
+  /// The same for all samples of a pixel, through the planes that may change.
+  void write_word(int x, int y, std::uint32_t word, std::uint32_t planes);
+
+  /// Notes which triangle of which command wrote the colour last.
+  void sign(int x, int y, std::int32_t command, std::int32_t triangle);
+
+  /// Everything as it is now.
+  Picture picture() const;
+
+ private:
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(format_.height_px - 1 - y) * static_cast<std::size_t>(format_.width_px) + static_cast<std::size_t>(x);
+  }
+  std::size_t first_sample(int x, int y) const { return pixel(x, y) * static_cast<std::size_t>(format_.samples); }
+
+  FrameBufferFormat format_;
+  ColorFormat colors_;
+  std::vector<std::uint32_t> words_;  // a pixel's samples lie together; rows from the top
+  std::vector<Sample> samples_;
+  std::vector<AccumPixel> accumulation_;  // empty without the buffer
+  std::vector<std::int32_t> commands_, triangles_;
+};
+
+}  // namespace tessera::reference
