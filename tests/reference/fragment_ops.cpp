@@ -23,7 +23,6 @@ std::uint32_t applied(StencilOp op, std::uint32_t ref, std::uint32_t stored, int
 }
 
 Vec4 times(Vec4 a, Vec4 b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
-Vec4 minus(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
 Vec4 all(double a) { return {a, a, a, a}; }
 
 Vec4 factor(BlendFactor name, Vec4 source, Vec4 destination, Vec4 constant) {
@@ -32,15 +31,15 @@ Vec4 factor(BlendFactor name, Vec4 source, Vec4 destination, Vec4 constant) {
     case BlendFactor::kZero: return all(0);
     case BlendFactor::kOne: return one;
     case BlendFactor::kSrcColor: return source;
-    case BlendFactor::kOneMinusSrcColor: return minus(one, source);
+    case BlendFactor::kOneMinusSrcColor: return one - source;
     case BlendFactor::kDstColor: return destination;
-    case BlendFactor::kOneMinusDstColor: return minus(one, destination);
+    case BlendFactor::kOneMinusDstColor: return one - destination;
     case BlendFactor::kSrcAlpha: return all(source.w);
     case BlendFactor::kOneMinusSrcAlpha: return all(1 - source.w);
     case BlendFactor::kDstAlpha: return all(destination.w);
     case BlendFactor::kOneMinusDstAlpha: return all(1 - destination.w);
     case BlendFactor::kConstantColor: return constant;
-    case BlendFactor::kOneMinusConstantColor: return minus(one, constant);
+    case BlendFactor::kOneMinusConstantColor: return one - constant;
     case BlendFactor::kConstantAlpha: return all(constant.w);
     case BlendFactor::kOneMinusConstantAlpha: return all(1 - constant.w);
     case BlendFactor::kSrcAlphaSaturate: {
@@ -82,8 +81,8 @@ Vec4 blended(const Blend& blend, Vec4 source, Vec4 destination) {
   const Vec4 s = times(source, with_alpha(of(blend.src), of(blend.src_alpha).w));
   const Vec4 d = times(destination, with_alpha(of(blend.dst), of(blend.dst_alpha).w));
   switch (blend.equation) {
-    case BlendEquation::kSubtract: return minus(s, d);
-    case BlendEquation::kReverseSubtract: return minus(d, s);
+    case BlendEquation::kSubtract: return s - d;
+    case BlendEquation::kReverseSubtract: return d - s;
     default: return s + d;
   }
 }

@@ -7,7 +7,11 @@
 namespace tessera::reference {
 
 FragmentPipeline::FragmentPipeline(const Draw& draw, const TriangleShader& shader, Source source, SampleBuffers& buffers)
-    : draw_(draw), shader_(shader), source_(source), buffers_(buffers), planes_(buffers.colors().writable_planes(draw.color_mask, draw.plane_mask)) {}
+    : draw_(draw),
+      shader_(shader),
+      source_(source),
+      buffers_(buffers),
+      planes_(buffers.colors().writable_planes(draw.color_mask, draw.plane_mask)) {}
 
 void FragmentPipeline::take(const Fragment& fragment) {
   std::optional<Shade> shade;  // once a pixel, if anything asks for it

@@ -79,7 +79,8 @@ Vec4 lit_color(const Surface& surface, const LightModel& model, const std::vecto
   return clamp01(Vec4{sum.x, sum.y, sum.z, material.diffuse.w});
 }
 
-double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model, const std::vector<EyeLight>& lights) {
+double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model,
+                 const std::vector<EyeLight>& lights) {
   double d = 0, s = 0;
   for (const EyeLight& light : lights) {
     const Vec3 l = to_light(light, surface.position);

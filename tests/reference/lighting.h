@@ -34,7 +34,8 @@ Vec4 lit_color(const Surface& surface, const LightModel& model, const std::vecto
 
 /// The palette index of a lit point as a continuous value, not yet masked.
 /// @param indexes  ambient, diffuse and specular index
-double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model, const std::vector<EyeLight>& lights);
+double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model,
+                 const std::vector<EyeLight>& lights);
 
 /// Clamps every component to 0..1; what is not a number counts as 0.
 Vec4 clamp01(Vec4 color);

@@ -31,6 +31,7 @@ inline Vec3 normalize(Vec3 a) {
 }
 
 inline Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+inline Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
 inline Vec4 operator*(double s, Vec4 a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
 inline Vec3 xyz(Vec4 a) { return {a.x, a.y, a.z}; }
 

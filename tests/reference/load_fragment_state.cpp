@@ -149,7 +149,8 @@ void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format,
   if (const Value blend = reader.find("blend")) draw.blend = parse_blend(blend, format);
   if (const Value op = reader.find("logic_op")) {
     draw.logic_op = choice(op, kLogicOps);
-    if (draw.blend && draw.logic_op != LogicOp::kCopy) fail(op.pointer, "\"copy\" beside \"blend\": blending and a logic operation exclude each other");
+    if (draw.blend && draw.logic_op != LogicOp::kCopy)
+      fail(op.pointer, "\"copy\" beside \"blend\": blending and a logic operation exclude each other");
   }
   if (const Value mask = reader.find("color_mask")) draw.color_mask = parse_color_mask(mask, format);
   if (const Value planes = reader.find("plane_mask"))

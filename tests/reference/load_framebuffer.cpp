@@ -30,7 +30,8 @@ void parse_color(const Value& v, FrameBufferFormat& format) {
 Dither parse_dither(const Value& v) {
   for (const char* later : {"blue_noise", "floyd_steinberg", "jarvis", "pattern"})
     if (text(v) == later) fail(v.pointer, "none | bayer2 | bayer4 | bayer8: " + text(v) + " comes later");
-  return choice<Dither>(v, {{"none", Dither::kNone}, {"bayer2", Dither::kBayer2}, {"bayer4", Dither::kBayer4}, {"bayer8", Dither::kBayer8}});
+  return choice<Dither>(
+      v, {{"none", Dither::kNone}, {"bayer2", Dither::kBayer2}, {"bayer4", Dither::kBayer4}, {"bayer8", Dither::kBayer8}});
 }
 
 /// An integer out of a list; what an index buffer cannot have may only be the first.
@@ -43,7 +44,8 @@ int parse_size(const Value& v, const std::vector<int>& sizes, const FrameBufferF
     known = known || candidate == size;
   }
   if (!known) fail(v.pointer, all);
-  if (format.color_mode == ColorMode::kIndex && size != sizes.front()) fail(v.pointer, "an RGB buffer for " + what + ", not an index buffer");
+  if (format.color_mode == ColorMode::kIndex && size != sizes.front())
+    fail(v.pointer, "an RGB buffer for " + what + ", not an index buffer");
   return static_cast<int>(size);
 }
 

@@ -126,7 +126,8 @@ double WindowPolygon::depth_slope() const {
   if (parts_.empty()) return 0;
   const auto& [a, b, c, area] = largest_part();
   const auto difference = [](std::int64_t p, std::int64_t q) { return static_cast<double>(p - q); };
-  const double b_depth = b.depth - a.depth, c_depth = c.depth - a.depth, per_pixel = static_cast<double>(kSubpixels) / static_cast<double>(area);
+  const double b_depth = b.depth - a.depth, c_depth = c.depth - a.depth;
+  const double per_pixel = static_cast<double>(kSubpixels) / static_cast<double>(area);
   return per_pixel * std::max(std::abs(b_depth * difference(c.y, a.y) - c_depth * difference(b.y, a.y)),
                               std::abs(b_depth * difference(c.x, a.x) - c_depth * difference(b.x, a.x)));
 }

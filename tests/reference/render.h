@@ -14,7 +14,8 @@ namespace tessera::reference {
 struct Picture {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint32_t> words;         ///< stored colour: levels A:R:G:B (bit k is plane k), luminance level below alpha, or palette index
+  /// Stored colour: levels A:R:G:B (bit k is plane k), luminance level below alpha, or palette index.
+  std::vector<std::uint32_t> words;
   std::vector<std::uint8_t> rgb;            ///< what the words show, 8 bits a component
   std::vector<double> depth;                ///< of the fragment stored last, before rounding to a level; 1 without a depth buffer
   std::vector<std::uint32_t> depth_levels;  ///< stored depth: unorm level, or the bits of the float; 0 without a depth buffer
