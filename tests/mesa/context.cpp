@@ -16,6 +16,11 @@ GLenum internal_format(reference::DepthFormat depth) {
   return GL_NONE;
 }
 
+GLenum format_with_stencil(reference::DepthFormat depth) {
+  if (depth == reference::DepthFormat::kNone) return GL_STENCIL_INDEX8;
+  return depth == reference::DepthFormat::kFloat32 ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
+}
+
 template <class F>
 void load(F& function, const char* name) {
   function = reinterpret_cast<F>(OSMesaGetProcAddress(name));
@@ -24,14 +29,25 @@ void load(F& function, const char* name) {
 
 }  // namespace
 
-Context::Context(const reference::FrameBufferFormat& format) : width_(format.width_px), height_(format.height_px) {
-  constexpr int kAttributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
-  context_ = OSMesaCreateContextAttribs(kAttributes, nullptr);
+Context::Context(int width_px, int height_px, const Buffers& buffers) : width_(width_px), height_(height_px) {
+  const bool in_window = buffers.color == ColorStore::kWindow;
+  const int window_width = in_window ? width_px : 1, window_height = in_window ? height_px : 1;
+  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, in_window ? 24 : 0, OSMESA_STENCIL_BITS, in_window ? 8 : 0, OSMESA_ACCUM_BITS,
+                            in_window ? 16 : 0, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
+  window_.resize(static_cast<std::size_t>(window_width) * static_cast<std::size_t>(window_height));
+  context_ = OSMesaCreateContextAttribs(attributes, nullptr);
   if (context_ == nullptr) throw std::runtime_error("OSMesa cannot make a context");
   try {
-    if (!OSMesaMakeCurrent(context_, &window_pixel_, GL_UNSIGNED_BYTE, 1, 1)) throw std::runtime_error("OSMesa cannot make its context current");
+    if (!OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, window_width, window_height))
+      throw std::runtime_error("OSMesa cannot make its context current");
     load_functions();
-    make_frame_buffer(format.depth);
+    if (!in_window) make_frame_buffer(buffers);
+    glDisable(GL_DITHER);
+    glClearColor(0, 0, 0, buffers.color == ColorStore::kBytesAndAlpha || in_window ? 0 : 1);
+    glClearDepth(1);
+    glClearAccum(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | (in_window ? GL_ACCUM_BUFFER_BIT : 0));
+    check_errors("making the buffers");
   } catch (...) {
     OSMesaDestroyContext(context_);
     throw;
@@ -44,6 +60,12 @@ void Context::load_functions() {
   Functions& f = functions_;
   load(f.provoking_vertex, "glProvokingVertex");
   load(f.clip_control, "glClipControl");
+  load(f.blend_color, "glBlendColor");
+  load(f.blend_equation, "glBlendEquation");
+  load(f.blend_func_separate, "glBlendFuncSeparate");
+  load(f.stencil_func_separate, "glStencilFuncSeparate");
+  load(f.stencil_op_separate, "glStencilOpSeparate");
+  load(f.stencil_mask_separate, "glStencilMaskSeparate");
   load(f.gen_framebuffers, "glGenFramebuffers");
   load(f.bind_framebuffer, "glBindFramebuffer");
   load(f.check_framebuffer_status, "glCheckFramebufferStatus");
@@ -67,25 +89,22 @@ void Context::load_functions() {
   load(f.uniform_4fv, "glUniform4fv");
 }
 
-// Fresh buffers hold colour 0 and depth 1.
-void Context::make_frame_buffer(reference::DepthFormat depth) {
+void Context::make_frame_buffer(const Buffers& buffers) {
   const Functions& f = functions_;
-  GLuint frame_buffer = 0, buffers[2] = {};
+  GLuint frame_buffer = 0, names[2] = {};
   f.gen_framebuffers(1, &frame_buffer);
   f.bind_framebuffer(GL_FRAMEBUFFER, frame_buffer);
-  f.gen_renderbuffers(2, buffers);
+  f.gen_renderbuffers(2, names);
   const auto attach = [&](GLuint buffer, GLenum attachment, GLenum format) {
     f.bind_renderbuffer(GL_RENDERBUFFER, buffer);
     f.renderbuffer_storage(GL_RENDERBUFFER, format, width_, height_);
     f.framebuffer_renderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
   };
-  attach(buffers[0], GL_COLOR_ATTACHMENT0, GL_RGBA32F);
-  if (depth != reference::DepthFormat::kNone) attach(buffers[1], GL_DEPTH_ATTACHMENT, internal_format(depth));
+  attach(names[0], GL_COLOR_ATTACHMENT0, buffers.color == ColorStore::kFloat ? GL_RGBA32F : buffers.color == ColorStore::kBytes ? GL_RGB8 : GL_RGBA8);
+  const bool has_depth = buffers.depth != reference::DepthFormat::kNone;
+  if (buffers.stencil) attach(names[1], has_depth ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT, format_with_stencil(buffers.depth));
+  else if (has_depth) attach(names[1], GL_DEPTH_ATTACHMENT, internal_format(buffers.depth));
   if (f.check_framebuffer_status(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("OSMesa cannot make the frame buffer");
-  glClearColor(0, 0, 0, 0);
-  glClearDepth(1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  check_errors("making the frame buffer");
 }
 
 std::vector<float> Context::read_colors() const {

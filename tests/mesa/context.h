@@ -1,4 +1,4 @@
-// An OpenGL context without a window, and a frame buffer object to draw into.
+// An OpenGL context, and a frame buffer object or OSMesa's window to draw into.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES 0
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "buffers.h"
 #include "tests/reference/scene.h"
 
 namespace tessera::mesa {
@@ -17,6 +18,13 @@ namespace tessera::mesa {
 struct Functions {
   PFNGLPROVOKINGVERTEXPROC provoking_vertex;
   PFNGLCLIPCONTROLPROC clip_control;
+
+  PFNGLBLENDCOLORPROC blend_color;
+  PFNGLBLENDEQUATIONPROC blend_equation;
+  PFNGLBLENDFUNCSEPARATEPROC blend_func_separate;
+  PFNGLSTENCILFUNCSEPARATEPROC stencil_func_separate;
+  PFNGLSTENCILOPSEPARATEPROC stencil_op_separate;
+  PFNGLSTENCILMASKSEPARATEPROC stencil_mask_separate;
 
   PFNGLGENFRAMEBUFFERSPROC gen_framebuffers;
   PFNGLBINDFRAMEBUFFERPROC bind_framebuffer;
@@ -46,7 +54,7 @@ struct Functions {
 class Context {
  public:
   /// @throws std::runtime_error if OSMesa cannot make such a context or frame buffer.
-  explicit Context(const reference::FrameBufferFormat& format);
+  Context(int width_px, int height_px, const Buffers& buffers);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -58,10 +66,10 @@ class Context {
 
  private:
   void load_functions();
-  void make_frame_buffer(reference::DepthFormat depth);
+  void make_frame_buffer(const Buffers& buffers);
 
   int width_, height_;
-  std::uint32_t window_pixel_ = 0;  // OSMesa wants a window; it is not drawn to
+  std::vector<std::uint32_t> window_;  // OSMesa wants one; a single pixel if it is not drawn to
   OSMesaContext context_ = nullptr;
   Functions functions_{};
 };

@@ -3,8 +3,9 @@
 //
 // Flat and Gouraud draws go through OpenGL's fixed functions wherever those can do them; Phong shading and what fixed
 // functions cannot do (Phong highlights, more than 8 lights, ...) go through GLSL programs. The depth buffer has the
-// scene's own format; colours are kept in float and become levels or palette entries when the frame is finished, which
-// is the same as at each write because nothing here reads the colour buffer.
+// scene's own format. Where nothing reads the colour buffer, colours are kept in float and become levels or palette entries
+// when the frame is finished, which is the same as at each write; blending, logic operations and accumulation have 8 bits a
+// component to work on.
 #pragma once
 
 #include <cstdint>
