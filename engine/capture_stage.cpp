@@ -24,15 +24,28 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
 }
 
 void CaptureStage::add_pass(What what, const FrameCommands& commands, const TileFrame& frame) {
-  Pass& pass = passes_.emplace_back(Pass{what, frame, commands.tile_draws, commands.clears});
+  Pass& pass = passes_.emplace_back(Pass{what, frame, commands.tile_draws, commands.clears, {}});
+  pass.ops.reserve(pass.draws.size());  // draws point into it
   for (std::size_t i = 0; i < pass.draws.size(); ++i) {
     TileDraw& draw = pass.draws[i];
-    if (what == What::fragments) draw.uses_depth = false;
+    if (what == What::fragments) {
+      draw.uses_depth = false;
+      draw.ops = nullptr;
+    }
     if (draw.source == ColorSource::none && what != What::fragments) continue;  // depth alone
     draw.write_mask = 0xffffffffu;
     draw.deferred = what == What::normals;
     draw.source = ColorSource::constant;
     draw.word = static_cast<std::uint32_t>(commands.plan_draw[i]);
+    if (draw.ops != nullptr) {
+      // The tests are what decides who is seen; what becomes of the colour does not.
+      FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
+      ops.blend = ops.dither = false;
+      ops.logic = Logic::copy;
+      draw.ops = &ops;
+      draw.deferred = false;
+      draw.number = what == What::primitives ? TileDraw::Number::triangle : TileDraw::Number::draw;
+    }
     if (what == What::primitives) {
       draw.source = ColorSource::triangle_word;
       draw.words[0] = draw.words[1] = numbers_.data();

@@ -18,13 +18,13 @@ class CaptureStage {
 
   bool needs_normals() const { return !capture_.normals.empty(); }
   bool any() const { return !passes_.empty(); }
-  /// Renders a tile for each pass. `load_depth(words)` brings the tile's depth before the frame. Returns the fragments counted.
+  /// Renders a tile for each pass. `load_tests()` brings the tile's depth and stencil before the frame. Returns the fragments counted.
   /// Distinct tiles may run at the same time, each in a workspace of its own.
-  template <class LoadDepth>
-  std::uint64_t render_tile(int row, int column, TileWorkspace& workspace, const LoadDepth& load_depth) const {
+  template <class LoadTests>
+  std::uint64_t render_tile(int row, int column, TileWorkspace& workspace, const LoadTests& load_tests) const {
     std::uint64_t fragments = 0;
     for (const Pass& pass : passes_) {
-      load_depth();
+      load_tests();
       fragments += render_pass(pass, row, column, workspace);
     }
     return fragments;
@@ -37,6 +37,7 @@ class CaptureStage {
     TileFrame frame;
     std::vector<TileDraw> draws;
     std::vector<TileClear> clears;
+    std::vector<FragmentOps> ops;             ///< the tests of draws that have operations
   };
   void add_pass(What what, const FrameCommands& commands, const TileFrame& frame);
   std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;

@@ -5,8 +5,10 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/fragment_plan.h"
 #include "engine/matrix.h"
 #include "raster/fixed_point.h"
+#include "shading/fragment_ops_reference.h"
 
 namespace tessera {
 namespace {
@@ -95,9 +97,10 @@ std::uint32_t write_mask(const DrawState& state, const ColorLayout& layout) {
   } else {
     mask = (state.color_mask[0] ? layout.r_mask() : 0) | (state.color_mask[1] ? layout.g_mask() : 0) | (state.color_mask[2] ? layout.b_mask() : 0);
   }
+  if (state.color_mask[3]) mask |= layout.alpha_mask();
   mask &= state.plane_mask;
   if (mask == 0) return 0;
-  return mask == layout.word_mask() ? 0xffffffffu : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
+  return mask == (layout.word_mask() | layout.alpha_mask()) ? 0xffffffffu : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
 }
 
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, std::string* reasons) {
@@ -115,6 +118,14 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, std::string* reasons)
     plan.back.negate_normal = true;
   }
   plan.uses_vertex_colors = tracked.any();
+  plan.alpha[0] = clamp_unit(draw.state.material.diffuse.a);
+  plan.alpha[1] = plan.two_sided ? clamp_unit(draw.state.back_material.value_or(draw.state.material).diffuse.a) : plan.alpha[0];
+  plan.vertex_alpha = tracked.diffuse;
+}
+
+/// What is stored depends on what was, or on where it is stored.
+bool needs_order(const DrawPlan& plan, const ColorLayout& layout) {
+  return plan.has_ops && (plan.ops.blend || plan.ops.dither || plan.ops.logic != Logic::copy || layout.alpha_bits > 0);
 }
 
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
@@ -128,7 +139,8 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     return;
   }
   if (!state.lighting) {
-    plan.uses_vertex_colors = draw.mesh.has_colors();
+    plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
+    plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
     if (!plan.uses_vertex_colors) {
       plan.constant_color = rgb(state.material.diffuse);
       note("unlit, no vertex colours: one colour for the draw");
@@ -138,7 +150,8 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   } else {
     if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none) note("the mesh's colours are not used: it is lit, and color_material is none");
     plan_lights(plan, draw, reasons);
-    const bool constant = plan.front.terms.empty() && !plan.front.tracked && (!plan.two_sided || (plan.back.terms.empty() && plan.back.base == plan.front.base));
+    const bool constant = plan.front.terms.empty() && !plan.front.tracked && !(plan.has_ops && plan.vertex_alpha) &&
+                          (!plan.two_sided || (plan.back.terms.empty() && plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1]));
     if (constant) {
       plan.two_sided = false;
       plan.constant_color = plan.front.base;
@@ -151,21 +164,29 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   const bool generate = needs_normal && !draw.mesh.normals;
   if (state.shading == Shading::phong && plan.lit) {
     plan.source = ColorSource::per_pixel;
-    plan.deferred = true;
+    plan.deferred = !needs_order(plan, layout);
     plan.smooth_normals = generate;
     for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
     plan.attribute_count = (needs_normal ? 3 : 0) + (plan.front.needs_position || plan.back.needs_position ? 3 : 0) + (plan.uses_vertex_colors ? 3 : 0);
-    note("lit at each visible pixel, once");
+    if (plan.has_ops && plan.vertex_alpha) ++plan.attribute_count;
+    note(plan.deferred ? "lit at each visible pixel, once" : "lit at each pixel of each triangle: its operations depend on the order");
   } else if (state.shading == Shading::flat) {
     plan.face_normals = generate;
     plan.source = generate ? ColorSource::triangle_word : ColorSource::vertex_word;
+    if (plan.has_ops) {
+      plan.source = ColorSource::interpolated;
+      plan.flat = true;
+      plan.scaled_colors = false;
+      plan.attribute_count = generate ? 0 : plan.two_sided ? 8 : 4;
+    }
     note(generate ? "flat, lit once a triangle with its face's normal" : "flat, lit at the vertices");
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
-    plan.scaled_colors = !layout.index && !layout.luminance;
-    plan.deferred = !plan.scaled_colors;  // greys and palette entries are not linear in the colour: shade what is seen
-    plan.attribute_count = plan.two_sided ? 6 : 3;
+    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops;
+    // Greys and palette entries are not linear in the colour: shade what is seen.
+    plan.deferred = (layout.index || layout.luminance) && !needs_order(plan, layout);
+    plan.attribute_count = (plan.has_ops ? 4 : 3) * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }
   if (generate && plan.smooth_normals) note("the mesh has no normals: area-weighted means over the faces at each position");
@@ -189,9 +210,9 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
   plan.write_mask = write_mask(state, target.layout);
 
-  static_assert(static_cast<int>(DepthTest::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(DepthTest::less) == static_cast<int>(Compare::less));
+  static_assert(static_cast<int>(CompareOp::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(CompareOp::less) == static_cast<int>(Compare::less));
   const bool has_depth = state.depth.enabled && target.depth_kind != DepthKind::none;
-  plan.depth_test = static_cast<DepthTest>(state.depth.test);
+  plan.depth_test = static_cast<CompareOp>(state.depth.test);
   plan.depth_write = state.depth.write;
   // A test that always passes and writes nothing is no test.
   plan.uses_depth = has_depth && !(state.depth.test == Compare::always && !state.depth.write);
@@ -201,13 +222,25 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
                                    : std::string("  depth test") + (plan.depth_write ? "" : ", no write") + "\n";
     if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) *reasons += "  some colour planes are masked\n";
   }
+  const FragmentPlan fragments = plan_fragments(state, target, plan.write_mask != 0, reasons);
+  plan.ops = fragments.ops;
+  plan.uses_stencil = fragments.uses_stencil;
+  if (plan.uses_depth) {
+    plan.offset_factor = state.polygon_offset.factor;
+    plan.offset_units = state.polygon_offset.units;
+  }
+  const bool has_offset = plan.offset_factor != 0 || plan.offset_units != 0;
+  if (reasons && has_offset) *reasons += "  polygon offset\n";
+  plan.has_ops = fragments.needed || has_offset;
   plan_color(plan, draw, target.layout, reasons);
   if (capture_normals && plan.source != ColorSource::none) {
     plan.captured_normal = plan.attribute_count;
     plan.attribute_count += 3;
   }
   const bool writes_depth = plan.uses_depth && plan.depth_write;
-  plan.invisible = plan.rect.empty() || (plan.write_mask == 0 && !writes_depth) || (has_depth && state.depth.test == Compare::never);
+  const bool writes_stencil = plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes());
+  const bool never_seen = (has_depth && state.depth.test == Compare::never) || (plan.ops.alpha_test && plan.ops.alpha_func == CompareOp::never);
+  plan.invisible = plan.rect.empty() || (!writes_stencil && (never_seen || (plan.write_mask == 0 && !writes_depth)));
   if (reasons && plan.invisible) *reasons += "  can change no pixel: left out\n";
   return plan;
 }

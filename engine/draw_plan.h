@@ -22,7 +22,16 @@ struct DrawPlan {
   bool deferred = false;
   std::uint32_t write_mask = 0xffffffffu;
   bool uses_depth = false, depth_write = false;
-  DepthTest depth_test = DepthTest::less;
+  CompareOp depth_test = CompareOp::less;
+
+  /// Its fragments go through `ops`, or have their depth offset: colours are floats with alpha then.
+  bool has_ops = false;
+  FragmentOps ops;
+  bool uses_stencil = false;      ///< tests or writes it
+  float offset_factor = 0, offset_units = 0;
+  float alpha[2] = {1, 1};        ///< front, back
+  bool vertex_alpha = false;      ///< the vertices' in place of that
+  bool flat = false;              ///< ColorSource::interpolated, but one colour a triangle
 
   bool lit = false;               ///< lights run: at vertices, triangles or pixels
   bool two_sided = false;         ///< back faces have a program of their own
@@ -33,10 +42,13 @@ struct DrawPlan {
   bool face_normals = false;      ///< the mesh has none: flat
   bool scaled_colors = true;      ///< interpolated colours are carried in levels
 
-  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back]; then the normal
-  /// that a capture wants.
+  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back], with operations
+  /// each with alpha; then the normal that a capture wants.
   int attribute_count = 0;
   int captured_normal = -1;       ///< where it begins; -1: none is wanted
+
+  /// Colours are made for triangles, not for vertices.
+  bool colors_triangles() const { return source == ColorSource::triangle_word || (flat && face_normals); }
 };
 
 /// @param capture_normals  each pixel's normal is wanted besides its colour

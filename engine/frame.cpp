@@ -89,6 +89,25 @@ void check_state(const DrawState& s, const FrameBufferState& target) {
   if (split && target.layout.luminance) throw Error("Frame::draw: the colour mask differs between components, a buffer of 1 or 2 bits has luminance alone: all or none");
 }
 
+void check_operations(const DrawState& s, const FrameBufferState& target) {
+  require_finite({"Frame::draw: polygon_offset"}, {s.polygon_offset.factor, s.polygon_offset.units});
+  if ((s.polygon_offset.factor != 0 || s.polygon_offset.units != 0) && target.depth_kind == DepthKind::none)
+    throw Error("Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
+  const bool is_index = target.layout.index;
+  if (s.alpha_test) {
+    if (is_index) throw Error("Frame::draw: an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
+    require_range({"Frame::draw: alpha_test.ref"}, s.alpha_test->ref, 0, 1);
+  }
+  if (s.blend) {
+    if (is_index) throw Error("Frame::draw: blending is asked for, but the frame buffer holds indices, which do not blend");
+    if (s.logic_op != LogicOp::copy) throw Error("Frame::draw: blending and a logic operation are asked for; a draw has one of them");
+    for (const float c : {s.blend->color.r, s.blend->color.g, s.blend->color.b, s.blend->color.a}) require_range({"Frame::draw: a component of blend.color"}, c, 0, 1);
+  }
+  if (s.stencil) {
+    if (target.format.stencil_bits == 0) throw Error("Frame::draw: a stencil test is asked for, but the frame buffer has no stencil buffer");
+  }
+}
+
 // What is recorded already keeps its surroundings.
 template <class Change>
 void change(FrameRecording& recording, const char* function, const Change& edit) {
@@ -152,6 +171,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
   with_memory("Frame::draw", [&] {
     const MeshArrays arrays = check_mesh(mesh);
     check_state(state, *recording_->target);
+    check_operations(state, *recording_->target);
     recording_->draws.push_back({arrays, state, recording_->surroundings});
   });
 }

@@ -87,6 +87,8 @@ void check_format(const FrameBufferFormat& format) {
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
   require_range("color_bits", format.color_bits, 1, 24);
   require_range("stencil_bits", format.stencil_bits, 0, 8);
+  if (format.alpha_bits != 0 && format.alpha_bits != 8) throw Error("FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
+  if (format.alpha_bits != 0 && format.color_mode == ColorMode::index) throw Error("FrameBuffer: alpha planes are asked for, but the colour mode is index; they belong to rgb");
   if (format.color_mode == ColorMode::rgb && !format.palette.empty())
     throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
   if (format.palette.size() > std::size_t{1} << format.color_bits)
@@ -95,7 +97,7 @@ void check_format(const FrameBufferFormat& format) {
 }
 
 void make_planes(FrameBufferState& s) {
-  s.color.planes = BitplaneStack(s.format.width, s.format.height, s.format.color_bits);
+  s.color.planes = BitplaneStack(s.format.width, s.format.height, s.format.color_bits + s.format.alpha_bits);
   s.depth.planes = BitplaneStack(s.format.width, s.format.height, depth_bits(s.depth_kind));
   s.stencil.planes = BitplaneStack(s.format.width, s.format.height, s.format.stencil_bits);
 }
@@ -108,6 +110,7 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
   FrameBufferState& s = *state_;
   const bool index = format.color_mode == ColorMode::index;
   s.layout = index ? index_layout(format.color_bits) : rgb_layout(format.color_bits);
+  s.layout.alpha_bits = format.alpha_bits;
   s.depth_kind = static_cast<DepthKind>(format.depth);
   if (index) {
     if (format.palette.empty()) format.palette = default_palette(format.color_bits);
@@ -145,7 +148,7 @@ std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
   check_format(format);
   FrameBufferState state;
   state.format.width = format.width, state.format.height = format.height;
-  state.format.color_bits = format.color_bits, state.format.stencil_bits = format.stencil_bits;
+  state.format.color_bits = format.color_bits, state.format.alpha_bits = format.alpha_bits, state.format.stencil_bits = format.stencil_bits;
   state.depth_kind = static_cast<DepthKind>(format.depth);
   make_planes(state);
   return state.color.planes.needed_bytes() + state.depth.planes.needed_bytes() + state.stencil.planes.needed_bytes();

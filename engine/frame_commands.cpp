@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/fragment_plan.h"
+#include "shading/fragment_ops_reference.h"
+
 namespace tessera {
 namespace {
 
@@ -22,9 +25,20 @@ bool wants(const FrameRecording& recording, Buffer buffer, bool touched, bool pr
   return std::find(recording.keep->begin(), recording.keep->end(), buffer) != recording.keep->end();
 }
 
-std::uint32_t clear_color_word(const Clear& clear, FrameBufferState& target) {
-  if (clear.index) return *clear.index;
-  return color_word(target.layout, target.search(), clear.color->r, clear.color->g, clear.color->b);
+void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target) {
+  if (clear.index) {
+    to.color_word = *clear.index;
+    return;
+  }
+  const FragmentOps ops = dither_of(target);
+  const Color& c = *clear.color;
+  to.color_word = color_word(target.layout, target.search(), c.r, c.g, c.b, c.a);
+  if (!ops.dither) return;
+  for (std::size_t i = 0; i < to.pattern.size(); ++i) {
+    const float t = ops.threshold[i / kDitherSize][i % kDitherSize], moved = (t - 0.5f) * ops.palette_spread;
+    to.pattern[i] = target.layout.index ? color_word(target.layout, target.search(), c.r + moved, c.g + moved, c.b + moved) : stored_word(target.layout, {c.r, c.g, c.b, c.a}, t);
+    to.dithered |= to.pattern[i] != to.color_word;
+  }
 }
 
 // Decides what tiles load and store of one buffer. `clears_it` and `word` look at a clear; `draw_touches` at a plan.
@@ -56,12 +70,31 @@ void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const S
       all_whole &= covers(clear.rect, whole);
       last = &clear;
     }
-    if (all_whole) {
+    if (all_whole && !(which == Buffer::color && last->dithered)) {
       traffic.ends_uniform = true;
       traffic.uniform_word = word(*last);
     }
   }
   traffic.store = traffic.keep && traffic.touched && !traffic.ends_uniform;
+}
+
+}  // namespace
+
+namespace {
+
+void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffers) {
+  draw.ops = &plan.ops;
+  draw.offset_factor = plan.offset_factor;
+  draw.offset_units = plan.offset_units;
+  draw.flat = plan.flat;
+  draw.color_attribute[1] = plan.two_sided ? 4 : 0;
+  for (int face = 0; face < 2; ++face) {
+    const int side = plan.two_sided ? face : 0;
+    if (plan.flat && plan.face_normals) draw.face_colors[face] = buffers.face_colors[side].data();
+    for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = clamp_unit(plan.constant_color[c]);
+    draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
+    if (plan.source == ColorSource::interpolated && !plan.flat) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
+  }
 }
 
 }  // namespace
@@ -87,8 +120,10 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
     tile_clear.rect = clear_rect(clear, target);
     tile_clear.color = clear.color || clear.index;
     tile_clear.depth = clear.depth.has_value();
-    if (tile_clear.rect.empty() || (!tile_clear.color && !tile_clear.depth)) continue;
-    if (tile_clear.color) tile_clear.color_word = clear_color_word(clear, target);
+    tile_clear.stencil = clear.stencil.has_value();
+    if (tile_clear.rect.empty() || (!tile_clear.color && !tile_clear.depth && !tile_clear.stencil)) continue;
+    if (tile_clear.stencil) tile_clear.stencil_value = static_cast<std::int32_t>(*clear.stencil);
+    if (tile_clear.color) set_clear_color(tile_clear, clear, target);
     if (tile_clear.depth) tile_clear.depth_key = depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, *clear.depth));
     commands.clears.push_back(tile_clear);
   }
@@ -97,14 +132,21 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   const auto any_clear = [&](auto predicate) { return std::any_of(commands.clears.begin(), commands.clears.end(), predicate); };
   const auto draws_color = [](const DrawPlan& plan) { return plan.write_mask != 0; };
   const auto draws_depth = [](const DrawPlan& plan) { return plan.uses_depth; };
+  const auto draws_stencil = [](const DrawPlan& plan) { return plan.uses_stencil; };
   const auto clears_color = [](const TileClear& clear) { return clear.color; };
   const auto clears_depth = [](const TileClear& clear) { return clear.depth; };
+  const auto clears_stencil = [](const TileClear& clear) { return clear.stencil; };
   commands.color.keep = wants(recording, Buffer::color, any_plan(draws_color) || any_clear(clears_color), presented);
   commands.depth.keep = wants(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
+  commands.stencil.keep = wants(recording, Buffer::stencil, any_plan(draws_stencil) || any_clear(clears_stencil), presented);
   commands.color.used = presented;
   plan_traffic(commands.color, commands, target.color, whole, clears_color, draws_color, [](const TileClear& c) { return c.color_word; }, Buffer::color);
   plan_traffic(commands.depth, commands, target.depth, whole, clears_depth, draws_depth,
                [&](const TileClear& c) { return depth_word_from_key(target.depth_kind, c.depth_key); }, Buffer::depth);
+
+  plan_traffic(commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, [](const TileClear& c) { return static_cast<std::uint32_t>(c.stencil_value); }, Buffer::stencil);
+  if (!commands.stencil.used)
+    for (TileClear& clear : commands.clears) clear.stencil = false;  // tiles have no memory for it
 
   while (buffers.size() < commands.plans.size()) buffers.emplace_back();
   for (std::size_t i = 0; i < commands.plans.size(); ++i) {
@@ -148,6 +190,7 @@ void connect_draws(FrameCommands& commands) {
     draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
     if (plan.source == ColorSource::constant)
       draw.word = color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
+    if (plan.has_ops) connect_operations(draw, plan, buffers);
     if (plan.source == ColorSource::per_pixel) {
       // The order in which the vertex stage stores them.
       int next = 0;
@@ -157,45 +200,13 @@ void connect_draws(FrameCommands& commands) {
       if (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)) add(kNormalX);
       if (plan.front.needs_position || (plan.two_sided && plan.back.needs_position)) add(kPositionX);
       if (plan.uses_vertex_colors) add(kVertexR);
+      if (plan.has_ops && plan.vertex_alpha) {
+        draw.alpha_attribute[0] = draw.alpha_attribute[1] = next;
+        --draw.attribute_count;  // it is no input of lighting
+      }
     }
     commands.tile_draws.push_back(draw);
   }
-}
-
-void prepare_stencil_clears(FrameRecording& recording) {
-  FrameBufferState& target = *recording.target;
-  bool lost = target.stencil.content == StoredBuffer::Content::lost, in_part = false;
-  for (const RecordedClear& recorded : recording.clears) {
-    if (!recorded.clear.stencil) continue;
-    const PixelRect rect = clear_rect(recorded.clear, target);
-    if (covers(rect, whole_buffer(target))) {
-      lost = false;
-    } else if (!rect.empty()) {
-      if (lost) throw Error("Renderer::finish: a part of the stencil buffer is cleared, but the frame before did not keep it; clear the whole of it first");
-      in_part = true;
-    }
-  }
-  if (in_part && !target.stencil.planes.allocated()) target.stencil.planes.allocate(target.stencil.word);
-}
-
-void run_stencil_clears(FrameRecording& recording, bool keep) {
-  FrameBufferState& target = *recording.target;
-  StoredBuffer& stencil = target.stencil;
-  for (const RecordedClear& recorded : recording.clears) {
-    if (!keep || !recorded.clear.stencil) continue;
-    const PixelRect rect = clear_rect(recorded.clear, target);
-    if (covers(rect, whole_buffer(target))) {
-      stencil.content = StoredBuffer::Content::uniform;
-      stencil.word = *recorded.clear.stencil;
-    } else if (!rect.empty()) {
-      stencil.materialize();
-      for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x) stencil.planes.set_word(x, y, *recorded.clear.stencil);
-    }
-  }
-  if (!keep) stencil.content = StoredBuffer::Content::lost;
-  if (stencil.content != StoredBuffer::Content::planes) stencil.planes.release();
-  stencil.settle_lent_memory();
 }
 
 }  // namespace tessera

@@ -29,7 +29,9 @@ struct FrameCommands {
   std::vector<GeometryDraw> geometry;
   std::vector<TileDraw> tile_draws;
   std::vector<TileClear> clears;
-  BufferTraffic color, depth;
+  BufferTraffic color, depth, stencil;
+
+  bool stores() const { return color.store || depth.store || stencil.store; }
 };
 
 /// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.
@@ -38,12 +40,5 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
 
 /// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
 void connect_draws(FrameCommands& commands);
-
-/// Takes the memory for clears of parts of the stencil buffer. Throws std::bad_alloc, and Error where such a clear would start
-/// from a buffer that was not kept; then nothing changed.
-void prepare_stencil_clears(FrameRecording& recording);
-/// Clears of the stencil buffer, straight on its planes: no draw of this version reads or writes it. `keep`: else it is lost.
-/// @pre prepare_stencil_clears, where it is kept
-void run_stencil_clears(FrameRecording& recording, bool keep);
 
 }  // namespace tessera

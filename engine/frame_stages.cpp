@@ -22,7 +22,7 @@ struct Range {
 std::vector<Range> cut_into_tasks(const std::vector<GeometryDraw>& draws, bool triangles) {
   std::vector<Range> tasks;
   for (std::size_t d = 0; d < draws.size(); ++d) {
-    if (triangles && draws[d].plan->source != ColorSource::triangle_word) continue;
+    if (triangles && !draws[d].plan->colors_triangles()) continue;
     const std::size_t count = triangles ? draws[d].mesh->triangles : draws[d].mesh->vertices;
     for (std::size_t first = 0; first < count; first += kVerticesPerTask) tasks.push_back({d, first, std::min(count, first + kVerticesPerTask)});
   }
@@ -132,12 +132,14 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
   return batches;
 }
 
-void RendererState::render_tiles(const TileStage& stage, bool capture_normals, FrameStats& stats, FrameWatch& watch) {
+void RendererState::render_tiles(const TileStage& stage, bool capture_normals, bool stencil, FrameStats& stats, FrameWatch& watch) {
   struct alignas(64) WorkerCounts : StripCounts {};
   std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
   while (workspaces.size() < counts.size()) workspaces.emplace_back();
   if (capture_normals)
     for (TileWorkspace& workspace : workspaces) workspace.allocate_normals();
+  if (stencil)
+    for (TileWorkspace& workspace : workspaces) workspace.allocate_stencil();
   const std::vector<TileStrip> strips = stage.strips();
   watch.begin_stage(kTileShare, strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
@@ -159,13 +161,10 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   FrameBufferState& target = *recording.target;
   FrameCommands commands = plan_frame(recording, image != nullptr, draw_buffers);
 
-  const bool stencil_touched = std::any_of(recording.clears.begin(), recording.clears.end(), [](const RecordedClear& c) { return c.clear.stencil.has_value(); });
-  const bool keep_stencil = recording.keep ? std::count(recording.keep->begin(), recording.keep->end(), Buffer::stencil) > 0 : !(image != nullptr && stencil_touched);
-
   // Memory for what will be stored is taken before anything changes.
-  if (stencil_touched && keep_stencil) prepare_stencil_clears(recording);
   prepare_planes(commands.color, target.color);
   prepare_planes(commands.depth, target.depth);
+  prepare_planes(commands.stencil, target.stencil);
 
   for (const GeometryDraw& draw : commands.geometry) stats.vertices += draw.mesh->vertices;
   const TileGrid grid{target.format.width, target.format.height, tile_size_for(target.format)};
@@ -192,18 +191,19 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.bin_count = static_cast<std::uint32_t>(batches);
   frame.shade_at_once = !options.defer_shading;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
-  if (commands.color.store || commands.depth.store || image || !commands.plans.empty() || capture.any()) {
+  if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
     try {
-      render_tiles(TileStage(commands, frame, target, image, capture, isa), capture.needs_normals(), stats, watch);
+      render_tiles(TileStage(commands, frame, target, image, capture, isa), capture.needs_normals(), commands.stencil.used, stats, watch);
     } catch (...) {
       settle_interrupted(commands.color, target.color);
       settle_interrupted(commands.depth, target.depth);
+      settle_interrupted(commands.stencil, target.stencil);
       throw;
     }
   }
   settle(commands.color, target.color);
   settle(commands.depth, target.depth);
-  if (stencil_touched) run_stencil_clears(recording, keep_stencil);
+  settle(commands.stencil, target.stencil);
   stats.tile_seconds = clock.lap();
 
   for (std::size_t b = 0; b < batches; ++b) {

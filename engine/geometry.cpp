@@ -42,39 +42,66 @@ void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
 }
 
-// The colour of a batch goes where the draw's triangles will look for it.
-void store_colors(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first, std::size_t count, int face) {
+// Where the colours of a batch go, and whose alpha they have.
+struct Batch {
+  std::size_t first, count;
+  bool triangles;                        ///< else vertices
+  float alpha[kBatchPoints];             ///< the vertices', where the draw uses them
+};
+
+// With operations: r g b a for each point.
+void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
-  if (plan.source == ColorSource::interpolated) {
-    const int bits[3] = {draw.layout->r_bits, draw.layout->g_bits, draw.layout->b_bits};
-    float* out = draw.buffers->attributes.data() + first * static_cast<std::size_t>(plan.attribute_count) + 3 * face;
-    for (int c = 0; c < 3; ++c) {
-      const float levels = plan.scaled_colors ? static_cast<float>((1 << bits[c]) - 1) : 1.0f, half = plan.scaled_colors ? 0.5f : 0.0f;
-      for (std::size_t i = 0; i < count; ++i) out[i * static_cast<std::size_t>(plan.attribute_count) + static_cast<std::size_t>(c)] = std::fma(batch.field[kColorR + c][i], levels, half);
-    }
-  } else {
-    for (std::size_t i = 0; i < count; ++i) draw.buffers->words[face].data()[first + i] = word_of(draw, batch, i);
+  const std::size_t stride = points.triangles ? 4 : static_cast<std::size_t>(plan.attribute_count);
+  float* out = (points.triangles ? draw.buffers->face_colors[face].data() : draw.buffers->attributes.data() + 4 * face) + points.first * stride;
+  for (std::size_t i = 0; i < points.count; ++i, out += stride) {
+    for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
+    out[3] = plan.vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f) : plan.alpha[face];
   }
 }
 
-void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch, std::size_t first, std::size_t count, int face, Isa isa) {
-  light_points(isa)(program, batch, static_cast<int>((count + 15) / 16 * 16));
-  store_colors(draw, batch, first, count, face);
+// The colour of a batch goes where the draw's triangles will look for it.
+void store_colors(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
+  const DrawPlan& plan = *draw.plan;
+  if (plan.has_ops) return store_rgba(draw, batch, points, face);
+  if (plan.source == ColorSource::interpolated) {
+    const int bits[3] = {draw.layout->r_bits, draw.layout->g_bits, draw.layout->b_bits};
+    float* out = draw.buffers->attributes.data() + points.first * static_cast<std::size_t>(plan.attribute_count) + 3 * face;
+    for (int c = 0; c < 3; ++c) {
+      const float levels = plan.scaled_colors ? static_cast<float>((1 << bits[c]) - 1) : 1.0f, half = plan.scaled_colors ? 0.5f : 0.0f;
+      for (std::size_t i = 0; i < points.count; ++i)
+        out[i * static_cast<std::size_t>(plan.attribute_count) + static_cast<std::size_t>(c)] = std::fma(batch.field[kColorR + c][i], levels, half);
+    }
+  } else {
+    for (std::size_t i = 0; i < points.count; ++i) draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i);
+  }
+}
+
+void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
+  light_points(isa)(program, batch, static_cast<int>((points.count + 15) / 16 * 16));
+  store_colors(draw, batch, points, face);
 }
 
 // Everything about the colour of one batch of vertices or faces whose inputs stand in the batch.
-void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, std::size_t first, std::size_t count, Isa isa) {
+void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, Isa isa) {
   const DrawPlan& plan = *draw.plan;
   if (!plan.lit) {
-    copy_vertex_colors(batch, count);
-    store_colors(draw, batch, first, count, 0);
+    copy_vertex_colors(batch, points.count);
+    store_colors(draw, batch, points, 0);
     return;
   }
   if (plan.two_sided) {
     ShadingBatch back = batch;  // preparing a batch turns its normals
-    light_batch(draw, plan.back, back, first, count, 1, isa);
+    light_batch(draw, plan.back, back, points, 1, isa);
   }
-  light_batch(draw, plan.front, batch, first, count, 0, isa);
+  light_batch(draw, plan.front, batch, points, 0, isa);
+}
+
+template <class VertexOf>
+Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, bool triangles, const VertexOf& vertex) {
+  Batch points{.first = first, .count = count, .triangles = triangles, .alpha = {}};
+  for (std::size_t i = 0; i < count && draw.plan->has_ops && draw.plan->vertex_alpha; ++i) points.alpha[i] = draw.mesh->color(vertex(i), 3);
+  return points;
 }
 
 bool needs_normal(const DrawPlan& plan) { return plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)); }
@@ -93,6 +120,8 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
   if (needs_normal(plan)) store(kNormalField);
   if (needs_position(plan)) store(kPositionField);
   if (plan.uses_vertex_colors) store(kVertexField);
+  if (plan.has_ops && plan.vertex_alpha)
+    for (std::size_t i = 0; i < count; ++i) out[i * stride] = std::min(std::max(draw.mesh->color(first + i, 3), 0.0f), 1.0f);
 }
 
 // What a capture wants: eye-space normals, whatever the shading does with them.
@@ -119,6 +148,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.vertices.resize(vertices);
   buffers.codes.resize(vertices);
   buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) + 2 * kAttributePadding);  // read in whole vectors
+  for (int face = 0; face < 2; ++face) buffers.face_colors[face].resize(plan.has_ops && plan.colors_triangles() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
@@ -147,7 +177,7 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
     if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
     if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
-    if (!colors_matter) continue;
+    if (!colors_matter || plan.colors_triangles()) continue;
     if (needs_normal(plan)) {
       eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
       codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
@@ -158,7 +188,7 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     if (plan.source == ColorSource::per_pixel)
       store_inputs(draw, batch, at, count);
     else
-      shade_batch(draw, batch, at, count, isa);
+      shade_batch(draw, batch, batch_of(draw, at, count, false, [at](std::size_t i) { return at + i; }), isa);
   }
   if (codes != 0) buffers.any_code.store(true, std::memory_order_relaxed);
 }
@@ -179,7 +209,7 @@ void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t 
       eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
     }
     if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
-    shade_batch(draw, batch, at, count, isa);
+    shade_batch(draw, batch, batch_of(draw, at, count, true, [&](std::size_t i) { return vertex_of(at + i); }), isa);
   }
 }
 

@@ -17,6 +17,7 @@ struct DrawBuffers {
   Scratch<std::uint8_t> codes;
   Scratch<float> attributes;
   Scratch<std::uint32_t> words[2];
+  Scratch<float> face_colors[2];         ///< r g b a for each triangle, of flat draws with operations
   Scratch<std::uint32_t> indices;        ///< widened from 16 bits
   std::vector<float> normals;            ///< generated
   std::vector<float> captured_normals;   ///< generated, where a capture wants normals
@@ -40,7 +41,7 @@ struct GeometryDraw {
 void prepare_geometry(const GeometryDraw& draw);
 /// Vertices [first, last); distinct ranges may run at the same time.
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa);
-/// Face colours of triangles [first, last), for ColorSource::triangle_word.
+/// Face colours of triangles [first, last), for plans that color triangles.
 void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa);
 
 }  // namespace tessera

@@ -25,8 +25,8 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   scan_out_.emplace(target.layout, target.layout.index ? &target.palette : nullptr, image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, isa);
   // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles need not go
   // through tile memory.
-  const bool uniform = !capture.any() && !commands.color.store && !commands.depth.store && !commands.color.load && !commands.clears.empty() &&
-                       std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) { return covers_frame(c, frame.grid); });
+  const bool uniform = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() &&
+                       std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
   if (!uniform) return;
   std::uint32_t word = 0;
   for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
@@ -44,7 +44,7 @@ bool TileStage::untouched(int tile) const {
 std::vector<TileStrip> TileStage::strips() const {
   const TileGrid& grid = frame_.grid;
   // Tiles that share a cache line of a plane belong to one worker.
-  const bool planes = commands_.color.store || commands_.depth.store;
+  const bool planes = commands_.stores();
   const int length = planes ? kPlaneLinePixels / grid.tile_size : 1;
   std::vector<TileStrip> strips;
   for (int row = 0; row < grid.rows(); ++row) {
@@ -73,19 +73,24 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const TileGrid& grid = frame_.grid;
   const int size = grid.tile_size, x0 = column * size, y0 = row * size;
   const bool shown = !intersect(shown_, {x0, y0, x0 + size, y0 + size}).empty();
-  if (!shown && !commands_.color.store && !commands_.depth.store && !capture_.any()) return;
+  if (!shown && !commands_.stores() && !capture_.any()) return;
   const TilePlace color_place{x0, y0, size, 0}, depth_place{x0, y0, size, depth_word_from_key(target_.depth_kind, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
-  const auto load_depth = [&] { load(commands_.depth, target_.depth, depth_words, depth_place); };
-  if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_depth);
+  auto* stencil_words = commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
+  const auto load_tests = [&] {
+    load(commands_.depth, target_.depth, depth_words, depth_place);
+    load(commands_.stencil, target_.stencil, stencil_words, color_place);
+  };
+  if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
   load(commands_.color, target_.color, workspace.color(), color_place);
-  load_depth();
+  load_tests();
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
   counts.shaded_pixels += tile.shaded_pixels;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);
   if (commands_.color.store) store_planes_(workspace.color(), color_place, target_.color.planes, ~0u);
   if (commands_.depth.store) store_planes_(depth_words, depth_place, target_.depth.planes, ~0u);
+  if (commands_.stencil.store) store_planes_(stencil_words, color_place, target_.stencil.planes, ~0u);
 }
 
 void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {

@@ -1,6 +1,7 @@
 // Colour, depth and stencil formats, and the one quantizer each way.
 //
-// In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so plane k is bit k.
+// In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so plane k is bit k;
+// alpha planes follow above.
 // A pixel's depth is a signed key whose order is the order of depths: see DepthKind.
 #pragma once
 
@@ -16,9 +17,11 @@ struct ColorLayout {
   bool index = false;      ///< the word is a palette index
   bool luminance = false;  ///< the word is one grey component of `bits` bits
   int r_bits = 8, g_bits = 8, b_bits = 8;
+  int alpha_bits = 0;      ///< 0 or 8
   int r_shift() const { return g_bits + b_bits; }
   int g_shift() const { return b_bits; }
-  std::uint32_t word_mask() const { return (std::uint32_t{1} << bits) - 1; }
+  std::uint32_t word_mask() const { return (std::uint32_t{1} << bits) - 1; }  ///< of the colour
+  std::uint32_t alpha_mask() const { return ((std::uint32_t{1} << alpha_bits) - 1) << bits; }
   std::uint32_t r_mask() const { return ((std::uint32_t{1} << r_bits) - 1) << r_shift(); }
   std::uint32_t g_mask() const { return ((std::uint32_t{1} << g_bits) - 1) << g_shift(); }
   std::uint32_t b_mask() const { return (std::uint32_t{1} << b_bits) - 1; }

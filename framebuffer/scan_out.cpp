@@ -41,6 +41,16 @@ struct ComponentPixels {
   }
 };
 
+/// The same with the alpha that is stored.
+struct AlphaPixels {
+  ScanOutRule rule;
+
+  WordsVec operator()(Words d, WordsVec words) const noexcept {
+    const auto top = hn::Set(d, 0xff000000u);
+    return hn::Or(hn::AndNot(top, ComponentPixels{rule}(d, words)), hn::And(hn::ShiftLeftSame(words, rule.alpha_shift), top));
+  }
+};
+
 /// Pixels of 24 bits stored in the byte order wanted but for the alpha.
 struct BlueFirstPixels {
   WordsVec operator()(Words d, WordsVec words) const noexcept { return hn::Or(words, hn::Set(d, 0xff000000u)); }
@@ -134,6 +144,7 @@ HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* ti
 template <class Scan>
 HWY_INLINE void with_pixels(const ScanOutRule& rule, const Scan& scan) noexcept {
   if (rule.index) return scan(IndexPixels{rule.pixels, rule.index_mask, rule.last_index});
+  if (rule.alpha_shift >= 0) return scan(AlphaPixels{rule});
   const auto& [r, g, b] = rule.components;
   const bool bytes = r.shift == 16 && g.shift == 8 && b.shift == 0 && (r.mask & g.mask & b.mask) == 255;
   if (bytes && b.byte_shift == 0) return scan(BlueFirstPixels{});
@@ -172,6 +183,7 @@ static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int 
 ScanOut::ScanOut(const ColorLayout& layout, const Palette* palette, ByteOrder order, [[maybe_unused]] Isa isa)
     : tile_fn_(TESSERA_KERNEL(isa, scan_out_tile)), row_fn_(TESSERA_KERNEL(isa, scan_out_row)) {
   const int r_byte = order == ByteOrder::rgba8 ? 0 : 16, b_byte = 16 - r_byte;
+  if (layout.alpha_bits == 8) rule_.alpha_shift = 24 - layout.bits;
   if (layout.index) {
     TESSERA_ASSERT(palette != nullptr && palette->bits == layout.bits && palette->entries.size() <= palette->size());
     const std::size_t given = palette->entries.size();

@@ -1,4 +1,4 @@
-// Scan-out: stored words -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha 255.
+// Scan-out: stored words -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha 255 or as stored.
 // Twin: scan_out_reference.h.
 #pragma once
 
@@ -29,6 +29,7 @@ struct ScanOutRule {
   std::array<Component, 3> components;        ///< red, green, blue
   std::uint32_t index_mask = 0;
   std::uint32_t last_index = 0;               ///< of `pixels`
+  int alpha_shift = -1;                       ///< from the stored alpha to the pixel's highest byte; -1: none is stored
   const std::uint32_t* pixels = nullptr;      ///< pixel of each index; the last one stands for all beyond it
 };
 

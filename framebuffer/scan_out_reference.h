@@ -21,7 +21,8 @@ inline std::uint32_t shown_pixel_reference(const ColorLayout& layout, const Pale
     g = shown_level((word & layout.g_mask()) >> layout.g_shift(), layout.g_bits);
     b = shown_level(word & layout.b_mask(), layout.b_bits);
   }
-  return order == ByteOrder::rgba8 ? r | g << 8 | b << 16 | 0xff000000u : b | g << 8 | r << 16 | 0xff000000u;
+  const std::uint32_t a = layout.alpha_bits == 0 ? 255 : (word & layout.alpha_mask()) >> layout.bits;
+  return order == ByteOrder::rgba8 ? r | g << 8 | b << 16 | a << 24 : b | g << 8 | r << 16 | a << 24;
 }
 
 }  // namespace tessera

@@ -13,6 +13,8 @@
 #include "raster/depth-inl.h"
 #include "raster/triangle_setup-inl.h"
 #include "shading/deferred-inl.h"
+#include "shading/fragment_ops-inl.h"
+#include "shading/fragment_ops_reference.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -33,32 +35,6 @@ template <class Depth>
 inline constexpr bool kHasDepth = true;
 template <>
 inline constexpr bool kHasDepth<NoDepth> = false;
-
-HWY_INLINE bool passes(std::int32_t key, std::int32_t stored, DepthTest test) {
-  switch (test) {
-    case DepthTest::never: return false;
-    case DepthTest::less: return key < stored;
-    case DepthTest::equal: return key == stored;
-    case DepthTest::lequal: return key <= stored;
-    case DepthTest::greater: return key > stored;
-    case DepthTest::notequal: return key != stored;
-    case DepthTest::gequal: return key >= stored;
-    default: return true;
-  }
-}
-HWY_INLINE auto passing(Int key, Int stored, DepthTest test) {
-  const auto less = hn::Lt(key, stored), equal = hn::Eq(key, stored), greater = hn::Gt(key, stored);
-  switch (test) {
-    case DepthTest::never: return hn::Xor(less, less);
-    case DepthTest::less: return less;
-    case DepthTest::equal: return equal;
-    case DepthTest::lequal: return hn::Or(less, equal);
-    case DepthTest::greater: return greater;
-    case DepthTest::notequal: return hn::Or(less, greater);
-    case DepthTest::gequal: return hn::Or(greater, equal);
-    default: return hn::Or(hn::Or(less, equal), greater);
-  }
-}
 
 /// One triangle's way through the blocks of a tile.
 template <class Depth, Test kTest, Seen kSeen>
@@ -91,7 +67,7 @@ struct TrianglePixels {
       if constexpr (kHasDepth<Depth>) {
         std::int32_t* stored_at = run.memory.depth + index;
         const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
-        mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : passing(key, stored, draw.depth_test));
+        mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : comparing(key, draw.depth_test, stored));
         hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
       }
       // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
@@ -126,7 +102,7 @@ struct TrianglePixels {
     const int index = run.pixel_index(x, y);
     if constexpr (kHasDepth<Depth>) {
       const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
-      if (!(kTest == Test::less ? key < stored : passes(key, stored, draw.depth_test))) return;
+      if (!(kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored))) return;
       if (draw.depth_write) run.memory.depth[index] = key;
     }
     if constexpr (kSeen == Seen::collect) {

@@ -7,6 +7,7 @@
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
 #include "shading/draw_group-inl.h"
+#include "shading/fragments-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -24,13 +25,22 @@ DrawGroup pick_by_color(Seen seen) {
   }
 }
 
+DrawGroup pick_fragments(const TileFrame& frame, const TileDraw& draw) {
+  const bool offset = draw.offset_factor != 0 || draw.offset_units != 0;
+  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return &draw_fragments<NoDepth>;
+  if (frame.depth_kind == DepthKind::float32) return offset ? &draw_fragments<OffsetFloat32Depth> : &draw_fragments<Float32Depth>;
+  if (offset) return &draw_fragments<OffsetUnormDepth>;
+  return frame.depth_kind == DepthKind::unorm32 ? &draw_fragments<Unorm32Depth> : &draw_fragments<UnormDepth>;
+}
+
 /// The code that runs for a draw: none of it holds a step that the draw does not have.
 DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
+  if (draw.ops != nullptr) return pick_fragments(frame, draw);
   const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
                     : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect
                     : draw.source == ColorSource::interpolated                           ? Seen::interpolate
                                                                                          : Seen::word;
-  const bool less = draw.depth_test == DepthTest::less;
+  const bool less = draw.depth_test == CompareOp::less;
   if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen);
   switch (frame.depth_kind) {
     case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen) : pick_by_color<Float32Depth, Test::any>(seen);
@@ -62,8 +72,15 @@ PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int tile_x, 
 void run_clear(TileRun& run, const TileClear& clear) {
   shade_whole_tile(run);
   const PixelRect rect = rect_in_tile(clear.rect, run.frame.grid, run.tile_x, run.tile_y);
-  if (clear.color) fill_rect(run.memory.color, clear.color_word, rect, run.tile_size);
+  if (clear.color && !clear.dithered) fill_rect(run.memory.color, clear.color_word, rect, run.tile_size);
+  if (clear.color && clear.dithered) {
+    for (int y = rect.y0; y < rect.y1; ++y)
+      for (int x = rect.x0; x < rect.x1; ++x)
+        run.memory.color[tile_index(x, y, run.tile_size)] =
+            clear.pattern[static_cast<std::size_t>((run.tile_y + y) % kDitherSize * kDitherSize + (run.tile_x + x) % kDitherSize)];
+  }
   if (clear.depth) fill_rect(run.memory.depth, clear.depth_key, rect, run.tile_size);
+  if (clear.stencil) fill_rect(run.memory.stencil->value, clear.stencil_value, rect, run.tile_size);
 }
 
 /// Collects triangles of one draw until a group is full.
@@ -197,13 +214,20 @@ TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
+std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
 float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
 void TileWorkspace::allocate_normals() {
   if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
 }
 
-std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b) {
-  return layout.index ? search->nearest(r, g, b) & layout.word_mask() : quantize_rgb(layout, r, g, b);
+void TileWorkspace::allocate_stencil() {
+  if (!memory_->stencil) memory_->stencil = std::make_unique<TileStencil>();
+}
+
+std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b, float a) {
+  if (layout.index) return search->nearest(r, g, b) & layout.word_mask();
+  const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : quantize(a, layout.alpha_bits) << layout.bits;
+  return quantize_rgb(layout, r, g, b) | alpha;
 }
 
 }  // namespace tessera

@@ -1,6 +1,7 @@
 // Renders one tile: its bins' triangles in order -> coverage -> depth -> colour, in tile memory. Knows no threads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "framebuffer/tile_grid.h"
 #include "raster/binning.h"
 #include "raster/triangle_setup.h"
+#include "shading/fragment_ops.h"
 #include "shading/lighting.h"
 
 namespace tessera {
@@ -25,9 +27,6 @@ enum class ColorSource : std::uint8_t {
   per_pixel      ///< lit at each pixel (Phong)
 };
 
-/// 0..7 in the order never less equal lequal greater notequal gequal always.
-enum class DepthTest : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
-
 /// What the tiles need of a draw. Pointers are the frame's.
 struct TileDraw {
   const WindowVertex* vertices = nullptr;
@@ -39,7 +38,7 @@ struct TileDraw {
   bool front_is_clockwise = false;
 
   bool uses_depth = false, depth_write = true;
-  DepthTest depth_test = DepthTest::less;
+  CompareOp depth_test = CompareOp::less;
 
   ColorSource source = ColorSource::constant;
   std::uint32_t write_mask = 0xffffffffu;  ///< of the colour word's bits
@@ -55,14 +54,26 @@ struct TileDraw {
   int first_attribute = 0;
   std::uint8_t fields[kMaxAttributes] = {};
   bool captures_normals = false;           ///< per_pixel: the normals go to the workspace's normals(), too
+
+  /// What its fragments go through besides the depth test; null: nothing, and what follows is not looked at.
+  const FragmentOps* ops = nullptr;
+  bool flat = false;                       ///< interpolated: a triangle has the colour of its provoking vertex, or its own
+  const float* face_colors[2] = {};        ///< flat: r g b a for each triangle, front and back; null: the vertex's
+  std::array<float, 4> color[2] = {};      ///< constant: front, back
+  int alpha_attribute[2] = {-1, -1};       ///< interpolated alpha for front and back faces; -1: `alpha`
+  float alpha[2] = {1, 1};
+  float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
+  enum class Number : std::uint8_t { none, draw, triangle } number = Number::none;  ///< colour words are `word`, or the triangle's number
 };
 
 /// A clear inside a frame, in words; before draw `before_draw`.
 struct TileClear {
   std::uint32_t before_draw = 0;
-  bool color = false, depth = false;
+  bool color = false, depth = false, stencil = false;
   std::uint32_t color_word = 0;
-  std::int32_t depth_key = 0;
+  bool dithered = false;                   ///< the words of `pattern` in place of that
+  std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;  ///< by raster row and column, repeated
+  std::int32_t depth_key = 0, stencil_value = 0;
   PixelRect rect;
 };
 
@@ -81,8 +92,8 @@ struct TileFrame {
   bool shade_at_once = false;                     ///< never gather triangles before shading
 };
 
-/// Words to the frame's layout from colours 0..1.
-std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b);
+/// Words to the frame's layout from colours 0..1; alpha where it has planes.
+std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b, float a = 1);
 
 struct TileCounts {
   std::uint64_t shaded_pixels = 0;
@@ -99,9 +110,11 @@ class TileWorkspace {
   Memory& memory() { return *memory_; }
   std::uint32_t* color();     ///< tile_size^2 words in tile order
   std::int32_t* depth();      ///< depth keys
+  std::int32_t* stencil();    ///< stencil values. @pre allocate_stencil
   float* normals(int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
-  /// Throws std::bad_alloc.
+  /// These throw std::bad_alloc.
   void allocate_normals();
+  void allocate_stencil();
 
  private:
   std::unique_ptr<Memory> memory_;

@@ -20,6 +20,10 @@ struct alignas(64) TileNormals {
   float component[3][kMaxTileSize * kMaxTileSize];
 };
 
+struct alignas(64) TileStencil {
+  std::int32_t value[kMaxTileSize * kMaxTileSize];
+};
+
 struct alignas(64) TileWorkspace::Memory {
   alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
   alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
@@ -33,6 +37,7 @@ struct alignas(64) TileWorkspace::Memory {
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
+  std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
 };
 
 }  // namespace tessera

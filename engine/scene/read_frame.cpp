@@ -63,9 +63,7 @@ DepthState read_depth(const Value& value, const Scene& scene) {
   const Object object(value, {"test", "write"});
   DepthState depth;
   if (const auto test = object.find("test"))
-    depth.test = test->choice<Compare>({{"never", Compare::never}, {"less", Compare::less}, {"equal", Compare::equal}, {"lequal", Compare::lequal},
-                                        {"greater", Compare::greater}, {"notequal", Compare::notequal}, {"gequal", Compare::gequal},
-                                        {"always", Compare::always}});
+    depth.test = read_compare(*test);
   if (const auto write = object.find("write")) depth.write = write->boolean();
   return depth;
 }
@@ -118,12 +116,14 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   const Object object(value,
                       {"draw", "material", "back_material", "transform", "shading", "lighting", "color_material", "provoking_vertex", "normalize",
                        "cull", "front_face", "depth", "depth_range", "color_mask", "plane_mask", "viewport", "scissor",
-                       "polygon_mode", "point_size", "line_width", "polygon_offset", "texture_env", "texture_env_color", "logic_op", "stages"},
-                      {"texture", "stencil", "blend", "alpha_test", "shadow_on"});
+                       "polygon_offset", "alpha_test", "stencil", "blend", "logic_op",
+                       "polygon_mode", "point_size", "line_width", "texture_env", "texture_env_color", "stages"},
+                      {"texture", "shadow_on"});
   DrawCommand draw;
   draw.mesh = read_name(object.require("draw"), "mesh", names.meshes);
   read_shading(object, names, draw.state);
   read_target(object, names.scene, draw.state);
+  read_operations(object, names.scene.framebuffer, draw.state);
   if (const auto mode = object.find("polygon_mode"); !mode || mode->json() != Json{"fill", "fill"}) {
     Json others{"line", "point"};
     for (const char* front : {"fill", "line", "point"})
@@ -132,11 +132,8 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   }
   object.only_default("point_size", 1);
   object.only_default("line_width", 1);
-  object.only_default("polygon_offset", {0, 0});
   object.only_default("texture_env", "modulate", {"replace", "decal", "blend", "add"});
   object.only_default("texture_env_color", {0, 0, 0, 0});
-  object.only_default("logic_op", "copy", {"clear", "and", "and_reverse", "and_inverted", "noop", "xor", "or", "nor", "equiv", "invert",
-                                           "or_reverse", "copy_inverted", "or_inverted", "nand", "set"});
   object.only_default("stages", Json::array());
   return draw;
 }

@@ -51,8 +51,14 @@ void read_framebuffer(const Value& value, Scene& scene) {
     format.depth = depth->choice<DepthFormat>({{"none", DepthFormat::none}, {"unorm16", DepthFormat::unorm16}, {"unorm24", DepthFormat::unorm24},
                                                {"unorm32", DepthFormat::unorm32}, {"float32", DepthFormat::float32}});
   if (const auto stencil = object.find("stencil")) format.stencil_bits = static_cast<int>(stencil->integer(0, 8));
-  object.only_default("dither", "none", {"bayer2", "bayer4", "bayer8", "blue_noise", "floyd_steinberg", "jarvis", "pattern"});
-  object.only_default("alpha", 0, {8});
+  if (const auto dither = object.find("dither"))
+    format.dither = dither->choice<Dither>({{"none", Dither::none}, {"bayer2", Dither::bayer2}, {"bayer4", Dither::bayer4}, {"bayer8", Dither::bayer8}},
+                                           {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
+  if (const auto alpha = object.find("alpha")) {
+    if (alpha->json() != Json(0) && alpha->json() != Json(8)) alpha->fail("0 or 8 bits");
+    format.alpha_bits = static_cast<int>(alpha->integer(0, 8));
+    if (format.alpha_bits > 0 && format.color_mode == ColorMode::index) alpha->refuse("an index buffer has no alpha planes");
+  }
   object.only_default("accumulation", 0, {16, 32});
   object.only_default("samples", 1, {4, 8});
 }

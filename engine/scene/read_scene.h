@@ -28,6 +28,10 @@ void read_meshes(const json::Value& value, const std::string& base_folder, Model
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
 
+Compare read_compare(const json::Value& value);
+/// What the fragments of a draw go through: polygon offset, alpha test, stencil, blending, logic operation.
+void read_operations(const json::Object& object, const FrameBufferFormat& format, DrawState& state);
+
 /// @param scene  all but the frame has been read.
 std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials);
 /// One clear of what there is and one draw of every mesh.

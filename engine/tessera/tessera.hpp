@@ -95,6 +95,9 @@ enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32
 
 inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height, in pixels
 
+/// Ordered dither of every colour write, by a pattern of that size.
+enum class Dither : std::uint8_t { none, bayer2, bayer4, bayer8 };
+
 struct FrameBufferFormat {
   int width = 640, height = 480;            ///< 1 .. kMaxFrameBufferSize
   ColorMode color_mode = ColorMode::rgb;
@@ -102,6 +105,8 @@ struct FrameBufferFormat {
   std::vector<Color> palette{};             ///< index mode: at most 2^color_bits entries, 0..1 each; empty: default_palette(color_bits)
   DepthFormat depth = DepthFormat::unorm24;
   int stencil_bits = 8;                     ///< 0 .. 8
+  int alpha_bits = 0;                       ///< 0 or 8 planes above the colour's; without them the stored alpha reads 1. RGB buffers
+  Dither dither = Dither::none;
 };
 
 /// Built-in palettes: "bw", "gray", "ega16", "vga256", "web216". Throws Error for another name, or more entries than 2^color_bits.
@@ -122,7 +127,7 @@ struct PlaneView {
 
 enum class PixelOrder : std::uint8_t { rgba8, bgra8 };
 
-/// The caller's memory for a scan-out: 4 bytes a pixel, alpha 255. The first row is the top of the picture, `pixels` points
+/// The caller's memory for a scan-out: 4 bytes a pixel, alpha 255 or what the alpha planes hold. The first row is the top of the picture, `pixels` points
 /// at it; stride_bytes may be negative (then rows go upwards in memory) or larger than 4 * width.
 struct ImageTarget {
   void* pixels = nullptr;
@@ -148,7 +153,7 @@ class TESSERA_API FrameBuffer {
   FrameBuffer& operator=(FrameBuffer&&) noexcept;
 
   const FrameBufferFormat& format() const noexcept;
-  /// Planes of a buffer: colour bits, depth bits (0, 16, 24, 32), stencil bits.
+  /// Planes of a buffer: colour bits and alpha bits, depth bits (0, 16, 24, 32), stencil bits.
   int plane_count(Buffer buffer) const noexcept;
   /// Bytes that the planes of a buffer take now; 0 while it is not allocated.
   std::size_t allocated_bytes(Buffer buffer) const noexcept;
@@ -158,7 +163,7 @@ class TESSERA_API FrameBuffer {
 
   // Reading back, rows from the top; throws Error for a wrong size or a buffer that the last frame did not keep.
   void read_color(const ImageTarget& target) const;                ///< what a display would show, through the palette; or a part of it
-  void read_color_words(std::span<std::uint32_t> words) const;     ///< stored words R:G:B or indices, width * height
+  void read_color_words(std::span<std::uint32_t> words) const;     ///< stored words A:R:G:B or indices, width * height
   void read_depth(std::span<float> depth) const;                   ///< 0 near .. 1 far
   void read_depth_words(std::span<std::uint32_t> words) const;     ///< stored levels; the bits of the float for float32
   /// Distances from the eye's plane along the view, in the camera's units (metres), for draws with that projection and the
@@ -304,6 +309,42 @@ struct DepthState {
   bool write = true;
 };
 
+enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
+/// The test passes where (ref & mask) func (stored & mask).
+struct StencilFace {
+  Compare func = Compare::always;
+  std::uint32_t ref = 0;                    ///< cut to the largest value of the buffer's bits
+  std::uint32_t mask = 255;
+  StencilOp fail = StencilOp::keep, zfail = StencilOp::keep, zpass = StencilOp::keep;  ///< the test fails; the depth test fails; both pass
+  std::uint32_t write_mask = 255;
+};
+struct StencilState {
+  StencilFace front{};
+  std::optional<StencilFace> back{};        ///< of back faces; absent: as the front
+};
+
+enum class BlendFactor : std::uint8_t {
+  zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha,
+  constant_color, one_minus_constant_color, constant_alpha, one_minus_constant_alpha, src_alpha_saturate
+};
+enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
+struct BlendState {
+  BlendFactor src = BlendFactor::src_alpha, dst = BlendFactor::one_minus_src_alpha;
+  std::optional<BlendFactor> src_alpha{}, dst_alpha{};  ///< of alpha; absent: as for the colour
+  BlendEquation equation = BlendEquation::add;
+  Color color{0, 0, 0, 0};                  ///< the constant, 0 .. 1
+};
+struct AlphaTest {
+  Compare func = Compare::greater;
+  float ref = 0.5f;                         ///< 0 .. 1
+};
+/// On the stored bits; in place of blending.
+enum class LogicOp : std::uint8_t { clear, and_, and_reverse, copy, and_inverted, noop, xor_, or_, nor, equiv, invert, or_reverse, copy_inverted, or_inverted, nand, set };
+/// Adds factor * (the polygon's largest depth slope) + units * (the format's smallest difference) to the depth.
+struct PolygonOffset {
+  float factor = 0, units = 0;
+};
+
 struct DrawState {
   Material material{};
   std::optional<Material> back_material{};  ///< two-sided lighting; absent: as the front
@@ -317,13 +358,18 @@ struct DrawState {
   FrontFace front_face = FrontFace::ccw;
   DepthState depth{};
   double depth_near = 0, depth_far = 1;     ///< depth range, each 0 .. 1
+  PolygonOffset polygon_offset{};
+  std::optional<AlphaTest> alpha_test{};    ///< RGB buffers
+  std::optional<StencilState> stencil{};
+  std::optional<BlendState> blend{};        ///< RGB buffers
+  LogicOp logic_op = LogicOp::copy;
   std::array<bool, 4> color_mask{true, true, true, true};
-  std::uint32_t plane_mask = 0xffffffffu;   ///< bit k: colour plane k may change
+  std::uint32_t plane_mask = 0xffffffffu;   ///< bit k: colour (then alpha) plane k may change
   std::optional<Rect> viewport{};           ///< absent: the whole buffer
   std::optional<Rect> scissor{};
 };
 
-/// Only the buffers named are cleared, through full masks.
+/// Only the buffers named are cleared, through full masks; colours with the buffer's dither.
 struct Clear {
   std::optional<Color> color{};             ///< RGB buffers (0..1)
   std::optional<std::uint32_t> index{};     ///< index buffers; `color` there clears to the nearest palette entry

@@ -17,7 +17,7 @@ constexpr int kTile = 64;
 // A stage with one triangle that always passes and writes depth alone.
 struct DepthStage : TileStage {
   explicit DepthStage(DepthKind kind) : TileStage(kTile, kTile, kTile, kind) {}
-  TileDraw& set(const DepthTriangle& t, DepthTest test = DepthTest::always) {
+  TileDraw& set(const DepthTriangle& t, CompareOp test = CompareOp::always) {
     forget_draws();
     TileDraw& draw = add_draw(t.corners.data());
     draw.uses_depth = true;
@@ -146,7 +146,7 @@ TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
       const TriangleReference reference = reference_of(t.corners);
       if (reference.area == 0) continue;
       stage.forget_draws();
-      const auto add = [&](PixelRect rect, DepthTest test, std::uint32_t word) {
+      const auto add = [&](PixelRect rect, CompareOp test, std::uint32_t word) {
         TileDraw& draw = stage.add_draw(t.corners.data());
         draw.rect = rect;
         draw.uses_depth = true;
@@ -154,13 +154,13 @@ TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
         draw.word = word;
         stage.push(0, stage.draw_count() - 1, 0);
       };
-      add({0, 0, kTile, kTile}, DepthTest::always, 1);
+      add({0, 0, kTile, kTile}, CompareOp::always, 1);
       // Windows of 1 to 7 pixels: up to 4 the triangle is a small one.
       const int step = source.between(1, 7);
       for (int y = 0; y < kTile; y += step)
-        for (int x = 0; x < kTile; x += step) add({x, y, std::min(x + step, kTile), std::min(y + step, kTile)}, DepthTest::equal, 2);
-      add({0, 0, kTile, kTile}, DepthTest::less, 3);
-      add({0, 0, kTile, kTile}, DepthTest::greater, 4);
+        for (int x = 0; x < kTile; x += step) add({x, y, std::min(x + step, kTile), std::min(y + step, kTile)}, CompareOp::equal, 2);
+      add({0, 0, kTile, kTile}, CompareOp::less, 3);
+      add({0, 0, kTile, kTile}, CompareOp::greater, 4);
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
         for (int y = 0; y < kTile; ++y)
@@ -210,7 +210,7 @@ TEST(Depth, FunctionsPassWhatTheyName) {
                 TileStage stage(kTile, kTile, kTile, kind);
                 TileDraw& draw = stage.add_draw(t.data());
                 draw.uses_depth = true;
-                draw.depth_test = static_cast<DepthTest>(test);
+                draw.depth_test = static_cast<CompareOp>(test);
                 draw.depth_write = write;
                 draw.word = 7;
                 stage.push(0, 0, 0);

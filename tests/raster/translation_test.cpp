@@ -26,7 +26,7 @@ Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthK
   for (WindowVertex& v : moved) v.x += shift_x * 256, v.y += shift_y * 256;
   TileDraw& draw = stage.add_draw(moved.data());
   draw.uses_depth = true;
-  draw.depth_test = DepthTest::always;
+  draw.depth_test = CompareOp::always;
   draw.source = ColorSource::interpolated;
   draw.attributes = colors.data();
   draw.attribute_stride = draw.attribute_count = 3;

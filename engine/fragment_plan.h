@@ -1,0 +1,24 @@
+// Which operations the fragments of a draw need: what changes nothing is left out.
+#pragma once
+
+#include <string>
+
+#include "engine/frame_buffer_state.h"
+#include "shading/fragment_ops.h"
+
+namespace tessera {
+
+struct FragmentPlan {
+  FragmentOps ops;
+  bool needed = false;         ///< else fragments go by the short way
+  bool uses_stencil = false;
+};
+
+/// The dither of a buffer, and nothing else.
+FragmentOps dither_of(const FrameBufferState& target);
+
+/// @param writes_color  some colour plane may change
+/// @param reasons  if given, receives a line for each operation
+FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, std::string* reasons);
+
+}  // namespace tessera

@@ -1,0 +1,72 @@
+// Depth with polygon offset: factor times the polygon's slope, plus units times the smallest difference of the format, cut to
+// 0..1 [GL 2.1, 3.5.5; for floats Direct3D 11]. Draws without an offset never come here.
+#if defined(TESSERA_RASTER_DEPTH_OFFSET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_RASTER_DEPTH_OFFSET_INL_H_
+#undef TESSERA_RASTER_DEPTH_OFFSET_INL_H_
+#else
+#define TESSERA_RASTER_DEPTH_OFFSET_INL_H_
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/depth-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// max(|dz/dx|, |dz/dy|), in the units of the vertices' depth words (unorm) or of depth.
+HWY_INLINE double slope_of(const TriangleGroup& g, int i) { return std::max(std::abs(g.depth_dx[i]), std::abs(g.depth_dy[i])); }
+
+/// Unorm of any size: 34.30 fixed point, lifted, so that what the offset pushes out of range can be cut. @pre the group's depth
+/// was set up lifted
+struct OffsetUnormDepth : UnormDepth {
+  std::uint32_t flip = 0;
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind kind) {
+    shift = 32 - depth_bits(kind);
+    flip = kind == DepthKind::unorm32 ? 0x80000000u : 0;
+    base = g.fixed_base[i];
+    dx = g.fixed_dx[i];
+    dy = g.fixed_dy[i];
+  }
+  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
+    constexpr double kWhole = 0x1p32;  // nothing is further away
+    const double words = double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift);
+    base += static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(words, -kWhole, kWhole) * 0x1p30));
+  }
+  HWY_INLINE std::int32_t key_of(std::uint64_t value) const {
+    constexpr std::int64_t kTop = kUnorm32Lift + 0xffffffff;
+    const std::int64_t lifted = static_cast<std::int64_t>(value >> kUnorm32Fraction);
+    const std::int64_t cut = lifted < kUnorm32Lift ? kUnorm32Lift : lifted > kTop ? kTop : lifted;
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(cut) >> shift) ^ flip);
+  }
+  struct Block {
+    std::uint64_t start;
+  };
+  HWY_INLINE Block block(int bx, int by) const { return {at(bx, by)}; }
+  HWY_INLINE Int keys(const Block& block, int chunk) const {
+    alignas(64) std::int32_t key[kLanes];
+    for (int l = 0; l < kLanes; ++l) key[l] = key_of(block.start + offset[chunk * kLanes + l]);
+    return hn::Load(kInt, key);
+  }
+};
+
+struct OffsetFloat32Depth : Float32Depth {
+  float moved = 0;
+  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
+    const int exponent = std::max(high > 0 ? std::ilogb(high) : -126, -126);  // of the largest depth; the smallest normal float's
+    moved = static_cast<float>(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
+  }
+  HWY_INLINE Int keys(const Block& block, int chunk) const {
+    const Float z = hn::Add(hn::BitCast(kFloat, Float32Depth::keys(block, chunk)), splat(moved));
+    const Float above = hn::IfThenElseZero(hn::Gt(z, hn::Zero(kFloat)), z);
+    return hn::BitCast(kInt, hn::IfThenElse(hn::Lt(above, splat(1.0f)), above, splat(1.0f)));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

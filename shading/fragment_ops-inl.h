@@ -1,0 +1,168 @@
+// Fragments of one chunk of pixels on their way into the frame buffer. Twin: fragment_ops_reference.h.
+#if defined(TESSERA_SHADING_FRAGMENT_OPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_FRAGMENT_OPS_INL_H_
+#undef TESSERA_SHADING_FRAGMENT_OPS_INL_H_
+#else
+#define TESSERA_SHADING_FRAGMENT_OPS_INL_H_
+#endif
+
+#include "framebuffer/format.h"
+#include "raster/lanes-inl.h"
+#include "shading/fragment_ops.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+using LaneMask = hn::Mask<IntTag>;
+
+HWY_INLINE LaneMask no_lanes() { return hn::Gt(hn::Zero(kInt), hn::Zero(kInt)); }
+
+template <class Vector>
+HWY_INLINE auto comparing(Vector a, CompareOp op, Vector b) {
+  const auto less = hn::Lt(a, b), equal = hn::Eq(a, b), greater = hn::Lt(b, a);
+  switch (op) {
+    case CompareOp::never: return hn::And(less, greater);
+    case CompareOp::less: return less;
+    case CompareOp::equal: return equal;
+    case CompareOp::lequal: return hn::Or(less, equal);
+    case CompareOp::greater: return greater;
+    case CompareOp::notequal: return hn::Or(less, greater);
+    case CompareOp::gequal: return hn::Or(greater, equal);
+    default: return hn::Or(hn::Or(less, equal), greater);
+  }
+}
+
+HWY_INLINE Int stencil_value(StencilAction action, Int stored, const StencilSide& face, std::int32_t most) {
+  switch (action) {
+    case StencilAction::zero: return hn::Zero(kInt);
+    case StencilAction::replace: return splat(face.reference);
+    case StencilAction::incr: return hn::Min(hn::Add(stored, splat(1)), splat(most));
+    case StencilAction::decr: return hn::Max(hn::Sub(stored, splat(1)), hn::Zero(kInt));
+    case StencilAction::invert: return hn::Not(stored);
+    case StencilAction::incr_wrap: return hn::Add(stored, splat(1));
+    case StencilAction::decr_wrap: return hn::Sub(stored, splat(1));
+    default: return stored;
+  }
+}
+
+/// What passes the stencil test.
+HWY_INLINE LaneMask stencil_passes(const StencilSide& face, Int stored) {
+  return comparing(splat(face.reference & face.mask), face.func, hn::And(stored, splat(face.mask)));
+}
+
+/// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what passed both.
+HWY_INLINE Int stencil_result(const StencilSide& face, std::int32_t most, Int stored, LaneMask failed, LaneMask zfailed, LaneMask zpassed) {
+  Int value = hn::IfThenElse(failed, stencil_value(face.fail, stored, face, most), stored);
+  value = hn::IfThenElse(zfailed, stencil_value(face.zfail, stored, face, most), value);
+  value = hn::IfThenElse(zpassed, stencil_value(face.zpass, stored, face, most), value);
+  const Int mask = splat(face.write_mask & most);
+  return hn::Or(hn::AndNot(mask, stored), hn::And(value, mask));
+}
+
+struct Colors {
+  Float c[4];  // r g b a
+};
+
+HWY_INLINE Float clamped_unit(Float c) {
+  // In the order in which a NaN becomes 0.
+  const Float above = hn::IfThenElseZero(hn::Gt(c, hn::Zero(kFloat)), c);
+  return hn::IfThenElse(hn::Lt(above, splat(1.0f)), above, splat(1.0f));
+}
+
+HWY_INLINE Float component_from(Int words, int shift, int bits) {
+  if (bits == 0) return splat(1.0f);
+  const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, words), shift)), splat((1 << bits) - 1));
+  return hn::Mul(hn::ConvertTo(kFloat, level), splat(1.0f / static_cast<float>((1 << bits) - 1)));
+}
+
+HWY_INLINE Colors stored_colors(const ColorLayout& layout, Int words) {
+  const Float a = component_from(words, layout.bits, layout.alpha_bits);
+  if (layout.luminance) {
+    const Float l = component_from(words, 0, layout.bits);
+    return {{l, l, l, a}};
+  }
+  return {{component_from(words, layout.r_shift(), layout.r_bits), component_from(words, layout.g_shift(), layout.g_bits), component_from(words, 0, layout.b_bits), a}};
+}
+
+HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& d, const std::array<float, 4>& constant) {
+  const Float one = splat(1.0f);
+  switch (factor) {
+    case Factor::zero: return hn::Zero(kFloat);
+    case Factor::one: return one;
+    case Factor::src_color: return s.c[c];
+    case Factor::one_minus_src_color: return hn::Sub(one, s.c[c]);
+    case Factor::dst_color: return d.c[c];
+    case Factor::one_minus_dst_color: return hn::Sub(one, d.c[c]);
+    case Factor::src_alpha: return s.c[3];
+    case Factor::one_minus_src_alpha: return hn::Sub(one, s.c[3]);
+    case Factor::dst_alpha: return d.c[3];
+    case Factor::one_minus_dst_alpha: return hn::Sub(one, d.c[3]);
+    case Factor::constant_color: return splat(constant[static_cast<std::size_t>(c)]);
+    case Factor::one_minus_constant_color: return hn::Sub(one, splat(constant[static_cast<std::size_t>(c)]));
+    case Factor::constant_alpha: return splat(constant[3]);
+    case Factor::one_minus_constant_alpha: return hn::Sub(one, splat(constant[3]));
+    default: {
+      const Float rest = hn::Sub(one, d.c[3]);
+      return c == 3 ? one : hn::IfThenElse(hn::Lt(rest, s.c[3]), rest, s.c[3]);
+    }
+  }
+}
+
+HWY_INLINE Colors blended_colors(const FragmentOps& ops, const Colors& s, const Colors& d) {
+  Colors out;
+  for (int c = 0; c < 4; ++c) {
+    const Float sf = factor_of(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant), df = factor_of(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    Float sum;
+    switch (ops.equation) {
+      case Equation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
+      case Equation::subtract: sum = mul_add(s.c[c], sf, hn::Neg(hn::Mul(d.c[c], df))); break;
+      case Equation::reverse_subtract: sum = neg_mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
+      case Equation::min: sum = hn::IfThenElse(hn::Lt(d.c[c], s.c[c]), d.c[c], s.c[c]); break;
+      default: sum = hn::IfThenElse(hn::Lt(s.c[c], d.c[c]), d.c[c], s.c[c]); break;
+    }
+    out.c[c] = clamped_unit(sum);
+  }
+  return out;
+}
+
+/// Clamped colours to words of an RGB or luminance layout.
+HWY_INLINE Int words_of(const ColorLayout& layout, const Colors& colors, Float threshold) {
+  const auto level = [&](Float x, int bits) HWY_ATTR { return truncate(mul_add(x, splat(static_cast<float>((1 << bits) - 1)), threshold)); };
+  Int words = hn::Zero(kInt);
+  if (layout.alpha_bits != 0) words = hn::ShiftLeftSame(level(colors.c[3], layout.alpha_bits), layout.bits);
+  if (layout.luminance) {
+    const Float l = mul_add(splat(kLumaR), colors.c[0], mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
+    return hn::Or(words, level(clamped_unit(l), layout.bits));
+  }
+  words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
+  words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[1], layout.g_bits), layout.g_shift()));
+  return hn::Or(words, level(colors.c[2], layout.b_bits));
+}
+
+HWY_INLINE Int logic_words(Logic logic, Int s, Int d) {
+  switch (logic) {
+    case Logic::clear: return hn::Zero(kInt);
+    case Logic::and_: return hn::And(s, d);
+    case Logic::and_reverse: return hn::AndNot(d, s);
+    case Logic::copy: return s;
+    case Logic::and_inverted: return hn::AndNot(s, d);
+    case Logic::noop: return d;
+    case Logic::xor_: return hn::Xor(s, d);
+    case Logic::or_: return hn::Or(s, d);
+    case Logic::nor: return hn::Not(hn::Or(s, d));
+    case Logic::equiv: return hn::Not(hn::Xor(s, d));
+    case Logic::invert: return hn::Not(d);
+    case Logic::or_reverse: return hn::Or(s, hn::Not(d));
+    case Logic::copy_inverted: return hn::Not(s);
+    case Logic::or_inverted: return hn::Or(hn::Not(s), d);
+    case Logic::nand: return hn::Not(hn::And(s, d));
+    default: return splat(-1);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,125 @@
+// One fragment at a time: the specification of fragment_ops-inl.h, step by step the same.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "framebuffer/format.h"
+#include "shading/fragment_ops.h"
+
+namespace tessera {
+
+template <class Number>
+constexpr bool compares(Number a, CompareOp op, Number b) {
+  switch (op) {
+    case CompareOp::never: return false;
+    case CompareOp::less: return a < b;
+    case CompareOp::equal: return a == b;
+    case CompareOp::lequal: return a <= b;
+    case CompareOp::greater: return a > b;
+    case CompareOp::notequal: return a != b;
+    case CompareOp::gequal: return a >= b;
+    default: return true;
+  }
+}
+
+constexpr std::int32_t stencil_after(StencilAction action, std::int32_t stored, const StencilSide& face, std::int32_t most) {
+  const auto value = [&] {
+    switch (action) {
+      case StencilAction::zero: return 0;
+      case StencilAction::replace: return face.reference;
+      case StencilAction::incr: return stored < most ? stored + 1 : most;
+      case StencilAction::decr: return stored > 0 ? stored - 1 : 0;
+      case StencilAction::invert: return ~stored;
+      case StencilAction::incr_wrap: return stored + 1;
+      case StencilAction::decr_wrap: return stored - 1;
+      default: return stored;
+    }
+  };
+  const std::int32_t mask = face.write_mask & most;
+  return (stored & ~mask) | (value() & mask);
+}
+
+constexpr std::uint32_t logic_word(Logic logic, std::uint32_t s, std::uint32_t d) {
+  switch (logic) {
+    case Logic::clear: return 0;
+    case Logic::and_: return s & d;
+    case Logic::and_reverse: return s & ~d;
+    case Logic::copy: return s;
+    case Logic::and_inverted: return ~s & d;
+    case Logic::noop: return d;
+    case Logic::xor_: return s ^ d;
+    case Logic::or_: return s | d;
+    case Logic::nor: return ~(s | d);
+    case Logic::equiv: return ~(s ^ d);
+    case Logic::invert: return ~d;
+    case Logic::or_reverse: return s | ~d;
+    case Logic::copy_inverted: return ~s;
+    case Logic::or_inverted: return ~s | d;
+    case Logic::nand: return ~(s & d);
+    default: return ~0u;
+  }
+}
+
+using Rgba = std::array<float, 4>;
+
+inline float clamp_unit(float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
+
+/// A level of b bits as a component; of no bits: 1.
+inline float component_of(std::uint32_t level, int bits) { return bits == 0 ? 1.0f : static_cast<float>(static_cast<std::int32_t>(level)) * (1.0f / static_cast<float>((1 << bits) - 1)); }
+
+/// The colour that a stored word stands for.
+inline Rgba stored_components(const ColorLayout& layout, std::uint32_t word) {
+  const auto field = [&](int shift, int bits) { return component_of(word >> shift & ((1u << bits) - 1), bits); };
+  const float a = layout.alpha_bits == 0 ? 1.0f : field(layout.bits, layout.alpha_bits);
+  if (layout.luminance) {
+    const float l = field(0, layout.bits);
+    return {l, l, l, a};
+  }
+  return {field(layout.r_shift(), layout.r_bits), field(layout.g_shift(), layout.g_bits), field(0, layout.b_bits), a};
+}
+
+inline float blend_factor(Factor factor, std::size_t c, const Rgba& s, const Rgba& d, const Rgba& constant) {
+  switch (factor) {
+    case Factor::zero: return 0;
+    case Factor::one: return 1;
+    case Factor::src_color: return s[c];
+    case Factor::one_minus_src_color: return 1 - s[c];
+    case Factor::dst_color: return d[c];
+    case Factor::one_minus_dst_color: return 1 - d[c];
+    case Factor::src_alpha: return s[3];
+    case Factor::one_minus_src_alpha: return 1 - s[3];
+    case Factor::dst_alpha: return d[3];
+    case Factor::one_minus_dst_alpha: return 1 - d[3];
+    case Factor::constant_color: return constant[c];
+    case Factor::one_minus_constant_color: return 1 - constant[c];
+    case Factor::constant_alpha: return constant[3];
+    case Factor::one_minus_constant_alpha: return 1 - constant[3];
+    default: return c == 3 ? 1 : std::min(s[3], 1 - d[3]);
+  }
+}
+
+/// Clamped to 0..1.
+inline Rgba blended(const FragmentOps& ops, const Rgba& s, const Rgba& d) {
+  Rgba out;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const float sf = blend_factor(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant), df = blend_factor(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    const float sum = ops.equation == Equation::add                ? std::fma(s[c], sf, d[c] * df)
+                      : ops.equation == Equation::subtract         ? std::fma(s[c], sf, -(d[c] * df))
+                      : ops.equation == Equation::reverse_subtract ? std::fma(-s[c], sf, d[c] * df)
+                      : ops.equation == Equation::min              ? std::min(s[c], d[c])
+                                                                   : std::max(s[c], d[c]);
+    out[c] = clamp_unit(sum);
+  }
+  return out;
+}
+
+/// The word of a clamped colour: each component floor(c (2^b - 1) + t). RGB and luminance layouts.
+inline std::uint32_t stored_word(const ColorLayout& layout, const Rgba& c, float t) {
+  const auto level = [&](float x, int bits) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::fma(x, static_cast<float>((1 << bits) - 1), t))); };
+  const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : level(c[3], layout.alpha_bits) << layout.bits;
+  if (layout.luminance) return alpha | level(clamp_unit(std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]))), layout.bits);
+  return alpha | level(c[0], layout.r_bits) << layout.r_shift() | level(c[1], layout.g_bits) << layout.g_shift() | level(c[2], layout.b_bits);
+}
+
+}  // namespace tessera

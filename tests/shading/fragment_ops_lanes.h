@@ -1,0 +1,30 @@
+// The operations on fragments, for arrays of any length that is a multiple of 16, on each instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "framebuffer/format.h"
+#include "framebuffer/instruction_set.h"
+#include "shading/fragment_ops.h"
+
+namespace tessera::test {
+
+struct FragmentArrays {
+  std::size_t count;
+  const float* source[4];          ///< r g b a
+  const std::int32_t* stored;      ///< words, or stencil values
+  const std::int32_t* outcome;     ///< stencil: 0 nothing, 1 passed the test and failed the depth test, 2 passed both
+  float threshold;
+  std::int32_t* words;             ///< out
+};
+
+/// Blends (if asked for), stores and combines.
+using StoreFragments = void(const FragmentOps& ops, const ColorLayout& layout, const FragmentArrays& arrays);
+/// Stencil: bit 8 of words is whether the test passes, the lower bits are the value after it.
+using TestStencil = void(const StencilSide& side, std::int32_t most, const FragmentArrays& arrays);
+
+StoreFragments* store_fragments(Isa isa);
+TestStencil* test_stencil(Isa isa);
+
+}  // namespace tessera::test
