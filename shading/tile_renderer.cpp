@@ -81,6 +81,14 @@ void run_clear(TileRun& run, const TileClear& clear) {
   }
   if (clear.depth) fill_rect(run.memory.depth, clear.depth_key, rect, run.tile_size);
   if (clear.stencil) fill_rect(run.memory.stencil->value, clear.stencil_value, rect, run.tile_size);
+  if (clear.accumulation)
+    for (std::size_t c = 0; c < 4; ++c) fill_rect(run.memory.accumulation->component[c], clear.accumulation_levels[c], rect, run.tile_size);
+}
+
+void run_accumulation(TileRun& run, const TileAccumulation& command) {
+  shade_whole_tile(run);
+  const PixelRect rect = rect_in_tile(command.rect, run.frame.grid, run.tile_x, run.tile_y);
+  run_on_tile(command, rect, run.tile_x, run.tile_y, run.tile_size, run.memory.color, run.memory.levels());
 }
 
 /// Collects triangles of one draw until a group is full.
@@ -163,13 +171,22 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   if (!memory.ids_clean) std::fill(std::begin(memory.ids), std::end(memory.ids), kNoTriangle);
   memory.ids_clean = false;  // until the end of the tile
 
-  std::uint32_t next_clear = 0;
+  std::uint32_t next_clear = 0, next_accumulation = 0;
   GroupBuilder builder{run};
-  const auto clears_before = [&](std::uint32_t draw) {
-    while (next_clear < frame.clear_count && frame.clears[next_clear].before_draw <= draw) {
+  const auto clears_before = [&](std::uint32_t draw, std::uint32_t end) {
+    while (next_clear < end && frame.clears[next_clear].before_draw <= draw) {
       builder.flush();
       run_clear(run, frame.clears[next_clear++]);
     }
+  };
+  const auto commands_before = [&](std::uint32_t draw) {
+    while (next_accumulation < frame.accumulation_count && frame.accumulations[next_accumulation].before_draw <= draw) {
+      const TileAccumulation& command = frame.accumulations[next_accumulation++];
+      clears_before(draw, command.after_clears);
+      builder.flush();
+      run_accumulation(run, command);
+    }
+    clears_before(draw, frame.clear_count);
   };
   for (std::uint32_t b = 0; b < frame.bin_count; ++b) {
     const Bins& bins = frame.bins[b];
@@ -180,7 +197,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
         const std::uint32_t entry = block.entries[e];
         if ((entry & kDrawMarker) != 0) {
           const std::uint32_t draw = entry & ~kDrawMarker;
-          clears_before(draw);
+          commands_before(draw);
           builder.begin_draw(draw);
         } else {
           builder.add(bins, entry);
@@ -190,7 +207,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     // Clipped triangles of the next batch are another list.
     builder.flush();
   }
-  clears_before(frame.draw_count);
+  commands_before(frame.draw_count);
   shade_whole_tile(run);
   memory.ids_clean = true;
   return run.counts;
@@ -215,6 +232,7 @@ TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
 std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
+AccumulatedPixels TileWorkspace::accumulation() { return memory_->levels(); }
 float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
 void TileWorkspace::allocate_normals() {
   if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
@@ -222,6 +240,9 @@ void TileWorkspace::allocate_normals() {
 
 void TileWorkspace::allocate_stencil() {
   if (!memory_->stencil) memory_->stencil = std::make_unique<TileStencil>();
+}
+void TileWorkspace::allocate_accumulation() {
+  if (!memory_->accumulation) memory_->accumulation = std::make_unique<TileLevels>();
 }
 
 std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b, float a) {

@@ -14,6 +14,7 @@
 #include "raster/triangle_setup.h"
 #include "shading/fragment_ops.h"
 #include "shading/lighting.h"
+#include "shading/tile_accumulation.h"
 
 namespace tessera {
 
@@ -69,11 +70,12 @@ struct TileDraw {
 /// A clear inside a frame, in words; before draw `before_draw`.
 struct TileClear {
   std::uint32_t before_draw = 0;
-  bool color = false, depth = false, stencil = false;
+  bool color = false, depth = false, stencil = false, accumulation = false;
   std::uint32_t color_word = 0;
   bool dithered = false;                   ///< the words of `pattern` in place of that
   std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;  ///< by raster row and column, repeated
   std::int32_t depth_key = 0, stencil_value = 0;
+  AccumulatedPixel accumulation_levels{};
   PixelRect rect;
 };
 
@@ -87,6 +89,8 @@ struct TileFrame {
   std::uint32_t draw_count = 0;
   const TileClear* clears = nullptr;
   std::uint32_t clear_count = 0;
+  const TileAccumulation* accumulations = nullptr;
+  std::uint32_t accumulation_count = 0;
   const Bins* bins = nullptr;
   std::uint32_t bin_count = 0;
   bool shade_at_once = false;                     ///< never gather triangles before shading
@@ -111,17 +115,19 @@ class TileWorkspace {
   std::uint32_t* color();     ///< tile_size^2 words in tile order
   std::int32_t* depth();      ///< depth keys
   std::int32_t* stencil();    ///< stencil values. @pre allocate_stencil
+  AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation
   float* normals(int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
   /// These throw std::bad_alloc.
   void allocate_normals();
   void allocate_stencil();
+  void allocate_accumulation();
 
  private:
   std::unique_ptr<Memory> memory_;
 };
 
-/// Runs the frame's commands on one tile. Colour and depth must hold what was there before, unless a clear of the whole
-/// tile comes first.
+/// Runs the frame's commands on one tile. The buffers they look at must hold what was there before, unless a command that
+/// replaces all of the tile comes first.
 using RenderTile = TileCounts(const TileFrame& frame, int tile, TileWorkspace& workspace);
 RenderTile* render_tile(Isa isa);
 

@@ -24,6 +24,10 @@ struct alignas(64) TileStencil {
   std::int32_t value[kMaxTileSize * kMaxTileSize];
 };
 
+struct alignas(64) TileLevels {
+  std::int32_t component[4][kMaxTileSize * kMaxTileSize];
+};
+
 struct alignas(64) TileWorkspace::Memory {
   alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
   alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
@@ -38,6 +42,9 @@ struct alignas(64) TileWorkspace::Memory {
   ShadingBatch batch;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
   std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
+  std::unique_ptr<TileLevels> accumulation;  ///< likewise
+
+  AccumulatedPixels levels() { return {accumulation->component[0], accumulation->component[1], accumulation->component[2], accumulation->component[3]}; }
 };
 
 }  // namespace tessera
