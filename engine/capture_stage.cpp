@@ -58,11 +58,15 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       draw.programs[0] = draw.programs[1] = &normal_program_;
     }
   }
-  for (TileClear& clear : pass.clears) clear.color_word = Capture::kNothing;
+  for (TileClear& clear : pass.clears) {
+    clear.color_word = Capture::kNothing;
+    clear.accumulation = false;
+  }
   pass.frame.layout = rgb_layout(24);
   pass.frame.palette_search = nullptr;
   pass.frame.draws = pass.draws.data();
   pass.frame.clears = pass.clears.data();
+  pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
 }
 
 std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const {

@@ -90,19 +90,6 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   if (draw.state.scissor) plan.rect = intersect(plan.rect, raster_rect(*draw.state.scissor, format.height));
 }
 
-std::uint32_t write_mask(const DrawState& state, const ColorLayout& layout) {
-  std::uint32_t mask = 0;
-  if (layout.index || layout.luminance) {
-    mask = state.color_mask[0] ? layout.word_mask() : 0;
-  } else {
-    mask = (state.color_mask[0] ? layout.r_mask() : 0) | (state.color_mask[1] ? layout.g_mask() : 0) | (state.color_mask[2] ? layout.b_mask() : 0);
-  }
-  if (state.color_mask[3]) mask |= layout.alpha_mask();
-  mask &= state.plane_mask;
-  if (mask == 0) return 0;
-  return mask == (layout.word_mask() | layout.alpha_mask()) ? 0xffffffffu : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
-}
-
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, std::string* reasons) {
   const LightModel& model = draw.surroundings->light_model;
   const glm::dmat4 view = to_glm(draw.surroundings->camera.view);
@@ -201,6 +188,19 @@ PixelRect raster_rect(const Rect& rect, int frame_height) {
   return {clamp(rect.x), clamp(top), clamp(std::int64_t{rect.x} + rect.width), clamp(top + rect.height)};
 }
 
+std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask, const ColorLayout& layout) {
+  std::uint32_t mask = 0;
+  if (layout.index || layout.luminance) {
+    mask = color_mask[0] ? layout.word_mask() : 0;
+  } else {
+    mask = (color_mask[0] ? layout.r_mask() : 0) | (color_mask[1] ? layout.g_mask() : 0) | (color_mask[2] ? layout.b_mask() : 0);
+  }
+  if (color_mask[3]) mask |= layout.alpha_mask();
+  mask &= plane_mask;
+  if (mask == 0) return 0;
+  return mask == (layout.word_mask() | layout.alpha_mask()) ? 0xffffffffu : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
+}
+
 DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
   const DrawState& state = draw.state;
   DrawPlan plan;
@@ -208,7 +208,7 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   plan.keep_front = state.cull != Cull::front;
   plan.keep_back = state.cull != Cull::back;
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
-  plan.write_mask = write_mask(state, target.layout);
+  plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
 
   static_assert(static_cast<int>(CompareOp::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(CompareOp::less) == static_cast<int>(Compare::less));
   const bool has_depth = state.depth.enabled && target.depth_kind != DepthKind::none;

@@ -55,6 +55,9 @@ struct DrawPlan {
 /// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
 DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons);
 
+/// The bits of colour words that may change; all 32 for all planes.
+std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask, const ColorLayout& layout);
+
 /// A rectangle in window coordinates as pixels in raster space.
 PixelRect raster_rect(const Rect& rect, int frame_height);
 

@@ -69,6 +69,12 @@ void check_rect(const char* what, const Rect& rect) {
     throw Error(std::string(what) + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) + " pixels, must not be negative");
 }
 
+void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
+  if (mask[0] == mask[1] && mask[1] == mask[2]) return;
+  const char* const held = target.layout.index ? "an index buffer has one" : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone" : nullptr;
+  if (held) throw Error(std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
+}
+
 void check_state(const DrawState& s, const FrameBufferState& target) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
@@ -83,10 +89,7 @@ void check_state(const DrawState& s, const FrameBufferState& target) {
     require_range({"Frame::draw: viewport y"}, s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
   }
   if (s.scissor) check_rect("Frame::draw: scissor", *s.scissor);
-  const auto& m = s.color_mask;
-  const bool split = m[0] != m[1] || m[1] != m[2];
-  if (split && target.layout.index) throw Error("Frame::draw: the colour mask differs between components, an index buffer has one: all or none");
-  if (split && target.layout.luminance) throw Error("Frame::draw: the colour mask differs between components, a buffer of 1 or 2 bits has luminance alone: all or none");
+  check_color_mask("Frame::draw", s.color_mask, target);
 }
 
 void check_operations(const DrawState& s, const FrameBufferState& target) {
@@ -163,8 +166,23 @@ void Frame::clear(const Clear& clear) {
     if (*clear.stencil >= 1u << bits)
       throw Error("Frame::clear: the stencil value is " + std::to_string(*clear.stencil) + ", must be at most " + std::to_string((1u << bits) - 1));
   }
+  if (clear.accumulation) {
+    if (target.format.accumulation_bits == 0) throw Error("Frame::clear: an accumulation colour is given, but the frame buffer has no accumulation buffer");
+    const Color& c = *clear.accumulation;
+    for (const float component : {c.r, c.g, c.b, c.a}) require_range({"Frame::clear: a component of accumulation"}, component, -1, 1);
+  }
   if (clear.scissor) check_rect("Frame::clear: scissor", *clear.scissor);
   with_memory("Frame::clear", [&] { recording_->clears.push_back({clear, recording_->draws.size()}); });
+}
+
+void Frame::accumulate(const Accum& accum) {
+  const FrameBufferState& target = *recording_->target;
+  if (target.layout.index) throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
+  if (target.format.accumulation_bits == 0) throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
+  require_finite({"Frame::accumulate: value"}, {accum.value});
+  if (accum.scissor) check_rect("Frame::accumulate: scissor", *accum.scissor);
+  check_color_mask("Frame::accumulate", accum.color_mask, target);
+  with_memory("Frame::accumulate", [&] { recording_->accums.push_back({accum, recording_->draws.size(), recording_->clears.size()}); });
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {

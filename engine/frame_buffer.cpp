@@ -9,12 +9,15 @@
 #include "engine/out_of_memory.h"
 #include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
+#include "framebuffer/accumulation.h"
 #include "framebuffer/bit_transpose.h"
 #include "framebuffer/scan_out.h"
 
 namespace tessera {
 
-std::string_view name(Buffer buffer) { return buffer == Buffer::color ? "colour" : buffer == Buffer::depth ? "depth" : "stencil"; }
+std::string_view name(Buffer buffer) {
+  return buffer == Buffer::color ? "colour" : buffer == Buffer::depth ? "depth" : buffer == Buffer::stencil ? "stencil" : "accumulation";
+}
 
 namespace {
 
@@ -46,10 +49,11 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
 }
 
 template <class T>
-void require_pixels(std::span<T> span, const FrameBufferFormat& format, const char* function) {
-  const std::size_t needed = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
-  if (span.size() != needed)
-    throw Error(std::string(function) + ": the span holds " + std::to_string(span.size()) + " elements, the frame buffer has " + std::to_string(needed) + " pixels");
+void require_pixels(std::span<T> span, const FrameBufferFormat& format, const char* function, std::size_t components = 1) {
+  const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
+  if (span.size() != components * pixels)
+    throw Error(std::string(function) + ": the span holds " + std::to_string(span.size()) + " elements, the frame buffer has " + std::to_string(pixels) + " pixels" +
+                (components > 1 ? " of " + std::to_string(components) + " components" : ""));
 }
 
 }  // namespace
@@ -89,6 +93,10 @@ void check_format(const FrameBufferFormat& format) {
   require_range("stencil_bits", format.stencil_bits, 0, 8);
   if (format.alpha_bits != 0 && format.alpha_bits != 8) throw Error("FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
   if (format.alpha_bits != 0 && format.color_mode == ColorMode::index) throw Error("FrameBuffer: alpha planes are asked for, but the colour mode is index; they belong to rgb");
+  if (format.accumulation_bits != 0 && format.accumulation_bits != 16 && format.accumulation_bits != 32)
+    throw Error("FrameBuffer: accumulation_bits is " + std::to_string(format.accumulation_bits) + ", must be 0, 16 or 32");
+  if (format.accumulation_bits != 0 && format.color_mode == ColorMode::index)
+    throw Error("FrameBuffer: an accumulation buffer is asked for, but the colour mode is index; it belongs to rgb");
   if (format.color_mode == ColorMode::rgb && !format.palette.empty())
     throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
   if (format.palette.size() > std::size_t{1} << format.color_bits)
@@ -100,6 +108,7 @@ void make_planes(FrameBufferState& s) {
   s.color.planes = BitplaneStack(s.format.width, s.format.height, s.format.color_bits + s.format.alpha_bits);
   s.depth.planes = BitplaneStack(s.format.width, s.format.height, depth_bits(s.depth_kind));
   s.stencil.planes = BitplaneStack(s.format.width, s.format.height, s.format.stencil_bits);
+  for (StoredBuffer& component : s.accumulation) component.planes = BitplaneStack(s.format.width, s.format.height, s.format.accumulation_bits);
 }
 
 }  // namespace
@@ -137,11 +146,12 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory) 
   if (reinterpret_cast<std::uintptr_t>(memory.data()) % kPlaneAlignment != 0)
     throw Error("FrameBuffer: the memory given is at an address that is no multiple of " + std::to_string(kPlaneAlignment));
   auto* at = reinterpret_cast<std::uint8_t*>(memory.data());
-  for (StoredBuffer* buffer : {&state_->color, &state_->depth, &state_->stencil}) {
-    buffer->planes.use_memory(at);
-    at += buffer->planes.needed_bytes();
-    buffer->settle_lent_memory();
-  }
+  for (const Buffer which : kBuffers)
+    for (StoredBuffer& part : state_->parts(which)) {
+      part.planes.use_memory(at);
+      at += part.planes.needed_bytes();
+      part.settle_lent_memory();
+    }
 }
 
 std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
@@ -149,9 +159,13 @@ std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
   FrameBufferState state;
   state.format.width = format.width, state.format.height = format.height;
   state.format.color_bits = format.color_bits, state.format.alpha_bits = format.alpha_bits, state.format.stencil_bits = format.stencil_bits;
+  state.format.accumulation_bits = format.accumulation_bits;
   state.depth_kind = static_cast<DepthKind>(format.depth);
   make_planes(state);
-  return state.color.planes.needed_bytes() + state.depth.planes.needed_bytes() + state.stencil.planes.needed_bytes();
+  std::size_t bytes = 0;
+  for (const Buffer which : kBuffers)
+    for (const StoredBuffer& part : state.parts(which)) bytes += part.planes.needed_bytes();
+  return bytes;
 }
 
 FrameBuffer::~FrameBuffer() = default;
@@ -159,8 +173,16 @@ FrameBuffer::FrameBuffer(FrameBuffer&&) noexcept = default;
 FrameBuffer& FrameBuffer::operator=(FrameBuffer&&) noexcept = default;
 
 const FrameBufferFormat& FrameBuffer::format() const noexcept { return state_->format; }
-int FrameBuffer::plane_count(Buffer buffer) const noexcept { return state_->buffer(buffer).planes.plane_count(); }
-std::size_t FrameBuffer::allocated_bytes(Buffer buffer) const noexcept { return state_->buffer(buffer).planes.bytes(); }
+int FrameBuffer::plane_count(Buffer buffer) const noexcept {
+  int planes = 0;
+  for (const StoredBuffer& part : state_->parts(buffer)) planes += part.planes.plane_count();
+  return planes;
+}
+std::size_t FrameBuffer::allocated_bytes(Buffer buffer) const noexcept {
+  std::size_t bytes = 0;
+  for (const StoredBuffer& part : state_->parts(buffer)) bytes += part.planes.bytes();
+  return bytes;
+}
 
 namespace {
 
@@ -174,9 +196,8 @@ const StoredBuffer& require_kept(FrameBufferState& state, Buffer which, const ch
 
 // Calls use(words of a row, y) for every row from the top. Planes are read in bands, tile by tile.
 template <class Use>
-void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
+void for_each_row(const StoredBuffer& buffer, const char* function, const Use& use) {
   constexpr int kBand = 32;
-  const StoredBuffer& buffer = require_kept(state, which, function);
   const int width = buffer.planes.width_px(), height = buffer.planes.height_px();
   LoadPlanesFn* const load = with_memory(function, [] { return load_planes_for(available_isas().front()); });
   auto band = with_memory(function, [&] { return std::vector<std::uint32_t>(static_cast<std::size_t>(width) * kBand, buffer.word); });
@@ -195,17 +216,23 @@ void for_each_row(FrameBufferState& state, Buffer which, const char* function, c
     for (int y = 0; y < rows; ++y) use(std::span<const std::uint32_t>(row(y), static_cast<std::size_t>(width)), static_cast<std::size_t>(y0 + y));
   }
 }
+template <class Use>
+void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
+  for_each_row(require_kept(state, which, function), function, use);
+}
 
 }  // namespace
 
 PlaneView FrameBuffer::plane(Buffer which, int k) const try {
-  StoredBuffer& buffer = state_->buffer(which);
   require_kept(*state_, which, "FrameBuffer::plane");
-  if (k < 0 || k >= buffer.planes.plane_count())
+  if (k < 0 || k >= plane_count(which))
     throw Error("FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) + " buffer, which has planes 0 to " +
-                std::to_string(buffer.planes.plane_count() - 1));
-  buffer.materialize();
-  return {buffer.planes.plane(k), buffer.planes.width_px(), buffer.planes.height_px(), buffer.planes.stride_bytes()};
+                std::to_string(plane_count(which) - 1));
+  const std::span<StoredBuffer> parts = state_->parts(which);
+  for (StoredBuffer& part : parts) part.materialize();
+  const int planes = parts.front().planes.plane_count();
+  const StoredBuffer& buffer = parts[static_cast<std::size_t>(k / planes)];
+  return {buffer.planes.plane(k % planes), buffer.planes.width_px(), buffer.planes.height_px(), buffer.planes.stride_bytes()};
 } catch (const std::bad_alloc&) {
   throw Error("FrameBuffer::plane: not enough memory for the " + std::string(name(which)) + " planes");
 }
@@ -265,6 +292,20 @@ void FrameBuffer::read_stencil(std::span<std::uint8_t> stencil) const {
   for_each_row(*state_, Buffer::stencil, "FrameBuffer::read_stencil", [&](std::span<const std::uint32_t> row, std::size_t y) {
     for (std::size_t x = 0; x < row.size(); ++x) stencil[y * row.size() + x] = static_cast<std::uint8_t>(row[x]);
   });
+}
+
+void FrameBuffer::read_accumulation(std::span<float> rgba) const {
+  constexpr const char* kFunction = "FrameBuffer::read_accumulation";
+  require_pixels(rgba, state_->format, kFunction, 4);
+  require_kept(*state_, Buffer::accumulation, kFunction);
+  const int bits = state_->format.accumulation_bits;
+  const FloatingPointMode mode;
+  for (std::size_t c = 0; c < 4; ++c)
+    for_each_row(state_->accumulation[c], kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
+      // The lowest level is a step below -1.
+      for (std::size_t x = 0; x < row.size(); ++x)
+        rgba[4 * (y * row.size() + x) + c] = static_cast<float>(std::max(accumulation_level_from_word(row[x], bits) / accumulation_one(bits), -1.0));
+    });
 }
 
 }  // namespace tessera

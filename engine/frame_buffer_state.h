@@ -1,8 +1,10 @@
 // What a frame buffer is made of.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "engine/tessera/tessera.hpp"
 #include "framebuffer/bitplane.h"
@@ -11,6 +13,9 @@
 #include "framebuffer/palette_search.h"
 
 namespace tessera {
+
+/// As they follow each other in memory.
+inline constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
 /// One buffer of the stack, and what is known of it without looking at its planes.
 struct StoredBuffer {
@@ -51,8 +56,22 @@ struct FrameBufferState {
   Palette palette;                               ///< index mode
   std::unique_ptr<PaletteSearch> palette_search; ///< made when a colour first needs it
   StoredBuffer color, depth, stencil;
+  std::array<StoredBuffer, 4> accumulation;      ///< red, green, blue, alpha: a stack holds at most 32 planes
 
-  StoredBuffer& buffer(Buffer which) { return which == Buffer::color ? color : which == Buffer::depth ? depth : stencil; }
+  /// Of accumulation the first of its four; what is lost, all of them are.
+  StoredBuffer& buffer(Buffer which) {
+    switch (which) {
+      case Buffer::color: return color;
+      case Buffer::depth: return depth;
+      case Buffer::stencil: return stencil;
+      default: return accumulation[0];
+    }
+  }
+  /// What a buffer consists of, in the order of its planes.
+  std::span<StoredBuffer> parts(Buffer which) {
+    if (which == Buffer::accumulation) return accumulation;
+    return {&buffer(which), 1};
+  }
   /// The search structure, made on first use.
   const PaletteSearch* search() {
     if (!layout.index) return nullptr;

@@ -1,6 +1,8 @@
 #include "engine/frame_commands.h"
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 #include <string>
 
 #include "engine/fragment_plan.h"
@@ -11,9 +13,9 @@ namespace {
 
 PixelRect whole_buffer(const FrameBufferState& target) { return {0, 0, target.format.width, target.format.height}; }
 
-PixelRect clear_rect(const Clear& clear, const FrameBufferState& target) {
+PixelRect rect_of(const std::optional<Rect>& scissor, const FrameBufferState& target) {
   const PixelRect whole = whole_buffer(target);
-  return clear.scissor ? intersect(whole, raster_rect(*clear.scissor, target.format.height)) : whole;
+  return scissor ? intersect(whole, raster_rect(*scissor, target.format.height)) : whole;
 }
 
 bool covers(const PixelRect& rect, const PixelRect& whole) {
@@ -41,41 +43,93 @@ void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target
   }
 }
 
-// Decides what tiles load and store of one buffer. `clears_it` and `word` look at a clear; `draw_touches` at a plan.
-template <class ClearsIt, class DrawTouches, class Word>
-void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const StoredBuffer& stored, const PixelRect& whole, const ClearsIt& clears_it,
-                  const DrawTouches& draw_touches, const Word& word, Buffer which) {
-  bool first_is_whole_clear = false, any_clear = false, any_draw = false;
-  std::size_t first_draw = commands.plans.size();
-  for (std::size_t i = commands.plans.size(); i-- > 0;)
-    if (draw_touches(commands.plans[i])) any_draw = true, first_draw = i;
-  for (const TileClear& clear : commands.clears) {
-    if (!clears_it(clear)) continue;
-    if (!any_clear) first_is_whole_clear = clear.before_draw <= first_draw && covers(clear.rect, whole);
-    any_clear = true;
+// Calls one of the three for each command of a frame, in order.
+template <class OnClear, class OnAccumulation, class OnDraw>
+void for_each_command(const FrameCommands& commands, const OnClear& on_clear, const OnAccumulation& on_accumulation, const OnDraw& on_draw) {
+  std::size_t clear = 0, accumulation = 0;
+  const auto clears_before = [&](std::size_t draw, std::size_t end) {
+    for (; clear < end && commands.clears[clear].before_draw <= draw; ++clear) on_clear(commands.clears[clear]);
+  };
+  for (std::size_t draw = 0; draw <= commands.plans.size(); ++draw) {
+    for (; accumulation < commands.accumulations.size() && commands.accumulations[accumulation].before_draw <= draw; ++accumulation) {
+      clears_before(draw, commands.accumulations[accumulation].after_clears);
+      on_accumulation(commands.accumulations[accumulation]);
+    }
+    clears_before(draw, commands.clears.size());
+    if (draw < commands.plans.size()) on_draw(commands.plans[draw]);
   }
-  traffic.touched = any_clear || any_draw;
-  traffic.used = any_draw || ((traffic.keep || traffic.used) && any_clear) || traffic.used;
+}
+
+// What an accumulation does to a buffer.
+enum class Work : std::uint8_t { none, reads, changes, replaces /* all of it, whatever was there */ };
+
+Work work_on_color(const TileAccumulation& command, const PixelRect& whole) {
+  const AccumulationOp op = command.arithmetic.op();
+  if (op == AccumulationOp::accumulate || op == AccumulationOp::load) return Work::reads;
+  if (op != AccumulationOp::give_back) return Work::none;
+  return command.write_mask == 0xffffffffu && covers(command.rect, whole) ? Work::replaces : Work::changes;
+}
+Work work_on_accumulation(const TileAccumulation& command, const PixelRect& whole) {
+  const AccumulationOp op = command.arithmetic.op();
+  if (op == AccumulationOp::give_back) return Work::reads;
+  return op == AccumulationOp::load && covers(command.rect, whole) ? Work::replaces : Work::changes;
+}
+
+// Decides what tiles load and store of one buffer. `clears_it` and `words` look at a clear; `draw_touches` at a plan;
+// `work_of` at an accumulation.
+template <class ClearsIt, class DrawTouches, class WorkOf, class Words>
+void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const StoredBuffer& stored, const PixelRect& whole, const ClearsIt& clears_it,
+                  const DrawTouches& draw_touches, const WorkOf& work_of, const Words& words, Buffer which) {
+  bool any = false, starts_anew = false, clears_are_whole = true, is_used = false, is_changed = false;
+  const TileClear* last_clear = nullptr;
+  const auto begin = [&](bool anew) {
+    if (!any) starts_anew = anew;
+    any = true;
+  };
+  for_each_command(
+      commands,
+      [&](const TileClear& clear) {
+        if (!clears_it(clear)) return;
+        begin(covers(clear.rect, whole));
+        clears_are_whole &= covers(clear.rect, whole);
+        last_clear = &clear;
+      },
+      [&](const TileAccumulation& command) {
+        const Work work = work_of(command, whole);
+        if (work == Work::none) return;
+        begin(work == Work::replaces);
+        is_used = true;
+        is_changed |= work != Work::reads;
+      },
+      [&](const DrawPlan& plan) {
+        if (!draw_touches(plan)) return;
+        begin(false);
+        is_used = is_changed = true;
+      });
+  traffic.touched = last_clear != nullptr || is_changed;
+  traffic.used = is_used || (traffic.keep && last_clear != nullptr) || traffic.used;
   if (!traffic.used) return;
-  traffic.load = !first_is_whole_clear;
+  traffic.load = !starts_anew;
   if (traffic.load && stored.content == StoredBuffer::Content::lost)
     throw Error("Renderer::finish: the frame starts from the " + std::string(name(which)) +
                 " buffer, which the frame before did not keep; clear the whole of it first, or name it in Frame::keep() then");
   // Clears alone need no planes.
-  if (!any_draw && any_clear) {
-    const TileClear* last = nullptr;
-    bool all_whole = true;
-    for (const TileClear& clear : commands.clears) {
-      if (!clears_it(clear)) continue;
-      all_whole &= covers(clear.rect, whole);
-      last = &clear;
-    }
-    if (all_whole && !(which == Buffer::color && last->dithered)) {
-      traffic.ends_uniform = true;
-      traffic.uniform_word = word(*last);
-    }
+  if (!is_changed && last_clear != nullptr && clears_are_whole && !(which == Buffer::color && last_clear->dithered)) {
+    traffic.ends_uniform = true;
+    traffic.uniform_words = words(*last_clear);
   }
   traffic.store = traffic.keep && traffic.touched && !traffic.ends_uniform;
+}
+
+// nullopt: it changes nothing.
+std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const FrameBufferState& target) {
+  static_assert(static_cast<int>(AccumOp::accum) == static_cast<int>(AccumulationOp::accumulate) && static_cast<int>(AccumOp::return_) == static_cast<int>(AccumulationOp::give_back));
+  TileAccumulation command{.rect = rect_of(accum.scissor, target),
+                           .arithmetic = Accumulation(static_cast<AccumulationOp>(accum.op), accum.value, target.format.accumulation_bits, target.layout),
+                           .write_mask = write_mask(accum.color_mask, ~0u, target.layout),
+                           .dither = dither_of(target)};
+  if (command.rect.empty() || (accum.op == AccumOp::return_ && command.write_mask == 0)) return std::nullopt;
+  return command;
 }
 
 }  // namespace
@@ -113,40 +167,69 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   }
   first_plan_at.back() = static_cast<std::uint32_t>(commands.plans.size());
 
+  std::vector<std::uint32_t> clears_until;  // how many of the first clears, and their successors, matter
   for (const RecordedClear& recorded : recording.clears) {
+    clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
     const Clear& clear = recorded.clear;
     TileClear tile_clear;
     tile_clear.before_draw = first_plan_at[recorded.before_draw];
-    tile_clear.rect = clear_rect(clear, target);
+    tile_clear.rect = rect_of(clear.scissor, target);
     tile_clear.color = clear.color || clear.index;
     tile_clear.depth = clear.depth.has_value();
     tile_clear.stencil = clear.stencil.has_value();
-    if (tile_clear.rect.empty() || (!tile_clear.color && !tile_clear.depth && !tile_clear.stencil)) continue;
+    tile_clear.accumulation = clear.accumulation.has_value();
+    if (tile_clear.rect.empty() || (!tile_clear.color && !tile_clear.depth && !tile_clear.stencil && !tile_clear.accumulation)) continue;
     if (tile_clear.stencil) tile_clear.stencil_value = static_cast<std::int32_t>(*clear.stencil);
     if (tile_clear.color) set_clear_color(tile_clear, clear, target);
     if (tile_clear.depth) tile_clear.depth_key = depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, *clear.depth));
+    if (tile_clear.accumulation) {
+      const Color& c = *clear.accumulation;
+      const int bits = target.format.accumulation_bits;
+      tile_clear.accumulation_levels = {accumulation_level(c.r, bits), accumulation_level(c.g, bits), accumulation_level(c.b, bits), accumulation_level(c.a, bits)};
+    }
     commands.clears.push_back(tile_clear);
+  }
+  clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
+  for (const RecordedAccum& recorded : recording.accums) {
+    auto command = plan_accumulation(recorded.accum, target);
+    if (!command) continue;
+    command->before_draw = first_plan_at[recorded.before_draw];
+    command->after_clears = clears_until[recorded.after_clears];
+    commands.accumulations.push_back(*command);
   }
 
   const auto any_plan = [&](auto predicate) { return std::any_of(commands.plans.begin(), commands.plans.end(), predicate); };
   const auto any_clear = [&](auto predicate) { return std::any_of(commands.clears.begin(), commands.clears.end(), predicate); };
+  const auto any_work = [&](auto work_of) {
+    return std::any_of(commands.accumulations.begin(), commands.accumulations.end(), [&](const TileAccumulation& a) { return work_of(a, whole) >= Work::changes; });
+  };
   const auto draws_color = [](const DrawPlan& plan) { return plan.write_mask != 0; };
   const auto draws_depth = [](const DrawPlan& plan) { return plan.uses_depth; };
   const auto draws_stencil = [](const DrawPlan& plan) { return plan.uses_stencil; };
+  const auto draws_nothing = [](const DrawPlan&) { return false; };
   const auto clears_color = [](const TileClear& clear) { return clear.color; };
   const auto clears_depth = [](const TileClear& clear) { return clear.depth; };
   const auto clears_stencil = [](const TileClear& clear) { return clear.stencil; };
-  commands.color.keep = wants(recording, Buffer::color, any_plan(draws_color) || any_clear(clears_color), presented);
+  const auto clears_accumulation = [](const TileClear& clear) { return clear.accumulation; };
+  const auto no_work = [](const TileAccumulation&, const PixelRect&) { return Work::none; };
+  using Words = std::array<std::uint32_t, 4>;
+  commands.color.keep = wants(recording, Buffer::color, any_plan(draws_color) || any_clear(clears_color) || any_work(work_on_color), presented);
   commands.depth.keep = wants(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
   commands.stencil.keep = wants(recording, Buffer::stencil, any_plan(draws_stencil) || any_clear(clears_stencil), presented);
+  commands.accumulation.keep = wants(recording, Buffer::accumulation, any_clear(clears_accumulation) || any_work(work_on_accumulation), presented);
   commands.color.used = presented;
-  plan_traffic(commands.color, commands, target.color, whole, clears_color, draws_color, [](const TileClear& c) { return c.color_word; }, Buffer::color);
-  plan_traffic(commands.depth, commands, target.depth, whole, clears_depth, draws_depth,
-               [&](const TileClear& c) { return depth_word_from_key(target.depth_kind, c.depth_key); }, Buffer::depth);
-
-  plan_traffic(commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, [](const TileClear& c) { return static_cast<std::uint32_t>(c.stencil_value); }, Buffer::stencil);
-  if (!commands.stencil.used)
-    for (TileClear& clear : commands.clears) clear.stencil = false;  // tiles have no memory for it
+  plan_traffic(commands.color, commands, target.color, whole, clears_color, draws_color, work_on_color, [](const TileClear& c) { return Words{c.color_word}; }, Buffer::color);
+  plan_traffic(commands.depth, commands, target.depth, whole, clears_depth, draws_depth, no_work,
+               [&](const TileClear& c) { return Words{depth_word_from_key(target.depth_kind, c.depth_key)}; }, Buffer::depth);
+  plan_traffic(commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, no_work,
+               [](const TileClear& c) { return Words{static_cast<std::uint32_t>(c.stencil_value)}; }, Buffer::stencil);
+  plan_traffic(commands.accumulation, commands, target.accumulation[0], whole, clears_accumulation, draws_nothing, work_on_accumulation,
+               [](const TileClear& c) { return std::bit_cast<Words>(c.accumulation_levels); }, Buffer::accumulation);
+  // Tiles have no memory for what is not used.
+  for (TileClear& clear : commands.clears) {
+    clear.stencil &= commands.stencil.used;
+    clear.accumulation &= commands.accumulation.used;
+  }
 
   while (buffers.size() < commands.plans.size()) buffers.emplace_back();
   for (std::size_t i = 0; i < commands.plans.size(); ++i) {

@@ -1,6 +1,7 @@
-// A recorded frame as the tiles will run it: draws with their memory, clears in words, and what becomes of each buffer.
+// A recorded frame as the tiles will run it: draws with their memory, clears in words, accumulations, and what becomes of each buffer.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct BufferTraffic {
   bool keep = false;
   /// The whole buffer ends as one word that no pixel of a draw can have changed: nothing is stored.
   bool ends_uniform = false;
-  std::uint32_t uniform_word = 0;
+  std::array<std::uint32_t, 4> uniform_words{};  ///< of each of the buffer's parts
 };
 
 struct FrameCommands {
@@ -29,9 +30,18 @@ struct FrameCommands {
   std::vector<GeometryDraw> geometry;
   std::vector<TileDraw> tile_draws;
   std::vector<TileClear> clears;
-  BufferTraffic color, depth, stencil;
+  std::vector<TileAccumulation> accumulations;
+  BufferTraffic color, depth, stencil, accumulation;
 
-  bool stores() const { return color.store || depth.store || stencil.store; }
+  bool stores() const { return color.store || depth.store || stencil.store || accumulation.store; }
+  const BufferTraffic& traffic(Buffer which) const {
+    switch (which) {
+      case Buffer::color: return color;
+      case Buffer::depth: return depth;
+      case Buffer::stencil: return stencil;
+      default: return accumulation;
+    }
+  }
 };
 
 /// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.

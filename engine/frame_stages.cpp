@@ -1,6 +1,7 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <string>
 
 #include "engine/capture_stage.h"
@@ -42,28 +43,34 @@ class StopWatch {
 };
 
 /// What a buffer holds after all its tiles were rendered.
-void settle(const BufferTraffic& traffic, StoredBuffer& stored) {
-  if (traffic.store)
-    stored.content = StoredBuffer::Content::planes;
-  else if (traffic.keep && traffic.ends_uniform)
-    stored.become_uniform(traffic.uniform_word);
-  else if (!traffic.keep && traffic.touched)
-    stored.content = StoredBuffer::Content::lost;
-  stored.settle_lent_memory();
+void settle(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    StoredBuffer& stored = parts[i];
+    if (traffic.store)
+      stored.content = StoredBuffer::Content::planes;
+    else if (traffic.keep && traffic.ends_uniform)
+      stored.become_uniform(traffic.uniform_words[i]);
+    else if (!traffic.keep && traffic.touched)
+      stored.content = StoredBuffer::Content::lost;
+    stored.settle_lent_memory();
+  }
 }
 
 /// And after some: those of the planes that were stored are new. What was lost stays lost.
-void settle_interrupted(const BufferTraffic& traffic, StoredBuffer& stored) {
-  if (traffic.store && stored.content == StoredBuffer::Content::uniform) stored.content = StoredBuffer::Content::planes;
+void settle_interrupted(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
+  for (StoredBuffer& stored : parts)
+    if (traffic.store && stored.content == StoredBuffer::Content::uniform) stored.content = StoredBuffer::Content::planes;
 }
 
 /// Takes the memory for what will be stored, with what tiles that are never rendered hold.
-void prepare_planes(const BufferTraffic& traffic, StoredBuffer& stored) {
+void prepare_planes(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
   if (!traffic.store) return;
-  if (!stored.planes.allocated())
-    stored.planes.allocate(stored.word);
-  else if (stored.content == StoredBuffer::Content::uniform)
-    stored.planes.fill(stored.word);
+  for (StoredBuffer& stored : parts) {
+    if (!stored.planes.allocated())
+      stored.planes.allocate(stored.word);
+    else if (stored.content == StoredBuffer::Content::uniform)
+      stored.planes.fill(stored.word);
+  }
 }
 
 }  // namespace
@@ -132,14 +139,16 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
   return batches;
 }
 
-void RendererState::render_tiles(const TileStage& stage, bool capture_normals, bool stencil, FrameStats& stats, FrameWatch& watch) {
+void RendererState::render_tiles(const TileStage& stage, bool capture_normals, const FrameCommands& commands, FrameStats& stats, FrameWatch& watch) {
   struct alignas(64) WorkerCounts : StripCounts {};
   std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
   while (workspaces.size() < counts.size()) workspaces.emplace_back();
   if (capture_normals)
     for (TileWorkspace& workspace : workspaces) workspace.allocate_normals();
-  if (stencil)
-    for (TileWorkspace& workspace : workspaces) workspace.allocate_stencil();
+  for (TileWorkspace& workspace : workspaces) {
+    if (commands.stencil.used) workspace.allocate_stencil();
+    if (commands.accumulation.used) workspace.allocate_accumulation();
+  }
   const std::vector<TileStrip> strips = stage.strips();
   watch.begin_stage(kTileShare, strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
@@ -162,9 +171,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   FrameCommands commands = plan_frame(recording, image != nullptr, draw_buffers);
 
   // Memory for what will be stored is taken before anything changes.
-  prepare_planes(commands.color, target.color);
-  prepare_planes(commands.depth, target.depth);
-  prepare_planes(commands.stencil, target.stencil);
+  for (const Buffer which : kBuffers) prepare_planes(commands.traffic(which), target.parts(which));
 
   for (const GeometryDraw& draw : commands.geometry) stats.vertices += draw.mesh->vertices;
   const TileGrid grid{target.format.width, target.format.height, tile_size_for(target.format)};
@@ -187,23 +194,21 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.draw_count = static_cast<std::uint32_t>(commands.tile_draws.size());
   frame.clears = commands.clears.data();
   frame.clear_count = static_cast<std::uint32_t>(commands.clears.size());
+  frame.accumulations = commands.accumulations.data();
+  frame.accumulation_count = static_cast<std::uint32_t>(commands.accumulations.size());
   frame.bins = bins.data();
   frame.bin_count = static_cast<std::uint32_t>(batches);
   frame.shade_at_once = !options.defer_shading;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
     try {
-      render_tiles(TileStage(commands, frame, target, image, capture, isa), capture.needs_normals(), commands.stencil.used, stats, watch);
+      render_tiles(TileStage(commands, frame, target, image, capture, isa), capture.needs_normals(), commands, stats, watch);
     } catch (...) {
-      settle_interrupted(commands.color, target.color);
-      settle_interrupted(commands.depth, target.depth);
-      settle_interrupted(commands.stencil, target.stencil);
+      for (const Buffer which : kBuffers) settle_interrupted(commands.traffic(which), target.parts(which));
       throw;
     }
   }
-  settle(commands.color, target.color);
-  settle(commands.depth, target.depth);
-  settle(commands.stencil, target.stencil);
+  for (const Buffer which : kBuffers) settle(commands.traffic(which), target.parts(which));
   stats.tile_seconds = clock.lap();
 
   for (std::size_t b = 0; b < batches; ++b) {

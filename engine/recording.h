@@ -28,11 +28,17 @@ struct RecordedClear {
   std::size_t before_draw = 0;
 };
 
+struct RecordedAccum {
+  Accum accum;
+  std::size_t before_draw = 0, after_clears = 0;
+};
+
 struct FrameRecording {
   FrameBufferState* target = nullptr;
   std::shared_ptr<const Surroundings> surroundings = std::make_shared<Surroundings>();
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
+  std::vector<RecordedAccum> accums;
   std::optional<std::vector<Buffer>> keep;
   Capture capture;
 
@@ -40,6 +46,7 @@ struct FrameRecording {
   void clear() noexcept {
     draws.clear();
     clears.clear();
+    accums.clear();
     keep.reset();
     capture = {};
   }

@@ -37,7 +37,7 @@ struct RendererState {
  private:
   void process_geometry(FrameCommands& commands, FrameWatch& watch);
   std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid, FrameWatch& watch);
-  void render_tiles(const TileStage& stage, bool capture_normals, bool stencil, FrameStats& stats, FrameWatch& watch);
+  void render_tiles(const TileStage& stage, bool capture_normals, const FrameCommands& commands, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
 

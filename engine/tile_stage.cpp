@@ -25,7 +25,7 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   scan_out_.emplace(target.layout, target.layout.index ? &target.palette : nullptr, image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, isa);
   // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles need not go
   // through tile memory.
-  const bool uniform = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() &&
+  const bool uniform = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() && commands.accumulations.empty() &&
                        std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
   if (!uniform) return;
   std::uint32_t word = 0;
@@ -84,6 +84,7 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
   load(commands_.color, target_.color, workspace.color(), color_place);
   load_tests();
+  if (commands_.accumulation.used) load_accumulation(color_place, workspace.accumulation());
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
   counts.shaded_pixels += tile.shaded_pixels;
   counts.touched += tile.touched ? 1 : 0;
@@ -91,6 +92,8 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   if (commands_.color.store) store_planes_(workspace.color(), color_place, target_.color.planes, ~0u);
   if (commands_.depth.store) store_planes_(depth_words, depth_place, target_.depth.planes, ~0u);
   if (commands_.stencil.store) store_planes_(stencil_words, color_place, target_.stencil.planes, ~0u);
+  if (commands_.accumulation.store)
+    for (std::size_t c = 0; c < 4; ++c) store_planes_(reinterpret_cast<std::uint32_t*>(workspace.accumulation()[c]), color_place, target_.accumulation[c].planes, ~0u);
 }
 
 void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
@@ -115,6 +118,16 @@ void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, s
     std::fill_n(words, place.tile_size * place.tile_size, stored.word ^ place.flip);
   else
     load_planes_(words, place, stored.planes);
+}
+
+void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const {
+  if (!commands_.accumulation.load) return;
+  for (std::size_t c = 0; c < 4; ++c) {
+    auto* const words = reinterpret_cast<std::uint32_t*>(levels[c]);
+    load(commands_.accumulation, target_.accumulation[c], words, place);
+    const int bits = target_.format.accumulation_bits, pixels = place.tile_size * place.tile_size;
+    for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_word(words[i], bits);
+  }
 }
 
 void TileStage::fill_cleared(const TileStrip& strip) const {

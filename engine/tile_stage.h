@@ -38,6 +38,7 @@ class TileStage {
  private:
   bool untouched(int tile) const;
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
+  void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;
   void load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const;
   void fill_cleared(const TileStrip& strip) const;

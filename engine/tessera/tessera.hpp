@@ -107,6 +107,7 @@ struct FrameBufferFormat {
   int stencil_bits = 8;                     ///< 0 .. 8
   int alpha_bits = 0;                       ///< 0 or 8 planes above the colour's; without them the stored alpha reads 1. RGB buffers
   Dither dither = Dither::none;
+  int accumulation_bits = 0;                ///< 0, 16 or 32 for each of red, green, blue, alpha; signed. RGB buffers
 };
 
 /// Built-in palettes: "bw", "gray", "ega16", "vga256", "web216". Throws Error for another name, or more entries than 2^color_bits.
@@ -114,7 +115,7 @@ TESSERA_API std::vector<Color> named_palette(std::string_view name, int color_bi
 /// bw at 1 bit, greys at 2 and 3, ega16 at 4 to 7, vga256 at 8 and more.
 TESSERA_API std::vector<Color> default_palette(int color_bits);
 
-enum class Buffer : std::uint8_t { color, depth, stencil };
+enum class Buffer : std::uint8_t { color, depth, stencil, accumulation };
 struct Camera;
 
 /// One plane of the stack as a 1-bit image: rows from the top, bit 7 of a byte is the leftmost pixel. Borrowed from the
@@ -137,15 +138,15 @@ struct ImageTarget {
   std::optional<Rect> part{};               ///< only these pixels of it (origin lower left) are written, what lies outside is left out; what else the memory holds stays
 };
 
-/// A stack of bitplanes: colour, depth and stencil, one bit for each pixel in each plane. New buffers hold colour 0,
-/// depth 1, stencil 0. A buffer is allocated when a frame first stores something else in it.
+/// A stack of bitplanes: colour, depth, stencil and accumulation, one bit for each pixel in each plane. New buffers hold colour 0,
+/// depth 1, stencil 0, accumulation 0. A buffer is allocated when a frame first stores something else in it.
 class TESSERA_API FrameBuffer {
  public:
   /// Throws Error for sizes, bits or palettes out of range, and where memory runs out.
   explicit FrameBuffer(FrameBufferFormat format);
   /// The same in the caller's memory, which must outlive it: memory_bytes(format) of it, at a multiple of 64. There are the
-  /// planes of colour, then of depth, then of stencil, each as plane() shows it; they are current for buffers that the last
-  /// frame kept.
+  /// planes of colour, then of depth, then of stencil, then of accumulation, each as plane() shows it; they are current for
+  /// buffers that the last frame kept.
   FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory);
   static std::size_t memory_bytes(const FrameBufferFormat& format);
   ~FrameBuffer();
@@ -153,12 +154,13 @@ class TESSERA_API FrameBuffer {
   FrameBuffer& operator=(FrameBuffer&&) noexcept;
 
   const FrameBufferFormat& format() const noexcept;
-  /// Planes of a buffer: colour bits and alpha bits, depth bits (0, 16, 24, 32), stencil bits.
+  /// Planes of a buffer: colour bits and alpha bits, depth bits (0, 16, 24, 32), stencil bits, four times the accumulation bits.
   int plane_count(Buffer buffer) const noexcept;
   /// Bytes that the planes of a buffer take now; 0 while it is not allocated.
   std::size_t allocated_bytes(Buffer buffer) const noexcept;
-  /// Plane k of a buffer, 0 the lowest bit (of blue, of the index, of depth). Allocates it if need be. Throws Error for a
-  /// plane that does not exist or a buffer that the last frame did not keep.
+  /// Plane k of a buffer, 0 the lowest bit (of blue, of the index, of depth); of accumulation all of red's come first, then
+  /// green's, blue's and alpha's. Allocates it if need be. Throws Error for a plane that does not exist or a buffer that the
+  /// last frame did not keep.
   PlaneView plane(Buffer buffer, int k) const;
 
   // Reading back, rows from the top; throws Error for a wrong size or a buffer that the last frame did not keep.
@@ -170,6 +172,7 @@ class TESSERA_API FrameBuffer {
   /// whole depth range; `background` where the depth is the far end's.
   void read_view_depth(std::span<float> depth, const Camera& camera, float background = 0) const;
   void read_stencil(std::span<std::uint8_t> stencil) const;
+  void read_accumulation(std::span<float> rgba) const;             ///< r g b a for each pixel, -1 .. 1: 4 * width * height
 
  private:
   friend class Renderer;
@@ -375,7 +378,24 @@ struct Clear {
   std::optional<std::uint32_t> index{};     ///< index buffers; `color` there clears to the nearest palette entry
   std::optional<double> depth{};            ///< 0 .. 1
   std::optional<std::uint32_t> stencil{};
+  std::optional<Color> accumulation{};      ///< -1 .. 1
   std::optional<Rect> scissor{};
+};
+
+enum class AccumOp : std::uint8_t {
+  accum,   ///< acc += value * colour
+  load,    ///< acc = value * colour
+  add,     ///< acc += value
+  mult,    ///< acc *= value
+  return_  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
+};
+/// What happens between the colour and the accumulation buffer, for whole rectangles. Components that leave -1 .. 1 stay at its
+/// end; without alpha planes alpha is 1, of luminance red, green and blue are the grey.
+struct Accum {
+  AccumOp op = AccumOp::accum;
+  double value = 1;                         ///< any finite number
+  std::optional<Rect> scissor{};
+  std::array<bool, 4> color_mask{true, true, true, true};  ///< return_: what of the colour may change
 };
 
 // ---- frames -------------------------------------------------------------------------------------------------------
@@ -425,6 +445,8 @@ class TESSERA_API Frame {
 
   /// Throws Error for values out of range and for a buffer that the frame buffer does not have.
   void clear(const Clear& clear);
+  /// Throws Error without an accumulation buffer and for values out of range.
+  void accumulate(const Accum& accum);
   /// Throws Error for spans that do not fit together, indices out of bounds and values out of range.
   void draw(const Mesh& mesh, const DrawState& state = {});
 
@@ -438,7 +460,7 @@ class TESSERA_API Frame {
   /// What the code that runs for draw i contains, and why: one line for each effect. For people who want to know what they pay for.
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
-  /// Forgets the clears and draws, and what to keep. Camera, lights and light model stay.
+  /// Forgets the clears, accumulations and draws, and what to keep. Camera, lights and light model stay.
   void reset() noexcept;
 
  private:
