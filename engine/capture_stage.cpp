@@ -60,6 +60,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
   }
   for (TileClear& clear : pass.clears) {
     clear.color_word = Capture::kNothing;
+    clear.dithered = false;
     clear.accumulation = false;
   }
   pass.frame.layout = rgb_layout(24);

@@ -201,5 +201,15 @@ TEST(Fragments, AreCountedBeforeAnyTestAndOnlyOnRequest) {
   }
 }
 
+TEST(Capture, SeesNothingWhereAClearIsDithered) {
+  FrameBuffer buffer({.width = 20, .height = 20, .color_bits = 3, .dither = Dither::bayer4});
+  std::vector<std::uint32_t> objects(pixel_count(buffer));
+  Frame frame(buffer);
+  frame.clear({.color = Color{0.4f, 0.5f, 0.6f, 1}});
+  frame.capture({.objects = objects});
+  Renderer({.threads = 1}).finish(frame);
+  EXPECT_THAT(objects, testing::Each(Capture::kNothing));
+}
+
 }  // namespace
 }  // namespace tessera
