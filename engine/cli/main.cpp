@@ -94,7 +94,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   command->add_option("--palette", request.overrides.palette, "palette; the colour buffer then holds indices")
       ->option_text("bw|gray|ega16|vga256|web216")
       ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
-  command->add_option("--planes", request.planes_folder, "folder for every plane of colour, depth and stencil as color_00.pbm, ...; set bits are PBM's 1")
+  command->add_option("--planes", request.planes_folder, "folder for every plane of colour, depth, stencil and accumulation as color_00.pbm, ...; set bits are PBM's 1")
       ->option_text("DIR");
   command
       ->add_option_function<std::string>(

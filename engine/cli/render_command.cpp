@@ -20,9 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil};
+constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
-const char* buffer_name(Buffer buffer) { return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : "stencil"; }
+const char* buffer_name(Buffer buffer) {
+  return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : buffer == Buffer::stencil ? "stencil" : "accumulation";
+}
 
 /// What is rendered, frame by frame.
 class Input {
@@ -109,19 +111,10 @@ IndexedPicture indexed_picture(const FrameBuffer& buffer) {
 }
 
 /// What has to be read after the frame.
-void keep(const FrameBuffer& buffer, bool planes, bool words, Frame& frame) {
-  if (!planes) {
-    if (words) frame.keep({Buffer::color});
-    return;
-  }
-  const bool has_depth = buffer.plane_count(Buffer::depth) > 0, has_stencil = buffer.plane_count(Buffer::stencil) > 0;
-  if (has_depth && has_stencil)
-    frame.keep({Buffer::color, Buffer::depth, Buffer::stencil});
-  else if (has_depth)
-    frame.keep({Buffer::color, Buffer::depth});
-  else if (has_stencil)
-    frame.keep({Buffer::color, Buffer::stencil});
-  else
+void keep(bool planes, bool words, Frame& frame) {
+  if (planes)
+    frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
+  else if (words)
     frame.keep({Buffer::color});
 }
 
@@ -221,7 +214,7 @@ int render(RenderRequest request) {
     for (int r = 0; r < request.repeat; ++r, ++done_renders) {
       record(scene, frame);
       if (request.explain && f == 0 && r == 0) print_explanations(scene, frame);
-      keep(buffer, !request.planes_folder.empty(), indexed, frame);
+      keep(!request.planes_folder.empty(), indexed, frame);
       const auto render_start = std::chrono::steady_clock::now();
       run.frame = renderer.finish(frame, picture.target());
       run.render_ms.push_back(milliseconds_since(render_start));
@@ -235,7 +228,7 @@ int render(RenderRequest request) {
       write_output(picture, file, request.output.compression);
     if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
     run.write_ms += milliseconds_since(write_start);
-    for (std::size_t i = 0; i < 3; ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
+    for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
     if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
     if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);

@@ -51,7 +51,7 @@ std::vector<Count> counts_of(const FrameStats& s) {
 std::vector<std::pair<const char*, double>> stages_of(const FrameStats& s) {
   return {{"planning", s.plan_seconds}, {"vertices", s.vertex_seconds}, {"binning", s.binning_seconds}, {"tiles", s.tile_seconds}};
 }
-constexpr const char* kBufferNames[] = {"colour", "depth", "stencil"};
+constexpr const char* kBufferNames[] = {"colour", "depth", "stencil", "accumulation"};
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -75,7 +75,7 @@ std::string stats_text(const RunStats& stats) {
   for (const auto& [stage, seconds] : stages_of(stats.frame)) text += row(std::string("  ") + stage + (stats.render_ms.size() > 1 ? ", of the last" : ""), milliseconds(1e3 * seconds));
   text += row("writing files", milliseconds(stats.write_ms));
   for (const Count& count : counts_of(stats.frame)) text += row(count.label, grouped(count.value));
-  for (std::size_t i = 0; i < 3; ++i) text += row(std::string("bytes of the ") + kBufferNames[i] + " planes", grouped(stats.buffer_bytes[i]));
+  for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i) text += row(std::string("bytes of the ") + kBufferNames[i] + " planes", grouped(stats.buffer_bytes[i]));
   return text;
 }
 
@@ -90,8 +90,8 @@ std::string stats_json(const RunStats& stats) {
   for (const auto& [stage, seconds] : stages_of(stats.frame)) json["stages_ms"][stage] = 1e3 * seconds;
   json["write_ms"] = stats.write_ms;
   for (const Count& count : counts_of(stats.frame)) json["counts"][count.key] = count.value;
-  constexpr const char* kKeys[] = {"color", "depth", "stencil"};
-  for (std::size_t i = 0; i < 3; ++i) json["buffer_bytes"][kKeys[i]] = stats.buffer_bytes[i];
+  constexpr const char* kKeys[] = {"color", "depth", "stencil", "accumulation"};
+  for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i) json["buffer_bytes"][kKeys[i]] = stats.buffer_bytes[i];
   return json.dump(2) + "\n";
 }
 

@@ -17,7 +17,7 @@ struct RunStats {
   RendererOptions options;
   double load_ms = 0, write_ms = 0;
   std::vector<double> render_ms;          ///< of every rendering
-  std::array<std::size_t, 3> buffer_bytes{};  ///< colour, depth, stencil: what their planes take
+  std::array<std::size_t, 4> buffer_bytes{};  ///< colour, depth, stencil, accumulation: what their planes take
 };
 
 std::string stats_text(const RunStats& stats);

@@ -139,7 +139,7 @@ DrawCommand read_draw(const Value& value, const Names& names) {
 }
 
 Clear read_clear(const Value& value, const FrameBufferFormat& format) {
-  const Object object(value, {"color", "index", "depth", "stencil", "scissor"}, {"accumulation"});
+  const Object object(value, {"color", "index", "depth", "stencil", "accumulation", "scissor"});
   Clear clear;
   if (const auto color = object.find("color")) clear.color = color->color(0, 1);
   if (const auto index = object.find("index")) {
@@ -155,20 +155,38 @@ Clear read_clear(const Value& value, const FrameBufferFormat& format) {
     if (format.stencil_bits == 0) stencil->refuse("needs a stencil buffer, and the frame buffer's \"stencil\" is 0");
     clear.stencil = static_cast<std::uint32_t>(stencil->integer(0, 255));
   }
+  if (const auto accumulation = object.find("accumulation")) {
+    if (format.accumulation_bits == 0) accumulation->refuse("needs an accumulation buffer, and the frame buffer's \"accumulation\" is 0");
+    clear.accumulation = accumulation->color(-1, 1);
+  }
   if (const auto scissor = object.find("scissor")) clear.scissor = scissor->rect();
   return clear;
 }
 
+Accum read_accum(const Value& value, const FrameBufferFormat& format) {
+  if (format.color_mode == ColorMode::index) value.refuse("an index buffer does not accumulate");
+  if (format.accumulation_bits == 0) value.refuse("needs an accumulation buffer, and the frame buffer's \"accumulation\" is 0");
+  const Object object(value, {"op", "value", "scissor", "color_mask"});
+  Accum accum;
+  accum.op = object.require("op").choice<AccumOp>(
+      {{"accum", AccumOp::accum}, {"load", AccumOp::load}, {"add", AccumOp::add}, {"mult", AccumOp::mult}, {"return", AccumOp::return_}});
+  accum.value = object.require("value").number();
+  if (const auto scissor = object.find("scissor")) accum.scissor = scissor->rect();
+  if (const auto mask = object.find("color_mask")) accum.color_mask = read_color_mask(*mask, format);
+  return accum;
+}
+
 Command read_command(const Value& value, const Names& names) {
-  static constexpr std::array<std::string_view, 4> kCommands{"clear", "draw", "camera", "lights"};
+  static constexpr std::array<std::string_view, 5> kCommands{"clear", "draw", "camera", "lights", "accum"};
   if (!value.json().is_object()) value.fail("an object with one of " + json::quoted_list(kCommands));
   if (value.json().contains("draw")) return read_draw(value, names);
-  for (const char* unsupported : {"accum", "bitmap", "image"})
+  for (const char* unsupported : {"bitmap", "image"})
     if (value.json().contains(unsupported)) value.member(unsupported).refuse_unsupported();
   if (value.json().empty()) value.fail("one of " + json::quoted_list(kCommands));
-  const Object object(value, {"clear", "draw", "camera", "lights"});
+  const Object object(value, {"clear", "draw", "camera", "lights", "accum"});
   if (value.json().size() != 1) value.refuse("found several commands in one object, expected one of " + json::quoted_list(kCommands));
   if (const auto clear = object.find("clear")) return read_clear(*clear, names.scene.framebuffer);
+  if (const auto accum = object.find("accum")) return read_accum(*accum, names.scene.framebuffer);
   if (const auto camera = object.find("camera")) return read_camera(*camera);
   return read_lights(object.require("lights"));
 }

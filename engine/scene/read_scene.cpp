@@ -59,7 +59,11 @@ void read_framebuffer(const Value& value, Scene& scene) {
     format.alpha_bits = static_cast<int>(alpha->integer(0, 8));
     if (format.alpha_bits > 0 && format.color_mode == ColorMode::index) alpha->refuse("an index buffer has no alpha planes");
   }
-  object.only_default("accumulation", 0, {16, 32});
+  if (const auto accumulation = object.find("accumulation")) {
+    if (accumulation->json() != Json(0) && accumulation->json() != Json(16) && accumulation->json() != Json(32)) accumulation->fail("0, 16 or 32 bits");
+    format.accumulation_bits = static_cast<int>(accumulation->integer(0, 32));
+    if (format.accumulation_bits > 0 && format.color_mode == ColorMode::index) accumulation->refuse("an index buffer does not accumulate");
+  }
   object.only_default("samples", 1, {4, 8});
 }
 

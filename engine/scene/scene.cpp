@@ -81,6 +81,7 @@ void record(const Scene& scene, Frame& frame) {
     at_command(scene, command, [&] {
       std::visit(Overloaded{[&](const Clear& clear) { frame.clear(masked(clear, scene.framebuffer)); },
                             [&](const DrawCommand& draw) { frame.draw(scene.meshes[draw.mesh].view(), draw.state); },
+                            [&](const Accum& accum) { frame.accumulate(accum); },
                             [&](const SceneCamera& camera) { frame.set_camera(camera.at_aspect(aspect)); },
                             [&](const LightList& lights) { frame.set_lights(lights); }},
                  command.what);

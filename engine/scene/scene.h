@@ -39,7 +39,7 @@ struct DrawCommand {
   DrawState state;
 };
 using LightList = std::vector<Light>;
-using Command = std::variant<Clear, DrawCommand, SceneCamera, LightList>;
+using Command = std::variant<Clear, DrawCommand, Accum, SceneCamera, LightList>;
 
 struct SceneCommand {
   Command what;
