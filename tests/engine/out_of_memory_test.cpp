@@ -66,13 +66,16 @@ int fail_every_allocation(const Act& act, const AfterFailure& after_failure) {
 }
 
 TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
-  const RandomFrame scene({.width = 150, .height = 90}, 60);
+  const RandomFrame scene({.width = 150, .height = 90, .accumulation_bits = 16}, 60);
   for (const bool stencil : {false, true}) {
     Renderer plain({.threads = 1});
     FrameBuffer reference(scene.format);
     Frame once(reference);
     scene.record(once);
-    if (stencil) once.clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
+    if (stencil) {
+      once.clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
+      once.accumulate({});
+    }
     plain.finish(once);
     const Fingerprint expected = fingerprint(reference);
     std::vector<std::uint32_t> objects(pixel_count(reference)), expected_objects(objects.size());
@@ -92,6 +95,7 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
       scene.record(*frame);
       if (stencil) {
         frame->clear({.stencil = 3u, .scissor = Rect{1, 1, 5, 5}});
+        frame->accumulate({});
         frame->capture({.objects = objects, .normals = normals});
       }
     };

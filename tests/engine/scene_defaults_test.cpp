@@ -82,6 +82,25 @@ TEST(SceneDefaults, KeysOfLaterVersionsAreAcceptedAtTheirDefaults) {
   EXPECT_EQ(scene.frame.size(), 2u);
 }
 
+TEST(SceneDefaults, EveryKeyOfAnAccumulationArrives) {
+  const Scene scene = parse(R"(
+    "framebuffer": {"accumulation": 32},
+    "frame": [{"clear": {"accumulation": [0.5, -0.25, 0, -1]}}, {"accum": {"op": "mult", "value": -0.1}},
+              {"accum": {"op": "return", "value": 2, "scissor": [1, 2, 3, 4], "color_mask": [true, false, true, false]}}])");
+  EXPECT_EQ(scene.framebuffer.accumulation_bits, 32);
+  EXPECT_TRUE(same(*std::get<Clear>(scene.frame[0].what).accumulation, {0.5f, -0.25f, 0, -1}));
+  const auto& mult = std::get<Accum>(scene.frame[1].what);
+  EXPECT_EQ(mult.op, AccumOp::mult);
+  EXPECT_EQ(mult.value, -0.1);
+  EXPECT_FALSE(mult.scissor);
+  EXPECT_EQ(mult.color_mask, (std::array<bool, 4>{true, true, true, true}));
+  const auto& given_back = std::get<Accum>(scene.frame[2].what);
+  EXPECT_EQ(given_back.op, AccumOp::return_);
+  ASSERT_TRUE(given_back.scissor);
+  EXPECT_EQ(given_back.scissor->height, 4);
+  EXPECT_EQ(given_back.color_mask, (std::array<bool, 4>{true, false, true, false}));
+}
+
 TEST(SceneDefaults, EveryKeyOfADrawArrives) {
   const Scene scene = parse(R"(
     "meshes": {"m": {"builtin": "cube", "detail": 1}}, "materials": {"red": {"diffuse": [1, 0, 0, 1], "shininess": 5}, "green": {"preset": "emerald", "shininess": 3}},
