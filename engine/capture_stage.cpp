@@ -65,6 +65,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
   }
   pass.frame.layout = rgb_layout(24);
   pass.frame.palette_search = nullptr;
+  pass.frame.samples = 1;  // what is seen at the centre
   pass.frame.draws = pass.draws.data();
   pass.frame.clears = pass.clears.data();
   pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's

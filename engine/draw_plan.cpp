@@ -115,7 +115,7 @@ bool needs_order(const DrawPlan& plan, const ColorLayout& layout) {
   return plan.has_ops && (plan.ops.blend || plan.ops.dither || plan.ops.logic != Logic::copy || layout.alpha_bits > 0);
 }
 
-void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
+void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled, std::string* reasons) {
   const DrawState& state = draw.state;
   const auto note = [&](const std::string& line) {
     if (reasons) *reasons += "  " + line + "\n";
@@ -170,9 +170,9 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
-    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops;
-    // Greys and palette entries are not linear in the colour: shade what is seen.
-    plan.deferred = (layout.index || layout.luminance) && !needs_order(plan, layout);
+    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled;
+    // Greys and palette entries are not linear in the colour, and samples share one: shade what is seen.
+    plan.deferred = (layout.index || layout.luminance || sampled) && !needs_order(plan, layout);
     plan.attribute_count = (plan.has_ops ? 4 : 3) * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }
@@ -232,7 +232,8 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   const bool has_offset = plan.offset_factor != 0 || plan.offset_units != 0;
   if (reasons && has_offset) *reasons += "  polygon offset\n";
   plan.has_ops = fragments.needed || has_offset;
-  plan_color(plan, draw, target.layout, reasons);
+  if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
+  plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
   if (capture_normals && plan.source != ColorSource::none) {
     plan.captured_normal = plan.attribute_count;
     plan.attribute_count += 3;

@@ -93,6 +93,8 @@ void check_format(const FrameBufferFormat& format) {
   require_range("stencil_bits", format.stencil_bits, 0, 8);
   if (format.alpha_bits != 0 && format.alpha_bits != 8) throw Error("FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
   if (format.alpha_bits != 0 && format.color_mode == ColorMode::index) throw Error("FrameBuffer: alpha planes are asked for, but the colour mode is index; they belong to rgb");
+  if (format.samples != 1 && format.samples != 4 && format.samples != 8) throw Error("FrameBuffer: samples is " + std::to_string(format.samples) + ", must be 1, 4 or 8");
+  if (format.samples != 1 && format.color_mode == ColorMode::index) throw Error("FrameBuffer: several samples a pixel are asked for, but the colour mode is index; indices have no mean");
   if (format.accumulation_bits != 0 && format.accumulation_bits != 16 && format.accumulation_bits != 32)
     throw Error("FrameBuffer: accumulation_bits is " + std::to_string(format.accumulation_bits) + ", must be 0, 16 or 32");
   if (format.accumulation_bits != 0 && format.color_mode == ColorMode::index)

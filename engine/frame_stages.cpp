@@ -7,6 +7,7 @@
 #include "engine/capture_stage.h"
 #include "engine/recording.h"
 #include "engine/renderer_state.h"
+#include "raster/sample_positions.h"
 
 namespace tessera {
 namespace {
@@ -77,6 +78,7 @@ void prepare_planes(const BufferTraffic& traffic, std::span<StoredBuffer> parts)
 
 int RendererState::tile_size_for(const FrameBufferFormat& format) const {
   if (options.tile_size != 0) return options.tile_size;
+  if (format.samples > 1) return 64;  // the samples of a larger one leave the cache
   // Large tiles repeat less setup; small ones keep more threads busy.
   const double pixels = static_cast<double>(format.width) * format.height;
   return pixels / parallel.threads() >= 64 * 128 * 128 / 4 ? 128 : 64;
@@ -98,7 +100,7 @@ void RendererState::process_geometry(FrameCommands& commands, FrameWatch& watch)
   });
 }
 
-std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, FrameWatch& watch) {
+std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch) {
   std::vector<std::size_t> first_triangle{0};  // of each draw, counted through the frame
   for (const GeometryDraw& draw : commands.geometry) first_triangle.push_back(first_triangle.back() + draw.mesh->triangles);
   const std::size_t total = first_triangle.back();
@@ -118,6 +120,7 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     draw.keep_back = plan.keep_back;
     draw.front_is_clockwise = plan.front_is_clockwise;
     draw.rect = plan.rect;
+    draw.sample_reach = sample_reach(samples);
     draw.transform = &plan.transform;
     draw.positions = geometry.mesh->positions;
     draw.components = geometry.mesh->components;
@@ -139,15 +142,15 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
   return batches;
 }
 
-void RendererState::render_tiles(const TileStage& stage, bool capture_normals, const FrameCommands& commands, FrameStats& stats, FrameWatch& watch) {
+void RendererState::render_tiles(const TileStage& stage, const TileMemory& memory, FrameStats& stats, FrameWatch& watch) {
   struct alignas(64) WorkerCounts : StripCounts {};
   std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
   while (workspaces.size() < counts.size()) workspaces.emplace_back();
-  if (capture_normals)
-    for (TileWorkspace& workspace : workspaces) workspace.allocate_normals();
   for (TileWorkspace& workspace : workspaces) {
-    if (commands.stencil.used) workspace.allocate_stencil();
-    if (commands.accumulation.used) workspace.allocate_accumulation();
+    if (memory.normals) workspace.allocate_normals();
+    if (memory.stencil) workspace.allocate_stencil();
+    if (memory.accumulation) workspace.allocate_accumulation();
+    if (memory.samples) workspace.allocate_samples();
   }
   const std::vector<TileStrip> strips = stage.strips();
   watch.begin_stage(kTileShare, strips.size());
@@ -181,7 +184,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
 
   process_geometry(commands, watch);
   stats.vertex_seconds = clock.lap();
-  const std::size_t batches = fill_bins(commands, grid, watch);
+  const std::size_t batches = fill_bins(commands, grid, target.format.samples, watch);
   connect_draws(commands);
   stats.binning_seconds = clock.lap();
 
@@ -199,10 +202,14 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.bins = bins.data();
   frame.bin_count = static_cast<std::uint32_t>(batches);
   frame.shade_at_once = !options.defer_shading;
+  frame.samples = target.format.samples;
+  frame.loads_color = commands.color.load;
+  frame.loads_depth = commands.depth.load;
+  frame.loads_stencil = commands.stencil.load;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
     try {
-      render_tiles(TileStage(commands, frame, target, image, capture, isa), capture.needs_normals(), commands, stats, watch);
+      render_tiles(TileStage(commands, frame, target, image, capture, isa), {capture.needs_normals(), commands.stencil.used, commands.accumulation.used, frame.samples > 1}, stats, watch);
     } catch (...) {
       for (const Buffer which : kBuffers) settle_interrupted(commands.traffic(which), target.parts(which));
       throw;

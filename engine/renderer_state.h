@@ -13,6 +13,11 @@
 
 namespace tessera {
 
+/// What the workers' tiles need besides colour and depth.
+struct TileMemory {
+  bool normals = false, stencil = false, accumulation = false, samples = false;
+};
+
 struct RendererState {
   RendererOptions options;
   Isa isa = Isa::scalar;
@@ -36,8 +41,8 @@ struct RendererState {
 
  private:
   void process_geometry(FrameCommands& commands, FrameWatch& watch);
-  std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid, FrameWatch& watch);
-  void render_tiles(const TileStage& stage, bool capture_normals, const FrameCommands& commands, FrameStats& stats, FrameWatch& watch);
+  std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch);
+  void render_tiles(const TileStage& stage, const TileMemory& memory, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
 

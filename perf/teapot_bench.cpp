@@ -7,10 +7,8 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +17,7 @@
 #include "engine/scene/builtin_mesh.h"
 #include "engine/scene/scene.h"
 #include "perf/rivals/mesa_teapot.h"
+#include "perf/rows.h"
 
 namespace tessera {
 namespace {
@@ -72,52 +71,8 @@ double share_that_differs(const std::vector<std::uint32_t>& ours, const std::vec
   return static_cast<double>(differing) / (static_cast<double>(width) * height);
 }
 
-/// Keeps the time of each repetition of each row, for medians and their spread.
-class RatioReporter : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    for (const Run& run : runs)
-      if (run.run_type == Run::RT_Iteration) times_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
-  }
-  struct Quartiles {
-    double low, median, high;
-  };
-  Quartiles quartiles(const std::string& name) const {
-    std::vector<double> t = times_.at(name);
-    std::sort(t.begin(), t.end());
-    return {t[t.size() / 4], t[t.size() / 2], t[3 * t.size() / 4]};
-  }
-  bool has(const std::string& name) const { return times_.count(name) != 0; }
-
- private:
-  std::map<std::string, std::vector<double>> times_;
-};
-
-void print_ratio(const RatioReporter& reporter, const std::string& label, const std::string& slow, const std::string& fast, double goal) {
-  if (!reporter.has(slow) || !reporter.has(fast)) return;
-  const auto s = reporter.quartiles(slow), f = reporter.quartiles(fast);
-  std::printf("%-34s %8.3f ms (%.3f .. %.3f)   %8.3f ms (%.3f .. %.3f)   ratio %.2f (goal %.1f)\n", label.c_str(), s.median, s.low, s.high, f.median, f.low, f.high,
-              s.median / f.median, goal);
-}
-
-template <class Side>
-void register_row(const std::string& name, std::shared_ptr<Side> side) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [side](benchmark::State& state) {
-                                 for (auto _ : state) side->draw();
-                               })
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime()
-      ->Repetitions(31)
-      ->MinTime(0.05);
-}
-
 int run(int argc, char** argv) {
-  std::vector<char*> arguments(argv, argv + argc);
-  std::string interleave = "--benchmark_enable_random_interleaving=true";
-  arguments.insert(arguments.begin() + 1, interleave.data());
-  int count = static_cast<int>(arguments.size());
-  benchmark::Initialize(&count, arguments.data());
+  initialize_rows(argc, argv);
   const int threads = available_cores();
   for (int s = 0; s < 3; ++s) {
     const auto shading = static_cast<Shading>(s);

@@ -3,6 +3,7 @@
 #include "framebuffer/lanes.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "raster/binning.h"
 
@@ -10,7 +11,7 @@ namespace tessera {
 #ifndef TESSERA_BINNING_SHARED
 #define TESSERA_BINNING_SHARED
 /// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges may touch.
-void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, std::uint32_t draw, std::uint32_t id,
+void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, const BinDraw& draw, std::uint32_t id,
                         int x0, int y0, int x1, int y1);
 /// Clips one triangle and bins what is left of it.
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes);
@@ -33,7 +34,7 @@ struct Bounds {
   alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup], py1[kGroup];  // pixels whose centres the bounds hold, inclusive
 };
 
-HWY_INLINE void compute_bounds(Bounds& b, const PixelRect& rect) {
+HWY_INLINE void compute_bounds(Bounds& b, const PixelRect& rect, std::int32_t reach) {
   for (int k = 0; k < kGroup; ++k) {
     const double dx1 = b.x[1][k] - b.x[0][k], dy1 = b.y[1][k] - b.y[0][k], dx2 = b.x[2][k] - b.x[0][k], dy2 = b.y[2][k] - b.y[0][k];
     b.area[k] = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
@@ -41,10 +42,10 @@ HWY_INLINE void compute_bounds(Bounds& b, const PixelRect& rect) {
   for (int k = 0; k < kGroup; ++k) {
     const std::int32_t low_x = std::min(b.x[0][k], std::min(b.x[1][k], b.x[2][k])), high_x = std::max(b.x[0][k], std::max(b.x[1][k], b.x[2][k]));
     const std::int32_t low_y = std::min(b.y[0][k], std::min(b.y[1][k], b.y[2][k])), high_y = std::max(b.y[0][k], std::max(b.y[1][k], b.y[2][k]));
-    b.px0[k] = std::max(first_pixel(low_x), rect.x0);
-    b.py0[k] = std::max(first_pixel(low_y), rect.y0);
-    b.px1[k] = std::min(last_pixel(high_x), rect.x1 - 1);
-    b.py1[k] = std::min(last_pixel(high_y), rect.y1 - 1);
+    b.px0[k] = std::max(first_pixel(low_x - reach), rect.x0);
+    b.py0[k] = std::max(first_pixel(low_y - reach), rect.y0);
+    b.px1[k] = std::min(last_pixel(high_x + reach), rect.x1 - 1);
+    b.py1[k] = std::min(last_pixel(high_y + reach), rect.y1 - 1);
   }
 }
 
@@ -90,7 +91,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
     if (n == 0) continue;
     for (int k = n; k < kGroup; ++k)
       for (int corner = 0; corner < 3; ++corner) b.x[corner][k] = b.y[corner][k] = 0;
-    compute_bounds(b, draw.rect);
+    compute_bounds(b, draw.rect, draw.sample_reach);
     for (int k = 0; k < n; ++k) {
       if (b.area[k] == 0) {
         ++counts.zero_area;
@@ -111,7 +112,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
       } else {
         const WindowVertex* const v[3] = {&draw.vertices[vertex_index(draw, ids[k], 0)], &draw.vertices[vertex_index(draw, ids[k], 1)],
                                           &draw.vertices[vertex_index(draw, ids[k], 2)]};
-        bin_large_triangle(bins, grid, v, b.area[k], draw.draw, ids[k], tx0, ty0, tx1, ty1);
+        bin_large_triangle(bins, grid, v, b.area[k], draw, ids[k], tx0, ty0, tx1, ty1);
       }
     }
   }
@@ -147,9 +148,9 @@ void Bins::add_block(Tail& tail) {
   tail.last = index;
 }
 
-void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, std::uint32_t draw, std::uint32_t id,
+void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, const BinDraw& draw, std::uint32_t id,
                         int x0, int y0, int x1, int y1) {
-  // For each edge its largest value over the pixel centres of a tile; where it is negative the tile is outside. Ties at 0
+  // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the tile is outside. Ties at 0
   // belong to the fill rule and are left to the tile.
   const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits, reach = side - kSubpixelScale;
   std::int64_t row_value[3], step_x[3], step_y[3];
@@ -157,14 +158,15 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
     const WindowVertex &p = *v[k], &q = *v[(k + 1) % 3];
     std::int64_t a = p.y - q.y, b = q.x - p.x;
     if (area < 0) a = -a, b = -b;
-    row_value[k] = a * (x0 * side + kHalfPixel - p.x) + b * (y0 * side + kHalfPixel - p.y) + std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach;
+    row_value[k] = a * (x0 * side + kHalfPixel - p.x) + b * (y0 * side + kHalfPixel - p.y) + std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach +
+                   (std::abs(a) + std::abs(b)) * draw.sample_reach;
     step_x[k] = a * side;
     step_y[k] = b * side;
   }
   for (int ty = y0; ty <= y1; ++ty) {
     std::int64_t e0 = row_value[0], e1 = row_value[1], e2 = row_value[2];
     for (int tx = x0; tx <= x1; ++tx) {
-      if ((e0 | e1 | e2) >= 0) bins.push(ty * grid.columns() + tx, draw, id);
+      if ((e0 | e1 | e2) >= 0) bins.push(ty * grid.columns() + tx, draw.draw, id);
       e0 += step_x[0], e1 += step_x[1], e2 += step_x[2];
     }
     for (int k = 0; k < 3; ++k) row_value[k] += step_y[k];
@@ -208,8 +210,8 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     if (area == 0 || (area < 0) != (polygon_area < 0)) continue;
     const auto [low_x, high_x] = std::minmax({window[0].x, window[i - 1].x, window[i].x});
     const auto [low_y, high_y] = std::minmax({window[0].y, window[i - 1].y, window[i].y});
-    const int px0 = std::max(first_pixel(low_x), draw.rect.x0), px1 = std::min(last_pixel(high_x), draw.rect.x1 - 1);
-    const int py0 = std::max(first_pixel(low_y), draw.rect.y0), py1 = std::min(last_pixel(high_y), draw.rect.y1 - 1);
+    const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0), px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
+    const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0), py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
     if (px0 > px1 || py0 > py1) continue;
     ClippedTriangle piece;
     piece.source = triangle;
@@ -221,7 +223,7 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     bins.clipped.push_back(piece);
     ++bins.counts.binned;
     const WindowVertex* const v[3] = {&piece.vertices[0], &piece.vertices[1], &piece.vertices[2]};
-    bin_large_triangle(bins, grid, v, area, draw.draw, id, px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
+    bin_large_triangle(bins, grid, v, area, draw, id, px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
   }
 }
 

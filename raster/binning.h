@@ -87,6 +87,7 @@ struct BinDraw {
   bool keep_front = true, keep_back = true;
   bool front_is_clockwise = false;           ///< seen in the window
   PixelRect rect;                            ///< scissor, viewport and frame buffer
+  std::int32_t sample_reach = 0;             ///< how far a pixel is looked at around its centre, 1/256 pixel
   // For clipping.
   const VertexTransform* transform = nullptr;
   StridedFloats positions;

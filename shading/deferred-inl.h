@@ -183,12 +183,6 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
   shade_batch(run, pixels);
 }
 
-HWY_INLINE void shade_whole_tile(TileRun& run) {
-  if (!run.memory.triangles.empty()) shade_collected(run, 0, 0, run.tile_size - 1, run.tile_size - 1);
-  run.memory.triangles.clear();
-  run.memory.wide.clear();
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera
 HWY_AFTER_NAMESPACE();

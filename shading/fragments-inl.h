@@ -12,15 +12,15 @@
 #include "raster/coverage-inl.h"
 #include "raster/depth_offset-inl.h"
 #include "raster/triangle_setup-inl.h"
-#include "shading/deferred-inl.h"
-#include "shading/draw_group-inl.h"
+#include "shading/deferred_samples-inl.h"
+#include "shading/draw_samples-inl.h"
 #include "shading/fragment_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// The pixels of a block that a triangle covers, as lanes of -1 and 0, and their depth keys.
+/// The pixels of a block that a triangle covers in one sample, as lanes of -1 and 0, and their depth keys.
 struct BlockFragments {
   Int covered[kChunksPerBlock], keys[kChunksPerBlock];
 };
@@ -48,8 +48,8 @@ struct FragmentTriangle {
     return attribute < 0 ? splat(draw.alpha[face()]) : clamped_unit(interpolate(at(bx, by, chunk), corners(triangle, attribute)));
   }
 
-  /// Tests, and what they change. Returns the pixels that are seen, 16 bits.
-  HWY_INLINE std::uint32_t test(int bx, int by, const BlockFragments& block) {
+  /// Tests of one sample, and what they change. Returns the pixels that are seen, 16 bits.
+  HWY_INLINE std::uint32_t test(const TilePixels& sample, int bx, int by, const BlockFragments& block) {
     const int index = run.block_index(bx, by);
     const StencilSide& stencil = ops.faces[face()];
     std::uint32_t bits = 0;
@@ -60,19 +60,19 @@ struct FragmentTriangle {
       LaneMask failed = no_lanes(), passed = mask;
       Int stored = hn::Zero(kInt);
       if (ops.stencil) {
-        stored = hn::Load(kInt, run.memory.stencil->value + index + chunk * kLanes);
+        stored = hn::Load(kInt, sample.stencil + index + chunk * kLanes);
         passed = hn::And(mask, stencil_passes(stencil, stored));
         failed = hn::AndNot(passed, mask);
       }
       LaneMask zpassed = passed;
       if (has_depth) {
-        std::int32_t* const depth = run.memory.depth + index + chunk * kLanes;
+        std::int32_t* const depth = sample.depth + index + chunk * kLanes;
         const Int before = hn::Load(kInt, depth);
         zpassed = hn::And(passed, comparing(block.keys[chunk], draw.depth_test, before));
         if (draw.depth_write) hn::Store(hn::IfThenElse(zpassed, block.keys[chunk], before), kInt, depth);
       }
       if (ops.stencil)
-        hn::Store(stencil_result(stencil, ops.stencil_most, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt, run.memory.stencil->value + index + chunk * kLanes);
+        hn::Store(stencil_result(stencil, ops.stencil_most, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt, sample.stencil + index + chunk * kLanes);
       bits |= mask_bits(kInt, zpassed) << (chunk * kLanes);
     }
     return bits;
@@ -117,26 +117,28 @@ struct FragmentTriangle {
     return hn::Load(kInt, words);
   }
 
-  HWY_INLINE Int words(int bx, int by, int chunk, std::uint32_t lanes, Int stored) const {
+  /// What a colour makes of the stored words of one sample.
+  HWY_INLINE Int words(Colors source, Float threshold, std::uint32_t lanes, Int stored) const {
     const ColorLayout& layout = run.frame.layout;
     if (draw.number != TileDraw::Number::none) return splat(static_cast<std::int32_t>(draw.number == TileDraw::Number::draw ? draw.word : number));
-    Colors source = colors(bx, by, chunk);
     if (ops.blend) source = blended_colors(ops, source, stored_colors(layout, stored));
-    const Float threshold = thresholds(bx, by, chunk);
     const Int result = layout.index ? nearest_entries(source, threshold, lanes) : words_of(layout, source, threshold);
     return ops.logic == Logic::copy ? result : logic_words(ops.logic, result, stored);
   }
 
-  HWY_NOINLINE void operator()(int bx, int by, const BlockFragments& block) {
-    const std::uint32_t bits = test(bx, by, block);
+  /// A block of fragments in each sample.
+  HWY_NOINLINE void operator()(int bx, int by, const BlockFragments* blocks) {
+    std::uint32_t passed[kMaxSamples], bits = 0;
+    for (int s = 0; s < run.samples; ++s) bits |= passed[s] = test(run.sample[s], bx, by, blocks[s]);
     if (bits == 0 || draw.source == ColorSource::none) return;
     seen = true;
     const int index = run.block_index(bx, by);
     if (draw.deferred) {
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-        auto* const ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index + chunk * kLanes;
-        hn::Store(hn::IfThenElse(mask_from_bits(bits >> (chunk * kLanes)), splat(id), hn::Load(kInt, ids)), kInt, ids);
-      }
+      for (int s = 0; s < run.samples; ++s)
+        for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+          auto* const ids = reinterpret_cast<std::int32_t*>(run.sample[s].ids) + index + chunk * kLanes;
+          hn::Store(hn::IfThenElse(mask_from_bits(passed[s] >> (chunk * kLanes)), splat(id), hn::Load(kInt, ids)), kInt, ids);
+        }
       return;
     }
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
@@ -151,12 +153,18 @@ struct FragmentTriangle {
         pixels.blocks = 0;
       }
     }
+    const auto lanes_of = [](std::uint32_t pixel_bits, int chunk) { return pixel_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const std::uint32_t lanes = bits >> (chunk * kLanes) & ((1u << kLanes) - 1);
-      if (lanes == 0) continue;
-      std::uint32_t* const color = run.memory.color + index + chunk * kLanes;
-      const Int stored = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(color));
-      store_words(color, words(bx, by, chunk, lanes, stored), mask_from_bits(lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
+      if (lanes_of(bits, chunk) == 0) continue;
+      const Colors source = colors(bx, by, chunk);
+      const Float threshold = thresholds(bx, by, chunk);
+      for (int s = 0; s < run.samples; ++s) {
+        const std::uint32_t lanes = lanes_of(passed[s], chunk);
+        if (lanes == 0) continue;
+        std::uint32_t* const color = run.sample[s].color + index + chunk * kLanes;
+        const Int stored = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(color));
+        store_words(color, words(source, threshold, lanes, stored), mask_from_bits(lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
+      }
     }
   }
 };
@@ -178,7 +186,34 @@ struct FragmentBlocks {
       block.covered[chunk] = hn::VecFromMask(kInt, mask);
       if constexpr (kHasDepth<Depth>) block.keys[chunk] = depth.keys(block_depth, chunk);
     }
-    fragments(bx, by, block);
+    fragments(bx, by, &block);
+  }
+};
+
+/// The same where pixels have several samples, each with edges and depth of its own.
+template <class Depth>
+struct SampledBlocks {
+  FragmentTriangle& fragments;
+  TileEdges edges[kMaxSamples];
+  Depth depth[kMaxSamples];
+
+  template <bool>
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges&) {
+    const TileRun& run = fragments.run;
+    BlockFragments blocks[kMaxSamples];
+    for (int s = 0; s < run.samples; ++s) {
+      const TileEdges& t = edges[s];
+      const BlockOffsets offsets(t);
+      const BlockEdges at{{splat(t.e[0] + t.a[0] * bx + t.b[0] * by), splat(t.e[1] + t.a[1] * bx + t.b[1] * by), splat(t.e[2] + t.a[2] * bx + t.b[2] * by)}, offsets};
+      const auto block_depth = depth[s].block(bx, by);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+        auto mask = at.covered(chunk);
+        if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+        blocks[s].covered[chunk] = hn::VecFromMask(kInt, mask);
+        if constexpr (kHasDepth<Depth>) blocks[s].keys[chunk] = depth[s].keys(block_depth, chunk);
+      }
+    }
+    fragments(bx, by, blocks);
   }
 };
 
@@ -192,43 +227,117 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
 }
 
 template <class Depth>
-void draw_fragments(TileRun& run, std::uint32_t draw_number) {
+inline constexpr bool kHasOffset = std::is_same_v<Depth, OffsetUnormDepth> || std::is_same_v<Depth, OffsetFloat32Depth>;
+
+template <class Depth>
+HWY_INLINE void set_up_fragment_depth(Depth& depth, const TileRun& run, const TileDraw& draw, const TriangleGroup& g, int i) {
+  depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+  if constexpr (kHasOffset<Depth>) depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+  depth.prepare_blocks();
+}
+
+/// Runs blocks(fragments) for one triangle of the group, whose pixels' centres stand in `triangle`.
+template <class Blocks>
+HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i, const ShadedTriangle& triangle, bool has_depth, const Blocks& blocks) {
   TileWorkspace::Memory& memory = run.memory;
-  TriangleGroup& g = memory.group;
+  const TileDraw& draw = run.frame.draws[draw_number];
+  FragmentTriangle fragments{.run = run, .draw = draw, .ops = *draw.ops, .triangle = triangle, .has_depth = has_depth, .pixels = {}};
+  fragments.id = static_cast<std::int32_t>(memory.triangles.size());
+  fragments.number = memory.source[i];
+  if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
+  if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, draw_number, triangle.back);
+  blocks(fragments);
+  if (draw.deferred && fragments.seen) {
+    memory.triangles.push_back(triangle);
+    if (run.frame.shade_at_once) shade_whole_tile(run);
+  } else if (triangle.wide >= 0) {
+    memory.wide.pop_back();
+  }
+}
+
+template <class Depth>
+void draw_fragments(TileRun& run, std::uint32_t draw_number) {
+  TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_edges(g, run.tile_x, run.tile_y, run.rect);
   if (g.mask == 0) return;
-  constexpr bool kOffset = std::is_same_v<Depth, OffsetUnormDepth> || std::is_same_v<Depth, OffsetFloat32Depth>;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y, kOffset);
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y, kHasOffset<Depth>);
   set_up_weights(g);
   for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    const bool back = !is_front(g.signed_area[i], draw.front_is_clockwise);
     TileEdges edges = tile_edges(g, i);
     WideEdges wide_edges;
     if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
     ShadedTriangle triangle;
-    fill_shaded_triangle(triangle, run, draw_number, i, back);
-    if (g.wide[i] != 0) keep_wide_edges(triangle, memory, wide_edges);
+    fill_shaded_triangle(triangle, run, draw_number, i, !is_front(g.signed_area[i], draw.front_is_clockwise));
+    if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
+    draw_fragments_of(run, draw_number, i, triangle, kHasDepth<Depth>, [&](FragmentTriangle& fragments) HWY_ATTR {
+      FragmentBlocks<Depth> blocks{fragments, {}};
+      set_up_fragment_depth(blocks.depth, run, draw, g, i);
+      const BlockOffsets offsets(edges);
+      for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
+    });
+  }
+}
 
-    FragmentTriangle fragments{.run = run, .draw = draw, .ops = *draw.ops, .triangle = triangle, .has_depth = kHasDepth<Depth>, .pixels = {}};
-    fragments.id = static_cast<std::int32_t>(memory.triangles.size());
-    fragments.number = memory.source[i];
-    if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], back);
-    if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, draw_number, back);
-    FragmentBlocks<Depth> blocks{fragments, {}};
-    blocks.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-    if constexpr (kOffset) blocks.depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
-    blocks.depth.prepare_blocks();
-    const BlockOffsets offsets(edges);
-    for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
-
-    if (draw.deferred && fragments.seen) {
-      memory.triangles.push_back(triangle);
-      if (run.frame.shade_at_once) shade_whole_tile(run);
-    } else if (triangle.wide >= 0) {
-      memory.wide.pop_back();
+/// Edges and bounds that hold those of all samples.
+struct SampledBounds {
+  TileEdges edges;
+  int x0, y0, x1, y1;
+  bool first = true;
+  HWY_INLINE void include(const TileEdges& of_sample, const TriangleGroup& g, int i) {
+    for (int k = 0; k < 3; ++k) {
+      // An edge that a wide triangle's sample has dropped is dropped.
+      const bool dropped = of_sample.a[k] == 0 && of_sample.b[k] == 0;
+      if (first || dropped)
+        edges.a[k] = of_sample.a[k], edges.b[k] = of_sample.b[k], edges.e[k] = of_sample.e[k];
+      else if (edges.a[k] != 0 || edges.b[k] != 0)
+        edges.e[k] = std::max(edges.e[k], of_sample.e[k]);
     }
+    x0 = first ? g.x0[i] : std::min(x0, g.x0[i]);
+    y0 = first ? g.y0[i] : std::min(y0, g.y0[i]);
+    x1 = first ? g.x1[i] : std::max(x1, g.x1[i]);
+    y1 = first ? g.y1[i] : std::max(y1, g.y1[i]);
+    first = false;
+  }
+};
+
+template <class Depth>
+void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
+  TriangleGroup& center = run.memory.group;
+  const TileDraw& draw = run.frame.draws[draw_number];
+  set_up_edges(center, run.tile_x, run.tile_y, run.rect);
+  set_up_weights(center);
+  std::uint32_t visible = 0;
+  for (int s = 0; s < run.samples; ++s) {
+    TriangleGroup& g = run.memory.samples->group[s];
+    g = center;
+    move_group(g, -sample_positions(run.samples)[s].x, -sample_positions(run.samples)[s].y);
+    set_up_edges(g, run.tile_x, run.tile_y, run.rect);
+    if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y, kHasOffset<Depth>);
+    visible |= g.mask;
+  }
+  for (std::uint32_t left = visible; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    ShadedTriangle triangle;
+    fill_centered_triangle(triangle, run, draw_number, i, !is_front(center.signed_area[i], draw.front_is_clockwise));
+    draw_fragments_of(run, draw_number, i, triangle, kHasDepth<Depth>, [&](FragmentTriangle& fragments) HWY_ATTR {
+      SampledBlocks<Depth> blocks{fragments, {}, {}};
+      SampledBounds bounds{};
+      for (int s = 0; s < run.samples; ++s) {
+        const TriangleGroup& g = run.memory.samples->group[s];
+        blocks.edges[s] = tile_edges(g, i);
+        WideEdges wide;
+        set_up_fragment_depth(blocks.depth[s], run, draw, g, i);
+        if (g.wide[i] == 0 || tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, blocks.edges[s], wide))
+          bounds.include(blocks.edges[s], g, i);
+        else
+          blocks.edges[s] = {{0, 0, 0}, {0, 0, 0}, {-1, -1, -1}};  // outside of the tile; its edges do not fit 32 bits
+      }
+      if (bounds.first) return;
+      const BlockOffsets offsets(bounds.edges);
+      for_each_block(bounds.edges, offsets, bounds.x0, bounds.y0, bounds.x1, bounds.y1, blocks);
+    });
   }
 }
 

@@ -8,6 +8,7 @@
 #include "shading/tile_workspace.h"
 #include "shading/draw_group-inl.h"
 #include "shading/fragments-inl.h"
+#include "shading/resolve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -16,7 +17,14 @@ namespace HWY_NAMESPACE {
 using DrawGroup = void (*)(TileRun&, std::uint32_t draw);
 
 template <class Depth, Test kTest>
-DrawGroup pick_by_color(Seen seen) {
+DrawGroup pick_by_color(Seen seen, bool sampled) {
+  if (sampled) {
+    switch (seen) {
+      case Seen::nothing: return &draw_group_samples<Depth, kTest, Seen::nothing>;
+      case Seen::word: return &draw_group_samples<Depth, kTest, Seen::word>;
+      default: return &draw_group_samples<Depth, kTest, Seen::collect_sample>;
+    }
+  }
   switch (seen) {
     case Seen::nothing: return &draw_group<Depth, kTest, Seen::nothing>;
     case Seen::word: return &draw_group<Depth, kTest, Seen::word>;
@@ -25,12 +33,17 @@ DrawGroup pick_by_color(Seen seen) {
   }
 }
 
+template <class Depth>
+DrawGroup fragments_by_samples(bool sampled) {
+  return sampled ? &draw_fragments_samples<Depth> : &draw_fragments<Depth>;
+}
+
 DrawGroup pick_fragments(const TileFrame& frame, const TileDraw& draw) {
-  const bool offset = draw.offset_factor != 0 || draw.offset_units != 0;
-  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return &draw_fragments<NoDepth>;
-  if (frame.depth_kind == DepthKind::float32) return offset ? &draw_fragments<OffsetFloat32Depth> : &draw_fragments<Float32Depth>;
-  if (offset) return &draw_fragments<OffsetUnormDepth>;
-  return frame.depth_kind == DepthKind::unorm32 ? &draw_fragments<Unorm32Depth> : &draw_fragments<UnormDepth>;
+  const bool offset = draw.offset_factor != 0 || draw.offset_units != 0, sampled = frame.samples > 1;
+  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return fragments_by_samples<NoDepth>(sampled);
+  if (frame.depth_kind == DepthKind::float32) return offset ? fragments_by_samples<OffsetFloat32Depth>(sampled) : fragments_by_samples<Float32Depth>(sampled);
+  if (offset) return fragments_by_samples<OffsetUnormDepth>(sampled);
+  return frame.depth_kind == DepthKind::unorm32 ? fragments_by_samples<Unorm32Depth>(sampled) : fragments_by_samples<UnormDepth>(sampled);
 }
 
 /// The code that runs for a draw: none of it holds a step that the draw does not have.
@@ -40,12 +53,12 @@ DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
                     : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect
                     : draw.source == ColorSource::interpolated                           ? Seen::interpolate
                                                                                          : Seen::word;
-  const bool less = draw.depth_test == CompareOp::less;
-  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen);
+  const bool less = draw.depth_test == CompareOp::less, sampled = frame.samples > 1;
+  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen, sampled);
   switch (frame.depth_kind) {
-    case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen) : pick_by_color<Float32Depth, Test::any>(seen);
-    case DepthKind::unorm32: return pick_by_color<Unorm32Depth, Test::any>(seen);
-    default: return less ? pick_by_color<UnormDepth, Test::less>(seen) : pick_by_color<UnormDepth, Test::any>(seen);
+    case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen, sampled) : pick_by_color<Float32Depth, Test::any>(seen, sampled);
+    case DepthKind::unorm32: return pick_by_color<Unorm32Depth, Test::any>(seen, sampled);
+    default: return less ? pick_by_color<UnormDepth, Test::less>(seen, sampled) : pick_by_color<UnormDepth, Test::any>(seen, sampled);
   }
 }
 
@@ -69,18 +82,22 @@ PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int tile_x, 
   return in_tile.empty() ? PixelRect{} : in_tile;
 }
 
-void run_clear(TileRun& run, const TileClear& clear) {
-  shade_whole_tile(run);
-  const PixelRect rect = rect_in_tile(clear.rect, run.frame.grid, run.tile_x, run.tile_y);
-  if (clear.color && !clear.dithered) fill_rect(run.memory.color, clear.color_word, rect, run.tile_size);
+void clear_pixels(const TileRun& run, const TilePixels& pixels, const TileClear& clear, const PixelRect& rect) {
+  if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.color_word, rect, run.tile_size);
   if (clear.color && clear.dithered) {
     for (int y = rect.y0; y < rect.y1; ++y)
       for (int x = rect.x0; x < rect.x1; ++x)
-        run.memory.color[tile_index(x, y, run.tile_size)] =
+        pixels.color[tile_index(x, y, run.tile_size)] =
             clear.pattern[static_cast<std::size_t>((run.tile_y + y) % kDitherSize * kDitherSize + (run.tile_x + x) % kDitherSize)];
   }
-  if (clear.depth) fill_rect(run.memory.depth, clear.depth_key, rect, run.tile_size);
-  if (clear.stencil) fill_rect(run.memory.stencil->value, clear.stencil_value, rect, run.tile_size);
+  if (clear.depth) fill_rect(pixels.depth, clear.depth_key, rect, run.tile_size);
+  if (clear.stencil) fill_rect(pixels.stencil, clear.stencil_value, rect, run.tile_size);
+}
+
+void run_clear(TileRun& run, const TileClear& clear) {
+  shade_whole_tile(run);
+  const PixelRect rect = rect_in_tile(clear.rect, run.frame.grid, run.tile_x, run.tile_y);
+  for (int s = 0; s < run.samples; ++s) clear_pixels(run, run.sample[s], clear, rect);
   if (clear.accumulation)
     for (std::size_t c = 0; c < 4; ++c) fill_rect(run.memory.accumulation->component[c], clear.accumulation_levels[c], rect, run.tile_size);
 }
@@ -88,7 +105,43 @@ void run_clear(TileRun& run, const TileClear& clear) {
 void run_accumulation(TileRun& run, const TileAccumulation& command) {
   shade_whole_tile(run);
   const PixelRect rect = rect_in_tile(command.rect, run.frame.grid, run.tile_x, run.tile_y);
-  run_on_tile(command, rect, run.tile_x, run.tile_y, run.tile_size, run.memory.color, run.memory.levels());
+  const auto run_on = [&](std::uint32_t* color) { run_on_tile(command, rect, run.tile_x, run.tile_y, run.tile_size, color, run.memory.levels()); };
+  if (command.arithmetic.op() == AccumulationOp::give_back) {
+    for (int s = 0; s < run.samples; ++s) run_on(run.sample[s].color);
+    return;
+  }
+  if (run.samples > 1) resolve_samples(run);
+  run_on(run.memory.color);
+}
+
+bool has_triangles(const TileFrame& frame, int tile) {
+  for (std::uint32_t b = 0; b < frame.bin_count; ++b)
+    if (frame.bins[b].first(tile) != Bins::kNone) return true;
+  return false;
+}
+
+/// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all be the same: one does.
+void begin_samples(TileRun& run, int tile) {
+  TileWorkspace::Memory& memory = run.memory;
+  const TileFrame& frame = run.frame;
+  std::int32_t* const stencil = memory.stencil ? memory.stencil->value : nullptr;
+  run.sample[0] = run.pixels = {memory.color, memory.depth, memory.ids, stencil};
+  run.samples = frame.samples > 1 && has_triangles(frame, tile) ? frame.samples : 1;
+  if (run.samples == 1) return;
+  TileSamples& samples = *memory.samples;
+  const int pixels = run.tile_size * run.tile_size;
+  run.sample[0].color = run.pixels.color = samples.color[0];
+  if (frame.loads_color) std::copy_n(memory.color, pixels, samples.color[0]);
+  for (int s = 1; s < run.samples; ++s) {
+    run.sample[s] = samples.of(s, stencil != nullptr);
+    if (frame.loads_color) std::copy_n(memory.color, pixels, run.sample[s].color);
+    if (frame.loads_depth) std::copy_n(memory.depth, pixels, run.sample[s].depth);
+    if (frame.loads_stencil) std::copy_n(stencil, pixels, run.sample[s].stencil);
+  }
+  if (samples.clean_samples >= run.samples && samples.clean_pixels >= pixels) return;
+  for (int s = 1; s < run.samples; ++s) std::fill_n(run.sample[s].ids, pixels, kNoTriangle);
+  samples.clean_samples = run.samples;
+  samples.clean_pixels = pixels;
 }
 
 /// Collects triangles of one draw until a group is full.
@@ -163,13 +216,16 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
               .tile_size = grid.tile_size,
               .rect = {},
               .cut = false,
-              .counts = {}};
+              .counts = {},
+              .sample = {},
+              .pixels = {}};
   TileWorkspace::Memory& memory = run.memory;
   memory.group.count = 0;
   memory.triangles.clear();
   memory.wide.clear();
   if (!memory.ids_clean) std::fill(std::begin(memory.ids), std::end(memory.ids), kNoTriangle);
   memory.ids_clean = false;  // until the end of the tile
+  begin_samples(run, tile);
 
   std::uint32_t next_clear = 0, next_accumulation = 0;
   GroupBuilder builder{run};
@@ -209,6 +265,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   }
   commands_before(frame.draw_count);
   shade_whole_tile(run);
+  if (run.samples > 1) resolve_samples(run);
   memory.ids_clean = true;
   return run.counts;
 }
@@ -232,10 +289,17 @@ TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
 std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
+const std::uint32_t* TileWorkspace::sample_color(int sample) const { return memory_->samples->color[sample]; }
 AccumulatedPixels TileWorkspace::accumulation() { return memory_->levels(); }
 float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
 void TileWorkspace::allocate_normals() {
   if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
+}
+
+void TileWorkspace::allocate_samples() {
+  if (memory_->samples) return;
+  memory_->samples = std::make_unique_for_overwrite<TileSamples>();
+  memory_->samples->clean_samples = memory_->samples->clean_pixels = 0;
 }
 
 void TileWorkspace::allocate_stencil() {

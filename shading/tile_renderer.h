@@ -94,6 +94,9 @@ struct TileFrame {
   const Bins* bins = nullptr;
   std::uint32_t bin_count = 0;
   bool shade_at_once = false;                     ///< never gather triangles before shading
+  int samples = 1;                                ///< 1, 4 or 8 coverage samples a pixel
+  /// Samples start from what the workspace holds of the buffer; else a clear of all of it comes before it is looked at.
+  bool loads_color = false, loads_depth = false, loads_stencil = false;
 };
 
 /// Words to the frame's layout from colours 0..1; alpha where it has planes.
@@ -115,11 +118,14 @@ class TileWorkspace {
   std::uint32_t* color();     ///< tile_size^2 words in tile order
   std::int32_t* depth();      ///< depth keys
   std::int32_t* stencil();    ///< stencil values. @pre allocate_stencil
+  /// Words of one sample of the tile rendered last, in tile order. @pre several samples, and a triangle in the tile
+  const std::uint32_t* sample_color(int sample) const;
   AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation
   float* normals(int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
   /// These throw std::bad_alloc.
   void allocate_normals();
   void allocate_stencil();
+  void allocate_samples();
   void allocate_accumulation();
 
  private:
@@ -127,7 +133,8 @@ class TileWorkspace {
 };
 
 /// Runs the frame's commands on one tile. The buffers they look at must hold what was there before, unless a command that
-/// replaces all of the tile comes first.
+/// replaces all of the tile comes first. Of several samples the workspace's colour then holds the mean, its depth and stencil
+/// those of the first.
 using RenderTile = TileCounts(const TileFrame& frame, int tile, TileWorkspace& workspace);
 RenderTile* render_tile(Isa isa);
 

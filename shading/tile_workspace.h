@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "raster/sample_positions.h"
 #include "raster/triangle_setup.h"
 #include "shading/interpolate.h"
 #include "shading/lighting.h"
@@ -22,6 +23,30 @@ struct alignas(64) TileNormals {
 
 struct alignas(64) TileStencil {
   std::int32_t value[kMaxTileSize * kMaxTileSize];
+};
+
+/// The pixels that draws work on: of the tile, or of one of its samples.
+struct TilePixels {
+  std::uint32_t* color;
+  std::int32_t* depth;
+  std::uint32_t* ids;      ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  std::int32_t* stencil;   ///< null where the frame has none
+};
+
+/// What a tile's samples hold. Depth, ids and stencil of sample 0 are the tile's own.
+struct alignas(64) TileSamples {
+  /// Five cache lines more than a tile: the same pixel of two samples falls into different sets of a cache.
+  static constexpr int kStride = kMaxTileSize * kMaxTileSize + 80;
+  std::uint32_t color[kMaxSamples][kStride];
+  std::int32_t depth[kMaxSamples][kStride];
+  std::uint32_t ids[kMaxSamples][kStride];
+  std::int32_t stencil[kMaxSamples][kStride];
+  TriangleGroup group[kMaxSamples];         ///< moved the other way, for draws with operations
+  int clean_samples = 0, clean_pixels = 0;  ///< so much of `ids` is kNoTriangle
+
+  TilePixels of(int sample, bool has_stencil) {
+    return {color[sample], depth[sample], ids[sample], has_stencil ? stencil[sample] : nullptr};
+  }
 };
 
 struct alignas(64) TileLevels {
@@ -42,7 +67,8 @@ struct alignas(64) TileWorkspace::Memory {
   ShadingBatch batch;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
   std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
-  std::unique_ptr<TileLevels> accumulation;  ///< likewise
+  std::unique_ptr<TileSamples> samples;  ///< only where a frame has several for each pixel
+  std::unique_ptr<TileLevels> accumulation;  ///< only where a command works on it
 
   AccumulatedPixels levels() { return {accumulation->component[0], accumulation->component[1], accumulation->component[2], accumulation->component[3]}; }
 };

@@ -64,7 +64,11 @@ void read_framebuffer(const Value& value, Scene& scene) {
     format.accumulation_bits = static_cast<int>(accumulation->integer(0, 32));
     if (format.accumulation_bits > 0 && format.color_mode == ColorMode::index) accumulation->refuse("an index buffer does not accumulate");
   }
-  object.only_default("samples", 1, {4, 8});
+  if (const auto samples = object.find("samples")) {
+    if (samples->json() != Json(1) && samples->json() != Json(4) && samples->json() != Json(8)) samples->fail("1, 4 or 8");
+    format.samples = static_cast<int>(samples->integer(1, 8));
+    if (format.samples > 1 && format.color_mode == ColorMode::index) samples->refuse("an index buffer has one sample a pixel");
+  }
 }
 
 LightModel read_light_model(const Value& value) {

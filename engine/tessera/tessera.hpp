@@ -108,6 +108,10 @@ struct FrameBufferFormat {
   int alpha_bits = 0;                       ///< 0 or 8 planes above the colour's; without them the stored alpha reads 1. RGB buffers
   Dither dither = Dither::none;
   int accumulation_bits = 0;                ///< 0, 16 or 32 for each of red, green, blue, alpha; signed. RGB buffers
+  /// Coverage samples a pixel: 1, 4 or 8. With several, coverage, depth and stencil belong to each sample, and a triangle's colour
+  /// comes about once for each pixel, at its centre. They are kept until the frame is finished; what it stores and shows is their
+  /// mean, and depth and stencil of the first. RGB buffers.
+  int samples = 1;
 };
 
 /// Built-in palettes: "bw", "gray", "ega16", "vga256", "web216". Throws Error for another name, or more entries than 2^color_bits.

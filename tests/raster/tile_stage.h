@@ -49,10 +49,14 @@ class TileStage {
     frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
     frame_.bins = &bins_;
     frame_.bin_count = 1;
+    if (frame_.samples > 1) workspace_.allocate_samples();
+    frame_.loads_color = frame_.loads_depth = true;
     return render_tile(isa)(frame_, tile, workspace_);
   }
   /// Pixels of the tile rendered last.
   std::uint32_t color(int x, int y) { return workspace_.color()[tile_index(x, y, frame_.grid.tile_size)]; }
+  /// Of one sample. @pre several samples, and a triangle in the tile
+  std::uint32_t sample_color(int sample, int x, int y) const { return workspace_.sample_color(sample)[tile_index(x, y, frame_.grid.tile_size)]; }
   std::int32_t depth(int x, int y) { return workspace_.depth()[tile_index(x, y, frame_.grid.tile_size)]; }
   std::vector<std::uint32_t> colors() { return {workspace_.color(), workspace_.color() + frame_.grid.tile_size * frame_.grid.tile_size}; }
   std::vector<std::int32_t> depths() { return {workspace_.depth(), workspace_.depth() + frame_.grid.tile_size * frame_.grid.tile_size}; }

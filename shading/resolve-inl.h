@@ -1,0 +1,60 @@
+// Colours of a tile's pixels from those of their samples: the mean of the stored levels. Twin: resolve_reference.h.
+#if defined(TESSERA_SHADING_RESOLVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_RESOLVE_INL_H_
+#undef TESSERA_SHADING_RESOLVE_INL_H_
+#else
+#define TESSERA_SHADING_RESOLVE_INL_H_
+#endif
+
+#include "shading/tile_run-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// The components of a stored word.
+struct WordFields {
+  int count = 0, shift[4], bits[4];
+  explicit WordFields(const ColorLayout& layout) {
+    const auto add = [this](int at, int width) {
+      if (width == 0) return;
+      shift[count] = at;
+      bits[count++] = width;
+    };
+    add(layout.bits, layout.alpha_bits);
+    add(layout.r_shift(), layout.luminance ? 0 : layout.r_bits);
+    add(layout.g_shift(), layout.luminance ? 0 : layout.g_bits);
+    add(0, layout.luminance ? layout.bits : layout.b_bits);
+  }
+};
+
+/// The workspace's colour becomes that of its samples.
+inline HWY_NOINLINE void resolve_samples(TileRun& run) {
+  const WordFields fields(run.frame.layout);
+  const int shift = run.samples == 8 ? 3 : 2;
+  for (int i = 0; i < run.tile_size * run.tile_size; i += kLanes) {
+    Int word[kMaxSamples], differing = hn::Zero(kInt);
+    for (int s = 0; s < run.samples; ++s) {
+      word[s] = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].color) + i);
+      differing = hn::Or(differing, hn::Xor(word[s], word[0]));
+    }
+    Int mean = word[0];
+    if (!hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)))) {
+      mean = hn::Zero(kInt);
+      for (int f = 0; f < fields.count; ++f) {
+        const Int mask = splat((1 << fields.bits[f]) - 1);
+        Int sum = splat(run.samples / 2);
+        for (int s = 0; s < run.samples; ++s)
+          sum = hn::Add(sum, hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, word[s]), fields.shift[f])), mask));
+        mean = hn::Or(mean, hn::ShiftLeftSame(hn::ShiftRightSame(sum, shift), fields.shift[f]));
+      }
+    }
+    hn::Store(mean, kInt, reinterpret_cast<std::int32_t*>(run.memory.color) + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,104 @@
+// Pixels of several samples: their colour is the mean of the samples' levels, whichever way the samples got their colours.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "raster/sample_positions.h"
+#include "shading/resolve_reference.h"
+#include "tests/raster/random_triangles.h"
+#include "tests/raster/tile_stage.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kTile = 32;
+
+TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
+  RandomTriangles source(21, kTile);
+  for (int bits = 1; bits <= 24; ++bits)
+    for (const int alpha : {0, 8})
+      for (const int samples : {4, 8}) {
+        TileStage stage(kTile, kTile, kTile);
+        stage.frame().layout = rgb_layout(bits);
+        stage.frame().layout.alpha_bits = alpha;
+        stage.frame().samples = samples;
+        std::vector<Triangle> triangles;
+        for (int i = 0; i < 60; ++i) triangles.push_back(source.next(i % 2 == 0 ? Shape::medium : Shape::tiny));
+        for (const Triangle& triangle : triangles) {
+          TileDraw& draw = stage.add_draw(triangle.data());
+          draw.word = source.random()();
+          if (reference_of(triangle).area != 0) stage.push(0, stage.draw_count() - 1, 0);
+        }
+        for (const Isa isa : available_isas()) {
+          stage.render(isa, 0, 0x87654321u);
+          const ColorLayout& layout = stage.frame().layout;
+          const std::uint32_t mask = layout.word_mask() | layout.alpha_mask();
+          for (int y = 0; y < kTile; ++y)
+            for (int x = 0; x < kTile; ++x) {
+              std::uint32_t words[kMaxSamples];
+              for (int s = 0; s < samples; ++s) words[s] = stage.sample_color(s, x, y);
+              ASSERT_EQ(stage.color(x, y) & mask, resolved_word(layout, words, samples)) << name_of(isa) << ", " << bits << " bits, " << alpha << " of alpha";
+            }
+        }
+      }
+}
+
+// The twin by hand: halves go up, and components do not run into each other.
+TEST(Samples, MeanRoundsHalvesUp) {
+  const std::uint32_t words[8] = {0xff0000, 0xff0001, 0xff0101, 0xff01ff, 0, 0, 0, 0};
+  EXPECT_EQ(resolved_word(rgb_layout(24), words, 4), 0xff0140u);  // green 2/4 -> 1, blue (1 + 1 + 255)/4 = 64.25
+  EXPECT_EQ(resolved_word(rgb_layout(24), words, 8), 0x800020u);  // red 127.5, green 0.25, blue 32.125
+  const std::uint32_t greys[4] = {0, 1, 1, 0};
+  EXPECT_EQ(resolved_word(rgb_layout(1), greys, 4), 1u);
+}
+
+// Interpolated colours that wait, in one surface or several, and those of draws with operations are the same.
+TEST(Samples, HaveTheSameColorsLaterAtOnceAndWithOperations) {
+  RandomTriangles source(22, kTile);
+  const FragmentOps operations{};
+  for (const int samples : {4, 8}) {
+    TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
+    stage.frame().samples = samples;
+    for (int round = 0; round < 60; ++round) {
+      std::vector<WindowVertex> vertices;
+      std::vector<float> colors;
+      std::vector<std::uint32_t> visible;
+      for (std::uint32_t i = 0; i < 50; ++i) {
+        const Triangle triangle = source.next(i % 3 == 0 ? Shape::large : i % 3 == 1 ? Shape::medium : Shape::tiny);
+        if (reference_of(triangle).area != 0) visible.push_back(i);
+        for (WindowVertex v : triangle) {
+          v.z = source.random()() & 0x7fffff00u | 0x80u;
+          v.rw = 0.5f + static_cast<float>(source.unit());
+          vertices.push_back(v);
+          for (int c = 0; c < 4; ++c) colors.push_back(static_cast<float>(source.unit()));
+        }
+      }
+      colors.resize(colors.size() + 64);
+      for (const Isa isa : available_isas()) {
+        std::vector<std::uint32_t> seen[3];
+        for (int way = 0; way < 3; ++way) {
+          stage.forget_draws();
+          TileDraw& draw = stage.add_draw(vertices.data());
+          draw.source = ColorSource::interpolated;
+          draw.scaled_colors = false;
+          draw.uses_depth = true;
+          draw.attributes = colors.data();
+          draw.attribute_stride = draw.attribute_count = 4;
+          draw.deferred = way != 2;
+          draw.ops = way == 2 ? &operations : nullptr;
+          stage.frame().shade_at_once = way == 1;
+          for (const std::uint32_t id : visible) stage.push(0, 0, id);
+          stage.render(isa, 0, 0x102030, 0xffffff);
+          for (int s = 0; s < samples; ++s)
+            for (int y = 0; y < kTile; ++y)
+              for (int x = 0; x < kTile; ++x) seen[way].push_back(stage.sample_color(s, x, y));
+        }
+        ASSERT_EQ(seen[1], seen[0]) << name_of(isa) << ": at once";
+        ASSERT_EQ(seen[2], seen[0]) << name_of(isa) << ": with operations";
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
