@@ -90,24 +90,66 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   if (draw.state.scissor) plan.rect = intersect(plan.rect, raster_rect(*draw.state.scissor, format.height));
 }
 
-void plan_lights(DrawPlan& plan, const RecordedDraw& draw, std::string* reasons) {
+const Material& back_material(const DrawState& state) { return state.back_material ? *state.back_material : state.material; }
+
+/// Whether back faces have a material of their own, and which faces' colours are indices.
+void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
+  const DrawState& state = draw.state;
+  if (plan.write_mask == 0) return;
+  plan.two_sided = state.lighting && draw.surroundings->light_model.two_sided && plan.keep_back;
+  if (!layout.index) return;
+  plan.uses_color_indices = !state.lighting && draw.mesh.color_indices;
+  plan.index[0] = plan.uses_color_indices || (state.lighting && state.material.color_indexes);
+  plan.index[1] = plan.two_sided ? back_material(state).color_indexes.has_value() : plan.index[0];
+}
+
+/// What of the mesh's and the materials' colours and indices is not looked at.
+void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string& reasons) {
+  const DrawState& state = draw.state;
+  const auto note = [&](const char* line) { reasons += std::string("  ") + line + "\n"; };
+  if (draw.mesh.color_indices && !plan.uses_color_indices)
+    note(layout.index ? "the mesh's color_indices are not used: it is lit" : "the mesh's color_indices are not used: the buffer holds RGB");
+  if (draw.mesh.has_colors() && plan.uses_color_indices) note("the mesh's colours are not used: it has color_indices");
+  if (!state.lighting) return;
+  if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none) note("the mesh's colours are not used: it is lit, and color_material is none");
+  if (draw.mesh.has_colors() && state.color_material != ColorMaterial::none && plan.only_indices()) note("the mesh's colours are not used: the material has color_indexes");
+  if (!layout.index && (state.material.color_indexes || (plan.two_sided && back_material(state).color_indexes)))
+    note("the material's color_indexes are not used: the buffer holds RGB");
+}
+
+void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
   const LightModel& model = draw.surroundings->light_model;
   const glm::dmat4 view = to_glm(draw.surroundings->camera.view);
   std::vector<EyeLight> lights;
   for (const Light& light : draw.surroundings->lights) lights.push_back(eye_light(light, view));
   const TrackedColors tracked = draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong};
-  plan.front = plan_lighting(surface(draw.state.material), tracked, lights, lighting, reasons);
-  if (model.two_sided && plan.keep_back) {
-    plan.two_sided = true;
+  const auto program = [&](const Material& material, bool index) {
+    if (!index) return plan_lighting(surface(material), tracked, lights, lighting, reasons);
+    if (reasons) *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
+    return plan_index_lighting({*material.color_indexes, material.shininess, layout.index_modulus()}, lights, lighting, reasons);
+  };
+  plan.front = program(draw.state.material, plan.index[0]);
+  if (plan.two_sided) {
     if (reasons) *reasons += "  back faces:\n";
-    plan.back = plan_lighting(surface(draw.state.back_material.value_or(draw.state.material)), tracked, lights, lighting, reasons);
+    plan.back = program(back_material(draw.state), plan.index[1]);
     plan.back.negate_normal = true;
   }
-  plan.uses_vertex_colors = tracked.any();
+  plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
   plan.alpha[0] = clamp_unit(draw.state.material.diffuse.a);
-  plan.alpha[1] = plan.two_sided ? clamp_unit(draw.state.back_material.value_or(draw.state.material).diffuse.a) : plan.alpha[0];
-  plan.vertex_alpha = tracked.diffuse;
+  plan.alpha[1] = plan.two_sided ? clamp_unit(back_material(draw.state).diffuse.a) : plan.alpha[0];
+  plan.vertex_alpha = tracked.diffuse && !plan.only_indices();
+}
+
+/// The index of a program that no light has a part in.
+float unlit_index(const LightingProgram& program) { return masked_index(std::min(program.indexes[0], program.indexes[2]), program.index_modulus); }
+
+/// No light depends on the surface, and both faces look the same.
+bool has_constant_color(const DrawPlan& plan) {
+  if (!plan.front.terms.empty() || plan.front.tracked || (plan.has_ops && plan.vertex_alpha)) return false;
+  if (!plan.two_sided) return true;
+  if (!plan.back.terms.empty() || plan.index[0] != plan.index[1]) return false;
+  return plan.only_indices() ? unlit_index(plan.back) == unlit_index(plan.front) : plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
 }
 
 /// What is stored depends on what was, or on where it is stored.
@@ -125,7 +167,10 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     note("no colour plane changes: depth alone, no lighting");
     return;
   }
-  if (!state.lighting) {
+  if (reasons) note_unused_colors(plan, draw, layout, *reasons);
+  if (plan.uses_color_indices) {
+    note("unlit indices of the vertices");
+  } else if (!state.lighting) {
     plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
     plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
     if (!plan.uses_vertex_colors) {
@@ -135,13 +180,11 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     }
     note("unlit vertex colours");
   } else {
-    if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none) note("the mesh's colours are not used: it is lit, and color_material is none");
-    plan_lights(plan, draw, reasons);
-    const bool constant = plan.front.terms.empty() && !plan.front.tracked && !(plan.has_ops && plan.vertex_alpha) &&
-                          (!plan.two_sided || (plan.back.terms.empty() && plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1]));
-    if (constant) {
+    plan_lights(plan, draw, layout, reasons);
+    if (has_constant_color(plan)) {
       plan.two_sided = false;
       plan.constant_color = plan.front.base;
+      if (plan.index[0]) plan.constant_index = unlit_index(plan.front);
       note("no light depends on the surface: one colour for the draw");
       return;
     }
@@ -164,7 +207,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
       plan.source = ColorSource::interpolated;
       plan.flat = true;
       plan.scaled_colors = false;
-      plan.attribute_count = generate ? 0 : plan.two_sided ? 8 : 4;
+      plan.attribute_count = generate ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
     }
     note(generate ? "flat, lit once a triangle with its face's normal" : "flat, lit at the vertices");
   } else {
@@ -173,7 +216,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled;
     // Greys and palette entries are not linear in the colour, and samples share one: shade what is seen.
     plan.deferred = (layout.index || layout.luminance || sampled) && !needs_order(plan, layout);
-    plan.attribute_count = (plan.has_ops ? 4 : 3) * (plan.two_sided ? 2 : 1);
+    plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }
   if (generate && plan.smooth_normals) note("the mesh has no normals: area-weighted means over the faces at each position");
@@ -209,6 +252,7 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   plan.keep_back = state.cull != Cull::back;
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
+  plan_faces(plan, draw, target.layout);
 
   static_assert(static_cast<int>(CompareOp::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(CompareOp::less) == static_cast<int>(Compare::less));
   const bool has_depth = state.depth.enabled && target.depth_kind != DepthKind::none;
@@ -222,7 +266,7 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
                                    : std::string("  depth test") + (plan.depth_write ? "" : ", no write") + "\n";
     if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) *reasons += "  some colour planes are masked\n";
   }
-  const FragmentPlan fragments = plan_fragments(state, target, plan.write_mask != 0, reasons);
+  const FragmentPlan fragments = plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), reasons);
   plan.ops = fragments.ops;
   plan.uses_stencil = fragments.uses_stencil;
   if (plan.uses_depth) {

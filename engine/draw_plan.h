@@ -37,16 +37,23 @@ struct DrawPlan {
   bool two_sided = false;         ///< back faces have a program of their own
   LightingProgram front, back;
   Rgb constant_color{};           ///< ColorSource::constant
-  bool uses_vertex_colors = false;
+  bool index[2] = {};             ///< front, back: the colour is an index
+  float constant_index = 0;       ///< ColorSource::constant, if it is
+  bool uses_vertex_colors = false, uses_color_indices = false;
   bool smooth_normals = false;    ///< the mesh has none: means of its faces
   bool face_normals = false;      ///< the mesh has none: flat
   bool scaled_colors = true;      ///< interpolated colours are carried in levels
 
-  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back], with operations
-  /// each with alpha; then the normal that a capture wants.
+  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back]; then the normal
+  /// that a capture wants.
   int attribute_count = 0;
   int captured_normal = -1;       ///< where it begins; -1: none is wanted
 
+  bool only_indices() const { return index[0] && index[1]; }
+  bool looks_up_colors() const { return write_mask != 0 && !only_indices(); }  ///< in the palette, if the buffer has one
+  /// Floats that a vertex's colour of one face takes: with operations it has alpha; an index has no more than itself, but
+  /// beside a face with colours as much room as those.
+  int color_floats() const { return only_indices() ? 1 : has_ops ? 4 : 3; }
   /// Colours are made for triangles, not for vertices.
   bool colors_triangles() const { return source == ColorSource::triangle_word || (flat && face_normals); }
 };

@@ -57,13 +57,13 @@ FragmentOps dither_of(const FrameBufferState& target) {
   return ops;
 }
 
-FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, std::string* reasons) {
+FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, bool only_indices, std::string* reasons) {
   FragmentPlan plan;
   FragmentOps& ops = plan.ops;
   const auto note = [&](const char* line) {
     if (reasons) *reasons += std::string("  ") + line + "\n";
   };
-  if (writes_color) ops = dither_of(target);
+  if (writes_color && !only_indices) ops = dither_of(target);
   if (state.alpha_test) {
     ops.alpha_func = static_cast<CompareOp>(state.alpha_test->func);
     ops.alpha_reference = state.alpha_test->ref;
@@ -79,6 +79,7 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
     note(ops.blend ? "blending" : "blending: replaces what was there, left out");
   }
   if (writes_color && ops.dither) note("ordered dither");
+  if (writes_color && only_indices && target.format.dither != Dither::none) note("indices are not dithered");
   if (writes_color && state.logic_op != LogicOp::copy) {
     ops.logic = static_cast<Logic>(state.logic_op);
     note("logic operation");

@@ -18,7 +18,8 @@ struct FragmentPlan {
 FragmentOps dither_of(const FrameBufferState& target);
 
 /// @param writes_color  some colour plane may change
+/// @param only_indices  what is written are indices, which nothing dithers
 /// @param reasons  if given, receives a line for each operation
-FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, std::string* reasons);
+FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, bool only_indices, std::string* reasons);
 
 }  // namespace tessera

@@ -44,6 +44,7 @@ void check_material(const char* what, const Material& m) {
   require_finite({what, ".specular"}, m.specular);
   require_finite({what, ".emission"}, m.emission);
   require_range({what, ".shininess"}, m.shininess, 0, 16384);
+  if (m.color_indexes) require_finite({what, ".color_indexes"}, {(*m.color_indexes)[0], (*m.color_indexes)[1], (*m.color_indexes)[2]});
 }
 
 void check_light(std::size_t number, const Light& l) {

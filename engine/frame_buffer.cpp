@@ -86,6 +86,11 @@ std::vector<Color> default_palette(int color_bits) {
 
 namespace {
 
+void require_palette_size(std::size_t entries, int bits) {
+  if (entries > std::size_t{1} << bits)
+    throw Error("FrameBuffer: the palette has " + std::to_string(entries) + " entries, " + std::to_string(bits) + " bits hold at most " + std::to_string(std::size_t{1} << bits));
+}
+
 void check_format(const FrameBufferFormat& format) {
   require_range("width", format.width, 1, kMaxFrameBufferSize, " px");
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
@@ -101,9 +106,21 @@ void check_format(const FrameBufferFormat& format) {
     throw Error("FrameBuffer: an accumulation buffer is asked for, but the colour mode is index; it belongs to rgb");
   if (format.color_mode == ColorMode::rgb && !format.palette.empty())
     throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
-  if (format.palette.size() > std::size_t{1} << format.color_bits)
-    throw Error("FrameBuffer: the palette has " + std::to_string(format.palette.size()) + " entries, " + std::to_string(format.color_bits) +
-                " bits hold at most " + std::to_string(std::size_t{1} << format.color_bits));
+  require_palette_size(format.palette.size(), format.color_bits);
+}
+
+// The palette as it is stored.
+Palette checked_palette(std::span<const Color> colors, int bits) {
+  require_palette_size(colors.size(), bits);
+  Palette palette{.bits = bits, .entries = {}};
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const Color& c = colors[i];
+    for (const float component : {c.r, c.g, c.b, c.a})
+      if (!(component >= 0 && component <= 1))
+        throw Error("FrameBuffer: palette entry " + std::to_string(i) + " has a component " + std::to_string(component) + ", must be 0 to 1");
+    palette.entries.push_back(stored_color(c.r, c.g, c.b));
+  }
+  return palette;
 }
 
 void make_planes(FrameBufferState& s) {
@@ -125,14 +142,7 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
   s.depth_kind = static_cast<DepthKind>(format.depth);
   if (index) {
     if (format.palette.empty()) format.palette = default_palette(format.color_bits);
-    s.palette.bits = format.color_bits;
-    for (std::size_t i = 0; i < format.palette.size(); ++i) {
-      const Color& c = format.palette[i];
-      for (const float component : {c.r, c.g, c.b, c.a})
-        if (!(component >= 0 && component <= 1))
-          throw Error("FrameBuffer: palette entry " + std::to_string(i) + " has a component " + std::to_string(component) + ", must be 0 to 1");
-      s.palette.entries.push_back(stored_color(c.r, c.g, c.b));
-    }
+    s.palette = checked_palette(format.palette, format.color_bits);
   }
   s.format = std::move(format);
   make_planes(s);
@@ -175,6 +185,19 @@ FrameBuffer::FrameBuffer(FrameBuffer&&) noexcept = default;
 FrameBuffer& FrameBuffer::operator=(FrameBuffer&&) noexcept = default;
 
 const FrameBufferFormat& FrameBuffer::format() const noexcept { return state_->format; }
+
+void FrameBuffer::set_palette(std::span<const Color> entries) {
+  FrameBufferState& s = *state_;
+  if (!s.layout.index) throw Error("FrameBuffer::set_palette: the colour mode is rgb; palettes belong to index mode");
+  with_memory("FrameBuffer::set_palette", [&] {
+    const FloatingPointMode mode;
+    std::vector<Color> colors = entries.empty() ? default_palette(s.format.color_bits) : std::vector<Color>(entries.begin(), entries.end());
+    s.palette = checked_palette(colors, s.format.color_bits);
+    s.format.palette = std::move(colors);
+    s.palette_search.reset();
+  });
+}
+
 int FrameBuffer::plane_count(Buffer buffer) const noexcept {
   int planes = 0;
   for (const StoredBuffer& part : state_->parts(buffer)) planes += part.planes.plane_count();

@@ -38,7 +38,7 @@ void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target
   if (!ops.dither) return;
   for (std::size_t i = 0; i < to.pattern.size(); ++i) {
     const float t = ops.threshold[i / kDitherSize][i % kDitherSize], moved = (t - 0.5f) * ops.palette_spread;
-    to.pattern[i] = target.layout.index ? color_word(target.layout, target.search(), c.r + moved, c.g + moved, c.b + moved) : stored_word(target.layout, {c.r, c.g, c.b, c.a}, t);
+    to.pattern[i] = target.layout.index ? target.search()->nearest_unclamped(c.r + moved, c.g + moved, c.b + moved) : stored_word(target.layout, {c.r, c.g, c.b, c.a}, t);
     to.dithered |= to.pattern[i] != to.color_word;
   }
 }
@@ -141,13 +141,13 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
   draw.offset_factor = plan.offset_factor;
   draw.offset_units = plan.offset_units;
   draw.flat = plan.flat;
-  draw.color_attribute[1] = plan.two_sided ? 4 : 0;
   for (int face = 0; face < 2; ++face) {
     const int side = plan.two_sided ? face : 0;
     if (plan.flat && plan.face_normals) draw.face_colors[face] = buffers.face_colors[side].data();
     for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = clamp_unit(plan.constant_color[c]);
+    if (plan.index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
-    if (plan.source == ColorSource::interpolated && !plan.flat) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
+    if (plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face]) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
   }
 }
 
@@ -239,7 +239,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
     geometry.plan = &commands.plans[i];
     geometry.buffers = &buffers[i];
     geometry.layout = &target.layout;
-    geometry.search = commands.plans[i].write_mask != 0 ? target.search() : nullptr;
+    geometry.search = commands.plans[i].looks_up_colors() ? target.search() : nullptr;
     geometry.provoking = draw.state.provoking_vertex == ProvokingVertex::last ? 2 : 0;
     commands.geometry.push_back(geometry);
   }
@@ -268,11 +268,13 @@ void connect_draws(FrameCommands& commands) {
     draw.scaled_colors = plan.scaled_colors;
     draw.words[0] = buffers.words[0].data();
     draw.words[1] = buffers.words[plan.two_sided ? 1 : 0].data();
-    draw.color_attribute[1] = plan.two_sided ? 3 : 0;
+    draw.color_attribute[1] = plan.two_sided ? plan.color_floats() : 0;
+    std::copy_n(plan.index, 2, draw.index);
     draw.programs[0] = &plan.front;
     draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
     if (plan.source == ColorSource::constant)
-      draw.word = color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
+      draw.word = plan.index[0] ? index_word(*geometry.layout, plan.constant_index)
+                                : color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
     if (plan.has_ops) connect_operations(draw, plan, buffers);
     if (plan.source == ColorSource::per_pixel) {
       // The order in which the vertex stage stores them.

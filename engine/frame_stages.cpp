@@ -191,7 +191,8 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   TileFrame frame;
   frame.grid = grid;
   frame.layout = target.layout;
-  frame.palette_search = target.layout.index && !commands.plans.empty() ? target.search() : nullptr;
+  for (const DrawPlan& plan : commands.plans)
+    if (plan.looks_up_colors()) frame.palette_search = target.search();
   frame.depth_kind = target.depth_kind;
   frame.draws = commands.tile_draws.data();
   frame.draw_count = static_cast<std::uint32_t>(commands.tile_draws.size());

@@ -21,7 +21,7 @@ void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t
     for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.color(vertex(i), c);
 }
 
-// A vertex whose normal or colour is not finite is dropped like one whose position is not.
+// A vertex whose normal, colour or index is not finite is dropped like one whose position is not.
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count, std::uint8_t* codes) {
   std::uint8_t any = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -32,7 +32,8 @@ std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t
   return any;
 }
 
-std::uint32_t word_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i) {
+std::uint32_t word_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i, int face) {
+  if (draw.plan->index[face]) return index_word(*draw.layout, batch.field[kColorR][i]);
   return color_word(*draw.layout, draw.search, batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i]);
 }
 
@@ -42,6 +43,11 @@ void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
 }
 
+// Unlit: the vertices' indices, masked as those are that come out of lighting.
+void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) batch.field[kColorR][i] = masked_index(*draw.mesh->color_indices.at(first + i), draw.layout->index_modulus());
+}
+
 // Where the colours of a batch go, and whose alpha they have.
 struct Batch {
   std::size_t first, count;
@@ -49,11 +55,27 @@ struct Batch {
   float alpha[kBatchPoints];             ///< the vertices', where the draw uses them
 };
 
+// Where the colours of one face of a batch go as floats, and how far one is from the next.
+struct FloatColors {
+  float* first;
+  std::size_t stride;
+};
+FloatColors float_colors(const GeometryDraw& draw, const Batch& points, int face) {
+  const DrawPlan& plan = *draw.plan;
+  if (points.triangles) return {draw.buffers->face_colors[face].data() + 4 * points.first, 4};
+  const auto stride = static_cast<std::size_t>(plan.attribute_count);
+  return {draw.buffers->attributes.data() + points.first * stride + plan.color_floats() * face, stride};
+}
+
+void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
+  const auto [out, stride] = float_colors(draw, points, face);
+  for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
+}
+
 // With operations: r g b a for each point.
 void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
-  const std::size_t stride = points.triangles ? 4 : static_cast<std::size_t>(plan.attribute_count);
-  float* out = (points.triangles ? draw.buffers->face_colors[face].data() : draw.buffers->attributes.data() + 4 * face) + points.first * stride;
+  auto [out, stride] = float_colors(draw, points, face);
   for (std::size_t i = 0; i < points.count; ++i, out += stride) {
     for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
     out[3] = plan.vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f) : plan.alpha[face];
@@ -63,17 +85,19 @@ void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch
 // The colour of a batch goes where the draw's triangles will look for it.
 void store_colors(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
+  const bool as_floats = plan.source == ColorSource::interpolated;
+  if (as_floats && plan.index[face]) return store_indices(draw, batch, points, face);
   if (plan.has_ops) return store_rgba(draw, batch, points, face);
-  if (plan.source == ColorSource::interpolated) {
+  if (as_floats) {
     const int bits[3] = {draw.layout->r_bits, draw.layout->g_bits, draw.layout->b_bits};
-    float* out = draw.buffers->attributes.data() + points.first * static_cast<std::size_t>(plan.attribute_count) + 3 * face;
+    const auto [out, stride] = float_colors(draw, points, face);
     for (int c = 0; c < 3; ++c) {
       const float levels = plan.scaled_colors ? static_cast<float>((1 << bits[c]) - 1) : 1.0f, half = plan.scaled_colors ? 0.5f : 0.0f;
       for (std::size_t i = 0; i < points.count; ++i)
-        out[i * static_cast<std::size_t>(plan.attribute_count) + static_cast<std::size_t>(c)] = std::fma(batch.field[kColorR + c][i], levels, half);
+        out[i * stride + static_cast<std::size_t>(c)] = std::fma(batch.field[kColorR + c][i], levels, half);
     }
   } else {
-    for (std::size_t i = 0; i < points.count; ++i) draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i);
+    for (std::size_t i = 0; i < points.count; ++i) draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i, face);
   }
 }
 
@@ -86,7 +110,7 @@ void light_batch(const GeometryDraw& draw, const LightingProgram& program, Shadi
 void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, Isa isa) {
   const DrawPlan& plan = *draw.plan;
   if (!plan.lit) {
-    copy_vertex_colors(batch, points.count);
+    if (!plan.uses_color_indices) copy_vertex_colors(batch, points.count);
     store_colors(draw, batch, points, 0);
     return;
   }
@@ -176,6 +200,7 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     const StridedFloats positions = mesh.positions.from(at);
     codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
     if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
+    if (plan.uses_color_indices) codes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.codes.data() + at);
     if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
     if (!colors_matter || plan.colors_triangles()) continue;
     if (needs_normal(plan)) {
@@ -185,6 +210,7 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     if (needs_position(plan))
       eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
     if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
+    if (plan.uses_color_indices) load_color_indices(draw, batch, at, count);
     if (plan.source == ColorSource::per_pixel)
       store_inputs(draw, batch, at, count);
     else

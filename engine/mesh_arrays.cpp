@@ -99,6 +99,7 @@ MeshArrays check_mesh(const Mesh& mesh) {
   arrays.positions = strided(mesh.positions, "positions", components, arrays.vertices);
   arrays.normals = strided(mesh.normals, "normals", 3, arrays.vertices);
   add_colors(mesh.colors, arrays);
+  arrays.color_indices = strided(mesh.color_indices, "color_indices", 1, arrays.vertices);
   const std::size_t corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
   if (corners % 3 != 0) fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", triangles need a multiple of 3");
   arrays.triangles = corners / 3;

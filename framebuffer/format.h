@@ -21,6 +21,7 @@ struct ColorLayout {
   int r_shift() const { return g_bits + b_bits; }
   int g_shift() const { return b_bits; }
   std::uint32_t word_mask() const { return (std::uint32_t{1} << bits) - 1; }  ///< of the colour
+  float index_modulus() const { return static_cast<float>(std::uint32_t{1} << bits); }
   std::uint32_t alpha_mask() const { return ((std::uint32_t{1} << alpha_bits) - 1) << bits; }
   std::uint32_t r_mask() const { return ((std::uint32_t{1} << r_bits) - 1) << r_shift(); }
   std::uint32_t g_mask() const { return ((std::uint32_t{1} << g_bits) - 1) << g_shift(); }
@@ -49,6 +50,16 @@ inline std::uint32_t quantize(float c, int bits) {
 inline std::uint32_t quantize_rgb(const ColorLayout& layout, float r, float g, float b) {
   if (layout.luminance) return quantize(std::fma(kLumaR, r, std::fma(kLumaG, g, kLumaB * b)), layout.bits);
   return quantize(r, layout.r_bits) << layout.r_shift() | quantize(g, layout.g_bits) << layout.g_shift() | quantize(b, layout.b_bits);
+}
+/// An index modulo 2^bits, with its fraction: 0 .. modulus; a NaN counts as 0.
+inline float masked_index(float index, float modulus) {
+  const float rest = index - modulus * std::floor(index * (1 / modulus));  // products by powers of two are exact
+  return rest >= 0 ? rest : 0.0f;
+}
+/// The stored word of a masked index: floor(index + 0.5), masked again. The sum itself is not exact above 2^23.
+inline std::uint32_t index_word(const ColorLayout& layout, float index) {
+  const auto whole = static_cast<std::uint32_t>(index > 0 ? index : 0.0f);
+  return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.word_mask();
 }
 /// What a display shows of level v of b bits: round(255 v / (2^b - 1)), in integers.
 constexpr std::uint32_t shown_level(std::uint32_t v, int bits) {

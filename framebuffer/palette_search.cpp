@@ -116,15 +116,22 @@ std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept {
   std::uint32_t nearest = *candidate;
   float nearest_distance = 4.0f;  // more than the cube's diagonal
   for (; candidate != end; ++candidate) {
-    const Entry& entry = entries_[*candidate];
-    const float dr = r - entry.r, dg = g - entry.g, db = b - entry.b;
-    const float distance = dr * dr + dg * dg + db * db;
+    const float distance = entries_[*candidate].squared_distance(r, g, b);
     if (distance < nearest_distance) {
       nearest_distance = distance;
       nearest = *candidate;
     }
   }
   return entries_[nearest].index;
+}
+
+std::uint32_t PaletteSearch::nearest_unclamped(float r, float g, float b) const noexcept {
+  const auto inside = [](float c) { return c >= 0 && c <= 1; };
+  if (inside(r) && inside(g) && inside(b)) return nearest(r, g, b);
+  const Entry* nearest_entry = &entries_.front();
+  for (const Entry& entry : entries_)
+    if (entry.squared_distance(r, g, b) < nearest_entry->squared_distance(r, g, b)) nearest_entry = &entry;
+  return nearest_entry->index;
 }
 
 }  // namespace tessera

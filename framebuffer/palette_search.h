@@ -20,11 +20,18 @@ class PaletteSearch {
   /// smallest squared distance of components 0..1 (stored value / 255), ties to the lowest index. Components are clamped to 0..1, a NaN counts as 0. Equals
   /// nearest_reference() bit for bit. Never fails; thread-safe.
   std::uint32_t nearest(float r, float g, float b) const noexcept;
+  /// The same without clamping: the colour that dither looks up may lie beyond 0..1, where other entries are nearest than to
+  /// the cube's border. Out there it looks at every entry. @pre finite numbers
+  std::uint32_t nearest_unclamped(float r, float g, float b) const noexcept;
 
  private:
   struct Entry {
     float r, g, b;
     std::uint32_t index;  ///< in the palette
+    float squared_distance(float red, float green, float blue) const {
+      const float dr = red - r, dg = green - g, db = blue - b;
+      return dr * dr + dg * dg + db * db;
+    }
   };
   int cells_ = 1;                          ///< in each direction; a power of two
   std::vector<Entry> entries_;             ///< distinct colours, by index

@@ -58,6 +58,13 @@ HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch,
                 level(b, layout.b_bits));
 }
 
+/// Words of masked indices, step by step index_word().
+HWY_INLINE Int index_words(const ColorLayout& layout, Float index) {
+  const Int whole = truncate(hn::Max(index, hn::Zero(kFloat)));
+  const auto up = hn::RebindMask(kInt, hn::Ge(hn::Sub(index, hn::ConvertTo(kFloat, whole)), splat(0.5f)));
+  return hn::And(hn::Sub(whole, hn::VecFromMask(kInt, up)), splat(static_cast<std::int32_t>(layout.word_mask())));
+}
+
 /// Lit points have normals of length 1 in the batch.
 inline HWY_NOINLINE void store_normals(TileRun& run, const PixelBatch& pixels) {
   for (int slot = 0; slot < pixels.blocks; ++slot)
@@ -84,8 +91,9 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
       const std::uint32_t covered_lanes = pixels.covered[slot] >> (chunk * kLanes) & ((1u << kLanes) - 1);
       if (covered_lanes == 0) continue;
       const int first = slot * kBlockPixels + chunk * kLanes;
-      const Int words = !per_pixel && draw.scaled_colors ? pack_scaled(run.frame.layout, batch, first)
-                                                         : quantize_chunk(run.frame, batch, first, covered_lanes);
+      const Int words = draw.index[pixels.back ? 1 : 0]      ? index_words(run.frame.layout, hn::Load(kFloat, batch.field[kColorR] + first))
+                        : !per_pixel && draw.scaled_colors ? pack_scaled(run.frame.layout, batch, first)
+                                                           : quantize_chunk(run.frame, batch, first, covered_lanes);
       store_words(run.memory.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
     }
   }
@@ -99,7 +107,7 @@ HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint3
   pixels.draw = draw_number;
   pixels.back = back;
   pixels.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
-  pixels.attribute_count = per_pixel ? draw.attribute_count : 3;
+  pixels.attribute_count = per_pixel ? draw.attribute_count : draw.index[back ? 1 : 0] ? 1 : 3;
   pixels.adjacent = true;
   for (int j = 0; j < pixels.attribute_count; ++j) {
     pixels.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
@@ -132,6 +140,7 @@ HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, con
 HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                   std::uint32_t taken) {
   switch (pixels.adjacent ? pixels.attribute_count : 0) {
+    case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
     case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
     case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);
     default: return gather_counted<0>(run, pixels, triangle, bx, by, covered, taken);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "framebuffer/format.h"
 #include "shading/lighting.h"
 #include "shading/power_reference.h"
 #include "shading/trigonometry.h"
@@ -119,6 +120,31 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
     program.terms.push_back(term);
   }
   program.needs_position |= program.needs_view;
+  return program;
+}
+
+LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons) {
+  const auto [ambient, diffuse, specular] = material.indexes;
+  const auto grey = [](const Rgb& c) {
+    const float luminance = std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]));
+    return Rgb{luminance, luminance, luminance};
+  };
+  std::vector<EyeLight> greys = lights;
+  for (EyeLight& light : greys) {
+    light.ambient = {};
+    light.diffuse = grey(light.diffuse);
+    light.specular = grey(light.specular);
+  }
+  // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not matter.
+  SurfaceMaterial surface{.ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
+  if (diffuse != ambient) surface.diffuse = {1, 0, 0};
+  if (diffuse != ambient || specular != ambient) surface.specular = {0, 1, 0};
+  LightingModel dark = model;
+  dark.scene_ambient = {};
+  LightingProgram program = plan_lighting(surface, {}, greys, dark, reasons);
+  program.index = true;
+  program.indexes = material.indexes;
+  program.index_modulus = material.modulus;
   return program;
 }
 

@@ -34,7 +34,7 @@ struct FragmentTriangle {
   bool has_depth;
   std::int32_t id = 0;            // for draws that are shaded later
   std::uint32_t number = 0;       // of the triangle in its mesh
-  const float* flat = nullptr;    // r g b a
+  const float* flat = nullptr;    // r g b a, or an index
   PixelBatch pixels;              // of this surface, for lighting
   bool seen = false;
 
@@ -94,6 +94,14 @@ struct FragmentTriangle {
     return out;
   }
 
+  /// Masked indices of a chunk.
+  HWY_INLINE Float indices(int bx, int by, int chunk) const {
+    if (draw.source == ColorSource::constant) return splat(draw.color[face()][0]);
+    if (flat != nullptr) return splat(flat[0]);
+    if (draw.source == ColorSource::per_pixel) return hn::Load(kFloat, run.memory.batch.field[kColorR] + chunk * kLanes);
+    return interpolate(at(bx, by, chunk), corners(triangle, draw.color_attribute[face()]));
+  }
+
   HWY_INLINE Float thresholds(int bx, int by, int chunk) const {
     if (!ops.dither) return splat(0.5f);
     alignas(64) float t[kLanes];
@@ -112,15 +120,19 @@ struct FragmentTriangle {
     for (int l = 0; l < kLanes; ++l) {
       if ((lanes >> l & 1) == 0) continue;
       const float moved = (t[l] - 0.5f) * ops.palette_spread;
-      words[l] = static_cast<std::int32_t>(color_word(run.frame.layout, run.frame.palette_search, c[0][l] + moved, c[1][l] + moved, c[2][l] + moved));
+      words[l] = static_cast<std::int32_t>(run.frame.palette_search->nearest_unclamped(c[0][l] + moved, c[1][l] + moved, c[2][l] + moved));
     }
     return hn::Load(kInt, words);
   }
 
-  /// What a colour makes of the stored words of one sample.
+  /// What a colour, or an index in place of its red, makes of the stored words of one sample.
   HWY_INLINE Int words(Colors source, Float threshold, std::uint32_t lanes, Int stored) const {
     const ColorLayout& layout = run.frame.layout;
     if (draw.number != TileDraw::Number::none) return splat(static_cast<std::int32_t>(draw.number == TileDraw::Number::draw ? draw.word : number));
+    if (draw.index[face()]) {
+      const Int result = index_words(layout, source.c[0]);
+      return ops.logic == Logic::copy ? result : logic_words(ops.logic, result, stored);
+    }
     if (ops.blend) source = blended_colors(ops, source, stored_colors(layout, stored));
     const Int result = layout.index ? nearest_entries(source, threshold, lanes) : words_of(layout, source, threshold);
     return ops.logic == Logic::copy ? result : logic_words(ops.logic, result, stored);
@@ -156,7 +168,7 @@ struct FragmentTriangle {
     const auto lanes_of = [](std::uint32_t pixel_bits, int chunk) { return pixel_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       if (lanes_of(bits, chunk) == 0) continue;
-      const Colors source = colors(bx, by, chunk);
+      const Colors source = draw.index[face()] ? Colors{{indices(bx, by, chunk)}} : colors(bx, by, chunk);
       const Float threshold = thresholds(bx, by, chunk);
       for (int s = 0; s < run.samples; ++s) {
         const std::uint32_t lanes = lanes_of(passed[s], chunk);

@@ -211,10 +211,25 @@ void prepare_points(const LightingProgram& program, ShadingBatch& batch, int cou
   }
 }
 
+/// index = min(a + d (1 - s) (dm - a) + s (sm - a), sm), masked, from d in red and s in green.
+void store_indices(const LightingProgram& program, ShadingBatch& batch, int count) {
+  const auto [ambient, diffuse, specular] = program.indexes;
+  const Float zero = hn::Zero(kFloat), most = splat(specular), modulus = splat(program.index_modulus), inverse = splat(1 / program.index_modulus);
+  for (int point = 0; point < count; point += kLanes) {
+    const Float d = hn::Load(kFloat, batch.field[kColorR] + point), s = hn::Load(kFloat, batch.field[kColorG] + point);
+    const Float matt = mul_add(hn::Mul(d, hn::Sub(splat(1.0f), s)), splat(diffuse - ambient), splat(ambient));
+    const Float sum = mul_add(s, splat(specular - ambient), matt);
+    const Float index = hn::IfThenElse(hn::Lt(sum, most), sum, most);
+    const Float rest = hn::Sub(index, hn::Mul(modulus, hn::Floor(hn::Mul(index, inverse))));
+    hn::Store(hn::IfThenElseZero(hn::Ge(rest, zero), rest), kFloat, batch.field[kColorR] + point);
+  }
+}
+
 void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count) {
-  if (program.terms.size() == 1 && !program.tracked && !program.terms.front().general) return light_kernels(program.terms.front()).alone(program, batch, count);
+  if (program.terms.size() == 1 && !program.tracked && !program.index && !program.terms.front().general) return light_kernels(program.terms.front()).alone(program, batch, count);
   prepare_points(program, batch, count);
   for (const LightTerm& term : program.terms) light_kernels(term).add(term, batch, count);
+  if (program.index) return store_indices(program, batch, count);
   for (int point = 0; point < count; point += kLanes) {
     Vector color = load_vector(batch, kColorR, point);
     if (program.tracked) {

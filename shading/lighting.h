@@ -3,6 +3,9 @@
 //
 //   colour = emission_m + ambient_scene * ambient_m
 //          + sum over lights of att * spot * ( ambient_i * ambient_m + max(L.n, 0) * diffuse_i * diffuse_m + spec * specular_i * specular_m )
+//
+// Lighting of indices sums the lights' luminances: d = sum of att * spot * max(L.n, 0) * diffuse_i, s likewise of the highlights,
+// index = min(a_m + d (1 - s) (d_m - a_m) + s (s_m - a_m), s_m).
 #pragma once
 
 #include <array>
@@ -23,7 +26,7 @@ enum BatchField : std::uint8_t {
   kVertexR, kVertexG, kVertexB,              // the vertex colour, where it stands for a material's colour
   kViewX, kViewY, kViewZ,                    // towards a local viewer, unit
   kNormalDotView,
-  kColorR, kColorG, kColorB,                 // the sum; the result, clamped to 0..1
+  kColorR, kColorG, kColorB,                 // the sum; the result, clamped to 0..1, or a masked index in the first
   kTrackedR, kTrackedG, kTrackedB,           // the sum of what the vertex colour multiplies
   kBatchFields
 };
@@ -93,6 +96,9 @@ struct LightingProgram {
   Rgb base{};                  ///< emission + scene ambient
   Rgb tracked_base{};
   std::vector<LightTerm> terms;
+  bool index = false;          ///< the result is an index; red of the sum is d, green is s
+  std::array<float, 3> indexes{0, 1, 1};  ///< ambient, diffuse, specular
+  float index_modulus = 2;     ///< 2^bits: the index is masked
 };
 
 /// Plans a surface: what its lights and material cannot need is not in the program. `reasons`, if given, receives a line for
@@ -100,7 +106,16 @@ struct LightingProgram {
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights,
                               const LightingModel& model, std::string* reasons);
 
-/// Lights `count` points, a multiple of 16, of the batch: needs the fields that the program names, leaves the colour.
+/// The material of a surface whose colour is an index.
+struct IndexMaterial {
+  std::array<float, 3> indexes{0, 1, 1};  ///< ambient, diffuse, specular
+  float shininess = 0;
+  float modulus = 2;                      ///< 2^bits of the buffer
+};
+/// The same for indices.
+LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons);
+
+/// Lights `count` points, a multiple of 16, of the batch: needs the fields that the program names, leaves the colour or index.
 /// Bit-identical to light_points_reference() on every instruction set.
 using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
 LightPoints* light_points(Isa isa);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "framebuffer/format.h"
 #include "shading/lighting.h"
 #include "shading/power_reference.h"
 
@@ -14,6 +15,7 @@ struct PointReference {
   Rgb vertex{};
 };
 
+/// The index of a program of indices comes in red; what else is in the sum stays.
 inline Rgb light_point_reference(const LightingProgram& program, const PointReference& point) {
   using Vec = std::array<float, 3>;
   const auto dot = [](const Vec& a, const Vec& b) { return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2])); };
@@ -73,6 +75,12 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
     accumulate(tracked, factor, term.tracked_ambient);
     accumulate(tracked, diffuse, term.tracked_diffuse);
     accumulate(tracked, highlight, term.tracked_specular);
+  }
+  if (program.index) {
+    const auto [ambient, diffuse, specular] = program.indexes;
+    const float d = color[0], s = color[1];
+    const float sum = std::fma(s, specular - ambient, std::fma(d * (1.0f - s), diffuse - ambient, ambient));
+    return {masked_index(sum < specular ? sum : specular, program.index_modulus), color[1], color[2]};
   }
   Rgb result{};
   for (std::size_t c = 0; c < 3; ++c) {

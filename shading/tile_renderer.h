@@ -45,10 +45,11 @@ struct TileDraw {
   std::uint32_t write_mask = 0xffffffffu;  ///< of the colour word's bits
   std::uint32_t word = 0;                                     ///< constant
   const std::uint32_t* words[2] = {};                         ///< vertex_word, triangle_word: front, back
-  /// interpolated: attribute of r for front and back faces; the next two are g and b. Already scaled to levels, with the half
+  /// interpolated: attribute of r, or of the index, for front and back faces; the next two are g and b. Already scaled to levels, with the half
   /// that rounds, if scaled_colors; else 0..1.
   int color_attribute[2] = {0, 0};
   bool scaled_colors = true;
+  bool index[2] = {};                      ///< front, back: the colour is a single float, a masked index
   bool deferred = false;                   ///< shade once for each visible pixel
   /// per_pixel: programs for front and back, and which batch field each attribute goes to, from first_attribute on.
   const LightingProgram* programs[2] = {};
@@ -59,7 +60,7 @@ struct TileDraw {
   /// What its fragments go through besides the depth test; null: nothing, and what follows is not looked at.
   const FragmentOps* ops = nullptr;
   bool flat = false;                       ///< interpolated: a triangle has the colour of its provoking vertex, or its own
-  const float* face_colors[2] = {};        ///< flat: r g b a for each triangle, front and back; null: the vertex's
+  const float* face_colors[2] = {};        ///< flat: r g b a, or an index, for each triangle, front and back; null: the vertex's
   std::array<float, 4> color[2] = {};      ///< constant: front, back
   int alpha_attribute[2] = {-1, -1};       ///< interpolated alpha for front and back faces; -1: `alpha`
   float alpha[2] = {1, 1};

@@ -17,12 +17,13 @@ struct MeshData {
   std::vector<float> normals;           ///< x y z for each vertex, or empty
   std::vector<float> colors;            ///< r g b a for each vertex, or empty
   std::vector<std::uint32_t> indices;   ///< three a triangle; empty: vertices in order
+  std::vector<float> color_indices;     ///< one for each vertex, or empty
 
   std::size_t vertex_count() const { return positions.size() / static_cast<std::size_t>(position_components); }
   std::size_t triangle_count() const { return (indices.empty() ? vertex_count() : indices.size()) / 3; }
   /// Valid while this object lives and is not changed.
   Mesh view() const {
-    return {.positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices};
+    return {.positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices, .color_indices = color_indices};
   }
 };
 

@@ -57,6 +57,14 @@ std::vector<float> read_per_vertex(const Object& object, const char* key, std::s
   return read_vectors(*list, components);
 }
 
+std::vector<float> read_color_indices(const Value& list, std::size_t vertices) {
+  if (list.size() != vertices) list.fail("one for each of the " + std::to_string(vertices) + " positions");
+  std::vector<float> indices;
+  indices.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) indices.push_back(list.element(i).real());
+  return indices;
+}
+
 std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices) {
   if (list.size() == 0 || list.size() % 3 != 0) list.fail("three indices for each triangle");
   std::vector<std::uint32_t> indices;
@@ -70,7 +78,7 @@ std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices)
 }
 
 MeshData read_inline(const Value& value) {
-  const Object object(value, {"primitive", "positions", "normals", "colors", "indices"}, {"color_indices", "texcoords"});
+  const Object object(value, {"primitive", "positions", "normals", "colors", "color_indices", "indices"}, {"texcoords"});
   if (const auto primitive = object.find("primitive"))
     primitive->choice<int>({{"triangles", 0}}, {"points", "lines", "line_strip", "line_loop", "triangle_strip", "triangle_fan", "quads",
                                                 "quad_strip", "polygon"});
@@ -82,6 +90,7 @@ MeshData read_inline(const Value& value) {
   mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
   mesh.normals = read_per_vertex(object, "normals", 3, vertices);
   mesh.colors = read_per_vertex(object, "colors", 4, vertices);
+  if (const auto indices = object.find("color_indices")) mesh.color_indices = read_color_indices(*indices, vertices);
   if (const auto indices = object.find("indices"))
     mesh.indices = read_indices(*indices, vertices);
   else if (vertices % 3 != 0)
@@ -93,7 +102,7 @@ MeshData read_inline(const Value& value) {
 
 void read_meshes(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
   value.for_each_member([&](const std::string& name, const Value& member) {
-    const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors", "indices"}, {"color_indices", "texcoords"});
+    const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors", "color_indices", "indices"}, {"texcoords"});
     MeshData mesh = object.has("builtin") ? read_builtin(member) : object.has("file") ? read_file(member, base_folder, models, scene) : read_inline(member);
     mesh.name = name;
     scene.meshes.push_back(std::move(mesh));

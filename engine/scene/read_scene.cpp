@@ -113,7 +113,7 @@ Light read_light(const Value& value) {
 }
 
 Material read_material(const Value& value) {
-  const Object object(value, {"preset", "ambient", "diffuse", "specular", "emission", "shininess"}, {"color_indexes"});
+  const Object object(value, {"preset", "ambient", "diffuse", "specular", "emission", "shininess", "color_indexes"});
   Material material;
   if (const auto preset = object.find("preset")) {
     const std::vector<std::string_view> names = material_names();
@@ -126,6 +126,10 @@ Material read_material(const Value& value) {
   if (const auto specular = object.find("specular")) material.specular = specular->color();
   if (const auto emission = object.find("emission")) material.emission = emission->color();
   if (const auto shininess = object.find("shininess")) material.shininess = shininess->real(0, kMostExponent);
+  if (const auto indexes = object.find("color_indexes")) {
+    if (!indexes->json().is_array() || indexes->size() != 3) indexes->fail("an array of 3 numbers");
+    material.color_indexes = {indexes->element(0).real(), indexes->element(1).real(), indexes->element(2).real()};
+  }
   return material;
 }
 

@@ -158,6 +158,10 @@ class TESSERA_API FrameBuffer {
   FrameBuffer& operator=(FrameBuffer&&) noexcept;
 
   const FrameBufferFormat& format() const noexcept;
+  /// Index buffers: another palette, at most 2^color_bits entries, 0..1 each; empty: default_palette(color_bits). What is stored
+  /// stays and shows through it; frames finished from here on look for the nearest of its entries. Throws Error for an RGB
+  /// buffer, for entries out of range or too many, and where memory runs out; then nothing changed.
+  void set_palette(std::span<const Color> entries);
   /// Planes of a buffer: colour bits and alpha bits, depth bits (0, 16, 24, 32), stencil bits, four times the accumulation bits.
   int plane_count(Buffer buffer) const noexcept;
   /// Bytes that the planes of a buffer take now; 0 while it is not allocated.
@@ -252,11 +256,14 @@ struct Mesh {
   FloatArray normals{};                     ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
   ColorArray colors{};                      ///< r g b a for each vertex
   IndexArray indices{};                     ///< three a triangle; empty: vertices in order
+  FloatArray color_indices{};               ///< one for each vertex, continuous: what unlit draws into index buffers show in place of colours
 };
 
 struct Material {
   Color ambient{0.2f, 0.2f, 0.2f, 1}, diffuse{0.8f, 0.8f, 0.8f, 1}, specular{0, 0, 0, 1}, emission{0, 0, 0, 1};
   float shininess = 0;                      ///< 0 .. 16384
+  /// Index buffers: ambient, diffuse, specular index. Lit draws then have index lighting; absent: the nearest palette entries to their colours.
+  std::optional<std::array<float, 3>> color_indexes{};
 };
 /// The named materials of the lighting tables: "emerald", "polished_gold", ... Empty for an unknown name.
 TESSERA_API std::optional<Material> named_material(std::string_view name);

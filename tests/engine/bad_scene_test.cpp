@@ -118,7 +118,8 @@ const BadScene kBadScenes[] = {
     {R"("lights": [{"attenuation": [1, 0]}])", "/lights/0/attenuation", "expected an array of 3 numbers"},
     {R"("materials": {"red": {"shininess": -1}})", "/materials/red/shininess", "expected a number from 0 to 16384"},
     {R"("materials": {"red": {"preset": "goldd"}})", "/materials/red/preset", "expected one of \"emerald\""},
-    {R"("materials": {"red": {"color_indexes": [0, 1, 1]}})", "/materials/red/color_indexes", "is part of the format but not supported"},
+    {R"("materials": {"red": {"color_indexes": [0, 1]}})", "/materials/red/color_indexes", "expected an array of 3 numbers"},
+    {R"("materials": {"red": {"color_indexes": [0, 1, "x"]}})", "/materials/red/color_indexes/2", "expected a number"},
     {R"("textures": {"t": {"file": "x.png"}})", "/textures", "not supported"},
 
     // Meshes
@@ -144,7 +145,8 @@ const BadScene kBadScenes[] = {
     {with_positions(R"("primitive": "quads")"), "/meshes/m/primitive", "\"quads\" is part of the format but not supported"},
     {with_positions(R"("primitive": "triangle")"), "/meshes/m/primitive", "did you mean \"triangles\"?"},
     {with_positions(R"("texcoords": [[0,0],[1,0],[0,1]])"), "/meshes/m/texcoords", "not supported"},
-    {with_positions(R"("color_indices": [0,1,2])"), "/meshes/m/color_indices", "not supported"},
+    {with_positions(R"("color_indices": [0,1])"), "/meshes/m/color_indices", "expected one for each of the 3 positions"},
+    {with_positions(R"("color_indices": [0,1,1e39])"), "/meshes/m/color_indices/2", "32-bit float"},
 
     // Frame
     {R"("frame": {})", "/frame", "expected an array"},

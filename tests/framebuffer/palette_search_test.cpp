@@ -62,6 +62,30 @@ TEST(PaletteSearch, FindsWhatLookingAtEveryEntryFinds) {
   }
 }
 
+// A dithered colour may leave the cube by half its width. Nearest to it is not what is nearest to the cube's border.
+TEST(PaletteSearch, UnclampedLooksBeyondTheCube) {
+  std::size_t other = 0;
+  for (const Palette& palette : palettes()) {
+    if (palette.entries.empty() || palette.entries.size() > 300) continue;
+    const PaletteSearch search(palette);
+    std::mt19937 random(6);
+    for (int i = 0; i < 5000; ++i) {
+      const float color[3] = {2 * component(random) - 0.5f, 2 * component(random) - 0.5f, 2 * component(random) - 0.5f};
+      std::uint32_t expected = 0;
+      float least = 100;
+      for (std::uint32_t e = 0; e < palette.entries.size(); ++e) {
+        const float r = color[0] - static_cast<float>(palette[e].r) / 255.0f, g = color[1] - static_cast<float>(palette[e].g) / 255.0f, b = color[2] - static_cast<float>(palette[e].b) / 255.0f;
+        const float distance = r * r + g * g + b * b;
+        if (distance < least) least = distance, expected = e;
+      }
+      const std::uint32_t found = search.nearest_unclamped(color[0], color[1], color[2]);
+      ASSERT_EQ(found, expected) << palette.entries.size() << " given: " << color[0] << " " << color[1] << " " << color[2];
+      other += found != search.nearest(color[0], color[1], color[2]);
+    }
+  }
+  EXPECT_GT(other, 1000u);
+}
+
 TEST(PaletteSearch, GreyDiagonalsAndBlackAndWhiteWhereTiesLive) {
   for (const Palette& palette : palettes()) {
     const PaletteSearch search(palette);

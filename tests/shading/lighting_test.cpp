@@ -77,6 +77,72 @@ TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
   }
 }
 
+// Indices: negative, wrapping, with and without highlights; programs of no, one and many lights.
+TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
+  RandomLighting random(5);
+  int wrapped = 0, most = 0, between = 0;
+  for (int round = 0; round < rounds(2000); ++round) {
+    const LightingCase c = random.next();
+    IndexMaterial material{{random.in(-100, 100), random.in(-100, 100), random.in(-100, 100)}, c.material.shininess, std::ldexp(1.0f, round % 24 + 1)};
+    if (random.one_in(4)) material.indexes[1] = material.indexes[0];
+    if (random.one_in(4)) material.indexes[2] = material.indexes[0];
+    if (random.one_in(4)) material.indexes[0] = 0;
+    LightingProgram program = plan_index_lighting(material, c.lights, c.model, nullptr);
+    program.renormalize = c.renormalize;
+    program.negate_normal = c.negate_normal;
+    std::vector<LightingPoint> points(64);
+    for (LightingPoint& p : points) p = random.point();
+    for (const Isa isa : available_isas()) {
+      const std::vector<Rgb> colors = light(program, points, isa);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const float expected = light_point_reference(program, {points[i].normal, points[i].position, points[i].vertex})[0];
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(colors[i][0]), std::bit_cast<std::uint32_t>(expected)) << name_of(isa) << " point " << i << ": " << colors[i][0] << " for " << expected;
+        ASSERT_TRUE(expected >= 0 && expected <= material.modulus);
+        wrapped += material.indexes[2] < 0;
+        most += expected == material.indexes[2];
+        between += expected > material.indexes[0] && expected < material.indexes[2];
+      }
+    }
+  }
+  EXPECT_TRUE(wrapped > 1000 && most > 1000 && between > 1000) << wrapped << " " << most << " " << between;
+}
+// Every kernel's sums, by the formula in double: what a grey material would have, through the last step.
+TEST(Lighting, OfIndicesIsThatOfTheFormula) {
+  RandomLighting random(6);
+  std::size_t compared = 0;
+  const auto luminance = [](const Rgb& c) { return 0.30f * c[0] + 0.59f * c[1] + 0.11f * c[2]; };
+  for (int round = 0; round < rounds(2000); ++round) {
+    LightingCase c = random.next();
+    c.lights.resize(std::min<std::size_t>(c.lights.size(), 2));
+    c.tracked = {};
+    c.material = {{0, 0, 0}, {0.25f, 0, 0}, {0, 0.25f, 0}, {0.5f, 0.5f, 0}, c.material.shininess};  // within 0..1, so that nothing is clamped
+    c.model.scene_ambient = {0, 0, 0};
+    const IndexMaterial material{{3, 40, 90}, c.material.shininess, 256};
+    LightingProgram program = plan_index_lighting(material, c.lights, c.model, nullptr);
+    program.renormalize = c.renormalize;
+    program.negate_normal = c.negate_normal;
+    std::vector<LightingPoint> points(64);
+    for (LightingPoint& p : points) p = random.point();
+    const std::vector<Rgb> colors = light(program, points, available_isas().front());
+    for (EyeLight& l : c.lights) {
+      l.ambient = {0, 0, 0};
+      l.diffuse = Rgb{1, 1, 1} * luminance(l.diffuse);
+      l.specular = Rgb{1, 1, 1} * luminance(l.specular);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bool smooth = true;
+      const std::array<double, 3> sums = lighting_formula(c, points[i], smooth);
+      if (!smooth || sums[0] <= 0 || sums[0] >= 1 || sums[1] <= 0 || sums[1] >= 1) continue;
+      const double d = 4 * (sums[0] - 0.5), s = 4 * (sums[1] - 0.5);
+      const double index = std::min(3 + d * (1 - s) * 37 + s * 87, 90.0), expected = index - 256 * std::floor(index / 256);
+      if (std::abs(index) < 0.01) continue;  // either end of the range
+      ASSERT_NEAR(colors[i][0], expected, 0.02) << "round " << round << ", d " << d << ", s " << s;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 50000u);
+}
+
 double distance_to_formula(const LightingCase& c, const std::vector<LightingPoint>& points, std::size_t* compared = nullptr) {
   double worst = 0;
   const std::vector<Rgb> colors = light(c.program(), points, available_isas().front());
