@@ -49,6 +49,10 @@ struct UnormDepth {
     return base + dx * static_cast<std::uint64_t>(std::int64_t{x}) + dy * static_cast<std::uint64_t>(std::int64_t{y});
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift); }
+  /// What is moved from sample to sample.
+  using Anchor = std::uint64_t;
+  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup& samples, int s, int i, SamplePosition, int, int) { return samples.fixed_base[s][i]; }
+  HWY_INLINE void move_to(Anchor to) { base = to; }
 
   /// A block's first pixel; keys(chunk) are those of its lanes.
   struct Block {
@@ -117,6 +121,14 @@ struct Float32Depth {
     first_y = static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - g.y[0][i]) * (1.0 / 256));
   }
   HWY_INLINE void prepare_blocks() {}
+  struct Anchor {
+    float x, y;
+  };
+  static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at, int tile_x, int tile_y) {
+    return {static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - (g.x[0][i] - at.x)) * (1.0 / 256)),
+            static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - (g.y[0][i] - at.y)) * (1.0 / 256))};
+  }
+  HWY_INLINE void move_to(Anchor to) { first_x = to.x, first_y = to.y; }
   HWY_INLINE std::int32_t key(int x, int y) const {
     const float z = std::fma(dx, first_x + static_cast<float>(x), std::fma(dy, first_y + static_cast<float>(y), z0));
     const float low_cut = z > low ? z : low, cut = (low_cut < high ? low_cut : high) + 0.0f;  // + 0: no negative zero

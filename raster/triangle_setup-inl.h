@@ -9,12 +9,14 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "framebuffer/format.h"
 #include "framebuffer/tile_grid.h"
 #include "raster/fixed_point.h"
+#include "raster/sample_positions.h"
 #include "raster/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +25,8 @@ namespace HWY_NAMESPACE {
 
 /// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0) is the tile's
 /// top left. Triangles without a pixel in `rect` get no bit in group.mask.
-inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, const PixelRect& rect) {
+/// @param reach  how far from its centre a pixel is looked at, 1/256 pixel; bounds are those of such pixels
+inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, const PixelRect& rect, std::int32_t reach = 0) {
   for (int i = 0; i < kGroupSize; ++i) {
     const double dx1 = g.x[1][i] - g.x[0][i], dy1 = g.y[1][i] - g.y[0][i], dx2 = g.x[2][i] - g.x[0][i], dy2 = g.y[2][i] - g.y[0][i];
     const double area = dx1 * dy2 - dx2 * dy1;  // exact
@@ -56,10 +59,10 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   for (int i = 0; i < kGroupSize; ++i) {
     const std::int32_t low_x = std::min(g.x[0][i], std::min(g.x[1][i], g.x[2][i])), high_x = std::max(g.x[0][i], std::max(g.x[1][i], g.x[2][i]));
     const std::int32_t low_y = std::min(g.y[0][i], std::min(g.y[1][i], g.y[2][i])), high_y = std::max(g.y[0][i], std::max(g.y[1][i], g.y[2][i]));
-    g.x0[i] = std::max(first_pixel(low_x) - tile_x, rect.x0);
-    g.y0[i] = std::max(first_pixel(low_y) - tile_y, rect.y0);
-    g.x1[i] = std::min(last_pixel(high_x) - tile_x, rect.x1 - 1);
-    g.y1[i] = std::min(last_pixel(high_y) - tile_y, rect.y1 - 1);
+    g.x0[i] = std::max(first_pixel(low_x - reach) - tile_x, rect.x0);
+    g.y0[i] = std::max(first_pixel(low_y - reach) - tile_y, rect.y0);
+    g.x1[i] = std::min(last_pixel(high_x + reach) - tile_x, rect.x1 - 1);
+    g.y1[i] = std::min(last_pixel(high_y + reach) - tile_y, rect.y1 - 1);
     g.wide[i] = std::max(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
     visible[i] = g.x0[i] <= g.x1[i] && g.y0[i] <= g.y1[i] ? 1 : 0;
   }
@@ -83,23 +86,32 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
   return ((w - kBiasBits) << kFraction) + (b - kBiasBits);
 }
 
-/// The planes of a group's unorm depths in fixed point: exact steps from the first vertex's pixel to the tile's first.
+/// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the first vertex's pixel.
+template <int kFraction>
+HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy, SamplePosition from, int tile_x, int tile_y, std::uint64_t lift) {
+  const std::int32_t x = g.x[0][i] - from.x, y = g.y[0][i] - from.y;
+  const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
+  return ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed_modulo<kFraction>(to_center) + dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
+         dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
+}
+
+/// The planes of a group's unorm depths in fixed point.
 template <int kFraction>
 HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y, std::uint64_t lift) {
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::int32_t x = g.x[0][i], y = g.y[0][i];
-    const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
     const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]), dy = fixed_modulo<kFraction>(g.depth_dy[i]);
     g.fixed_dx[i] = dx;
     g.fixed_dy[i] = dy;
-    g.fixed_base[i] = ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed_modulo<kFraction>(to_center) +
-                      dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
+    g.fixed_base[i] = fixed_base<kFraction>(g, i, dx, dy, {0, 0}, tile_x, tile_y, lift);
   }
 }
 
 /// The same in exact integers, for triangle i: of a needle, whose gradients are steep and whose terms cancel.
+struct ExactDepth {
+  std::uint64_t dx, dy, base;
+};
 template <int kFraction>
-void set_up_exact_depth(TriangleGroup& g, int i, int tile_x, int tile_y, std::uint64_t lift) {
+ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int tile_x, int tile_y, std::uint64_t lift) {
   using Wide = __int128;
   const auto area = static_cast<std::int64_t>(g.area[i]);
   const std::int64_t dz1 = std::int64_t{g.z[1][i]} - g.z[0][i], dz2 = std::int64_t{g.z[2][i]} - g.z[0][i];
@@ -109,12 +121,11 @@ void set_up_exact_depth(TriangleGroup& g, int i, int tile_x, int tile_y, std::ui
     const Wide scaled = numerator * (Wide{1} << kFraction), half = area / 2;
     return static_cast<std::uint64_t>((scaled + (scaled < 0 ? -half : half)) / area);
   };
-  const std::int32_t x = g.x[0][i], y = g.y[0][i];
+  const std::int32_t x = g.x[0][i] - from.x, y = g.y[0][i] - from.y;
   const std::uint64_t dx = fixed(Wide{nx} * kSubpixelScale), dy = fixed(Wide{ny} * kSubpixelScale);
-  g.fixed_dx[i] = dx;
-  g.fixed_dy[i] = dy;
-  g.fixed_base[i] = ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
-                    dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
+  return {dx, dy,
+          ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
+              dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)})};
 }
 
 /// Depth planes of a group: in doubles where those are good for 2^-8 of a depth word, else exactly.
@@ -129,8 +140,15 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroup
     const double terms = (a1 + b1) * dz1 + (a2 + b2) * dz2, reach = a1 + a2 + b1 + b2;  // reach in 1/256 pixel
     steep[i] = terms * reach > 0x1p42 * g.area[i] ? 1 : 0;
   }
-  for (int i = 0; i < g.count; ++i)
-    if (steep[i] != 0 && (g.mask >> i & 1) != 0) set_up_exact_depth<kFraction>(g, i, tile_x, tile_y, lift);
+  g.steep = 0;
+  for (int i = 0; i < g.count; ++i) {
+    if (steep[i] == 0 || (g.mask >> i & 1) == 0) continue;
+    g.steep |= 1u << i;
+    const ExactDepth exact = exact_depth<kFraction>(g, i, {0, 0}, tile_x, tile_y, lift);
+    g.fixed_dx[i] = exact.dx;
+    g.fixed_dy[i] = exact.dy;
+    g.fixed_base[i] = exact.base;
+  }
 }
 
 /// Depth gradients: per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32).
@@ -158,6 +176,31 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
     set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
   else if (kind != DepthKind::float32)
     set_up_unorm_depth<kUnormFraction>(g, z, tile_x, tile_y, 0);
+}
+
+/// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has unorm depth, set_up_depth
+inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples, DepthKind kind, int tile_x, int tile_y) {
+  const SamplePosition* const positions = sample_positions(samples);
+  for (int s = 0; s < samples; ++s) {
+    const SamplePosition at = positions[s];
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < kGroupSize; ++i) {
+        const std::int32_t a = g.a[k][i], b = g.b[k][i], bias = a > 0 || (a == 0 && b > 0) ? 0 : -1;
+        to.e[s][k][i] = g.e[k][i] + ((static_cast<std::int32_t>(g.rest[k][i]) + bias + a * at.x + b * at.y) >> kSubpixelBits);
+      }
+    if (kind == DepthKind::unorm32) {
+      for (int i = 0; i < kGroupSize; ++i)
+        to.fixed_base[s][i] = fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
+    } else if (kind != DepthKind::none && kind != DepthKind::float32) {
+      for (int i = 0; i < kGroupSize; ++i) to.fixed_base[s][i] = fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y, 0);
+    }
+    if (kind == DepthKind::none || kind == DepthKind::float32) continue;
+    for (std::uint32_t left = g.steep; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      to.fixed_base[s][i] = (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift))
+                                                        : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y, 0)).base;
+    }
+  }
 }
 
 /// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k + shift_k, which is

@@ -5,6 +5,7 @@
 
 #include "framebuffer/tile_grid.h"
 #include "raster/fixed_point.h"
+#include "raster/sample_positions.h"
 
 namespace tessera {
 
@@ -36,6 +37,13 @@ struct TriangleGroup {
   alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
   std::uint32_t mask = 0;  ///< those with a pixel in the tile
+  std::uint32_t steep = 0;  ///< of these, those whose unorm depth is worked out in exact integers
+};
+
+/// What differs of a group from sample to sample: edges, and the value of unorm depth planes at the tile's first pixel.
+struct SampleGroup {
+  alignas(64) std::int32_t e[kMaxSamples][3][kGroupSize];
+  alignas(64) std::uint64_t fixed_base[kMaxSamples][kGroupSize];
 };
 
 /// The three edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in the tile.

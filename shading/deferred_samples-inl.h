@@ -64,22 +64,32 @@ HWY_INLINE std::uint32_t waiting_pixels(const std::uint32_t* ids) {
     bits |= mask_bits(kInt, hn::Gt(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), splat(-1))) << (chunk * kLanes);
   return bits;
 }
+/// All samples of each pixel of a block wait for the same triangle, or for none.
+HWY_INLINE bool samples_agree(const TileRun& run, int index) {
+  Int differing = hn::Zero(kInt);
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    const auto ids = [&](int s) HWY_ATTR { return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].ids) + index + chunk * kLanes); };
+    for (int s = 1; s < run.samples; ++s) differing = hn::Or(differing, hn::Xor(ids(s), ids(0)));
+  }
+  return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
+}
 
 /// Fills the next slot of the batch with as many of the block's waiting samples as have its surface, one triangle a pixel.
-HWY_INLINE void fill_slot(TileRun& run, SampledBatch& pixels, int bx, int by, int index, std::uint32_t (&waiting)[kMaxSamples]) {
+/// @param samples  those that are looked at; 1: the others are like the first
+HWY_INLINE void fill_slot(TileRun& run, SampledBatch& pixels, int bx, int by, int index, int samples, std::uint32_t (&waiting)[kMaxSamples]) {
   const TileWorkspace::Memory& memory = run.memory;
   std::uint32_t left[kMaxSamples], (&seen)[kMaxSamples] = pixels.seen[pixels.blocks];
   std::uint32_t taken = 0;
-  for (int s = 0; s < run.samples; ++s) {
+  for (int s = 0; s < samples; ++s) {
     left[s] = waiting[s];
     seen[s] = 0;
   }
-  for (int first = 0; first < run.samples; ++first) {
+  for (int first = 0; first < samples; ++first) {
     while (left[first] != 0) {
       const std::uint32_t id = run.sample[first].ids[index + std::countr_zero(left[first])];
       const ShadedTriangle& triangle = memory.triangles[id];
       std::uint32_t same[kMaxSamples], any = 0;
-      for (int s = first; s < run.samples; ++s) {
+      for (int s = first; s < samples; ++s) {
         same[s] = pixels_of_triangle(run.sample[s].ids + index, id) & left[s];
         left[s] &= ~same[s];
         any |= same[s];
@@ -89,12 +99,13 @@ HWY_INLINE void fill_slot(TileRun& run, SampledBatch& pixels, int bx, int by, in
       if (free == 0) continue;
       gather_attributes(run, pixels, triangle, bx, by, free, taken);
       taken |= free;
-      for (int s = first; s < run.samples; ++s) {
+      for (int s = first; s < samples; ++s) {
         seen[s] |= same[s] & free;
         waiting[s] &= ~(same[s] & free);
       }
     }
   }
+  for (int s = samples; s < run.samples; ++s) seen[s] = seen[0];
   pixels.index[pixels.blocks] = index;
   pixels.covered[pixels.blocks] = taken;
   ++pixels.blocks;
@@ -106,16 +117,17 @@ inline HWY_NOINLINE void shade_collected_samples(TileRun& run) {
   for (int by = 0; by < run.tile_size; by += 4) {
     for (int bx = 0; bx < run.tile_size; bx += 4) {
       const int index = run.block_index(bx, by);
+      const int samples = samples_agree(run, index) ? 1 : run.samples;
       std::uint32_t waiting[kMaxSamples], any = 0;
-      for (int s = 0; s < run.samples; ++s) any |= waiting[s] = waiting_pixels(run.sample[s].ids + index);
+      for (int s = 0; s < samples; ++s) any |= waiting[s] = waiting_pixels(run.sample[s].ids + index);
       if (any == 0) continue;
-      for (int first = 0; first < run.samples; ++first) {
+      for (int first = 0; first < samples; ++first) {
         while (waiting[first] != 0) {
           const ShadedTriangle& leader = run.memory.triangles[run.sample[first].ids[index + std::countr_zero(waiting[first])]];
           const bool other_surface = pixels.draw != leader.draw || pixels.back != leader.back;
           if (pixels.blocks == kBatchBlocks || other_surface) shade_sampled_batch(run, pixels);
           if (other_surface) begin_surface(run, pixels, leader.draw, leader.back);
-          fill_slot(run, pixels, bx, by, index, waiting);
+          fill_slot(run, pixels, bx, by, index, samples, waiting);
         }
       }
       for (int s = 0; s < run.samples; ++s)

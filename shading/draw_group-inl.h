@@ -30,6 +30,9 @@ struct NoDepth {
   HWY_INLINE Block block(int, int) const { return {}; }
   HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthKind) {}
   HWY_INLINE void prepare_blocks() {}
+  struct Anchor {};
+  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int, int) { return {}; }
+  HWY_INLINE void move_to(Anchor) {}
 };
 template <class Depth>
 inline constexpr bool kHasDepth = true;
@@ -129,6 +132,14 @@ struct TrianglePixels {
   }
 };
 
+/// The word of triangle i of the group, where it has one.
+HWY_INLINE std::uint32_t triangle_word(const TileRun& run, const TileDraw& draw, int i, bool back) {
+  if (draw.source == ColorSource::triangle_word) return draw.words[back ? 1 : 0][run.memory.source[i]];
+  if (draw.source != ColorSource::vertex_word) return draw.word;
+  const std::size_t corner = std::size_t{run.memory.source[i]} * 3 + static_cast<std::size_t>(draw.provoking);
+  return draw.words[back ? 1 : 0][draw.indices ? draw.indices[corner] : corner];
+}
+
 /// Everything but pixels of triangle i of the group.
 template <class Depth, Test kTest, Seen kSeen>
 HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw, int i, bool back) {
@@ -137,15 +148,7 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
   if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
   if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
   if constexpr (kSeen == Seen::collect_sample) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size()) - g.count + i;
-  if constexpr (kSeen == Seen::word) {
-    std::uint32_t word = draw.word;
-    if (draw.source == ColorSource::triangle_word) word = draw.words[back ? 1 : 0][run.memory.source[i]];
-    if (draw.source == ColorSource::vertex_word) {
-      const std::size_t corner = std::size_t{run.memory.source[i]} * 3 + static_cast<std::size_t>(draw.provoking);
-      word = draw.words[back ? 1 : 0][draw.indices ? draw.indices[corner] : corner];
-    }
-    pixels.word = static_cast<std::int32_t>(word);
-  }
+  if constexpr (kSeen == Seen::word) pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
 }
 
 /// The triangle as shading sees it.

@@ -33,19 +33,16 @@ inline HWY_NOINLINE void resolve_samples(TileRun& run) {
   const WordFields fields(run.frame.layout);
   const int shift = run.samples == 8 ? 3 : 2;
   for (int i = 0; i < run.tile_size * run.tile_size; i += kLanes) {
-    Int word[kMaxSamples], differing = hn::Zero(kInt);
-    for (int s = 0; s < run.samples; ++s) {
-      word[s] = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].color) + i);
-      differing = hn::Or(differing, hn::Xor(word[s], word[0]));
-    }
-    Int mean = word[0];
+    const auto word = [&](int s) HWY_ATTR { return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].color) + i); };
+    Int mean = word(0), differing = hn::Zero(kInt);
+    for (int s = 1; s < run.samples; ++s) differing = hn::Or(differing, hn::Xor(word(s), mean));
     if (!hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)))) {
       mean = hn::Zero(kInt);
       for (int f = 0; f < fields.count; ++f) {
         const Int mask = splat((1 << fields.bits[f]) - 1);
         Int sum = splat(run.samples / 2);
         for (int s = 0; s < run.samples; ++s)
-          sum = hn::Add(sum, hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, word[s]), fields.shift[f])), mask));
+          sum = hn::Add(sum, hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, word(s)), fields.shift[f])), mask));
         mean = hn::Or(mean, hn::ShiftLeftSame(hn::ShiftRightSame(sum, shift), fields.shift[f]));
       }
     }

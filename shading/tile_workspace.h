@@ -41,7 +41,8 @@ struct alignas(64) TileSamples {
   std::int32_t depth[kMaxSamples][kStride];
   std::uint32_t ids[kMaxSamples][kStride];
   std::int32_t stencil[kMaxSamples][kStride];
-  TriangleGroup group[kMaxSamples];         ///< moved the other way, for draws with operations
+  TriangleGroup group[kMaxSamples];         ///< moved the other way: of wide triangles, and for draws with operations
+  SampleGroup narrow;
   int clean_samples = 0, clean_pixels = 0;  ///< so much of `ids` is kNoTriangle
 
   TilePixels of(int sample, bool has_stencil) {

@@ -26,7 +26,7 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
         for (int i = 0; i < 60; ++i) triangles.push_back(source.next(i % 2 == 0 ? Shape::medium : Shape::tiny));
         for (const Triangle& triangle : triangles) {
           TileDraw& draw = stage.add_draw(triangle.data());
-          draw.word = source.random()();
+          draw.word = static_cast<std::uint32_t>(source.random()());
           if (reference_of(triangle).area != 0) stage.push(0, stage.draw_count() - 1, 0);
         }
         for (const Isa isa : available_isas()) {
@@ -67,7 +67,7 @@ TEST(Samples, HaveTheSameColorsLaterAtOnceAndWithOperations) {
         const Triangle triangle = source.next(i % 3 == 0 ? Shape::large : i % 3 == 1 ? Shape::medium : Shape::tiny);
         if (reference_of(triangle).area != 0) visible.push_back(i);
         for (WindowVertex v : triangle) {
-          v.z = source.random()() & 0x7fffff00u | 0x80u;
+          v.z = (static_cast<std::uint32_t>(source.random()()) & 0x7fffff00u) | 0x80u;
           v.rw = 0.5f + static_cast<float>(source.unit());
           vertices.push_back(v);
           for (int c = 0; c < 4; ++c) colors.push_back(static_cast<float>(source.unit()));
