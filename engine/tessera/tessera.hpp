@@ -95,7 +95,7 @@ enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32
 
 inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height, in pixels
 
-/// Ordered dither of every colour write, by a pattern of that size.
+/// Ordered dither of every colour that draws, clears and AccumOp::return_ write, by a pattern of that size; indices are stored as they are.
 enum class Dither : std::uint8_t { none, bayer2, bayer4, bayer8 };
 
 struct FrameBufferFormat {
@@ -110,7 +110,7 @@ struct FrameBufferFormat {
   int accumulation_bits = 0;                ///< 0, 16 or 32 for each of red, green, blue, alpha; signed. RGB buffers
   /// Coverage samples a pixel: 1, 4 or 8. With several, coverage, depth and stencil belong to each sample, and a triangle's colour
   /// comes about once for each pixel, at its centre. They are kept until the frame is finished; what it stores and shows is their
-  /// mean, and depth and stencil of the first. RGB buffers.
+  /// mean, and depth and stencil of the first; a frame that goes on from there starts from these. RGB buffers.
   int samples = 1;
 };
 
@@ -262,7 +262,8 @@ struct Mesh {
 struct Material {
   Color ambient{0.2f, 0.2f, 0.2f, 1}, diffuse{0.8f, 0.8f, 0.8f, 1}, specular{0, 0, 0, 1}, emission{0, 0, 0, 1};
   float shininess = 0;                      ///< 0 .. 16384
-  /// Index buffers: ambient, diffuse, specular index. Lit draws then have index lighting; absent: the nearest palette entries to their colours.
+  /// Index buffers: ambient, diffuse, specular index (a, d, s). Lit draws then have index lighting, min(a + D (1 - S) (d - a) + S (s - a), s)
+  /// with the luminances D and S of the diffuse light and the highlights; absent: the nearest palette entries to their colours.
   std::optional<std::array<float, 3>> color_indexes{};
 };
 /// The named materials of the lighting tables: "emerald", "polished_gold", ... Empty for an unknown name.
@@ -324,7 +325,7 @@ struct DepthState {
 };
 
 enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
-/// The test passes where (ref & mask) func (stored & mask).
+/// The test passes where (ref & mask) func (stored & mask). incr and decr stay at the ends of the buffer's bits; masks are cut to them.
 struct StencilFace {
   Compare func = Compare::always;
   std::uint32_t ref = 0;                    ///< cut to the largest value of the buffer's bits
@@ -341,24 +342,28 @@ enum class BlendFactor : std::uint8_t {
   zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha,
   constant_color, one_minus_constant_color, constant_alpha, one_minus_constant_alpha, src_alpha_saturate
 };
-enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
+enum class BlendEquation : std::uint8_t { add, subtract /* source - destination */, reverse_subtract, min, max /* both without the factors */ };
+/// In floats, with the stored colour; clamped to 0 .. 1 and rounded once. Not beside a LogicOp other than copy.
 struct BlendState {
   BlendFactor src = BlendFactor::src_alpha, dst = BlendFactor::one_minus_src_alpha;
   std::optional<BlendFactor> src_alpha{}, dst_alpha{};  ///< of alpha; absent: as for the colour
   BlendEquation equation = BlendEquation::add;
   Color color{0, 0, 0, 0};                  ///< the constant, 0 .. 1
 };
+/// Passes where the fragment's alpha func ref: the material's diffuse alpha, or that of the vertex colours which replace it.
 struct AlphaTest {
   Compare func = Compare::greater;
   float ref = 0.5f;                         ///< 0 .. 1
 };
-/// On the stored bits; in place of blending.
+/// On the stored bits of a colour word, alpha planes included; in place of blending.
 enum class LogicOp : std::uint8_t { clear, and_, and_reverse, copy, and_inverted, noop, xor_, or_, nor, equiv, invert, or_reverse, copy_inverted, or_inverted, nand, set };
-/// Adds factor * (the polygon's largest depth slope) + units * (the format's smallest difference) to the depth.
+/// Adds factor * (the polygon's largest depth slope) + units * (the format's smallest difference) to the depth, which stays
+/// within 0 .. 1. Needs a depth buffer.
 struct PolygonOffset {
   float factor = 0, units = 0;
 };
 
+/// What a fragment goes through, in order: scissor, alpha test, stencil, depth, blending, dither, logic operation, masks.
 struct DrawState {
   Material material{};
   std::optional<Material> back_material{};  ///< two-sided lighting; absent: as the front
@@ -386,9 +391,9 @@ struct DrawState {
 /// Only the buffers named are cleared, through full masks; colours with the buffer's dither.
 struct Clear {
   std::optional<Color> color{};             ///< RGB buffers (0..1)
-  std::optional<std::uint32_t> index{};     ///< index buffers; `color` there clears to the nearest palette entry
+  std::optional<std::uint32_t> index{};     ///< index buffers, below 2^color_bits; `color` there clears to the nearest palette entry, unless both are given
   std::optional<double> depth{};            ///< 0 .. 1
-  std::optional<std::uint32_t> stencil{};
+  std::optional<std::uint32_t> stencil{};   ///< below 2^stencil_bits
   std::optional<Color> accumulation{};      ///< -1 .. 1
   std::optional<Rect> scissor{};
 };
@@ -412,7 +417,8 @@ struct Accum {
 // ---- frames -------------------------------------------------------------------------------------------------------
 
 /// What a frame can tell of each pixel besides its colour: for picking, and for tools. Rows from the top, width * height
-/// pixels. Each costs one more pass over the tiles, and nothing where its span is empty.
+/// pixels. Each costs one more pass over the tiles, and nothing where its span is empty. With several samples it is what is seen
+/// at the pixel's centre; of draws that blend, the last one that passed the tests. Accumulation does not change it.
 struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 
