@@ -29,6 +29,13 @@ const std::string kPot = R"("meshes": {"pot": {"builtin": "cube"}}, "materials":
 std::string draw(const std::string& keys) { return kPot + R"("frame": [{"draw": "pot", )" + keys + "}]"; }
 std::string mesh(const std::string& keys) { return R"("meshes": {"m": {)" + keys + "}}"; }
 std::string with_positions(const std::string& keys) { return mesh(R"("positions": [[0,0,0],[1,0,0],[0,1,0]], )" + keys); }
+std::string index_buffer(const std::string& keys) { return R"("framebuffer": {"color": {"mode": "index", "bits": 8}, )" + keys + "}"; }
+// A draw or another command into a frame buffer with those keys.
+std::string draw_into(const std::string& buffer, const std::string& keys) { return R"("framebuffer": {)" + buffer + "}, " + draw(keys); }
+std::string command(const std::string& text, const std::string& buffer = R"("accumulation": 16)") {
+  return R"("framebuffer": {)" + buffer + R"(}, "frame": [{)" + text + "}]";
+}
+const std::string kIndex = R"("color": {"mode": "index", "bits": 8})";
 std::string projection(const std::string& keys) { return R"("camera": {"projection": {)" + keys + "}}"; }
 
 const BadScene kBadScenes[] = {
@@ -48,7 +55,7 @@ const BadScene kBadScenes[] = {
     {R"("title": "a", "title": "b")", "/title", "the key \"title\" occurs twice"},
     {R"("lights": [{}, {"diffuse": [1,1,1,1], "diffuse": [1,1,1,1]}])", "/lights/1/diffuse", "occurs twice"},
     {R"("frame": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]])",
-     "/frame/0/0", "nested deeper than 64"},
+     "/frame/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0", "nested deeper than 64"},
     {R"("light_model": {"ambient": [1e999, 0, 0, 1]})", "/light_model/ambient", "1e999"},
 
     // Frame buffer
@@ -71,13 +78,27 @@ const BadScene kBadScenes[] = {
     {R"("framebuffer": {"color": {"mode": "index", "bits": 1}, "palette": [[0,0,0,1]]})", "/framebuffer/palette/0", "expected [r, g, b]"},
     {R"("framebuffer": {"depth": "unorm8"})", "/framebuffer/depth", "expected one of \"none\""},
     {R"("framebuffer": {"stencil": 9})", "/framebuffer/stencil", "expected an integer from 0 to 8"},
-    {R"("framebuffer": {"dither": "bayer4"})", "/framebuffer/dither", "part of the format but not supported"},
-    {R"("framebuffer": {"dither": "bayer5"})", "/framebuffer/dither", "expected one of \"none\""},
-    {R"("framebuffer": {"alpha": 8})", "/framebuffer/alpha", "not supported by this version of Tessera"},
+
+    {R"("framebuffer": {"dither": "bayer5"})", "/framebuffer/dither", "found \"bayer5\", expected one of \"none\", \"bayer2\", \"bayer4\", \"bayer8\""},
+    {R"("framebuffer": {"dither": 4})", "/framebuffer/dither", "found 4, expected one of \"none\""},
+    {R"("framebuffer": {"dither": "blue_noise"})", "/framebuffer/dither", "\"blue_noise\" is part of the format but not supported"},
+    {R"("framebuffer": {"dither": "floyd_steinberg"})", "/framebuffer/dither", "\"floyd_steinberg\" is part of the format but not supported"},
+    {R"("framebuffer": {"dither": "jarvis"})", "/framebuffer/dither", "\"jarvis\" is part of the format but not supported"},
+    {R"("framebuffer": {"dither": "pattern"})", "/framebuffer/dither", "\"pattern\" is part of the format but not supported"},
+    {R"("framebuffer": {"alpha": 4})", "/framebuffer/alpha", "found 4, expected 0 or 8 bits"},
+    {R"("framebuffer": {"alpha": true})", "/framebuffer/alpha", "found true, expected 0 or 8 bits"},
+    {index_buffer(R"("alpha": 8)"), "/framebuffer/alpha", "an index buffer has no alpha planes"},
     {R"("framebuffer": {"accumulation": 24})", "/framebuffer/accumulation", "found 24, expected 0, 16 or 32 bits"},
-    {R"("framebuffer": {"color": {"mode": "index"}, "accumulation": 16})", "/framebuffer/accumulation", "an index buffer does not accumulate"},
-    {R"("framebuffer": {"samples": 4})", "/framebuffer/samples", "not supported by this version of Tessera"},
-    {R"("framebuffer": {"samples": 3})", "/framebuffer/samples", "found 3, expected one of 1, 4, 8"},
+    {R"("framebuffer": {"accumulation": "16"})", "/framebuffer/accumulation", "found \"16\", expected 0, 16 or 32 bits"},
+    {index_buffer(R"("accumulation": 16)"), "/framebuffer/accumulation", "an index buffer does not accumulate"},
+    {R"("framebuffer": {"samples": 3})", "/framebuffer/samples", "found 3, expected 1, 4 or 8"},
+    {R"("framebuffer": {"samples": 0})", "/framebuffer/samples", "found 0, expected 1, 4 or 8"},
+    {R"("framebuffer": {"samples": 16})", "/framebuffer/samples", "found 16, expected 1, 4 or 8"},
+    {R"("framebuffer": {"samples": [4]})", "/framebuffer/samples", "found an array of 1, expected 1, 4 or 8"},
+    {index_buffer(R"("samples": 4)"), "/framebuffer/samples", "an index buffer has one sample a pixel"},
+    {R"("framebuffer": {"stencil": "8"})", "/framebuffer/stencil", "found \"8\", expected a number"},
+    {R"("framebuffer": {"stencil": -1})", "/framebuffer/stencil", "found -1, expected an integer from 0 to 8"},
+    {R"("framebuffer": {"depth": 24})", "/framebuffer/depth", "found 24, expected one of \"none\""},
 
     // Camera
     {R"("camera": {"eye": [0, 0]})", "/camera/eye", "found an array of 2, expected an array of 3 numbers"},
@@ -153,21 +174,6 @@ const BadScene kBadScenes[] = {
     {R"("frame": [5])", "/frame/0", "expected an object with one of \"clear\", \"draw\""},
     {R"("frame": [{}])", "/frame/0", "expected one of \"clear\", \"draw\""},
     {R"("frame": [{"claer": {}}])", "/frame/0/claer", "did you mean \"clear\"?"},
-    {R"("frame": [{"clear": {}, "lights": []}])", "/frame/0", "several commands"},
-    {R"("frame": [{"clear": {"color": [0, 0, 0, 1.5]}}])", "/frame/0/clear/color/3", "found 1.5, expected a number from 0 to 1"},
-    {R"("frame": [{"clear": {"depth": -0.1}}])", "/frame/0/clear/depth", "expected a number from 0 to 1"},
-    {R"("frame": [{"clear": {"stencil": 256}}])", "/frame/0/clear/stencil", "expected an integer from 0 to 255"},
-    {R"("frame": [{"clear": {"index": 1}}])", "/frame/0/clear/index", "needs an index buffer"},
-    {R"("frame": [{"clear": {"accumulation": [0,0,0,0]}}])", "/frame/0/clear/accumulation", "needs an accumulation buffer"},
-    {R"("framebuffer": {"accumulation": 16}, "frame": [{"clear": {"accumulation": [0,0,0,-2]}}])", "/frame/0/clear/accumulation/3", "found -2, expected a number from -1 to 1"},
-    {R"("framebuffer": {"depth": "none"}, "frame": [{"clear": {"depth": 1}}])", "/frame/0/clear/depth", "needs a depth buffer"},
-    {R"("framebuffer": {"stencil": 0}, "frame": [{"clear": {"stencil": 0}}])", "/frame/0/clear/stencil", "needs a stencil buffer"},
-    {R"("frame": [{"accum": {"op": "load", "value": 1}}])", "/frame/0/accum", "needs an accumulation buffer"},
-    {R"("framebuffer": {"color": {"mode": "index"}}, "frame": [{"accum": {"op": "load", "value": 1}}])", "/frame/0/accum", "an index buffer does not accumulate"},
-    {R"("framebuffer": {"accumulation": 16}, "frame": [{"accum": {"op": "load"}}])", "/frame/0/accum", "key \"value\" is missing"},
-    {R"("framebuffer": {"accumulation": 16}, "frame": [{"accum": {"op": "sub", "value": 1}}])", "/frame/0/accum/op", "expected one of \"accum\", \"load\""},
-    {R"("framebuffer": {"accumulation": 16, "color": {"bits": 1}}, "frame": [{"accum": {"op": "return", "value": 1, "color_mask": [true,false,true,true]}}])",
-     "/frame/0/accum/color_mask", "must be all true or all false"},
     {R"("frame": [{"bitmap": {"at": [0,0]}, "blend": {}}])", "/frame/0/bitmap", "not supported"},
     {R"("frame": [{"image": {"at": [0,0]}}])", "/frame/0/image", "not supported"},
     {R"("frame": [{"draw": "pot"}])", "/frame/0/draw", "found \"pot\", expected the name of a mesh (the scene has none)"},
@@ -193,27 +199,112 @@ const BadScene kBadScenes[] = {
     {draw(R"("plane_mask": 4294967296)"), "/frame/0/plane_mask", "expected an integer from 0 to 4294967295"},
     {draw(R"("viewport": [0, 0, -1, 10])"), "/frame/0/viewport/2", "found -1"},
     {draw(R"("scissor": [0, 0, 10])"), "/frame/0/scissor", "expected [x, y, width, height]"},
-    {draw(R"("blend": {})"), "/frame/0/blend", "is part of the format but not supported by this version of Tessera"},
-    {draw(R"("stencil": {})"), "/frame/0/stencil", "is part of the format but not supported"},
-    {draw(R"("alpha_test": {})"), "/frame/0/alpha_test", "is part of the format but not supported"},
     {draw(R"("texture": "brick")"), "/frame/0/texture", "is part of the format but not supported"},
     {draw(R"("shadow_on": {})"), "/frame/0/shadow_on", "is part of the format but not supported"},
     {draw(R"("polygon_mode": "line")"), "/frame/0/polygon_mode", "not supported"},
-    {draw(R"("polygon_offset": [1, 1])"), "/frame/0/polygon_offset", "not supported"},
     {draw(R"("point_size": 2)"), "/frame/0/point_size", "not supported"},
     {draw(R"("line_width": "wide")"), "/frame/0/line_width", "found \"wide\", expected a value like 1"},
-    {draw(R"("logic_op": "xor")"), "/frame/0/logic_op", "not supported"},
-    {draw(R"("logic_op": "exor")"), "/frame/0/logic_op", "expected one of \"copy\""},
     {draw(R"("stages": [{"name": "zoom"}])"), "/frame/0/stages", "not supported"},
+
+    // Clears
+    {command(R"("clear": {"color": [0, 0, 0, 1.5]})"), "/frame/0/clear/color/3", "found 1.5, expected a number from 0 to 1"},
+    {command(R"("clear": {"color": [0, 0, 0]})"), "/frame/0/clear/color", "found an array of 3, expected an array of 4 numbers"},
+    {command(R"("clear": {"depth": -0.1})"), "/frame/0/clear/depth", "found -0.1, expected a number from 0 to 1"},
+    {command(R"("clear": {"depth": true})"), "/frame/0/clear/depth", "found true, expected a number"},
+    {command(R"("clear": {"stencil": 256})"), "/frame/0/clear/stencil", "found 256, expected an integer from 0 to 255"},
+    {command(R"("clear": {"stencil": 0.5})"), "/frame/0/clear/stencil", "found 0.5, expected an integer from 0 to 255"},
+    {command(R"("clear": {"index": 1})"), "/frame/0/clear/index", "needs an index buffer"},
+    {command(R"("clear": {"index": -1})", kIndex), "/frame/0/clear/index", "found -1, expected an integer from 0"},
+    {command(R"("clear": {"index": "red"})", kIndex), "/frame/0/clear/index", "found \"red\", expected a number"},
+    {command(R"("clear": {"depth": 1})", R"("depth": "none")"), "/frame/0/clear/depth", "needs a depth buffer, and the frame buffer's \"depth\" is \"none\""},
+    {command(R"("clear": {"stencil": 0})", R"("stencil": 0)"), "/frame/0/clear/stencil", "needs a stencil buffer, and the frame buffer's \"stencil\" is 0"},
+    {command(R"("clear": {"accumulation": [0,0,0,0]})", R"("accumulation": 0)"), "/frame/0/clear/accumulation",
+     "needs an accumulation buffer, and the frame buffer's \"accumulation\" is 0"},
+    {command(R"("clear": {"accumulation": [0,0,0,-2]})"), "/frame/0/clear/accumulation/3", "found -2, expected a number from -1 to 1"},
+    {command(R"("clear": {"accumulation": 0})"), "/frame/0/clear/accumulation", "found 0, expected an array of 4 numbers"},
+    {command(R"("clear": {"scissor": [0, 0, 5, -1]})"), "/frame/0/clear/scissor/3", "found -1, expected an integer from 0"},
+
+    // Accumulation
+    {command(R"("accum": {"op": "load", "value": 1})", R"("accumulation": 0)"), "/frame/0/accum", "needs an accumulation buffer, and the frame buffer's \"accumulation\" is 0"},
+    {command(R"("accum": {"op": "load", "value": 1})", kIndex), "/frame/0/accum", "an index buffer does not accumulate"},
+    {command(R"("accum": {"op": "load"})"), "/frame/0/accum", "key \"value\" is missing"},
+    {command(R"("accum": {"value": 1})"), "/frame/0/accum", "key \"op\" is missing"},
+    {command(R"("accum": [])"), "/frame/0/accum", "found an empty array, expected an object"},
+    {command(R"("accum": {"op": "sub", "value": 1})"), "/frame/0/accum/op", "found \"sub\", expected one of \"accum\", \"load\", \"add\", \"mult\", \"return\""},
+    {command(R"("accum": {"op": "load", "value": "1"})"), "/frame/0/accum/value", "found \"1\", expected a number"},
+    {command(R"("accum": {"op": "load", "value": 1, "scissor": [0, 0]})"), "/frame/0/accum/scissor", "found an array of 2, expected [x, y, width, height]"},
+    {command(R"("accum": {"op": "load", "value": 1, "colour_mask": []})"), "/frame/0/accum/colour_mask", "did you mean \"color_mask\"?"},
+    {command(R"("accum": {"op": "return", "value": 1, "color_mask": true})"), "/frame/0/accum/color_mask", "found true, expected four of true and false"},
+    {command(R"("accum": {"op": "return", "value": 1, "color_mask": [true,false,true,true]})", R"("accumulation": 16, "color": {"bits": 1})"), "/frame/0/accum/color_mask",
+     "must be all true or all false"},
+
+    // Operations on fragments
+    {draw(R"("polygon_offset": 1)"), "/frame/0/polygon_offset", "found 1, expected [factor, units]"},
+    {draw(R"("polygon_offset": [1])"), "/frame/0/polygon_offset", "found an array of 1, expected [factor, units]"},
+    {draw(R"("polygon_offset": [1, "1"])"), "/frame/0/polygon_offset/1", "found \"1\", expected a number"},
+    {draw(R"("polygon_offset": [1e39, 0])"), "/frame/0/polygon_offset/0", "32-bit float"},
+    {draw_into(R"("depth": "none")", R"("polygon_offset": [0, -1])"), "/frame/0/polygon_offset", "needs a depth buffer, and the frame buffer's \"depth\" is \"none\""},
+    {draw(R"("alpha_test": true)"), "/frame/0/alpha_test", "found true, expected an object"},
+    {draw(R"("alpha_test": {"func": "gt"})"), "/frame/0/alpha_test/func", "found \"gt\", expected one of \"never\", \"less\""},
+    {draw(R"("alpha_test": {"ref": 1.25})"), "/frame/0/alpha_test/ref", "found 1.25, expected a number from 0 to 1"},
+    {draw(R"("alpha_test": {"ref": null})"), "/frame/0/alpha_test/ref", "found null, expected a number"},
+    {draw(R"("alpha_test": {"threshold": 0})"), "/frame/0/alpha_test/threshold", "unknown key \"threshold\", expected one of \"func\", \"ref\""},
+    {draw_into(kIndex, R"("alpha_test": {})"), "/frame/0/alpha_test", "an index buffer has no alpha to test"},
+    {draw_into(R"("stencil": 0)", R"("stencil": {})"), "/frame/0/stencil", "needs a stencil buffer, and the frame buffer's \"stencil\" is 0"},
+    {draw(R"("stencil": [])"), "/frame/0/stencil", "found an empty array, expected an object"},
+    {draw(R"("stencil": {"func": 3})"), "/frame/0/stencil/func", "found 3, expected one of \"never\""},
+    {draw(R"("stencil": {"ref": 256})"), "/frame/0/stencil/ref", "found 256, expected an integer from 0 to 255"},
+    {draw(R"("stencil": {"ref": -1})"), "/frame/0/stencil/ref", "found -1, expected an integer from 0 to 255"},
+    {draw(R"("stencil": {"mask": 0.5})"), "/frame/0/stencil/mask", "found 0.5, expected an integer from 0 to 255"},
+    {draw(R"("stencil": {"write_mask": "ff"})"), "/frame/0/stencil/write_mask", "found \"ff\", expected a number"},
+    {draw(R"("stencil": {"write_mask": 256})"), "/frame/0/stencil/write_mask", "found 256, expected an integer from 0 to 255"},
+    {draw(R"("stencil": {"fail": "increment"})"), "/frame/0/stencil/fail", "found \"increment\", expected one of \"keep\", \"zero\""},
+    {draw(R"("stencil": {"zfail": "wrap_incr"})"), "/frame/0/stencil/zfail", "\"incr_wrap\", \"decr_wrap\""},
+    {draw(R"("stencil": {"zpass": false})"), "/frame/0/stencil/zpass", "found false, expected one of \"keep\""},
+    {draw(R"("stencil": {"pass": "keep"})"), "/frame/0/stencil/pass", "unknown key \"pass\""},
+    {draw(R"("stencil": {"back": true})"), "/frame/0/stencil/back", "found true, expected an object"},
+    {draw(R"("stencil": {"back": {"ref": 300}})"), "/frame/0/stencil/back/ref", "found 300, expected an integer from 0 to 255"},
+    {draw(R"("stencil": {"back": {"back": {}}})"), "/frame/0/stencil/back/back", "unknown key \"back\""},
+    {draw_into(kIndex, R"("blend": {})"), "/frame/0/blend", "an index buffer does not blend"},
+    {draw(R"("blend": true)"), "/frame/0/blend", "found true, expected an object"},
+    {draw(R"("blend": {"src": "alpha"})"), "/frame/0/blend/src", "found \"alpha\", expected one of \"zero\", \"one\""},
+    {draw(R"("blend": {"src": null})"), "/frame/0/blend/src", "found null, expected one of \"zero\", \"one\""},
+    {draw(R"("blend": {"dst": "one_minus_srcalpha"})"), "/frame/0/blend/dst", "did you mean \"one_minus_src_alpha\"?"},
+    {draw(R"("blend": {"src_alpha": 1})"), "/frame/0/blend/src_alpha", "found 1, expected one of \"zero\", \"one\""},
+    {draw(R"("blend": {"dst_alpha": "two"})"), "/frame/0/blend/dst_alpha", "found \"two\", expected one of \"zero\", \"one\""},
+    {draw(R"("blend": {"equation": "multiply"})"), "/frame/0/blend/equation", "found \"multiply\", expected one of \"add\", \"subtract\", \"reverse_subtract\", \"min\", \"max\""},
+    {draw(R"("blend": {"color": [0, 0, 0]})"), "/frame/0/blend/color", "found an array of 3, expected an array of 4 numbers"},
+    {draw(R"("blend": {"color": [0, 0, 1.5, 0]})"), "/frame/0/blend/color/2", "found 1.5, expected a number from 0 to 1"},
+    {draw(R"("blend": {"color": [0, -0.5, 0, 0]})"), "/frame/0/blend/color/1", "found -0.5, expected a number from 0 to 1"},
+    {draw(R"("blend": {"factor": 1})"), "/frame/0/blend/factor", "unknown key \"factor\""},
+    {draw(R"("blend": {}, "logic_op": "xor")"), "/frame/0/blend", "a draw blends or has a logic operation, not both"},
+    {draw(R"("logic_op": "exor")"), "/frame/0/logic_op", "found \"exor\", expected one of \"clear\", \"and\""},
+    {draw(R"("logic_op": true)"), "/frame/0/logic_op", "found true, expected one of \"clear\", \"and\""},
+    {draw(R"("logic_op": "and_")"), "/frame/0/logic_op", "did you mean \"and\"?"},
+};
+
+// What may stand beside each other, and looks as if it might not.
+const std::string kGoodScenes[] = {
+    draw_into(R"("depth": "none")", R"("polygon_offset": [0, 0], "depth": false)"),
+    draw(R"("blend": {"src_alpha": null, "dst_alpha": null}, "logic_op": "copy")"),
+    draw(R"("stencil": {"back": null}, "alpha_test": {})"),
+    draw_into(kIndex, R"("logic_op": "xor", "stencil": {}, "polygon_offset": [1, 1])"),
+    draw_into(R"("stencil": 0, "alpha": 8, "accumulation": 32, "samples": 8, "dither": "bayer8")", R"("blend": {})"),
+    index_buffer(R"("alpha": 0, "accumulation": 0, "samples": 1, "dither": "bayer2")"),
+    command(R"("clear": {"index": 255, "color": [1, 1, 1, 1]})", kIndex),
 };
 
 TEST(BadScene, EachMistakeNamesFilePointerAndExpectation) {
   for (const BadScene& bad : kBadScenes) {
     const std::string message = message_of(whole(bad.text));
-    EXPECT_TRUE(message.starts_with("bad.json: " + bad.pointer)) << bad.text << "\n" << message;
+    EXPECT_TRUE(message.starts_with("bad.json: " + bad.pointer + ": ")) << bad.text << "\n" << message;
     EXPECT_NE(message.find(bad.fragment), std::string::npos) << bad.text << "\n" << message << "\nlacks " << bad.fragment;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(BadScene, WhatFitsTogetherIsNoMistake) {
+  for (const std::string& good : kGoodScenes) EXPECT_EQ(message_of(whole(good)), "(no error)") << good;
 }
 
 TEST(BadScene, MissingFileAndFolderAreNamed) {
