@@ -59,6 +59,29 @@ TEST(ErrorsOfFrameBuffers, NameSizesAndBitsOutOfRange) {
   });
 }
 
+TEST(ErrorsOfFrameBuffers, NamePlanesAndSamplesThatThereAreNot) {
+  const std::vector<Misuse> misuses{
+      {"4 alpha bits", make({.alpha_bits = 4}), {"alpha_bits is 4", "0 or 8"}},
+      {"-8 alpha bits", make({.alpha_bits = -8}), {"alpha_bits is -8", "0 or 8"}},
+      {"alpha of indices", make({.color_mode = ColorMode::index, .color_bits = 8, .alpha_bits = 8}), {"alpha planes", "index", "rgb"}},
+      {"0 samples", make({.samples = 0}), {"samples is 0", "1, 4 or 8"}},
+      {"2 samples", make({.samples = 2}), {"samples is 2", "1, 4 or 8"}},
+      {"16 samples", make({.samples = 16}), {"samples is 16", "1, 4 or 8"}},
+      {"samples of indices", make({.color_mode = ColorMode::index, .color_bits = 8, .samples = 4}), {"samples", "index", "no mean"}},
+      {"24 accumulation bits", make({.accumulation_bits = 24}), {"accumulation_bits is 24", "0, 16 or 32"}},
+      {"-16 accumulation bits", make({.accumulation_bits = -16}), {"accumulation_bits is -16", "0, 16 or 32"}},
+      {"accumulation of indices", make({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16}), {"accumulation buffer", "index", "rgb"}},
+  };
+  expect_errors(misuses);
+  // Whoever asks for the memory first is told the same.
+  const auto bytes = [](FrameBufferFormat format) { return [format] { (void)FrameBuffer::memory_bytes(format); }; };
+  expect_errors({
+      {"5 alpha bits", bytes({.alpha_bits = 5}), {"alpha_bits is 5", "0 or 8"}},
+      {"6 samples", bytes({.samples = 6}), {"samples is 6", "1, 4 or 8"}},
+      {"8 accumulation bits", bytes({.accumulation_bits = 8}), {"accumulation_bits is 8", "0, 16 or 32"}},
+  });
+}
+
 TEST(ErrorsOfFrameBuffers, NameWhatIsWrongWithAPalette) {
   expect_errors({
       {"palette of an RGB buffer", make({.palette = {Color{}}}), {"palette", "rgb", "index"}},

@@ -23,6 +23,7 @@ struct Misuse {
 
 const FrameBufferFormat kRgb{.width = 24, .height = 16, .stencil_bits = 3};
 const FrameBufferFormat kIndex{.width = 24, .height = 16, .color_mode = ColorMode::index, .color_bits = 4};
+const FrameBufferFormat kAccumulating{.width = 24, .height = 16, .accumulation_bits = 16};
 const FrameBufferFormat kGrey1{.width = 24, .height = 16, .color_bits = 1};
 const FrameBufferFormat kGrey2{.width = 24, .height = 16, .color_bits = 2};
 const FrameBufferFormat kBare{.width = 24, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0};
@@ -111,7 +112,34 @@ TEST(ErrorsOfFrames, NameClearsOutOfRangeOrOfMissingBuffers) {
       clear("no depth", {.depth = 1.0}, {"depth", "no depth buffer"}),
       clear("no stencil", {.stencil = 0u}, {"stencil", "no stencil buffer"}),
   });
-  expect_errors(kIndex, {clear("index 16 of 4 bits", {.index = 16u}, {"index is 16", "15"})});
+  expect_errors(kBare, {clear("no accumulation", {.accumulation = Color{}}, {"accumulation", "no accumulation buffer"})});
+  expect_errors(kAccumulating, {
+      clear("accumulation above 1", {.accumulation = Color{0, 1.5f, 0, 0}}, {"accumulation", "1.5", "-1 to 1"}),
+      clear("accumulation below -1", {.accumulation = Color{0, 0, 0, -1.25f}}, {"accumulation", "-1.25", "-1 to 1"}),
+      clear("accumulation nan", {.accumulation = Color{kNan, 0, 0, 0}}, {"accumulation", "nan"}),
+      clear("a good depth and a bad accumulation", {.depth = 0.0, .accumulation = Color{2, 0, 0, 0}}, {"accumulation", "2"}),
+  });
+  expect_errors(kIndex, {
+      clear("index 16 of 4 bits", {.index = 16u}, {"index is 16", "15"}),
+      clear("accumulation of indices", {.accumulation = Color{}}, {"no accumulation buffer"}),
+  });
+}
+
+Misuse accumulate(const char* what, const Accum& accum, std::vector<std::string> says) {
+  return {what, [accum](Frame& frame) { frame.accumulate(accum); }, std::move(says)};
+}
+
+TEST(ErrorsOfFrames, NameAccumulationsThatCannotBe) {
+  expect_errors(kAccumulating, {
+      accumulate("value nan", {.value = double{kNan}}, {"value", "nan", "finite"}),
+      accumulate("value infinite", {.op = AccumOp::mult, .value = -double{kInfinity}}, {"value", "-inf", "finite"}),
+      accumulate("scissor", {.op = AccumOp::load, .scissor = Rect{0, 0, 4, -2}}, {"scissor", "-2", "negative"}),
+  });
+  expect_errors(kRgb, {accumulate("no buffer", {}, {"Frame::accumulate", "no accumulation buffer"})});
+  expect_errors(kIndex, {accumulate("indices", {}, {"Frame::accumulate", "indices"})});
+  FrameBufferFormat grey = kGrey2;
+  grey.accumulation_bits = 16;
+  expect_errors(grey, {accumulate("a split mask", {.op = AccumOp::return_, .color_mask = {true, true, false, true}}, {"Frame::accumulate", "luminance", "all or none"})});
 }
 
 const std::vector<float> kTwoTriangles(18, 0.5f);
@@ -179,6 +207,43 @@ TEST(ErrorsOfFrames, NameDrawStatesOutOfRange) {
       state("viewport far off", [](DrawState& s) { s.viewport = Rect{0, 100000, 5, 5}; }, {"viewport", "100000"}),
       state("scissor negative", [](DrawState& s) { s.scissor = Rect{0, 0, -1, 5}; }, {"scissor", "-1", "negative"}),
   });
+}
+
+TEST(ErrorsOfFrames, NameOperationsOutOfRange) {
+  expect_errors(kRgb, {
+      state("offset factor", [](DrawState& s) { s.polygon_offset.factor = kNan; }, {"polygon_offset", "nan", "finite"}),
+      state("offset units", [](DrawState& s) { s.polygon_offset.units = kInfinity; }, {"polygon_offset", "inf", "finite"}),
+      state("alpha reference above 1", [](DrawState& s) { s.alpha_test = AlphaTest{.ref = 1.5f}; }, {"alpha_test.ref is 1.5", "0 to 1"}),
+      state("alpha reference below 0", [](DrawState& s) { s.alpha_test = AlphaTest{.ref = -0.5f}; }, {"alpha_test.ref is -0.5", "0 to 1"}),
+      state("alpha reference nan", [](DrawState& s) { s.alpha_test = AlphaTest{.ref = kNan}; }, {"alpha_test.ref is nan"}),
+      state("blend constant above 1", [](DrawState& s) { s.blend = BlendState{.color = {0, 0, 0, 1.25f}}; }, {"blend.color is 1.25", "0 to 1"}),
+      state("blend constant below 0", [](DrawState& s) { s.blend = BlendState{.color = {-1, 0, 0, 0}}; }, {"blend.color is -1", "0 to 1"}),
+      state("blend constant nan", [](DrawState& s) { s.blend = BlendState{.color = {0, kNan, 0, 0}}; }, {"blend.color is nan"}),
+      state("blend and logic", [](DrawState& s) { s.blend.emplace(), s.logic_op = LogicOp::noop; }, {"blending", "logic operation", "one of them"}),
+  });
+}
+
+TEST(ErrorsOfFrames, NameOperationsWithoutTheirBuffer) {
+  expect_errors(kBare, {
+      state("factor without depth", [](DrawState& s) { s.polygon_offset = {1, 0}; }, {"polygon offset", "no depth buffer"}),
+      state("units without depth", [](DrawState& s) { s.polygon_offset = {0, -1}; }, {"polygon offset", "no depth buffer"}),
+      state("no stencil", [](DrawState& s) { s.stencil.emplace(); }, {"stencil test", "no stencil buffer"}),
+  });
+  expect_errors(kIndex, {
+      state("alpha test of indices", [](DrawState& s) { s.alpha_test.emplace(); }, {"alpha test", "indices", "no alpha"}),
+      state("blending of indices", [](DrawState& s) { s.blend.emplace(); }, {"blending", "indices", "do not blend"}),
+  });
+  // These need none.
+  FrameBuffer bare(kBare), index(kIndex);
+  Frame into_bare(bare), into_index(index);
+  DrawState plain;
+  plain.polygon_offset = {0, 0};
+  plain.blend.emplace();
+  EXPECT_FALSE(error_of([&] { into_bare.draw(kLeft.view(), plain); })) << "an offset of nothing, and a blend with the copying logic operation";
+  DrawState logic;
+  logic.logic_op = LogicOp::xor_;
+  logic.stencil.emplace();
+  EXPECT_FALSE(error_of([&] { into_index.draw(kLeft.view(), logic); }));
 }
 
 TEST(ErrorsOfFrames, NameColorMasksThatSplitWhatIsOne) {
