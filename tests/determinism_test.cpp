@@ -12,11 +12,13 @@
 #include <functional>
 #include <iomanip>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "engine/parallel.h"
 #include "engine/scene/scene.h"
 #include "tests/engine/api_random_frame.h"
+#include "tests/engine/api_random_operations.h"
 
 namespace tessera {
 namespace {
@@ -153,6 +155,39 @@ TEST(Determinism, ManySmallTrianglesHaveTheSameBitsOnEightThreads) {
   const Fingerprint expected = stored(random.format, record, renderer({1, 128, InstructionSet::automatic, true}));
   for (int round = 0; round < 5; ++round)
     for (const int threads : {2, 3, 8}) EXPECT_EQ(stored(random.format, record, renderer({threads, 32, InstructionSet::automatic, true})), expected);
+}
+
+// A frame that is left all of one colour proves nothing: `colors` and `stencils` are how many different values remain at least.
+void expect_same_bits_of_operations(const FrameBufferFormat& format, std::size_t colors, std::size_t stencils) {
+  const RandomOperations random(format);
+  const auto record = [&](Frame& frame) { random.record(frame); };
+  expect_same_bits_always(format, record);
+  FrameBuffer buffer(format);
+  Frame frame(buffer);
+  record(frame);
+  renderer({1, 64, InstructionSet::scalar, true}).finish(frame);
+  const std::vector<std::uint32_t> words = color_words(buffer), levels = depth_words(buffer);
+  const std::vector<std::uint8_t> values = stencil_values(buffer);
+  EXPECT_GE(std::set<std::uint32_t>(words.begin(), words.end()).size(), colors);
+  EXPECT_GE(std::set<std::uint8_t>(values.begin(), values.end()).size(), stencils);
+  EXPECT_GE(std::set<std::uint32_t>(levels.begin(), levels.end()).size(), words.size() / 10);
+}
+
+FrameBufferFormat full_format(int samples) {
+  return {.width = samples == 1 ? 173 : 133, .height = samples == 1 ? 107 : 71, .alpha_bits = 8, .dither = Dither::bayer8, .accumulation_bits = 16, .samples = samples};
+}
+
+TEST(Determinism, EveryOperationHasTheSameBits) { expect_same_bits_of_operations(full_format(1), 800, 60); }
+TEST(Determinism, EveryOperationHasTheSameBitsWithFourSamples) { expect_same_bits_of_operations(full_format(4), 1500, 60); }
+TEST(Determinism, EveryOperationHasTheSameBitsWithEightSamples) { expect_same_bits_of_operations(full_format(8), 1500, 60); }
+TEST(Determinism, EveryOperationHasTheSameBitsInGrey) {
+  expect_same_bits_of_operations({.width = 173, .height = 107, .color_bits = 2, .depth = DepthFormat::unorm16, .stencil_bits = 3, .accumulation_bits = 32}, 4, 8);
+}
+TEST(Determinism, EveryOperationHasTheSameBitsInSixteenBitColorFloatDepthAndFourSamples) {
+  expect_same_bits_of_operations({.width = 133, .height = 71, .color_bits = 16, .depth = DepthFormat::float32, .dither = Dither::bayer4, .samples = 4}, 800, 60);
+}
+TEST(Determinism, EveryOperationHasTheSameBitsInPaletteColors) {
+  expect_same_bits_of_operations({.width = 173, .height = 107, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm32, .dither = Dither::bayer2}, 200, 60);
 }
 
 std::map<std::string, std::string> hashes_now() {

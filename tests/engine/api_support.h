@@ -1,12 +1,14 @@
 // What the tests of the public interface share: small meshes, read-back in one line, and fingerprints of frame buffers.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <ostream>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "engine/scene/mesh_data.h"
@@ -67,6 +69,13 @@ inline std::vector<std::uint8_t> stencil_values(const FrameBuffer& buffer) {
   return values;
 }
 
+/// r g b a of each pixel.
+inline std::vector<float> accumulated_values(const FrameBuffer& buffer) {
+  std::vector<float> values(4 * pixel_count(buffer));
+  buffer.read_accumulation(values);
+  return values;
+}
+
 /// Pixels of its own, 4 bytes each without gaps.
 struct Image {
   int width = 0, height = 0;
@@ -105,13 +114,13 @@ inline std::uint64_t hash_of(const PlaneView& plane) {
   return hash.value();
 }
 
-/// What a frame left behind. 0 stands for a buffer that there is none of.
+/// What a frame left behind. 0 stands for a buffer that there is none of, 1 for one that was not kept. Alpha stands in the colour.
 struct Fingerprint {
-  std::uint64_t color = 0, depth = 0, stencil = 0;
-  std::vector<std::uint64_t> planes;  ///< of colour, then of depth
+  std::uint64_t color = 0, depth = 0, stencil = 0, accumulation = 0;
+  std::vector<std::uint64_t> planes;  ///< of colour, then of depth, of stencil and of accumulation
   friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
   friend std::ostream& operator<<(std::ostream& out, const Fingerprint& f) {
-    out << std::hex << "colour " << f.color << ", depth " << f.depth << ", planes";
+    out << std::hex << "colour " << f.color << ", depth " << f.depth << ", stencil " << f.stencil << ", accumulation " << f.accumulation << ", planes";
     for (const std::uint64_t plane : f.planes) out << ' ' << (plane & 0xffff);
     return out << std::dec;
   }
@@ -120,17 +129,21 @@ inline Fingerprint fingerprint(const FrameBuffer& buffer) {
   Fingerprint f;
   f.color = hash_of(color_words(buffer));
   if (buffer.plane_count(Buffer::depth) > 0) f.depth = hash_of(depth_words(buffer));
-  if (buffer.plane_count(Buffer::stencil) > 0) {
+  const auto value_hash = [&](Buffer which, const auto& values) -> std::uint64_t {
+    if (buffer.plane_count(which) == 0) return 0;
     try {
       Hash hash;
-      for (const std::uint8_t value : stencil_values(buffer)) hash.add(value);
-      f.stencil = hash.value();
+      for (const auto value : values()) hash.add(std::bit_cast<std::conditional_t<sizeof value == 1, std::uint8_t, std::uint32_t>>(value));
+      return hash.value();
     } catch (const Error&) {
-      f.stencil = 1;  // lost
+      return 1;
     }
-  }
-  for (const Buffer which : {Buffer::color, Buffer::depth})
-    for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
+  };
+  f.stencil = value_hash(Buffer::stencil, [&] { return stencil_values(buffer); });
+  f.accumulation = value_hash(Buffer::accumulation, [&] { return accumulated_values(buffer); });
+  for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation})
+    if ((which != Buffer::stencil || f.stencil != 1) && (which != Buffer::accumulation || f.accumulation != 1))
+      for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
   return f;
 }
 
