@@ -75,7 +75,7 @@ struct FrameBufferState {
   /// The search structure, made on first use.
   const PaletteSearch* search() {
     if (!layout.index) return nullptr;
-    if (!palette_search) palette_search = std::make_unique<PaletteSearch>(palette);
+    if (!palette_search) palette_search = std::make_unique<PaletteSearch>(palette, format.dither != Dither::none);
     return palette_search.get();
   }
 };

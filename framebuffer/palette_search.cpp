@@ -9,6 +9,7 @@ namespace tessera {
 namespace {
 
 float clamp_component(float c) noexcept { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
+constexpr float kFarthest = 16;  // more than the squared diagonal of what is looked up
 double square(double d) noexcept { return d * d; }
 
 struct DistinctColor {
@@ -37,11 +38,11 @@ struct AxisDistances {
 };
 using AxisTable = std::array<AxisDistances, 256>;  ///< by level
 
-AxisTable axis_table(int cells, int cell) noexcept {
+AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
   AxisTable table;
   for (int level = 0; level < 256; ++level) {
     const double c = level / 255.0;
-    const double below = static_cast<double>(cell) / cells - c, above = c - static_cast<double>(cell + 1) / cells;
+    const double below = low + (high - low) * cell / cells - c, above = c - (low + (high - low) * (cell + 1) / cells);
     table[static_cast<std::size_t>(level)] = {static_cast<float>(square(std::max({below, above, 0.0}))),
                                               static_cast<float>(square(std::min(below, above)))};
   }
@@ -52,15 +53,16 @@ AxisTable axis_table(int cells, int cell) noexcept {
 // from the colour that serves the cell best. `among`: candidates of a box that holds the cell; `distances`: scratch.
 void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among, const AxisTable& x,
                      const AxisTable& y, const AxisTable& z, std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
-  float best_farthest = 4.0f;  // more than the cube's diagonal
+  float best_farthest = kFarthest;
   distances.resize(among.size());
   for (std::size_t i = 0; i < among.size(); ++i) {
     const Rgb8 c = colors[among[i]].color;
     distances[i] = x[c.r].nearest + y[c.g].nearest + z[c.b].nearest;
     best_farthest = std::min(best_farthest, x[c.r].farthest + y[c.g].farthest + z[c.b].farthest);
   }
-  // Here and in nearest() distances are rounded, each by less than one part in 10^6: no colour may be lost to that.
-  const float limit = best_farthest * (1.0f + 1e-5f);
+  // Here and in nearest() distances are rounded, and so is the cell of a point, each by less than one part in 10^6: no colour may be
+  // lost to that.
+  const float limit = best_farthest * (1.0f + 1e-4f);
   for (std::size_t i = 0; i < among.size(); ++i)
     if (distances[i] <= limit) kept.push_back(among[i]);
 }
@@ -75,7 +77,7 @@ constexpr std::size_t cell_index(int cells, int x, int y, int z) noexcept {
 
 }  // namespace
 
-PaletteSearch::PaletteSearch(const Palette& palette) {
+PaletteSearch::PaletteSearch(const Palette& palette, bool dithered) : low_(dithered ? -0.5f : 0), high_(dithered ? 1.5f : 1) {
   const std::vector<DistinctColor> colors = distinct_colors(palette);
   for (const DistinctColor& c : colors)
     entries_.push_back({static_cast<float>(c.color.r) / 255.0f, static_cast<float>(c.color.g) / 255.0f,
@@ -89,7 +91,7 @@ PaletteSearch::PaletteSearch(const Palette& palette) {
   while (cells_ < cells_for(colors.size())) {
     cells_ *= 2;
     axis.clear();
-    for (int cell = 0; cell < cells_; ++cell) axis.push_back(axis_table(cells_, cell));
+    for (int cell = 0; cell < cells_; ++cell) axis.push_back(axis_table(low_, high_, cells_, cell));
     fine.assign(cell_index(cells_, cells_, 0, 0), {});
     for (int x = 0; x < cells_; ++x)
       for (int y = 0; y < cells_; ++y)
@@ -99,6 +101,7 @@ PaletteSearch::PaletteSearch(const Palette& palette) {
                           fine[cell_index(cells_, x, y, z)]);
     coarse.swap(fine);
   }
+  scale_ = static_cast<float>(cells_) / (high_ - low_);
   cell_begin_.push_back(0);
   for (const auto& cell : coarse) {
     candidates_.insert(candidates_.end(), cell.begin(), cell.end());
@@ -106,15 +109,14 @@ PaletteSearch::PaletteSearch(const Palette& palette) {
   }
 }
 
-std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept {
-  r = clamp_component(r), g = clamp_component(g), b = clamp_component(b);
-  // Exact: cells_ is a power of two. The last cell holds 1.
-  const auto cell_of = [this](float c) { return std::min(static_cast<int>(c * static_cast<float>(cells_)), cells_ - 1); };
+std::uint32_t PaletteSearch::search(float r, float g, float b) const noexcept {
+  // The last cell holds the upper end.
+  const auto cell_of = [this](float c) { return std::min(static_cast<int>((c - low_) * scale_), cells_ - 1); };
   const std::size_t cell = cell_index(cells_, cell_of(r), cell_of(g), cell_of(b));
   const std::uint32_t* candidate = candidates_.data() + cell_begin_[cell];
   const std::uint32_t* const end = candidates_.data() + cell_begin_[cell + 1];
   std::uint32_t nearest = *candidate;
-  float nearest_distance = 4.0f;  // more than the cube's diagonal
+  float nearest_distance = kFarthest;
   for (; candidate != end; ++candidate) {
     const float distance = entries_[*candidate].squared_distance(r, g, b);
     if (distance < nearest_distance) {
@@ -125,13 +127,7 @@ std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept {
   return entries_[nearest].index;
 }
 
-std::uint32_t PaletteSearch::nearest_unclamped(float r, float g, float b) const noexcept {
-  const auto inside = [](float c) { return c >= 0 && c <= 1; };
-  if (inside(r) && inside(g) && inside(b)) return nearest(r, g, b);
-  const Entry* nearest_entry = &entries_.front();
-  for (const Entry& entry : entries_)
-    if (entry.squared_distance(r, g, b) < nearest_entry->squared_distance(r, g, b)) nearest_entry = &entry;
-  return nearest_entry->index;
-}
+std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept { return search(clamp_component(r), clamp_component(g), clamp_component(b)); }
+std::uint32_t PaletteSearch::nearest_unclamped(float r, float g, float b) const noexcept { return search(r, g, b); }
 
 }  // namespace tessera

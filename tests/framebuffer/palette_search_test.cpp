@@ -67,7 +67,7 @@ TEST(PaletteSearch, UnclampedLooksBeyondTheCube) {
   std::size_t other = 0;
   for (const Palette& palette : palettes()) {
     if (palette.entries.empty() || palette.entries.size() > 300) continue;
-    const PaletteSearch search(palette);
+    const PaletteSearch search(palette, true);
     std::mt19937 random(6);
     for (int i = 0; i < 5000; ++i) {
       const float color[3] = {2 * component(random) - 0.5f, 2 * component(random) - 0.5f, 2 * component(random) - 0.5f};
