@@ -19,13 +19,18 @@ namespace HWY_NAMESPACE {
 /// max(|dz/dx|, |dz/dy|), in the units of the vertices' depth words (unorm) or of depth.
 HWY_INLINE double slope_of(const TriangleGroup& g, int i) { return std::max(std::abs(g.depth_dx[i]), std::abs(g.depth_dy[i])); }
 
-/// Unorm of any size: 34.30 fixed point, lifted, so that what the offset pushes out of range can be cut. @pre the group's depth
-/// was set up lifted
+/// Unorm of any size: on the plane of draws without an offset, so that one unit is one level for whoever draws the same triangle.
 struct OffsetUnormDepth : UnormDepth {
+  int fraction = kUnormFraction;
+  std::int64_t lift = 0, moved = 0;
   std::uint32_t flip = 0;
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind kind) {
     shift = 32 - depth_bits(kind);
-    flip = kind == DepthKind::unorm32 ? 0x80000000u : 0;
+    if (kind == DepthKind::unorm32) {
+      fraction = kUnorm32Fraction;
+      lift = kUnorm32Lift;
+      flip = 0x80000000u;
+    }
     base = g.fixed_base[i];
     dx = g.fixed_dx[i];
     dy = g.fixed_dy[i];
@@ -33,12 +38,11 @@ struct OffsetUnormDepth : UnormDepth {
   HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
     constexpr double kWhole = 0x1p32;  // nothing is further away
     const double words = double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift);
-    base += static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(words, -kWhole, kWhole) * 0x1p30));
+    moved = static_cast<std::int64_t>(std::floor(std::clamp(words, -kWhole, kWhole) + 0.5));
   }
   HWY_INLINE std::int32_t key_of(std::uint64_t value) const {
-    constexpr std::int64_t kTop = kUnorm32Lift + 0xffffffff;
-    const std::int64_t lifted = static_cast<std::int64_t>(value >> kUnorm32Fraction);
-    const std::int64_t cut = lifted < kUnorm32Lift ? kUnorm32Lift : lifted > kTop ? kTop : lifted;
+    const std::int64_t word = static_cast<std::int64_t>(value >> fraction) - lift + moved;
+    const std::int64_t cut = word < 0 ? 0 : word > 0xffffffff ? 0xffffffff : word;
     return static_cast<std::int32_t>((static_cast<std::uint32_t>(cut) >> shift) ^ flip);
   }
   struct Block {

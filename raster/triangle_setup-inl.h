@@ -152,8 +152,7 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroup
 }
 
 /// Depth gradients: per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32).
-/// @param lifted  unorm planes of every size have the format of 32 bits
-inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y, bool lifted = false) {
+inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y) {
   alignas(64) double z[3][kGroupSize];
   for (int k = 0; k < 3; ++k) {
     if (kind == DepthKind::float32) {
@@ -172,7 +171,7 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
     g.depth_dx[i] = (g.a[1][i] * dz1 + g.a[2][i] * dz2) * scale;
     g.depth_dy[i] = (g.b[1][i] * dz1 + g.b[2][i] * dz2) * scale;
   }
-  if (kind == DepthKind::unorm32 || (lifted && kind != DepthKind::float32))
+  if (kind == DepthKind::unorm32)
     set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
   else if (kind != DepthKind::float32)
     set_up_unorm_depth<kUnormFraction>(g, z, tile_x, tile_y, 0);
