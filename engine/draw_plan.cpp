@@ -8,7 +8,7 @@
 #include "engine/fragment_plan.h"
 #include "engine/matrix.h"
 #include "raster/fixed_point.h"
-#include "shading/fragment_ops_reference.h"
+#include "shading/fragment_word.h"
 
 namespace tessera {
 namespace {
@@ -157,6 +157,20 @@ bool needs_order(const DrawPlan& plan, const ColorLayout& layout) {
   return plan.has_ops && (plan.ops.blend || plan.ops.dither || plan.ops.logic != Logic::copy || layout.alpha_bits > 0);
 }
 
+/// What an alpha test looks at in a draw that stores no colour: a lit point has its diffuse colour's alpha, so no light is needed.
+void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
+  const DrawState& state = draw.state;
+  plan.vertex_alpha = plan.uses_vertex_colors = draw.mesh.has_colors() && (!state.lighting || tracked_colors(state.color_material).diffuse);
+  plan.alpha[0] = clamp_unit(state.material.diffuse.a);
+  plan.alpha[1] = state.lighting && draw.surroundings->light_model.two_sided ? clamp_unit(back_material(state).diffuse.a) : plan.alpha[0];
+  plan.source = ColorSource::constant;
+  if (!plan.vertex_alpha) return;
+  plan.source = ColorSource::interpolated;
+  plan.flat = state.shading == Shading::flat;
+  plan.scaled_colors = false;
+  plan.attribute_count = 4;
+}
+
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled, std::string* reasons) {
   const DrawState& state = draw.state;
   const auto note = [&](const std::string& line) {
@@ -164,7 +178,8 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   };
   if (plan.write_mask == 0) {
     plan.source = ColorSource::none;
-    note("no colour plane changes: depth alone, no lighting");
+    if (plan.ops.alpha_test) plan_alpha(plan, draw);
+    note(plan.ops.alpha_test ? "no colour plane changes: tests alone, no lighting" : "no colour plane changes: depth alone, no lighting");
     return;
   }
   if (reasons) note_unused_colors(plan, draw, layout, *reasons);
@@ -278,7 +293,7 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   plan.has_ops = fragments.needed || has_offset;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
   plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
-  if (capture_normals && plan.source != ColorSource::none) {
+  if (capture_normals && plan.write_mask != 0) {
     plan.captured_normal = plan.attribute_count;
     plan.attribute_count += 3;
   }

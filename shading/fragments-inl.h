@@ -142,7 +142,7 @@ struct FragmentTriangle {
   HWY_NOINLINE void operator()(int bx, int by, const BlockFragments* blocks) {
     std::uint32_t passed[kMaxSamples], bits = 0;
     for (int s = 0; s < run.samples; ++s) bits |= passed[s] = test(run.sample[s], bx, by, blocks[s]);
-    if (bits == 0 || draw.source == ColorSource::none) return;
+    if (bits == 0 || draw.write_mask == 0) return;
     seen = true;
     const int index = run.block_index(bx, by);
     if (draw.deferred) {
@@ -155,7 +155,7 @@ struct FragmentTriangle {
     }
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
     if (draw.source == ColorSource::per_pixel) {
-      gather_attributes(run, pixels, triangle, bx, by, bits, 0);
+      gather_attributes(run, pixels, 0, triangle, bx, by, bits, 0);
       light_points_lanes(*draw.programs[face()], run.memory.batch, kBlockPixels);
       if (draw.captures_normals) {
         pixels.index[0] = index;
@@ -273,7 +273,7 @@ void draw_fragments(TileRun& run, std::uint32_t draw_number) {
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_edges(g, run.tile_x, run.tile_y, run.rect);
   if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y, kHasOffset<Depth>);
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
   set_up_weights(g);
   for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
@@ -326,7 +326,7 @@ void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
     g = center;
     move_group(g, -sample_positions(run.samples)[s].x, -sample_positions(run.samples)[s].y);
     set_up_edges(g, run.tile_x, run.tile_y, run.rect);
-    if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y, kHasOffset<Depth>);
+    if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
     visible |= g.mask;
   }
   for (std::uint32_t left = visible; left != 0; left &= left - 1) {

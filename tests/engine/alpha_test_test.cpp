@@ -1,0 +1,84 @@
+// The alpha test of draws that store no colour: depth and stencil of cut-outs are those that the same draw leaves with its colour.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/engine/api_support.h"
+
+namespace tessera::test {
+namespace {
+
+const FrameBufferFormat kFormat{.width = 40, .height = 24, .stencil_bits = 8};
+
+struct Tested {
+  std::vector<std::uint32_t> depth;
+  std::vector<std::uint8_t> stencil;
+  friend bool operator==(const Tested&, const Tested&) = default;
+};
+
+Tested drawn(const Mesh& mesh, DrawState state, const LightModel& model, bool stores_color) {
+  FrameBuffer buffer(kFormat);
+  Frame frame(buffer);
+  frame.clear({.depth = 1.0, .stencil = 0u});
+  frame.set_light_model(model);
+  state.alpha_test = AlphaTest{.func = Compare::greater, .ref = 0.5f};
+  state.stencil = StencilState{.front = {.zpass = StencilOp::incr}};
+  if (!stores_color) state.color_mask = {false, false, false, false};
+  frame.draw(mesh, state);
+  Renderer().finish(frame);
+  return {depth_words(buffer), stencil_values(buffer)};
+}
+
+std::size_t passed(const Tested& tested) { return static_cast<std::size_t>(std::count(tested.stencil.begin(), tested.stencil.end(), 1)); }
+
+MeshData ramp() {
+  MeshData mesh = whole_window(0.25f);
+  mesh.colors = {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
+  return mesh;
+}
+
+TEST(AlphaTestWithoutColor, LooksAtTheMaterial) {
+  const MeshData mesh = whole_window(0.25f);
+  for (const bool lighting : {false, true})
+    for (const float alpha : {0.2f, 0.8f}) {
+      DrawState state = unlit({1, 1, 1, alpha});
+      state.lighting = lighting;
+      const Tested tested = drawn(mesh.view(), state, {}, false);
+      EXPECT_EQ(passed(tested), alpha > 0.5f ? 40u * 24 : 0u) << alpha << (lighting ? " lit" : "");
+      EXPECT_EQ(tested, drawn(mesh.view(), state, {}, true));
+    }
+}
+
+TEST(AlphaTestWithoutColor, LooksAtTheVerticesInEveryShading) {
+  const MeshData mesh = ramp();
+  for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
+    for (const ColorMaterial mode : {ColorMaterial::none, ColorMaterial::diffuse, ColorMaterial::ambient_and_diffuse, ColorMaterial::specular})
+      for (const bool lighting : {false, true}) {
+        DrawState state;
+        state.lighting = lighting;
+        state.shading = shading;
+        state.color_material = mode;
+        state.material.diffuse.a = 0.1f;
+        const Tested tested = drawn(mesh.view(), state, {}, false);
+        EXPECT_EQ(tested, drawn(mesh.view(), state, {}, true)) << static_cast<int>(shading) << " " << static_cast<int>(mode) << (lighting ? " lit" : "");
+        const bool by_vertices = !lighting || mode == ColorMaterial::diffuse || mode == ColorMaterial::ambient_and_diffuse;
+        if (shading != Shading::flat) {
+          EXPECT_EQ(passed(tested), by_vertices ? 40u * 24 / 2 : 0u);
+        }
+      }
+}
+
+TEST(AlphaTestWithoutColor, LooksAtEachFacesMaterial) {
+  const MeshData mesh = whole_window(0.25f);
+  for (const FrontFace front : {FrontFace::ccw, FrontFace::cw}) {
+    DrawState state;
+    state.front_face = front;
+    state.material.diffuse.a = 0.2f;
+    state.back_material = Material{.diffuse = {1, 1, 1, 0.8f}};
+    EXPECT_EQ(passed(drawn(mesh.view(), state, {.two_sided = true}, false)), front == FrontFace::cw ? 40u * 24 : 0u);
+    EXPECT_EQ(passed(drawn(mesh.view(), state, {.two_sided = false}, false)), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
