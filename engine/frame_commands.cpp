@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/fragment_plan.h"
-#include "shading/fragment_ops_reference.h"
+#include "shading/fragment_word.h"
 
 namespace tessera {
 namespace {
@@ -131,10 +131,6 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
   if (command.rect.empty() || (accum.op == AccumOp::return_ && command.write_mask == 0)) return std::nullopt;
   return command;
 }
-
-}  // namespace
-
-namespace {
 
 void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffers) {
   draw.ops = &plan.ops;

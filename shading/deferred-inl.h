@@ -48,7 +48,8 @@ HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch,
   if (layout.index || layout.luminance) {
     alignas(64) std::int32_t words[kLanes] = {};
     for (int l = 0; l < kLanes; ++l)
-      if ((covered >> l & 1) != 0) words[l] = static_cast<std::int32_t>(color_word(layout, frame.palette_search, r[l], g[l], b[l]));
+      if ((covered >> l & 1) != 0)
+        words[l] = static_cast<std::int32_t>(layout.index ? frame.palette_search->nearest(r[l], g[l], b[l]) : quantize_rgb(layout, r[l], g[l], b[l]));
     return hn::Load(kInt, words);
   }
   const auto level = [](const float* c, int bits) HWY_ATTR {
@@ -115,10 +116,10 @@ HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint3
   }
 }
 
-/// Adds to the batch's next slot the pixels of one triangle in one block; bits of `covered`, `taken` those of the triangles before
+/// Adds to a slot of the batch the pixels of one triangle in one block; bits of `covered`, `taken` those of the triangles before
 /// it. Lanes that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0.
 template <int kCount>
-HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
+HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, int slot, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
@@ -127,7 +128,7 @@ HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, con
     const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
     if (bits == 0) continue;
     const Barycentric at = triangle.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
-    const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
+    const int point = slot * kBlockPixels + chunk * kLanes;
     const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
     if ((taken >> (chunk * kLanes) & ((1u << kLanes) - 1)) == 0) {  // the first triangle of a chunk may fill all of it
       for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
@@ -137,13 +138,13 @@ HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, con
     }
   }
 }
-HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
+HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, int slot, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                   std::uint32_t taken) {
   switch (pixels.adjacent ? pixels.attribute_count : 0) {
-    case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
-    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
-    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);
-    default: return gather_counted<0>(run, pixels, triangle, bx, by, covered, taken);
+    case 1: return gather_counted<1>(run, pixels, slot, triangle, bx, by, covered, taken);
+    case 3: return gather_counted<3>(run, pixels, slot, triangle, bx, by, covered, taken);
+    case 6: return gather_counted<6>(run, pixels, slot, triangle, bx, by, covered, taken);
+    default: return gather_counted<0>(run, pixels, slot, triangle, bx, by, covered, taken);
   }
 }
 
@@ -178,7 +179,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
             same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
           left &= ~same;
           if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
-          gather_attributes(run, pixels, triangle, bx, by, same, taken);
+          gather_attributes(run, pixels, pixels.blocks, triangle, bx, by, same, taken);
           taken |= same;
         }
         waiting &= ~taken;

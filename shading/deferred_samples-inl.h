@@ -7,6 +7,7 @@
 #define TESSERA_SHADING_DEFERRED_SAMPLES_INL_H_
 #endif
 
+#include <algorithm>
 #include <bit>
 
 #include "shading/deferred-inl.h"
@@ -16,9 +17,19 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// A batch whose slots hold one triangle at most for each pixel of a block; a block with more takes several slots.
+inline constexpr int kMaxShares = 16;
+
+/// Pixels of one block in a slot of a batch. A pixel of a slot has one triangle; where a block's pixels have more, the rest goes to
+/// another slot, which several blocks share.
+struct SlotShare {
+  int slot, index;                  // of the block's first pixel in tile memory
+  std::uint32_t covered;            // 16 bits
+  std::uint32_t seen[kMaxSamples];  // by which samples of these pixels
+};
 struct SampledBatch : PixelBatch {
-  std::uint32_t seen[kBatchBlocks][kMaxSamples];  // by which samples of the slot's pixels; 16 bits
+  int shares = 0;
+  SlotShare share[kMaxShares];
+  int spare = -1;                   // the slot that blocks share; -1: none yet
 };
 
 /// Centres may lie outside of the triangles that their samples see: colours are extrapolated there, and cut.
@@ -36,19 +47,21 @@ inline HWY_NOINLINE void shade_sampled_batch(TileRun& run, SampledBatch& pixels)
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
   const Int writable = splat(static_cast<std::int32_t>(draw.write_mask));
-  for (int slot = 0; slot < pixels.blocks; ++slot) {
-    run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
+  for (int slot = 0; slot < pixels.blocks && !per_pixel; ++slot)
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) clamp_colors(batch, slot * kBlockPixels + chunk * kLanes);
+  for (int i = 0; i < pixels.shares; ++i) {
+    const SlotShare& share = pixels.share[i];
+    run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(share.covered));
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const auto lanes_of = [chunk](std::uint32_t bits) { return bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
-      if (lanes_of(pixels.covered[slot]) == 0) continue;
-      const int first = slot * kBlockPixels + chunk * kLanes;
-      if (!per_pixel) clamp_colors(batch, first);
-      const Int words = quantize_chunk(run.frame, batch, first, lanes_of(pixels.covered[slot]));
+      if (lanes_of(share.covered) == 0) continue;
+      const Int words = quantize_chunk(run.frame, batch, share.slot * kBlockPixels + chunk * kLanes, lanes_of(share.covered));
       for (int s = 0; s < run.samples; ++s)
-        store_words(run.sample[s].color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(lanes_of(pixels.seen[slot][s])), writable);
+        store_words(run.sample[s].color + share.index + chunk * kLanes, words, mask_from_bits(lanes_of(share.seen[s])), writable);
     }
   }
-  pixels.blocks = 0;
+  pixels.blocks = pixels.shares = 0;
+  pixels.spare = -1;
 }
 
 /// The pixels of a block in which each sample waits for the colour of triangle `id`.
@@ -74,69 +87,124 @@ HWY_INLINE bool samples_agree(const TileRun& run, int index) {
   return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
 }
 
-/// Fills the next slot of the batch with as many of the block's waiting samples as have its surface, one triangle a pixel.
-/// @param samples  those that are looked at; 1: the others are like the first
-HWY_INLINE void fill_slot(TileRun& run, SampledBatch& pixels, int bx, int by, int index, int samples, std::uint32_t (&waiting)[kMaxSamples]) {
-  const TileWorkspace::Memory& memory = run.memory;
-  std::uint32_t left[kMaxSamples], (&seen)[kMaxSamples] = pixels.seen[pixels.blocks];
-  std::uint32_t taken = 0;
-  for (int s = 0; s < samples; ++s) {
-    left[s] = waiting[s];
-    seen[s] = 0;
+/// Puts the triangles of one block after the other into the slots of a batch, and shades the batch whenever it is full.
+struct SampledShader {
+  TileRun& run;
+  SampledBatch pixels;
+  // The block, and its shares of a slot of its own and of the spare one; -1: none yet.
+  int bx = 0, by = 0, index = 0, own = -1, shared = -1;
+
+  HWY_INLINE void begin_block(int x, int y) {
+    bx = x, by = y, index = run.block_index(x, y);
+    own = shared = -1;
   }
-  for (int first = 0; first < samples; ++first) {
-    while (left[first] != 0) {
-      const std::uint32_t id = run.sample[first].ids[index + std::countr_zero(left[first])];
-      const ShadedTriangle& triangle = memory.triangles[id];
-      std::uint32_t same[kMaxSamples], any = 0;
-      for (int s = first; s < samples; ++s) {
-        same[s] = pixels_of_triangle(run.sample[s].ids + index, id) & left[s];
-        left[s] &= ~same[s];
-        any |= same[s];
+  HWY_INLINE void begin_surface_of(const ShadedTriangle& leader) {
+    if (pixels.draw == leader.draw && pixels.back == leader.back) return;
+    flush();
+    begin_surface(run, pixels, leader.draw, leader.back);
+  }
+  HWY_INLINE void flush() {
+    shade_sampled_batch(run, pixels);
+    own = shared = -1;
+  }
+  /// A triangle of the batch's surface: its pixels in the block, and which of them each sample sees.
+  HWY_INLINE void add(const ShadedTriangle& triangle, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
+    if (own < 0) {
+      if (pixels.blocks == kBatchBlocks) flush();
+      own = open_share(open_slot());
+    }
+    covered = place(own, triangle, covered, seen);
+    while (covered != 0) {
+      if (pixels.spare < 0 || (covered & ~pixels.covered[pixels.spare]) == 0) {
+        if (pixels.blocks == kBatchBlocks) {
+          flush();
+          return add(triangle, covered, seen);
+        }
+        pixels.spare = open_slot();
+        shared = -1;
       }
-      if (triangle.draw != pixels.draw || triangle.back != pixels.back) continue;
-      const std::uint32_t free = any & ~taken;
-      if (free == 0) continue;
-      gather_attributes(run, pixels, triangle, bx, by, free, taken);
-      taken |= free;
-      for (int s = first; s < samples; ++s) {
-        seen[s] |= same[s] & free;
-        waiting[s] &= ~(same[s] & free);
+      if (shared < 0) shared = open_share(pixels.spare);
+      covered = place(shared, triangle, covered, seen);
+    }
+  }
+
+ private:
+  HWY_INLINE int open_slot() {
+    pixels.covered[pixels.blocks] = 0;
+    return pixels.blocks++;
+  }
+  HWY_INLINE int open_share(int slot) {
+    SlotShare& share = pixels.share[pixels.shares];
+    share.slot = slot;
+    share.index = index;
+    share.covered = 0;
+    for (int s = 0; s < run.samples; ++s) share.seen[s] = 0;
+    return pixels.shares++;
+  }
+  /// Returns the pixels that found no room.
+  HWY_NOINLINE std::uint32_t place(int number, const ShadedTriangle& triangle, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
+    SlotShare& share = pixels.share[number];
+    std::uint32_t& taken = pixels.covered[share.slot];
+    const std::uint32_t free = covered & ~taken;
+    if (free == 0) return covered;
+    gather_attributes(run, pixels, share.slot, triangle, bx, by, free, taken);
+    taken |= free;
+    share.covered |= free;
+    for (int s = 0; s < run.samples; ++s) share.seen[s] |= seen[s] & free;
+    return covered & ~free;
+  }
+};
+
+/// Shades one block. `samples` of them are looked at: one, where all agree.
+HWY_INLINE void shade_block(SampledShader& shader, int samples, std::uint32_t (&waiting)[kMaxSamples]) {
+  TileRun& run = shader.run;
+  const TileWorkspace::Memory& memory = run.memory;
+  for (int first = 0; first < samples; ++first) {
+    while (waiting[first] != 0) {
+      // All triangles of the surface that the first one belongs to, one after the other.
+      const ShadedTriangle& leader = memory.triangles[run.sample[first].ids[shader.index + std::countr_zero(waiting[first])]];
+      shader.begin_surface_of(leader);
+      std::uint32_t left[kMaxSamples];
+      std::copy_n(waiting, samples, left);
+      for (int from = first; from < samples; ++from) {
+        while (left[from] != 0) {
+          const std::uint32_t id = run.sample[from].ids[shader.index + std::countr_zero(left[from])];
+          const ShadedTriangle& triangle = memory.triangles[id];
+          const bool same_surface = triangle.draw == leader.draw && triangle.back == leader.back;
+          std::uint32_t seen[kMaxSamples], covered = 0;
+          for (int s = 0; s < samples; ++s) {
+            seen[s] = s < from ? 0 : pixels_of_triangle(run.sample[s].ids + shader.index, id);
+            left[s] &= ~seen[s];
+            if (same_surface) waiting[s] &= ~seen[s];
+            covered |= seen[s];
+          }
+          for (int s = samples; s < run.samples; ++s) seen[s] = seen[0];
+          if (same_surface) shader.add(triangle, covered, seen);
+        }
       }
     }
   }
-  for (int s = samples; s < run.samples; ++s) seen[s] = seen[0];
-  pixels.index[pixels.blocks] = index;
-  pixels.covered[pixels.blocks] = taken;
-  ++pixels.blocks;
 }
 
 /// Shades what was collected in the whole tile, and forgets it.
 inline HWY_NOINLINE void shade_collected_samples(TileRun& run) {
-  SampledBatch pixels;
+  SampledShader shader{.run = run, .pixels = {}};
   for (int by = 0; by < run.tile_size; by += 4) {
     for (int bx = 0; bx < run.tile_size; bx += 4) {
-      const int index = run.block_index(bx, by);
-      const int samples = samples_agree(run, index) ? 1 : run.samples;
+      shader.begin_block(bx, by);
+      const int samples = samples_agree(run, shader.index) ? 1 : run.samples;
       std::uint32_t waiting[kMaxSamples], any = 0;
-      for (int s = 0; s < samples; ++s) any |= waiting[s] = waiting_pixels(run.sample[s].ids + index);
+      for (int s = 0; s < samples; ++s) any |= waiting[s] = waiting_pixels(run.sample[s].ids + shader.index);
       if (any == 0) continue;
-      for (int first = 0; first < samples; ++first) {
-        while (waiting[first] != 0) {
-          const ShadedTriangle& leader = run.memory.triangles[run.sample[first].ids[index + std::countr_zero(waiting[first])]];
-          const bool other_surface = pixels.draw != leader.draw || pixels.back != leader.back;
-          if (pixels.blocks == kBatchBlocks || other_surface) shade_sampled_batch(run, pixels);
-          if (other_surface) begin_surface(run, pixels, leader.draw, leader.back);
-          fill_slot(run, pixels, bx, by, index, samples, waiting);
-        }
-      }
+      shade_block(shader, samples, waiting);
       for (int s = 0; s < run.samples; ++s)
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-          hn::Store(splat(-1), kInt, reinterpret_cast<std::int32_t*>(run.sample[s].ids) + index + chunk * kLanes);
+          hn::Store(splat(-1), kInt, reinterpret_cast<std::int32_t*>(run.sample[s].ids) + shader.index + chunk * kLanes);
     }
   }
-  shade_sampled_batch(run, pixels);
+  shader.flush();
 }
+
 
 /// Shades everything that waits for its colour.
 HWY_INLINE void shade_whole_tile(TileRun& run) {

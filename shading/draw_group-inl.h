@@ -14,7 +14,7 @@
 #include "raster/triangle_setup-inl.h"
 #include "shading/deferred-inl.h"
 #include "shading/fragment_ops-inl.h"
-#include "shading/fragment_ops_reference.h"
+#include "shading/fragment_word.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -38,6 +38,15 @@ template <class Depth>
 inline constexpr bool kHasDepth = true;
 template <>
 inline constexpr bool kHasDepth<NoDepth> = false;
+
+/// The sum of lanes of minus how many.
+HWY_INLINE std::uint64_t count_of(Int negative) {
+  alignas(64) std::int32_t lanes[kLanes];
+  hn::Store(negative, kInt, lanes);
+  std::int64_t sum = 0;
+  for (const std::int32_t lane : lanes) sum -= lane;
+  return static_cast<std::uint64_t>(sum);
+}
 
 /// One triangle's way through the blocks of a tile.
 template <class Depth, Test kTest, Seen kSeen>
@@ -86,13 +95,7 @@ struct TrianglePixels {
       }
     }
   }
-  HWY_INLINE std::uint64_t seen_pixels() const {
-    alignas(64) std::int32_t lanes[kLanes];
-    hn::Store(seen, kInt, lanes);
-    std::int64_t sum = 0;
-    for (const std::int32_t lane : lanes) sum -= lane;
-    return static_cast<std::uint64_t>(sum);
-  }
+  HWY_INLINE std::uint64_t seen_pixels() const { return count_of(seen); }
 
   /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
   HWY_INLINE Barycentric barycentric_at(const BlockEdges& block_edges, int bx, int by, int chunk) const {

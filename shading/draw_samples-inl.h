@@ -35,76 +35,108 @@ inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileRu
 }
 
 /// One narrow triangle's way through the blocks of a tile, at all samples of a pixel.
-template <class Depth, Test kTest, Seen kSeen>
+template <int kSamples, class Depth, Test kTest, Seen kSeen>
 struct SampledTrianglePixels {
   TileRun& run;
   const TileDraw& draw;
   Depth depth;
-  typename Depth::Anchor anchors[kMaxSamples];
-  Int moved[kMaxSamples][3];  // edges of a sample minus those that the blocks are found by, which none exceeds
-  Int value;                  // the word, or the triangle's number
+  typename Depth::Anchor anchors[kSamples];
+  TileEdges edges;               // those that the blocks are found by: of a sample, or of none, but never below any sample's
+  Int moved[kSamples][3];        // what a sample's edges are less than those
+  std::int32_t to_lowest[3];     // from those at a block's first pixel to the lowest of any sample in it
+  std::int32_t *stored_depth[kSamples], *stored[kSamples];  // of the sample: depth; the words or triangles' numbers that it writes
+  Int value;                     // the word, or the triangle's number
   Int writable, depth_writable;
-  Int seen = hn::Zero(kInt);  // -1 where a pixel passed
+  Int seen = hn::Zero(kInt);     // collect_sample: -1 where a pixel passed; word: minus the number of those that passed at the first sample
+
+  HWY_INLINE SampledTrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, int i, std::uint32_t new_value)
+      : run(tile_run), draw(tile_draw), edges(tile_edges(tile_run.memory.group, i)), value(splat(static_cast<std::int32_t>(new_value))),
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)) {
+    const TriangleGroup& g = run.memory.group;
+    const SampleGroup& samples = run.memory.samples->narrow;
+    for (int k = 0; k < 3; ++k) {
+      std::int32_t highest = samples.e[0][k][i], lowest = highest;
+      for (int s = 1; s < kSamples; ++s) {
+        highest = std::max(highest, samples.e[s][k][i]);
+        lowest = std::min(lowest, samples.e[s][k][i]);
+      }
+      for (int s = 0; s < kSamples; ++s) moved[s][k] = splat(samples.e[s][k][i] - highest);
+      edges.e[k] = highest;
+      to_lowest[k] = lowest - highest + 3 * (std::min(edges.a[k], 0) + std::min(edges.b[k], 0));
+    }
+    if constexpr (kHasDepth<Depth>) {
+      depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+      depth.prepare_blocks();
+    }
+    for (int s = 0; s < kSamples; ++s) {
+      stored_depth[s] = run.sample[s].depth;
+      stored[s] = reinterpret_cast<std::int32_t*>(kSeen == Seen::word ? run.sample[s].color : run.sample[s].ids);
+    }
+    for (int s = 0; s < kSamples; ++s) anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(kSamples)[s], run.tile_x, run.tile_y);
+  }
+
+  /// All pixels of the block are inside at all samples.
+  HWY_INLINE bool holds_block(int bx, int by) const {
+    const auto lowest = [&](int k) { return edges.e[k] + edges.a[k] * bx + edges.b[k] * by + to_lowest[k]; };
+    return (lowest(0) | lowest(1) | lowest(2)) >= 0;
+  }
 
   template <bool kFull>
-  HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
+    if (kFull && !run.cut && holds_block(bx, by))
+      draw_block<true>(bx, by, block_edges);
+    else
+      draw_block<false>(bx, by, block_edges);
+  }
+
+  template <bool kInside>
+  HWY_INLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
     const int block = run.block_index(bx, by);
-    for (int s = 0; s < run.samples; ++s) {
-      const TilePixels& pixels = run.sample[s];
+    for (int s = 0; s < kSamples; ++s) {
       depth.move_to(anchors[s]);
       const auto block_depth = depth.block(bx, by);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
         const int index = block + chunk * kLanes;
-        const Int outside = hn::Or(hn::Or(hn::Add(edges.at(0, chunk), moved[s][0]), hn::Add(edges.at(1, chunk), moved[s][1])), hn::Add(edges.at(2, chunk), moved[s][2]));
-        auto mask = hn::Gt(outside, splat(-1));
-        if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
-        if constexpr (kHasDepth<Depth>) {
-          std::int32_t* stored_at = pixels.depth + index;
-          const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
-          mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : comparing(key, draw.depth_test, stored));
-          hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
+        auto mask = hn::Eq(hn::Zero(kInt), hn::Zero(kInt));
+        if constexpr (!kInside) {
+          const auto edge = [&](int k) HWY_ATTR { return hn::Add(block_edges.at(k, chunk), moved[s][k]); };
+          mask = hn::Gt(hn::Or(hn::Or(edge(0), edge(1)), edge(2)), splat(-1));
+          if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
         }
-        if constexpr (kSeen != Seen::nothing) seen = hn::Or(seen, hn::VecFromMask(kInt, mask));
-        if constexpr (kSeen == Seen::word) store_words(pixels.color + index, value, mask, writable);
+        if constexpr (kHasDepth<Depth>) {
+          std::int32_t* const at = stored_depth[s] + index;
+          const Int before = hn::Load(kInt, at), key = depth.keys(block_depth, chunk);
+          mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, before) : comparing(key, draw.depth_test, before));
+          hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, before), kInt, at);
+        }
+        if constexpr (kSeen == Seen::collect_sample) seen = hn::Or(seen, hn::VecFromMask(kInt, mask));
+        if (kSeen == Seen::word && s == 0) seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
+        if constexpr (kSeen == Seen::word) store_words(reinterpret_cast<std::uint32_t*>(stored[s]) + index, value, mask, writable);
         if constexpr (kSeen == Seen::collect_sample) {
-          auto* ids = reinterpret_cast<std::int32_t*>(pixels.ids) + index;
-          hn::Store(hn::IfThenElse(mask, value, hn::Load(kInt, ids)), kInt, ids);
+          std::int32_t* const at = stored[s] + index;
+          hn::Store(hn::IfThenElse(mask, value, hn::Load(kInt, at)), kInt, at);
         }
       }
     }
   }
 };
 
-/// Group without wide triangles: one walk through the blocks of a triangle for all samples. @pre set up, with the samples' reach
-template <class Depth, Test kTest, Seen kSeen>
+/// A group without wide triangles: one walk through the blocks of a triangle for all samples. @pre set up, with the samples' reach
+template <int kSamples, class Depth, Test kTest, Seen kSeen>
 HWY_INLINE void draw_narrow_samples(TileRun& run, std::uint32_t draw_number) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  SampleGroup& samples = run.memory.samples->narrow;
-  set_up_samples(g, samples, run.samples, kHasDepth<Depth> ? run.frame.depth_kind : DepthKind::none, run.tile_x, run.tile_y);
-  const SamplePosition* const positions = sample_positions(run.samples);
+  set_up_samples(g, run.memory.samples->narrow, kSamples, kHasDepth<Depth> ? run.frame.depth_kind : DepthKind::none, run.tile_x, run.tile_y);
   for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    SampledTrianglePixels<Depth, kTest, kSeen> pixels{.run = run, .draw = draw, .depth = {}, .anchors = {}, .moved = {}, .value = {},
-                                                      .writable = splat(static_cast<std::int32_t>(draw.write_mask)), .depth_writable = splat(draw.depth_write ? -1 : 0)};
-    TileEdges edges = tile_edges(g, i);
-    for (int k = 0; k < 3; ++k) {
-      std::int32_t highest = samples.e[0][k][i];
-      for (int s = 1; s < run.samples; ++s) highest = std::max(highest, samples.e[s][k][i]);
-      for (int s = 0; s < run.samples; ++s) pixels.moved[s][k] = splat(samples.e[s][k][i] - highest);
-      edges.e[k] = highest;
-    }
-    if constexpr (kHasDepth<Depth>) {
-      pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-      pixels.depth.prepare_blocks();
-    }
-    for (int s = 0; s < run.samples; ++s) pixels.anchors[s] = Depth::anchor(g, samples, s, i, positions[s], run.tile_x, run.tile_y);
-    const bool back = !is_front(g.signed_area[i], draw.front_is_clockwise);
-    if constexpr (kSeen == Seen::word) pixels.value = splat(static_cast<std::int32_t>(triangle_word(run, draw, i, back)));
-    if constexpr (kSeen == Seen::collect_sample) pixels.value = splat(static_cast<std::int32_t>(run.memory.triangles.size()) - g.count + i);
-    const BlockOffsets offsets(edges);
-    for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
+    std::uint32_t value = 0;
+    if constexpr (kSeen == Seen::word) value = triangle_word(run, draw, i, !is_front(g.signed_area[i], draw.front_is_clockwise));
+    if constexpr (kSeen == Seen::collect_sample) value = static_cast<std::uint32_t>(run.memory.triangles.size()) - static_cast<std::uint32_t>(g.count - i);
+    SampledTrianglePixels<kSamples, Depth, kTest, kSeen> pixels(run, draw, i, value);
+    const BlockOffsets offsets(pixels.edges);
+    for_each_block(pixels.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     if constexpr (kSeen == Seen::collect_sample) run.any_seen |= !hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)));
+    if constexpr (kSeen == Seen::word) run.counts.shaded_pixels += count_of(pixels.seen);
   }
 }
 
@@ -117,7 +149,9 @@ HWY_INLINE void draw_moved_samples(TileRun& run, std::uint32_t draw_number) {
     move_group(run.memory.group, moved.x - positions[s].x, moved.y - positions[s].y);
     moved = positions[s];
     run.pixels = run.sample[s];
+    const std::uint64_t shaded = run.counts.shaded_pixels;
     draw_group<Depth, kTest, kSeen>(run, draw_number);
+    if (s > 0) run.counts.shaded_pixels = shaded;  // one colour for all samples
   }
 }
 
@@ -142,8 +176,10 @@ void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
   run.any_seen = false;
   if (any_wide)
     draw_moved_samples<Depth, kTest, kSeen>(run, draw_number);
+  else if (run.samples == 4)
+    draw_narrow_samples<4, Depth, kTest, kSeen>(run, draw_number);
   else
-    draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number);
+    draw_narrow_samples<8, Depth, kTest, kSeen>(run, draw_number);
   if constexpr (kSeen == Seen::collect_sample) {
     if (!run.any_seen) {
       memory.triangles.resize(triangles);

@@ -4,24 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framebuffer/format.h"
-#include "shading/fragment_ops.h"
+#include "shading/fragment_word.h"
 
 namespace tessera {
-
-template <class Number>
-constexpr bool compares(Number a, CompareOp op, Number b) {
-  switch (op) {
-    case CompareOp::never: return false;
-    case CompareOp::less: return a < b;
-    case CompareOp::equal: return a == b;
-    case CompareOp::lequal: return a <= b;
-    case CompareOp::greater: return a > b;
-    case CompareOp::notequal: return a != b;
-    case CompareOp::gequal: return a >= b;
-    default: return true;
-  }
-}
 
 constexpr std::int32_t stencil_after(StencilAction action, std::int32_t stored, const StencilSide& face, std::int32_t most) {
   const auto value = [&] {
@@ -60,10 +45,6 @@ constexpr std::uint32_t logic_word(Logic logic, std::uint32_t s, std::uint32_t d
     default: return ~0u;
   }
 }
-
-using Rgba = std::array<float, 4>;
-
-inline float clamp_unit(float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
 
 /// A level of b bits as a component; of no bits: 1.
 inline float component_of(std::uint32_t level, int bits) { return bits == 0 ? 1.0f : static_cast<float>(static_cast<std::int32_t>(level)) * (1.0f / static_cast<float>((1 << bits) - 1)); }
@@ -112,14 +93,6 @@ inline Rgba blended(const FragmentOps& ops, const Rgba& s, const Rgba& d) {
     out[c] = clamp_unit(sum);
   }
   return out;
-}
-
-/// The word of a clamped colour: each component floor(c (2^b - 1) + t). RGB and luminance layouts.
-inline std::uint32_t stored_word(const ColorLayout& layout, const Rgba& c, float t) {
-  const auto level = [&](float x, int bits) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::fma(x, static_cast<float>((1 << bits) - 1), t))); };
-  const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : level(c[3], layout.alpha_bits) << layout.bits;
-  if (layout.luminance) return alpha | level(clamp_unit(std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]))), layout.bits);
-  return alpha | level(c[0], layout.r_bits) << layout.r_shift() | level(c[1], layout.g_bits) << layout.g_shift() | level(c[2], layout.b_bits);
 }
 
 }  // namespace tessera

@@ -110,7 +110,8 @@ void run_accumulation(TileRun& run, const TileAccumulation& command) {
     for (int s = 0; s < run.samples; ++s) run_on(run.sample[s].color);
     return;
   }
-  if (run.samples > 1) resolve_samples(run);
+  const bool reads_color = command.arithmetic.op() == AccumulationOp::accumulate || command.arithmetic.op() == AccumulationOp::load;
+  if (run.samples > 1 && reads_color) resolve_samples(run);
   run_on(run.memory.color);
 }
 
