@@ -13,14 +13,12 @@
 namespace tessera {
 namespace {
 
-constexpr int kWidth = 1920, kHeight = 1080;
-
 /// A scene from recording to the picture in memory.
 class Drawn {
  public:
   explicit Drawn(Scene scene)
-      : scene_(std::move(scene)), buffer_(scene_.framebuffer), renderer_({.threads = available_cores()}), pixels_(std::size_t{kWidth} * kHeight),
-        target_{pixels_.data(), kWidth, kHeight, 4 * kWidth, PixelOrder::rgba8} {}
+      : scene_(std::move(scene)), buffer_(scene_.framebuffer), renderer_({.threads = available_cores()}), pixels_(static_cast<std::size_t>(scene_.framebuffer.width) * static_cast<std::size_t>(scene_.framebuffer.height)),
+        target_{pixels_.data(), scene_.framebuffer.width, scene_.framebuffer.height, 4 * scene_.framebuffer.width, PixelOrder::rgba8} {}
   void draw() {
     Frame frame(buffer_);
     record(scene_, frame);
@@ -35,9 +33,9 @@ class Drawn {
   ImageTarget target_;
 };
 
-Scene teapot(Shading shading, const std::function<void(FrameBufferFormat&, DrawState&)>& change) {
+Scene teapot(int width, int height, Shading shading, const std::function<void(FrameBufferFormat&, DrawState&)>& change) {
   Scene scene = builtin_scene();
-  apply({.width = kWidth, .height = kHeight, .shading = shading}, scene);
+  apply({.width = width, .height = height, .shading = shading}, scene);
   for (SceneCommand& command : scene.frame)
     if (auto* const draw = std::get_if<DrawCommand>(&command.what)) change(scene.framebuffer, draw->state);
   return scene;
@@ -67,17 +65,32 @@ const std::vector<Operation>& operations() {
   return kAll;
 }
 
+struct Picture {
+  const char* name;
+  int width, height;
+  Shading shading;
+};
+/// The built-in scene as it is, and larger in each shading.
+constexpr Picture kPictures[] = {{"640x480_phong", 640, 480, Shading::phong},
+                                 {"1920x1080_phong", 1920, 1080, Shading::phong},
+                                 {"1920x1080_gouraud", 1920, 1080, Shading::gouraud},
+                                 {"1920x1080_flat", 1920, 1080, Shading::flat}};
+
+std::string row_name(const Picture& picture, const Operation& operation) { return std::string(picture.name) + "_" + operation.name; }
+
 int run(int argc, char** argv) {
   initialize_rows(argc, argv);
-  constexpr std::pair<Shading, const char*> kShadings[] = {{Shading::phong, "phong"}, {Shading::gouraud, "gouraud"}, {Shading::flat, "flat"}};
-  for (const auto& [shading, name] : kShadings)
-    for (const Operation& operation : operations()) register_row(std::string(name) + "_" + operation.name, std::make_shared<Drawn>(teapot(shading, operation.change)));
+  for (const Picture& picture : kPictures)
+    for (const Operation& operation : operations())
+      register_row(row_name(picture, operation), std::make_shared<Drawn>(teapot(picture.width, picture.height, picture.shading, operation.change)));
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
-  for (const auto& [shading, name] : kShadings)
+  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles): with, without\n", available_cores(),
+              std::string(name(available_instruction_sets().front())).c_str());
+  for (const Picture& picture : kPictures)
     for (const Operation& operation : operations())
       if (operation.name != std::string_view("without"))
-        print_ratio(reporter, std::string(name) + ", " + operation.name, std::string(name) + "_" + operation.name, std::string(name) + "_without", operation.goal);
+        print_ratio(reporter, row_name(picture, operation), row_name(picture, operation), row_name(picture, operations().front()), operation.goal);
   return 0;
 }
 
