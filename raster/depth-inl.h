@@ -11,6 +11,7 @@
 #define TESSERA_RASTER_DEPTH_INL_H_
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -52,6 +53,10 @@ struct UnormDepth {
   /// What is moved from sample to sample.
   using Anchor = std::uint64_t;
   static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup& samples, int s, int i, SamplePosition, int, int) { return samples.fixed_base[s][i]; }
+  /// No pixel or sample of triangle i has a smaller key: its vertices' smallest but for the plane's rounding.
+  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind kind) {
+    return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])) >> (32 - depth_bits(kind))) - 1;
+  }
   HWY_INLINE void move_to(Anchor to) { base = to; }
 
   /// A block's first pixel; keys(chunk) are those of its lanes.
@@ -83,6 +88,10 @@ struct UnormDepth {
 
 /// 32 bits: see kUnorm32Lift.
 struct Unorm32Depth : UnormDepth {
+  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {
+    const std::uint32_t word = std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i]));
+    return static_cast<std::int32_t>((word > 4 ? word - 4 : 0) ^ 0x80000000u);  // stored levels may be 4 away
+  }
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind) {
     shift = 0;
     base = g.fixed_base[i];
@@ -129,6 +138,9 @@ struct Float32Depth {
             static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - (g.y[0][i] - at.y)) * (1.0 / 256))};
   }
   HWY_INLINE void move_to(Anchor to) { first_x = to.x, first_y = to.y; }
+  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {  // of floats that are not negative: their bits
+    return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));
+  }
   HWY_INLINE std::int32_t key(int x, int y) const {
     const float z = std::fma(dx, first_x + static_cast<float>(x), std::fma(dy, first_y + static_cast<float>(y), z0));
     const float low_cut = z > low ? z : low, cut = (low_cut < high ? low_cut : high) + 0.0f;  // + 0: no negative zero

@@ -20,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// What happens to a pixel that is seen. collect_sample: the group's triangles are collected already.
-enum class Seen { nothing, word, interpolate, collect, collect_sample };
+/// What happens to a pixel that is seen.
+enum class Seen { nothing, word, interpolate, collect };
 /// `less` has code of its own, since nearly everybody uses it.
 enum class Test { less, any };
 
@@ -77,21 +77,21 @@ struct TrianglePixels {
       auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : block_edges.covered(chunk);
       if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
       if constexpr (kHasDepth<Depth>) {
-        std::int32_t* stored_at = run.pixels.depth + index;
+        std::int32_t* stored_at = run.memory.depth + index;
         const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
         mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : comparing(key, draw.depth_test, stored));
         hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
       }
       // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
-      if constexpr (kSeen == Seen::collect || kSeen == Seen::collect_sample) {
-        auto* ids = reinterpret_cast<std::int32_t*>(run.pixels.ids) + index;
+      if constexpr (kSeen == Seen::collect) {
+        auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
         hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
         seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
       } else if constexpr (kSeen != Seen::nothing) {
         if (kSeen == Seen::interpolate && hn::AllFalse(kInt, mask)) continue;
         seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
         const Int words = kSeen == Seen::word ? splat(word) : color.words(barycentric_at(block_edges, bx, by, chunk));
-        store_words(run.pixels.color + index, words, mask, writable);
+        store_words(run.memory.color + index, words, mask, writable);
       }
     }
   }
@@ -107,17 +107,17 @@ struct TrianglePixels {
   HWY_INLINE void pixel(int x, int y) {
     const int index = run.pixel_index(x, y);
     if constexpr (kHasDepth<Depth>) {
-      const std::int32_t key = depth.key(x, y), stored = run.pixels.depth[index];
+      const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
       if (!(kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored))) return;
-      if (draw.depth_write) run.pixels.depth[index] = key;
+      if (draw.depth_write) run.memory.depth[index] = key;
     }
-    if constexpr (kSeen == Seen::collect || kSeen == Seen::collect_sample) {
-      run.pixels.ids[index] = static_cast<std::uint32_t>(id);
+    if constexpr (kSeen == Seen::collect) {
+      run.memory.ids[index] = static_cast<std::uint32_t>(id);
       seen = splat(-1);  // how many does not matter here
     } else if constexpr (kSeen != Seen::nothing) {
       ++run.counts.shaded_pixels;
       const auto new_word = static_cast<std::uint32_t>(kSeen == Seen::word ? word : pixel_word(x, y));
-      run.pixels.color[index] = (new_word & draw.write_mask) | (run.pixels.color[index] & ~draw.write_mask);
+      run.memory.color[index] = (new_word & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
     }
   }
 
@@ -150,7 +150,6 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
   pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
   if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
   if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
-  if constexpr (kSeen == Seen::collect_sample) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size()) - g.count + i;
   if constexpr (kSeen == Seen::word) pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
 }
 
@@ -227,7 +226,6 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
         memory.wide.clear();
       }
     }
-    if constexpr (kSeen == Seen::collect_sample) run.any_seen |= !hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)));
     if constexpr (kSeen == Seen::interpolate) memory.wide.clear();
     if constexpr (kSeen == Seen::interpolate || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels();
   }

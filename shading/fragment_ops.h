@@ -50,7 +50,7 @@ struct FragmentOps {
 
   bool dither = false;
   /// What is added before a level is cut off, by raster row and column; without dither 0.5 everywhere.
-  float threshold[kDitherSize][kDitherSize];
+  float threshold[kDitherSize][kDitherSize] = {};
   float palette_spread = 0;         ///< index buffers: how far (threshold - 0.5) moves the colour that is looked up
 
   Logic logic = Logic::copy;

@@ -13,7 +13,7 @@
 #include "raster/depth_offset-inl.h"
 #include "raster/triangle_setup-inl.h"
 #include "shading/deferred_samples-inl.h"
-#include "shading/draw_samples-inl.h"
+#include "shading/draw_group-inl.h"
 #include "shading/fragment_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +33,8 @@ struct FragmentTriangle {
   const ShadedTriangle& triangle;
   bool has_depth;
   std::int32_t id = 0;            // for draws that are shaded later
-  std::uint32_t number = 0;       // of the triangle in its mesh
+  bool has_word = false;          // there is no colour to be made: it is a word already
+  std::uint32_t word = 0;
   const float* flat = nullptr;    // r g b a, or an index
   PixelBatch pixels;              // of this surface, for lighting
   bool seen = false;
@@ -128,7 +129,7 @@ struct FragmentTriangle {
   /// What a colour, or an index in place of its red, makes of the stored words of one sample.
   HWY_INLINE Int words(Colors source, Float threshold, std::uint32_t lanes, Int stored) const {
     const ColorLayout& layout = run.frame.layout;
-    if (draw.number != TileDraw::Number::none) return splat(static_cast<std::int32_t>(draw.number == TileDraw::Number::draw ? draw.word : number));
+    if (has_word) return splat(static_cast<std::int32_t>(word));
     if (draw.index[face()]) {
       const Int result = index_words(layout, source.c[0]);
       return ops.logic == Logic::copy ? result : logic_words(ops.logic, result, stored);
@@ -168,7 +169,7 @@ struct FragmentTriangle {
     const auto lanes_of = [](std::uint32_t pixel_bits, int chunk) { return pixel_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       if (lanes_of(bits, chunk) == 0) continue;
-      const Colors source = draw.index[face()] ? Colors{{indices(bx, by, chunk)}} : colors(bx, by, chunk);
+      const Colors source = has_word ? Colors{} : draw.index[face()] ? Colors{{indices(bx, by, chunk)}} : colors(bx, by, chunk);
       const Float threshold = thresholds(bx, by, chunk);
       for (int s = 0; s < run.samples; ++s) {
         const std::uint32_t lanes = lanes_of(passed[s], chunk);
@@ -248,14 +249,21 @@ HWY_INLINE void set_up_fragment_depth(Depth& depth, const TileRun& run, const Ti
   depth.prepare_blocks();
 }
 
+/// Of draws that have no operations and come here all the same.
+inline constexpr FragmentOps kNoOperations{};
+HWY_INLINE bool has_words(const TileDraw& draw) {
+  return draw.source == ColorSource::constant || draw.source == ColorSource::vertex_word || draw.source == ColorSource::triangle_word;
+}
+
 /// Runs blocks(fragments) for one triangle of the group, whose pixels' centres stand in `triangle`.
 template <class Blocks>
 HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i, const ShadedTriangle& triangle, bool has_depth, const Blocks& blocks) {
   TileWorkspace::Memory& memory = run.memory;
   const TileDraw& draw = run.frame.draws[draw_number];
-  FragmentTriangle fragments{.run = run, .draw = draw, .ops = *draw.ops, .triangle = triangle, .has_depth = has_depth, .pixels = {}};
+  FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth, .pixels = {}};
   fragments.id = static_cast<std::int32_t>(memory.triangles.size());
-  fragments.number = memory.source[i];
+  fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
+  if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::triangle ? memory.source[i] : triangle_word(run, draw, i, triangle.back);
   if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
   if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, draw_number, triangle.back);
   blocks(fragments);
@@ -290,6 +298,25 @@ void draw_fragments(TileRun& run, std::uint32_t draw_number) {
       for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
     });
   }
+}
+
+HWY_INLINE void move_group(TriangleGroup& g, std::int32_t x, std::int32_t y) {
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < kGroupSize; ++i) {
+      g.x[k][i] += x;
+      g.y[k][i] += y;
+    }
+}
+
+/// Triangle i of a group that stands where its vertices are: what its pixels' centres see, inside of it or not.
+inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileRun& run, std::uint32_t draw_number, int i, bool back) {
+  const TriangleGroup& g = run.memory.group;
+  fill_shaded_triangle(triangle, run, draw_number, i, back);
+  if (g.wide[i] == 0) return;
+  TileEdges edges;
+  WideEdges wide;
+  tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide);
+  keep_wide_edges(triangle, run.memory, wide);
 }
 
 /// Edges and bounds that hold those of all samples.

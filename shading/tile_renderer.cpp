@@ -3,11 +3,11 @@
 #include "framebuffer/lanes.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
-#include "shading/draw_group-inl.h"
-#include "shading/fragments-inl.h"
+#include "shading/draw_samples-inl.h"
 #include "shading/resolve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,9 +20,9 @@ template <class Depth, Test kTest>
 DrawGroup pick_by_color(Seen seen, bool sampled) {
   if (sampled) {
     switch (seen) {
-      case Seen::nothing: return &draw_group_samples<Depth, kTest, Seen::nothing>;
+      case Seen::nothing: return &draw_group_samples<Depth, Test::any, Seen::nothing>;
       case Seen::word: return &draw_group_samples<Depth, kTest, Seen::word>;
-      default: return &draw_group_samples<Depth, kTest, Seen::collect_sample>;
+      default: return &draw_group_samples<Depth, kTest, Seen::collect>;
     }
   }
   switch (seen) {
@@ -82,6 +82,11 @@ PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int tile_x, 
   return in_tile.empty() ? PixelRect{} : in_tile;
 }
 
+constexpr std::int32_t kFarthestKey = std::numeric_limits<std::int32_t>::max();
+
+/// What is known of all blocks of a tile with several samples: none of their depth keys is greater.
+void set_farthest(TileRun& run, std::int32_t key) { std::fill_n(run.memory.samples->farthest, run.tile_size * run.tile_size / kBlockPixels, key); }
+
 void clear_pixels(const TileRun& run, const TilePixels& pixels, const TileClear& clear, const PixelRect& rect) {
   if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.color_word, rect, run.tile_size);
   if (clear.color && clear.dithered) {
@@ -98,6 +103,7 @@ void run_clear(TileRun& run, const TileClear& clear) {
   shade_whole_tile(run);
   const PixelRect rect = rect_in_tile(clear.rect, run.frame.grid, run.tile_x, run.tile_y);
   for (int s = 0; s < run.samples; ++s) clear_pixels(run, run.sample[s], clear, rect);
+  if (run.samples > 1 && clear.depth) set_farthest(run, rect == PixelRect{0, 0, run.tile_size, run.tile_size} ? clear.depth_key : kFarthestKey);
   if (clear.accumulation)
     for (std::size_t c = 0; c < 4; ++c) fill_rect(run.memory.accumulation->component[c], clear.accumulation_levels[c], rect, run.tile_size);
 }
@@ -126,12 +132,13 @@ void begin_samples(TileRun& run, int tile) {
   TileWorkspace::Memory& memory = run.memory;
   const TileFrame& frame = run.frame;
   std::int32_t* const stencil = memory.stencil ? memory.stencil->value : nullptr;
-  run.sample[0] = run.pixels = {memory.color, memory.depth, memory.ids, stencil};
+  run.sample[0] = {memory.color, memory.depth, memory.ids, stencil};
   run.samples = frame.samples > 1 && has_triangles(frame, tile) ? frame.samples : 1;
   if (run.samples == 1) return;
   TileSamples& samples = *memory.samples;
+  set_farthest(run, kFarthestKey);
   const int pixels = run.tile_size * run.tile_size;
-  run.sample[0].color = run.pixels.color = samples.color[0];
+  run.sample[0].color = samples.color[0];
   if (frame.loads_color) std::copy_n(memory.color, pixels, samples.color[0]);
   for (int s = 1; s < run.samples; ++s) {
     run.sample[s] = samples.of(s, stencil != nullptr);
@@ -161,6 +168,7 @@ struct GroupBuilder {
     draw_number = number;
     draw = &next;
     draw_group_function = pick_draw_group(frame, next);
+    if (run.samples > 1 && next.depth_write && next.depth_test != CompareOp::less) set_farthest(run, kFarthestKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
     run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x, next.rect.y1 - run.tile_y},
                          {0, 0, run.tile_size, run.tile_size});
@@ -218,8 +226,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
               .rect = {},
               .cut = false,
               .counts = {},
-              .sample = {},
-              .pixels = {}};
+              .sample = {}};
   TileWorkspace::Memory& memory = run.memory;
   memory.group.count = 0;
   memory.triangles.clear();

@@ -23,8 +23,6 @@ struct TileRun {
   TileCounts counts;
   int samples = 1;
   TilePixels sample[kMaxSamples];
-  TilePixels pixels;              // what coverage and depth work on: one of the samples
-  bool any_seen = false;          // of a group in any sample
 
   HWY_INLINE int block_index(int bx, int by) const { return ((by >> 2) * (tile_size >> 2) + (bx >> 2)) * kBlockPixels; }
   HWY_INLINE int pixel_index(int x, int y) const { return block_index(x, y) + (y & 3) * 4 + (x & 3); }

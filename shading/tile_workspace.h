@@ -43,6 +43,7 @@ struct alignas(64) TileSamples {
   std::int32_t stencil[kMaxSamples][kStride];
   TriangleGroup group[kMaxSamples];         ///< moved the other way: of wide triangles, and for draws with operations
   SampleGroup narrow;
+  std::int32_t farthest[kMaxTileSize * kMaxTileSize / kBlockPixels];  ///< no depth key of a sample in the block is greater
   int clean_samples = 0, clean_pixels = 0;  ///< so much of `ids` is kNoTriangle
 
   TilePixels of(int sample, bool has_stencil) {
