@@ -116,35 +116,45 @@ HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint3
   }
 }
 
-/// Adds to a slot of the batch the pixels of one triangle in one block; bits of `covered`, `taken` those of the triangles before
-/// it. Lanes that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0.
+/// Pixels of one triangle in one block, as bits, that go to a slot of a batch; `taken`: those that triangles before it have there.
+struct SlotPart {
+  int slot = 0;
+  std::uint32_t covered = 0, taken = 0;
+};
+
+/// Adds the pixels of one triangle in one block to a slot of the batch, or to two. Lanes that no triangle fills hold anything.
+/// kCount: attributes in adjacent arrays, where known; else 0.
 template <int kCount>
-HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, int slot, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
-                               std::uint32_t taken) {
+HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, const SlotPart& first, const SlotPart& second) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
   const NarrowEdges edges(triangle, bx, by);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-    const std::uint32_t bits = covered >> (chunk * kLanes) & ((1u << kLanes) - 1);
-    if (bits == 0) continue;
+    const auto lanes_of = [chunk](std::uint32_t bits) { return bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
+    if (lanes_of(first.covered | second.covered) == 0) continue;
     const Barycentric at = triangle.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
-    const int point = slot * kBlockPixels + chunk * kLanes;
-    const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
-    if ((taken >> (chunk * kLanes) & ((1u << kLanes) - 1)) == 0) {  // the first triangle of a chunk may fill all of it
-      for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
-    } else {
-      const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
-      for (int j = 0; j < count; ++j) hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target(j))), kFloat, target(j));
-    }
+    const auto fill = [&](const SlotPart& part) HWY_ATTR {
+      const std::uint32_t bits = lanes_of(part.covered);
+      if (bits == 0) return;
+      const int point = part.slot * kBlockPixels + chunk * kLanes;
+      const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
+      if (lanes_of(part.taken) == 0) {  // the first triangle of a chunk may fill all of it
+        for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
+      } else {
+        const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
+        for (int j = 0; j < count; ++j) hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target(j))), kFloat, target(j));
+      }
+    };
+    fill(first);
+    fill(second);
   }
 }
-HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, int slot, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
-                                  std::uint32_t taken) {
+HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, const SlotPart& first, const SlotPart& second = {}) {
   switch (pixels.adjacent ? pixels.attribute_count : 0) {
-    case 1: return gather_counted<1>(run, pixels, slot, triangle, bx, by, covered, taken);
-    case 3: return gather_counted<3>(run, pixels, slot, triangle, bx, by, covered, taken);
-    case 6: return gather_counted<6>(run, pixels, slot, triangle, bx, by, covered, taken);
-    default: return gather_counted<0>(run, pixels, slot, triangle, bx, by, covered, taken);
+    case 1: return gather_counted<1>(run, pixels, triangle, bx, by, first, second);
+    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, first, second);
+    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, first, second);
+    default: return gather_counted<0>(run, pixels, triangle, bx, by, first, second);
   }
 }
 
@@ -179,7 +189,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
             same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
           left &= ~same;
           if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
-          gather_attributes(run, pixels, pixels.blocks, triangle, bx, by, same, taken);
+          gather_attributes(run, pixels, triangle, bx, by, {pixels.blocks, same, taken});
           taken |= same;
         }
         waiting &= ~taken;

@@ -109,22 +109,29 @@ struct SampledShader {
   }
   /// A triangle of the batch's surface: its pixels in the block, and which of them each sample sees.
   HWY_INLINE void add(const ShadedTriangle& triangle, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
-    if (own < 0) {
-      if (pixels.blocks == kBatchBlocks) flush();
-      own = open_share(open_slot());
-    }
-    covered = place(own, triangle, covered, seen);
     while (covered != 0) {
-      if (pixels.spare < 0 || (covered & ~pixels.covered[pixels.spare]) == 0) {
-        if (pixels.blocks == kBatchBlocks) {
-          flush();
-          return add(triangle, covered, seen);
-        }
-        pixels.spare = open_slot();
-        shared = -1;
+      if (own < 0) {
+        if (pixels.blocks == kBatchBlocks) flush();
+        own = open_share(open_slot());
       }
-      if (shared < 0) shared = open_share(pixels.spare);
-      covered = place(shared, triangle, covered, seen);
+      const std::uint32_t in_own = covered & ~taken(own), rest = covered & ~in_own;
+      std::uint32_t in_spare = 0;
+      if (rest != 0) {
+        if (pixels.spare < 0 || (rest & ~pixels.covered[pixels.spare]) == 0) {
+          if (pixels.blocks == kBatchBlocks) {
+            place(triangle, in_own, 0, seen);
+            flush();
+            covered = rest;
+            continue;
+          }
+          pixels.spare = open_slot();
+          shared = -1;
+        }
+        if (shared < 0) shared = open_share(pixels.spare);
+        in_spare = rest & ~taken(shared);
+      }
+      place(triangle, in_own, in_spare, seen);
+      covered = rest & ~in_spare;
     }
   }
 
@@ -141,17 +148,19 @@ struct SampledShader {
     for (int s = 0; s < run.samples; ++s) share.seen[s] = 0;
     return pixels.shares++;
   }
-  /// Returns the pixels that found no room.
-  HWY_NOINLINE std::uint32_t place(int number, const ShadedTriangle& triangle, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
+  HWY_INLINE std::uint32_t taken(int share) const { return pixels.covered[pixels.share[share].slot]; }
+  HWY_INLINE SlotPart part(int share, std::uint32_t covered) const { return covered == 0 ? SlotPart{} : SlotPart{pixels.share[share].slot, covered, taken(share)}; }
+  HWY_INLINE void enter(int number, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
+    if (covered == 0) return;
     SlotShare& share = pixels.share[number];
-    std::uint32_t& taken = pixels.covered[share.slot];
-    const std::uint32_t free = covered & ~taken;
-    if (free == 0) return covered;
-    gather_attributes(run, pixels, share.slot, triangle, bx, by, free, taken);
-    taken |= free;
-    share.covered |= free;
-    for (int s = 0; s < run.samples; ++s) share.seen[s] |= seen[s] & free;
-    return covered & ~free;
+    pixels.covered[share.slot] |= covered;
+    share.covered |= covered;
+    for (int s = 0; s < run.samples; ++s) share.seen[s] |= seen[s] & covered;
+  }
+  HWY_NOINLINE void place(const ShadedTriangle& triangle, std::uint32_t in_own, std::uint32_t in_spare, const std::uint32_t (&seen)[kMaxSamples]) {
+    gather_attributes(run, pixels, triangle, bx, by, part(own, in_own), part(shared, in_spare));
+    enter(own, in_own, seen);
+    enter(shared, in_spare, seen);
   }
 };
 

@@ -156,7 +156,7 @@ struct FragmentTriangle {
     }
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
     if (draw.source == ColorSource::per_pixel) {
-      gather_attributes(run, pixels, 0, triangle, bx, by, bits, 0);
+      gather_attributes(run, pixels, triangle, bx, by, {0, bits, 0});
       light_points_lanes(*draw.programs[face()], run.memory.batch, kBlockPixels);
       if (draw.captures_normals) {
         pixels.index[0] = index;
