@@ -46,9 +46,11 @@ struct UnormDepth {
     for (int p = 0; p < 16; p += 4, row += dy)
       for (int c = 0; c < 4; ++c) offset[p + c] = row + columns[c];
   }
-  HWY_INLINE std::uint64_t at(int x, int y) const {
-    return base + dx * static_cast<std::uint64_t>(std::int64_t{x}) + dy * static_cast<std::uint64_t>(std::int64_t{y});
+  /// From the tile's first pixel, or from a sample there.
+  HWY_INLINE std::uint64_t step(int x, int y) const {
+    return dx * static_cast<std::uint64_t>(std::int64_t{x}) + dy * static_cast<std::uint64_t>(std::int64_t{y});
   }
+  HWY_INLINE std::uint64_t at(int x, int y) const { return base + step(x, y); }
   HWY_INLINE std::int32_t key(int x, int y) const { return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift); }
   /// What is moved from sample to sample.
   using Anchor = std::uint64_t;
@@ -57,26 +59,18 @@ struct UnormDepth {
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind kind) {
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])) >> (32 - depth_bits(kind))) - 1;
   }
-  HWY_INLINE void move_to(Anchor to) { base = to; }
-
   /// A block's first pixel; keys(chunk) are those of its lanes.
   struct Block {
-#if HWY_TARGET == HWY_SCALAR
-    std::uint64_t start;
-#else
     hn::Vec<Uint64Tag> start;
-#endif
   };
-  HWY_INLINE Block block(int bx, int by) const {
-#if HWY_TARGET == HWY_SCALAR
-    return {at(bx, by)};
-#else
-    return {hn::Set(kUint64, at(bx, by))};
-#endif
-  }
+  static HWY_INLINE Block block_at(std::uint64_t start) { return {hn::Set(kUint64, start)}; }
+  HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
+  /// The same of a sample, from the step to the block.
+  HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
+  static HWY_INLINE Block block(Anchor sample, const Block& step) { return {hn::Add(block_at(sample).start, step.start)}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
 #if HWY_TARGET == HWY_SCALAR
-    return Int(static_cast<std::int32_t>(static_cast<std::uint32_t>((block.start + offset[chunk]) >> 32) >> shift));
+    return Int(static_cast<std::int32_t>(static_cast<std::uint32_t>((block.start.raw + offset[chunk]) >> 32) >> shift));
 #else
     const auto low = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes));
     const auto high = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes + kLanes / 2));
@@ -109,6 +103,8 @@ struct Unorm32Depth : UnormDepth {
     std::uint64_t start;
   };
   HWY_INLINE Block block(int bx, int by) const { return {at(bx, by)}; }
+  HWY_INLINE Block step_to(int bx, int by) const { return {step(bx, by)}; }
+  static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample + step.start}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     alignas(64) std::int32_t key[kLanes];
     for (int l = 0; l < kLanes; ++l) key[l] = key_of(block.start + offset[chunk * kLanes + l]);
@@ -137,7 +133,6 @@ struct Float32Depth {
     return {static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - (g.x[0][i] - at.x)) * (1.0 / 256)),
             static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - (g.y[0][i] - at.y)) * (1.0 / 256))};
   }
-  HWY_INLINE void move_to(Anchor to) { first_x = to.x, first_y = to.y; }
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {  // of floats that are not negative: their bits
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));
   }
@@ -152,6 +147,8 @@ struct Float32Depth {
     float x, y;
   };
   HWY_INLINE Block block(int bx, int by) const { return {first_x + static_cast<float>(bx), first_y + static_cast<float>(by)}; }
+  HWY_INLINE Block step_to(int bx, int by) const { return {static_cast<float>(bx), static_cast<float>(by)}; }
+  static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample.x + step.x, sample.y + step.y}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     const Float x = hn::Add(splat(block.x), hn::ConvertTo(kFloat, block_columns(chunk)));
     const Float y = hn::Add(splat(block.y), hn::ConvertTo(kFloat, block_rows(chunk)));

@@ -77,6 +77,9 @@ HWY_INLINE auto mask_from_bits(std::uint32_t bits) {
   return hn::TestBit(splat(static_cast<std::int32_t>(bits)), hn::LoadU(kInt, kBits));
 }
 
+/// The bits of one chunk's lanes, of a block's 16.
+HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) { return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); }
+
 // Pixel p of a 4x4 block stands in column p % 4 and row p / 4.
 alignas(64) inline constexpr std::int32_t kBlockColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) inline constexpr std::int32_t kBlockRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};

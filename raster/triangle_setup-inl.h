@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "framebuffer/format.h"
 #include "framebuffer/tile_grid.h"
@@ -180,13 +181,25 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
 /// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has unorm depth, set_up_depth
 inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples, DepthKind kind, int tile_x, int tile_y) {
   const SamplePosition* const positions = sample_positions(samples);
+  for (int k = 0; k < 3; ++k) {
+    alignas(64) std::int32_t highest[kGroupSize], at_center[kGroupSize];
+    for (int i = 0; i < kGroupSize; ++i) {
+      const std::int32_t a = g.a[k][i], b = g.b[k][i], bias = a > 0 || (a == 0 && b > 0) ? 0 : -1;
+      at_center[i] = static_cast<std::int32_t>(g.rest[k][i]) + bias;
+      highest[i] = std::numeric_limits<std::int32_t>::min();
+    }
+    for (int s = 0; s < samples; ++s)
+      for (int i = 0; i < kGroupSize; ++i) {
+        const std::int32_t moved = (at_center[i] + g.a[k][i] * positions[s].x + g.b[k][i] * positions[s].y) >> kSubpixelBits;
+        to.below[s][k][i] = moved;
+        highest[i] = std::max(highest[i], moved);
+      }
+    for (int s = 0; s < samples; ++s)
+      for (int i = 0; i < kGroupSize; ++i) to.below[s][k][i] -= highest[i];
+    for (int i = 0; i < kGroupSize; ++i) to.highest[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(g.e[k][i]) + static_cast<std::uint32_t>(highest[i]));
+  }
   for (int s = 0; s < samples; ++s) {
     const SamplePosition at = positions[s];
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < kGroupSize; ++i) {
-        const std::int32_t a = g.a[k][i], b = g.b[k][i], bias = a > 0 || (a == 0 && b > 0) ? 0 : -1;
-        to.e[s][k][i] = g.e[k][i] + ((static_cast<std::int32_t>(g.rest[k][i]) + bias + a * at.x + b * at.y) >> kSubpixelBits);
-      }
     if (kind == DepthKind::unorm32) {
       for (int i = 0; i < kGroupSize; ++i)
         to.fixed_base[s][i] = fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));

@@ -42,7 +42,8 @@ struct TriangleGroup {
 
 /// What differs of a group from sample to sample: edges, and the value of unorm depth planes at the tile's first pixel.
 struct SampleGroup {
-  alignas(64) std::int32_t e[kMaxSamples][3][kGroupSize];
+  alignas(64) std::int32_t highest[3][kGroupSize];             ///< e of the sample that has the greatest
+  alignas(64) std::int32_t below[kMaxSamples][3][kGroupSize];  ///< what a sample's e has more than that: 0 or less
   alignas(64) std::uint64_t fixed_base[kMaxSamples][kGroupSize];
 };
 

@@ -20,16 +20,22 @@ void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int
 
 inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
 
-/// Pixels of up to four blocks that share a surface: one draw, one face.
-struct PixelBatch {
-  int blocks = 0;
+/// What the points of a batch share: one draw, one face.
+struct BatchSurface {
   std::uint32_t draw = 0xffffffffu;
   bool back = false;
   // Which attributes of its triangles' vertices go into which arrays of the batch.
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
-  bool adjacent = false;              // the arrays follow each other
-  int index[kBatchBlocks];            // of each block's first pixel in tile memory
+  bool adjacent = false;  // the arrays follow each other
+
+  HWY_INLINE bool is_of(const ShadedTriangle& triangle) const { return draw == triangle.draw && back == triangle.back; }
+};
+
+/// Pixels of up to four blocks that share a surface.
+struct PixelBatch : BatchSurface {
+  int blocks = 0;
+  int index[kBatchBlocks];              // of each block's first pixel in tile memory
   std::uint32_t covered[kBatchBlocks];  // 16 bits
 };
 
@@ -70,7 +76,7 @@ HWY_INLINE Int index_words(const ColorLayout& layout, Float index) {
 inline HWY_NOINLINE void store_normals(TileRun& run, const PixelBatch& pixels) {
   for (int slot = 0; slot < pixels.blocks; ++slot)
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const auto covered = hn::RebindMask(kFloat, mask_from_bits(pixels.covered[slot] >> (chunk * kLanes) & ((1u << kLanes) - 1)));
+      const auto covered = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(pixels.covered[slot], chunk)));
       for (int c = 0; c < 3; ++c) {
         float* const to = run.memory.normals->component[c] + pixels.index[slot] + chunk * kLanes;
         const Float normal = hn::Load(kFloat, run.memory.batch.field[kNormalX + c] + slot * kBlockPixels + chunk * kLanes);
@@ -89,7 +95,7 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   for (int slot = 0; slot < pixels.blocks; ++slot) {
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const std::uint32_t covered_lanes = pixels.covered[slot] >> (chunk * kLanes) & ((1u << kLanes) - 1);
+      const std::uint32_t covered_lanes = chunk_bits(pixels.covered[slot], chunk);
       if (covered_lanes == 0) continue;
       const int first = slot * kBlockPixels + chunk * kLanes;
       const Int words = draw.index[pixels.back ? 1 : 0]      ? index_words(run.frame.layout, hn::Load(kFloat, batch.field[kColorR] + first))
@@ -102,59 +108,51 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
 }
 
 /// Makes the batch one of another surface. @pre it is empty
-HWY_INLINE void begin_surface(const TileRun& run, PixelBatch& pixels, std::uint32_t draw_number, bool back) {
-  const TileDraw& draw = run.frame.draws[draw_number];
-  const bool per_pixel = draw.source == ColorSource::per_pixel;
-  pixels.draw = draw_number;
-  pixels.back = back;
-  pixels.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
-  pixels.attribute_count = per_pixel ? draw.attribute_count : draw.index[back ? 1 : 0] ? 1 : 3;
-  pixels.adjacent = true;
-  for (int j = 0; j < pixels.attribute_count; ++j) {
-    pixels.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
-    pixels.adjacent &= pixels.target[j] == pixels.target[0] + j * kBatchPoints;
+HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
+  const TileDraw& draw = run.frame.draws[triangle.draw];
+  const bool per_pixel = draw.source == ColorSource::per_pixel, back = triangle.back;
+  surface.draw = triangle.draw;
+  surface.back = back;
+  surface.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
+  surface.attribute_count = per_pixel ? draw.attribute_count : draw.index[back ? 1 : 0] ? 1 : 3;
+  surface.adjacent = true;
+  for (int j = 0; j < surface.attribute_count; ++j) {
+    surface.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
+    surface.adjacent &= surface.target[j] == surface.target[0] + j * kBatchPoints;
   }
 }
 
-/// Pixels of one triangle in one block, as bits, that go to a slot of a batch; `taken`: those that triangles before it have there.
-struct SlotPart {
-  int slot = 0;
-  std::uint32_t covered = 0, taken = 0;
-};
+HWY_INLINE Barycentric barycentric_of(const TileRun& run, const NarrowEdges& edges, int bx, int by, int chunk) {
+  const ShadedTriangle& t = edges.triangle;
+  return t.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(t, run.memory.wide[static_cast<std::size_t>(t.wide)], bx, by, chunk);
+}
 
-/// Adds the pixels of one triangle in one block to a slot of the batch, or to two. Lanes that no triangle fills hold anything.
-/// kCount: attributes in adjacent arrays, where known; else 0.
+/// Adds the pixels of one triangle in one block to the batch's next slot; `taken`: those that triangles before it have there. Lanes
+/// that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0.
 template <int kCount>
-HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, const SlotPart& first, const SlotPart& second) {
+HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
   const NarrowEdges edges(triangle, bx, by);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-    const auto lanes_of = [chunk](std::uint32_t bits) { return bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
-    if (lanes_of(first.covered | second.covered) == 0) continue;
-    const Barycentric at = triangle.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
-    const auto fill = [&](const SlotPart& part) HWY_ATTR {
-      const std::uint32_t bits = lanes_of(part.covered);
-      if (bits == 0) return;
-      const int point = part.slot * kBlockPixels + chunk * kLanes;
-      const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
-      if (lanes_of(part.taken) == 0) {  // the first triangle of a chunk may fill all of it
-        for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
-      } else {
-        const auto mask = hn::RebindMask(kFloat, mask_from_bits(bits));
-        for (int j = 0; j < count; ++j) hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target(j))), kFloat, target(j));
-      }
-    };
-    fill(first);
-    fill(second);
+    if (chunk_bits(covered, chunk) == 0) continue;
+    const Barycentric at = barycentric_of(run, edges, bx, by, chunk);
+    const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
+    const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
+    if (chunk_bits(taken, chunk) == 0) {  // the first triangle of a chunk may fill all of it
+      for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
+    } else {
+      const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
+      for (int j = 0; j < count; ++j) hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target(j))), kFloat, target(j));
+    }
   }
 }
-HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, const SlotPart& first, const SlotPart& second = {}) {
+HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
   switch (pixels.adjacent ? pixels.attribute_count : 0) {
-    case 1: return gather_counted<1>(run, pixels, triangle, bx, by, first, second);
-    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, first, second);
-    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, first, second);
-    default: return gather_counted<0>(run, pixels, triangle, bx, by, first, second);
+    case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
+    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
+    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);
+    default: return gather_counted<0>(run, pixels, triangle, bx, by, covered, taken);
   }
 }
 
@@ -176,9 +174,9 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
       while (waiting != 0) {
         // All pixels of the block that belong to the surface of the first one still waiting.
         const ShadedTriangle& leader = memory.triangles[ids[std::countr_zero(waiting)]];
-        const bool other_surface = pixels.draw != leader.draw || pixels.back != leader.back;
+        const bool other_surface = !pixels.is_of(leader);
         if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(run, pixels);
-        if (other_surface) begin_surface(run, pixels, leader.draw, leader.back);
+        if (other_surface) begin_surface(run, pixels, leader);
         std::uint32_t left = waiting, taken = 0;
         while (left != 0) {
           const std::uint32_t id = ids[std::countr_zero(left)];
@@ -188,8 +186,8 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
           for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
             same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
           left &= ~same;
-          if (triangle.draw != leader.draw || triangle.back != leader.back) continue;
-          gather_attributes(run, pixels, triangle, bx, by, {pixels.blocks, same, taken});
+          if (!pixels.is_of(triangle)) continue;
+          gather_attributes(run, pixels, triangle, bx, by, same, taken);
           taken |= same;
         }
         waiting &= ~taken;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/lane_packing-inl.h"
 #include "shading/deferred-inl.h"
 #include "shading/fragment_ops-inl.h"
 
@@ -17,19 +18,32 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-inline constexpr int kMaxShares = 16;
-
-/// Pixels of one block in a slot of a batch. A pixel of a slot has one triangle; where a block's pixels have more, the rest goes to
-/// another slot, which several blocks share.
-struct SlotShare {
-  int slot, index;                  // of the block's first pixel in tile memory
-  std::uint32_t covered;            // 16 bits
-  std::uint32_t seen[kMaxSamples];  // by which samples of these pixels
+/// Bits of a block's pixels, or of a chunk's, for each sample: 16 bits of a word, four samples a word.
+struct SampleBits {
+  std::uint64_t word[kMaxSamples / 4] = {};
 };
-struct SampledBatch : PixelBatch {
-  int shares = 0;
-  SlotShare share[kMaxShares];
-  int spare = -1;                   // the slot that blocks share; -1: none yet
+/// The same 16 bits for each sample.
+constexpr SampleBits at_all_samples(std::uint32_t bits) { return {{0x0001000100010001u * bits, 0x0001000100010001u * bits}}; }
+/// Those that any sample has.
+constexpr std::uint32_t at_any_sample(const SampleBits& bits) {
+  const std::uint64_t all = bits.word[0] | bits.word[1], folded = all | all >> 32;
+  return static_cast<std::uint32_t>(folded | folded >> 16) & 0xffff;
+}
+static_assert(kMaxSamples == 8);
+
+/// What one triangle covers of one chunk of pixels. Its points stand side by side in the batch.
+struct SampledPixels {
+  int first;              // point in the batch
+  int index;              // of the chunk's first pixel in tile memory
+  std::uint32_t covered;  // a bit a lane
+  SampleBits seen;        // by which samples of these pixels
+};
+
+/// Points of one surface. A pixel has one for each triangle that its samples see: they are packed, since the places of a block's
+/// pixels would not do.
+struct SampledBatch : BatchSurface {
+  int points = 0, pieces = 0;
+  SampledPixels piece[kBatchPoints];  // each has a point at least
 };
 
 /// Centres may lie outside of the triangles that their samples see: colours are extrapolated there, and cut.
@@ -40,186 +54,154 @@ HWY_INLINE void clamp_colors(ShadingBatch& batch, int first) {
   }
 }
 
-inline HWY_NOINLINE void shade_sampled_batch(TileRun& run, SampledBatch& pixels) {
-  if (pixels.blocks == 0) return;
-  const TileDraw& draw = run.frame.draws[pixels.draw];
+/// Words of the batch's points, in their order.
+HWY_INLINE void shade_points(TileRun& run, const SampledBatch& points, std::int32_t* words) {
+  const TileDraw& draw = run.frame.draws[points.draw];
   ShadingBatch& batch = run.memory.batch;
   const bool per_pixel = draw.source == ColorSource::per_pixel;
-  if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
-  const Int writable = splat(static_cast<std::int32_t>(draw.write_mask));
-  for (int slot = 0; slot < pixels.blocks && !per_pixel; ++slot)
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) clamp_colors(batch, slot * kBlockPixels + chunk * kLanes);
-  for (int i = 0; i < pixels.shares; ++i) {
-    const SlotShare& share = pixels.share[i];
-    run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(share.covered));
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const auto lanes_of = [chunk](std::uint32_t bits) { return bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
-      if (lanes_of(share.covered) == 0) continue;
-      const Int words = quantize_chunk(run.frame, batch, share.slot * kBlockPixels + chunk * kLanes, lanes_of(share.covered));
-      for (int s = 0; s < run.samples; ++s)
-        store_words(run.sample[s].color + share.index + chunk * kLanes, words, mask_from_bits(lanes_of(share.seen[s])), writable);
-    }
+  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, (points.points + kLanes - 1) / kLanes * kLanes);
+  for (int first = 0; first < points.points; first += kLanes) {
+    if (!per_pixel) clamp_colors(batch, first);
+    const int count = std::min(points.points - first, kLanes);
+    hn::Store(quantize_chunk(run.frame, batch, first, (1u << count) - 1), kInt, words + first);
   }
-  pixels.blocks = pixels.shares = 0;
-  pixels.spare = -1;
 }
 
-/// The pixels of a block in which each sample waits for the colour of triangle `id`.
-HWY_INLINE std::uint32_t pixels_of_triangle(const std::uint32_t* ids, std::uint32_t id) {
+inline HWY_NOINLINE void shade_sampled_batch(TileRun& run, SampledBatch& points) {
+  if (points.points == 0) return;
+  alignas(64) std::int32_t words[kBatchPoints + kLanes];  // the last ones are read along with others
+  shade_points(run, points, words);
+  const Int writable = splat(static_cast<std::int32_t>(run.frame.draws[points.draw].write_mask));
+  for (int i = 0; i < points.pieces; ++i) {
+    const SampledPixels& pixels = points.piece[i];
+    const Int of_pixels = hn::TableLookupLanes(hn::LoadU(kInt, words + pixels.first), unpacking_of(kInt, pixels.covered));
+    for (int first = 0; first < run.samples; first += 4)
+      for (int s = 0; s < 4; ++s)
+        store_words(run.sample[first + s].color + pixels.index, of_pixels, mask_from_bits(static_cast<std::uint32_t>(pixels.seen.word[first / 4] >> (16 * s))), writable);
+  }
+  run.counts.shaded_pixels += static_cast<std::uint64_t>(points.points);
+  points.points = points.pieces = 0;
+}
+
+/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: as in gather_counted.
+template <int kCount>
+HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, const SampleBits& seen) {
+  const int count = kCount > 0 ? kCount : points.attribute_count, index = run.block_index(bx, by);
+  const CornerArrays values(triangle, points.first_attribute, count);
+  const NarrowEdges edges(triangle, bx, by);
+  const std::uint32_t covered = at_any_sample(seen);
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    const std::uint32_t bits = chunk_bits(covered, chunk);
+    if (bits == 0) continue;
+    if (points.points > kBatchPoints - kLanes) shade_sampled_batch(run, points);  // whole vectors are stored
+    const Barycentric at = barycentric_of(run, edges, bx, by, chunk);
+    const auto packing = packing_of(kFloat, bits);
+    float* const first = points.target[0] + points.points;
+    for (int j = 0; j < count; ++j) {
+      float* const target = kCount > 0 ? first + j * kBatchPoints : points.target[j] + points.points;
+      hn::StoreU(hn::TableLookupLanes(interpolate(at, values[j]), packing), kFloat, target);
+    }
+    SampledPixels& pixels = points.piece[points.pieces++];
+    pixels.first = points.points;
+    pixels.index = index + chunk * kLanes;
+    pixels.covered = bits;
+    for (int w = 0; w < kMaxSamples / 4; ++w) pixels.seen.word[w] = seen.word[w] >> (chunk * kLanes) & at_all_samples((1u << kLanes) - 1).word[0];
+    points.points += std::popcount(bits);
+  }
+}
+inline HWY_NOINLINE void add_points(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, const SampleBits& seen) {
+  switch (points.adjacent ? points.attribute_count : 0) {
+    case 3: return add_points_counted<3>(run, points, triangle, bx, by, seen);
+    case 6: return add_points_counted<6>(run, points, triangle, bx, by, seen);
+    default: return add_points_counted<0>(run, points, triangle, bx, by, seen);
+  }
+}
+
+/// The pixels of a block whose triangles compare so at a sample.
+template <class Compare>
+HWY_INLINE std::uint32_t pixels_where(const std::uint32_t* ids, Compare compare) {
   std::uint32_t bits = 0;
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-    bits |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), splat(static_cast<std::int32_t>(id)))) << (chunk * kLanes);
+    bits |= mask_bits(kInt, compare(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes))) << (chunk * kLanes);
   return bits;
 }
-HWY_INLINE std::uint32_t waiting_pixels(const std::uint32_t* ids) {
-  std::uint32_t bits = 0;
-  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-    bits |= mask_bits(kInt, hn::Gt(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), splat(-1))) << (chunk * kLanes);
+template <int kSamples, class Compare>
+HWY_INLINE SampleBits samples_where(const TileRun& run, int index, Compare compare) {
+  SampleBits bits;
+  for (int s = 0; s < kSamples; ++s) bits.word[s / 4] |= std::uint64_t{pixels_where(run.sample[s].ids + index, compare)} << (16 * (s % 4));
   return bits;
 }
+
 /// All samples of each pixel of a block wait for the same triangle, or for none.
+template <int kSamples>
 HWY_INLINE bool samples_agree(const TileRun& run, int index) {
   Int differing = hn::Zero(kInt);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const auto ids = [&](int s) HWY_ATTR { return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].ids) + index + chunk * kLanes); };
-    for (int s = 1; s < run.samples; ++s) differing = hn::Or(differing, hn::Xor(ids(s), ids(0)));
+    for (int s = 1; s < kSamples; ++s) differing = hn::Or(differing, hn::Xor(ids(s), ids(0)));
   }
   return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
 }
 
-/// Puts the triangles of one block after the other into the slots of a batch, and shades the batch whenever it is full.
-struct SampledShader {
-  TileRun& run;
-  SampledBatch pixels;
-  // The block, and its shares of a slot of its own and of the spare one; -1: none yet.
-  int bx = 0, by = 0, index = 0, own = -1, shared = -1;
-
-  HWY_INLINE void begin_block(int x, int y) {
-    bx = x, by = y, index = run.block_index(x, y);
-    own = shared = -1;
-  }
-  HWY_INLINE void begin_surface_of(const ShadedTriangle& leader) {
-    if (pixels.draw == leader.draw && pixels.back == leader.back) return;
-    flush();
-    begin_surface(run, pixels, leader.draw, leader.back);
-  }
-  HWY_INLINE void flush() {
-    shade_sampled_batch(run, pixels);
-    own = shared = -1;
-  }
-  /// A triangle of the batch's surface: its pixels in the block, and which of them each sample sees.
-  HWY_INLINE void add(const ShadedTriangle& triangle, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
-    while (covered != 0) {
-      if (own < 0) {
-        if (pixels.blocks == kBatchBlocks) flush();
-        own = open_share(open_slot());
-      }
-      const std::uint32_t in_own = covered & ~taken(own), rest = covered & ~in_own;
-      std::uint32_t in_spare = 0;
-      if (rest != 0) {
-        if (pixels.spare < 0 || (rest & ~pixels.covered[pixels.spare]) == 0) {
-          if (pixels.blocks == kBatchBlocks) {
-            place(triangle, in_own, 0, seen);
-            flush();
-            covered = rest;
-            continue;
-          }
-          pixels.spare = open_slot();
-          shared = -1;
-        }
-        if (shared < 0) shared = open_share(pixels.spare);
-        in_spare = rest & ~taken(shared);
-      }
-      place(triangle, in_own, in_spare, seen);
-      covered = rest & ~in_spare;
-    }
-  }
-
- private:
-  HWY_INLINE int open_slot() {
-    pixels.covered[pixels.blocks] = 0;
-    return pixels.blocks++;
-  }
-  HWY_INLINE int open_share(int slot) {
-    SlotShare& share = pixels.share[pixels.shares];
-    share.slot = slot;
-    share.index = index;
-    share.covered = 0;
-    for (int s = 0; s < run.samples; ++s) share.seen[s] = 0;
-    return pixels.shares++;
-  }
-  HWY_INLINE std::uint32_t taken(int share) const { return pixels.covered[pixels.share[share].slot]; }
-  HWY_INLINE SlotPart part(int share, std::uint32_t covered) const { return covered == 0 ? SlotPart{} : SlotPart{pixels.share[share].slot, covered, taken(share)}; }
-  HWY_INLINE void enter(int number, std::uint32_t covered, const std::uint32_t (&seen)[kMaxSamples]) {
-    if (covered == 0) return;
-    SlotShare& share = pixels.share[number];
-    pixels.covered[share.slot] |= covered;
-    share.covered |= covered;
-    for (int s = 0; s < run.samples; ++s) share.seen[s] |= seen[s] & covered;
-  }
-  HWY_NOINLINE void place(const ShadedTriangle& triangle, std::uint32_t in_own, std::uint32_t in_spare, const std::uint32_t (&seen)[kMaxSamples]) {
-    gather_attributes(run, pixels, triangle, bx, by, part(own, in_own), part(shared, in_spare));
-    enter(own, in_own, seen);
-    enter(shared, in_spare, seen);
-  }
-};
-
-/// Shades one block. `samples` of them are looked at: one, where all agree.
-HWY_INLINE void shade_block(SampledShader& shader, int samples, std::uint32_t (&waiting)[kMaxSamples]) {
-  TileRun& run = shader.run;
-  const TileWorkspace::Memory& memory = run.memory;
-  for (int first = 0; first < samples; ++first) {
-    while (waiting[first] != 0) {
+/// Adds one block to the batch. kSamples of them are looked at: one, where all agree. False if none waits.
+template <int kSamples>
+HWY_INLINE bool add_block(TileRun& run, SampledBatch& points, int bx, int by, int index) {
+  const auto id_at = [&](int word, std::uint64_t bits) {
+    const int first = std::countr_zero(bits);
+    return run.sample[4 * word + first / 16].ids[index + first % 16];
+  };
+  constexpr int kWords = (kSamples + 3) / 4;
+  SampleBits waiting = samples_where<kSamples>(run, index, [](Int id) HWY_ATTR { return hn::Gt(id, splat(-1)); });
+  if (at_any_sample(waiting) == 0) return false;
+  for (int leading = 0; leading < kWords; ++leading) {
+    while (waiting.word[leading] != 0) {
       // All triangles of the surface that the first one belongs to, one after the other.
-      const ShadedTriangle& leader = memory.triangles[run.sample[first].ids[shader.index + std::countr_zero(waiting[first])]];
-      shader.begin_surface_of(leader);
-      std::uint32_t left[kMaxSamples];
-      std::copy_n(waiting, samples, left);
-      for (int from = first; from < samples; ++from) {
-        while (left[from] != 0) {
-          const std::uint32_t id = run.sample[from].ids[shader.index + std::countr_zero(left[from])];
-          const ShadedTriangle& triangle = memory.triangles[id];
-          const bool same_surface = triangle.draw == leader.draw && triangle.back == leader.back;
-          std::uint32_t seen[kMaxSamples], covered = 0;
-          for (int s = 0; s < samples; ++s) {
-            seen[s] = s < from ? 0 : pixels_of_triangle(run.sample[s].ids + shader.index, id);
-            left[s] &= ~seen[s];
-            if (same_surface) waiting[s] &= ~seen[s];
-            covered |= seen[s];
-          }
-          for (int s = samples; s < run.samples; ++s) seen[s] = seen[0];
-          if (same_surface) shader.add(triangle, covered, seen);
+      const ShadedTriangle& leader = run.memory.triangles[id_at(leading, waiting.word[leading])];
+      if (!points.is_of(leader)) {
+        shade_sampled_batch(run, points);
+        begin_surface(run, points, leader);
+      }
+      SampleBits left = waiting;
+      for (int word = leading; word < kWords; ++word) {
+        while (left.word[word] != 0) {
+          const std::uint32_t id = id_at(word, left.word[word]);
+          const ShadedTriangle& triangle = run.memory.triangles[id];
+          const Int wanted = splat(static_cast<std::int32_t>(id));
+          const SampleBits seen = samples_where<kSamples>(run, index, [wanted](Int at) HWY_ATTR { return hn::Eq(at, wanted); });
+          for (int w = 0; w < kWords; ++w) left.word[w] &= ~seen.word[w];
+          if (!points.is_of(triangle)) continue;
+          for (int w = 0; w < kWords; ++w) waiting.word[w] &= ~seen.word[w];
+          add_points(run, points, triangle, bx, by, kSamples == 1 ? at_all_samples(static_cast<std::uint32_t>(seen.word[0])) : seen);
         }
       }
     }
   }
+  return true;
 }
 
 /// Shades what was collected in the whole tile, and forgets it.
-inline HWY_NOINLINE void shade_collected_samples(TileRun& run) {
-  SampledShader shader{.run = run, .pixels = {}};
+template <int kSamples>
+HWY_NOINLINE void shade_collected_samples(TileRun& run) {
+  SampledBatch points;
   for (int by = 0; by < run.tile_size; by += 4) {
     for (int bx = 0; bx < run.tile_size; bx += 4) {
-      shader.begin_block(bx, by);
-      const int samples = samples_agree(run, shader.index) ? 1 : run.samples;
-      std::uint32_t waiting[kMaxSamples], any = 0;
-      for (int s = 0; s < samples; ++s) any |= waiting[s] = waiting_pixels(run.sample[s].ids + shader.index);
-      if (any == 0) continue;
-      shade_block(shader, samples, waiting);
-      for (int s = 0; s < run.samples; ++s)
+      const int index = run.block_index(bx, by);
+      if (!(samples_agree<kSamples>(run, index) ? add_block<1>(run, points, bx, by, index) : add_block<kSamples>(run, points, bx, by, index))) continue;
+      for (int s = 0; s < kSamples; ++s)
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-          hn::Store(splat(-1), kInt, reinterpret_cast<std::int32_t*>(run.sample[s].ids) + shader.index + chunk * kLanes);
+          hn::Store(splat(-1), kInt, reinterpret_cast<std::int32_t*>(run.sample[s].ids) + index + chunk * kLanes);
     }
   }
-  shader.flush();
+  shade_sampled_batch(run, points);
 }
-
 
 /// Shades everything that waits for its colour.
 HWY_INLINE void shade_whole_tile(TileRun& run) {
   if (!run.memory.triangles.empty()) {
-    if (run.samples > 1)
-      shade_collected_samples(run);
+    if (run.samples == 4)
+      shade_collected_samples<4>(run);
+    else if (run.samples > 1)
+      shade_collected_samples<kMaxSamples>(run);
     else
       shade_collected(run, 0, 0, run.tile_size - 1, run.tile_size - 1);
   }

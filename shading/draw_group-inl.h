@@ -32,7 +32,7 @@ struct NoDepth {
   HWY_INLINE void prepare_blocks() {}
   struct Anchor {};
   static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int, int) { return {}; }
-  HWY_INLINE void move_to(Anchor) {}
+  HWY_INLINE Block step_to(int, int) const { return {}; }
 };
 template <class Depth>
 inline constexpr bool kHasDepth = true;

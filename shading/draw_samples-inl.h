@@ -39,8 +39,8 @@ struct SampledTrianglePixels {
   const TileDraw& draw;
   Depth depth;
   typename Depth::Anchor anchors[kMaxSamples];
-  TileEdges edges;               // those that the blocks are found by: of a sample, or of none, but never below any sample's
-  Int moved[kMaxSamples][3];     // what a sample's edges are less than those
+  TileEdges edges;               // those that the blocks are found by: never below any sample's
+  Int below[kMaxSamples][3];     // what a sample's edges are more than those
   std::int32_t *stored_depth[kMaxSamples], *stored[kMaxSamples];  // of the sample: depth; the words or triangles' numbers that it writes
   Int value;                     // the word, or the triangle's number
   Int writable, depth_writable;
@@ -53,10 +53,8 @@ struct SampledTrianglePixels {
     const TriangleGroup& g = run.memory.group;
     const SampleGroup& samples = run.memory.samples->narrow;
     for (int k = 0; k < 3; ++k) {
-      std::int32_t highest = samples.e[0][k][i];
-      for (int s = 1; s < run.samples; ++s) highest = std::max(highest, samples.e[s][k][i]);
-      for (int s = 0; s < run.samples; ++s) moved[s][k] = splat(samples.e[s][k][i] - highest);
-      edges.e[k] = highest;
+      edges.e[k] = samples.highest[k][i];
+      for (int s = 0; s < run.samples; ++s) below[s][k] = splat(samples.below[s][k][i]);
     }
     if constexpr (kHasDepth<Depth>) {
       depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
@@ -82,32 +80,39 @@ struct SampledTrianglePixels {
   template <int kSamples>
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
     const int block = run.block_index(bx, by);
-    Int farthest = splat(std::numeric_limits<std::int32_t>::min());
-    for (int s = 0; s < kSamples; ++s) {
-      depth.move_to(anchors[s]);
-      const auto block_depth = depth.block(bx, by);
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-        const int index = block + chunk * kLanes;
-        const auto edge = [&](int k) HWY_ATTR { return hn::Add(block_edges.at(k, chunk), moved[s][k]); };
-        auto mask = hn::Gt(hn::Or(hn::Or(edge(0), edge(1)), edge(2)), splat(-1));
-        if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+    const bool cut = run.cut;
+    const auto step = depth.step_to(bx, by);
+    const Int new_value = value, writes_depth = depth_writable;
+    Int farthest = splat(std::numeric_limits<std::int32_t>::min()), block_seen = hn::Zero(kInt);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const int index = block + chunk * kLanes;
+      const Int e0 = block_edges.at(0, chunk), e1 = block_edges.at(1, chunk), e2 = block_edges.at(2, chunk);
+      if (hn::AllTrue(kInt, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(kInt)))) {  // outside at every sample
+        if constexpr (kCulls<Depth, kTest>)
+          for (int s = 0; s < kSamples; ++s) farthest = hn::Max(farthest, hn::Load(kInt, stored_depth[s] + index));
+        continue;
+      }
+      for (int s = 0; s < kSamples; ++s) {
+        auto mask = hn::Gt(hn::Or(hn::Or(hn::Add(e0, below[s][0]), hn::Add(e1, below[s][1])), hn::Add(e2, below[s][2])), splat(-1));
+        if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
         if constexpr (kHasDepth<Depth>) {
           std::int32_t* const at = stored_depth[s] + index;
-          const Int before = hn::Load(kInt, at), key = depth.keys(block_depth, chunk);
+          const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(anchors[s], step), chunk);
           mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, before) : comparing(key, draw.depth_test, before));
-          const Int after = hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, before);
+          const Int after = hn::IfThenElse(hn::And(mask, hn::MaskFromVec(writes_depth)), key, before);
           hn::Store(after, kInt, at);
           if constexpr (kCulls<Depth, kTest>) farthest = hn::Max(farthest, after);
         }
-        if constexpr (kSeen == Seen::collect) seen = hn::Or(seen, hn::VecFromMask(kInt, mask));
-        if (kSeen == Seen::word && s == 0) seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
-        if constexpr (kSeen == Seen::word) store_words(reinterpret_cast<std::uint32_t*>(stored[s]) + index, value, mask, writable);
+        if constexpr (kSeen == Seen::collect) block_seen = hn::Or(block_seen, hn::VecFromMask(kInt, mask));
+        if (kSeen == Seen::word && s == 0) block_seen = hn::Add(block_seen, hn::VecFromMask(kInt, mask));
+        if constexpr (kSeen == Seen::word) store_words(reinterpret_cast<std::uint32_t*>(stored[s]) + index, new_value, mask, writable);
         if constexpr (kSeen == Seen::collect) {
           std::int32_t* const at = stored[s] + index;
-          hn::Store(hn::IfThenElse(mask, value, hn::Load(kInt, at)), kInt, at);
+          hn::Store(hn::IfThenElse(mask, new_value, hn::Load(kInt, at)), kInt, at);
         }
       }
     }
+    seen = kSeen == Seen::collect ? hn::Or(seen, block_seen) : hn::Add(seen, block_seen);
     if constexpr (kCulls<Depth, kTest>) run.memory.samples->farthest[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, farthest));
   }
 };

@@ -156,7 +156,7 @@ struct FragmentTriangle {
     }
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
     if (draw.source == ColorSource::per_pixel) {
-      gather_attributes(run, pixels, triangle, bx, by, {0, bits, 0});
+      gather_attributes(run, pixels, triangle, bx, by, bits, 0);
       light_points_lanes(*draw.programs[face()], run.memory.batch, kBlockPixels);
       if (draw.captures_normals) {
         pixels.index[0] = index;
@@ -166,13 +166,12 @@ struct FragmentTriangle {
         pixels.blocks = 0;
       }
     }
-    const auto lanes_of = [](std::uint32_t pixel_bits, int chunk) { return pixel_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); };
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      if (lanes_of(bits, chunk) == 0) continue;
+      if (chunk_bits(bits, chunk) == 0) continue;
       const Colors source = has_word ? Colors{} : draw.index[face()] ? Colors{{indices(bx, by, chunk)}} : colors(bx, by, chunk);
       const Float threshold = thresholds(bx, by, chunk);
       for (int s = 0; s < run.samples; ++s) {
-        const std::uint32_t lanes = lanes_of(passed[s], chunk);
+        const std::uint32_t lanes = chunk_bits(passed[s], chunk);
         if (lanes == 0) continue;
         std::uint32_t* const color = run.sample[s].color + index + chunk * kLanes;
         const Int stored = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(color));
@@ -265,7 +264,7 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
   if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::triangle ? memory.source[i] : triangle_word(run, draw, i, triangle.back);
   if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
-  if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, draw_number, triangle.back);
+  if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, triangle);
   blocks(fragments);
   if (draw.deferred && fragments.seen) {
     memory.triangles.push_back(triangle);
