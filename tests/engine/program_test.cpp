@@ -367,7 +367,7 @@ TEST_F(Program, CtrlCEndsTheReadingOfAModel) {
 
 TEST_F(Program, CtrlCLeavesFinishedPicturesWhole) {
   write("long.json", R"({"tessera": 1, "framebuffer": {"width": 500, "height": 400}})");
-  const std::string command = "cd '" + folder_.string() + "' && timeout --preserve-status -s INT 1 '" TESSERA_PROGRAM "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";
+  const std::string command = "cd '" + folder_.string() + "' && timeout --foreground --preserve-status -s INT 1 '" TESSERA_PROGRAM "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
   EXPECT_TRUE(contains(content("err.txt"), "finished pictures are whole"));
