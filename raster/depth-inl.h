@@ -65,7 +65,7 @@ struct UnormDepth {
   };
   static HWY_INLINE Block block_at(std::uint64_t start) { return {hn::Set(kUint64, start)}; }
   HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
-  /// The same of a sample, from the step to the block.
+  /// The same of a sample, from the step to the block that step_to() gives.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
   static HWY_INLINE Block block(Anchor sample, const Block& step) { return {hn::Add(block_at(sample).start, step.start)}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
@@ -82,10 +82,6 @@ struct UnormDepth {
 
 /// 32 bits: see kUnorm32Lift.
 struct Unorm32Depth : UnormDepth {
-  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {
-    const std::uint32_t word = std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i]));
-    return static_cast<std::int32_t>((word > 4 ? word - 4 : 0) ^ 0x80000000u);  // stored levels may be 4 away
-  }
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind) {
     shift = 0;
     base = g.fixed_base[i];

@@ -26,9 +26,9 @@ inline constexpr std::int64_t kWidestExtent = 2 * kGuardBandPixels;
 // down, E at pixel centres keeps its sign and steps by exactly A and B from pixel to pixel.
 //
 // Narrow triangles: at a pixel within `extent` + one tile of the triangle, |A|, |B| <= 256 extent, so
-// |E / 256| <= 2 * 256 extent * (extent + 128).
+// |E / 256| <= 2 * 256 extent * (extent + 128). A sample, less than a pixel from the centre, adds less than 2 * 256 extent.
 inline constexpr std::int64_t kNarrowExtent = 1984;
-static_assert(2 * kSubpixelScale * kNarrowExtent * (kNarrowExtent + 128 + 1) <= INT32_MAX, "1: samples look from beside the pixel's centre");
+static_assert(2 * kSubpixelScale * kNarrowExtent * (kNarrowExtent + 128 + 1) <= INT32_MAX);
 // All others: an edge that crosses a tile is smaller in the whole tile than its own span over 127 pixels.
 static_assert(127 * 2 * kWidestExtent * kSubpixelScale <= INT32_MAX, "an edge that crosses a tile fits 32 bits in it");
 // Twice a triangle's area is exact in a double.

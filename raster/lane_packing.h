@@ -1,12 +1,15 @@
-// Tables for packing lanes, eight at a time: a word of bytes for each set of bits.
+// Packs some lanes of a vector side by side, and brings them back: numbers of lanes for a table lookup, from tables of eight bits
+// at a time. Highway 1.0.3 packs with a table that it copies at each use, and has no way back.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace tessera {
 
+/// For each set of eight bits a word of eight bytes.
 using LaneTable = std::array<std::uint64_t, 256>;
 
 /// Byte j: the place of the set bit that has j others below it.
@@ -27,5 +30,34 @@ inline constexpr LaneTable kBitRanks = [] {
     for (int l = 0; l < 8; ++l) table[bits] |= static_cast<std::uint64_t>(std::popcount(bits & ((1u << l) - 1))) << (8 * l);
   return table;
 }();
+
+/// Which lane each lane takes, for up to 16; the bytes after those are never looked at.
+struct LaneNumbers {
+  std::uint8_t byte[24] = {};
+};
+
+/// What the table says of the second eight lanes goes to byte `second_at`, and counts from `offset`.
+template <int kLanes>
+LaneNumbers lane_numbers(const LaneTable& table, std::uint32_t bits, int second_at, int offset) {
+  static_assert(kLanes <= 16);
+  LaneNumbers numbers;
+  std::memcpy(numbers.byte, &table[bits & 255], 8);
+  if constexpr (kLanes > 8) {
+    const std::uint64_t second = table[bits >> 8 & 255] + 0x0101010101010101u * static_cast<std::uint64_t>(offset);
+    std::memcpy(numbers.byte + second_at, &second, 8);
+  }
+  return numbers;
+}
+
+/// The lanes whose bit is set come first, in their order; what follows them is any lane.
+template <int kLanes>
+LaneNumbers packing_numbers(std::uint32_t bits) {
+  return lane_numbers<kLanes>(kSetBits, bits, std::popcount(bits & 255), 8);
+}
+/// Takes packed lanes back to those whose bit is set; the others get any lane.
+template <int kLanes>
+LaneNumbers unpacking_numbers(std::uint32_t bits) {
+  return lane_numbers<kLanes>(kBitRanks, bits, 8, std::popcount(bits & 255));
+}
 
 }  // namespace tessera

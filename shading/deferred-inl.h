@@ -156,6 +156,15 @@ HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, 
   }
 }
 
+/// The pixels of a block whose triangles' numbers compare so.
+template <class Compare>
+HWY_INLINE std::uint32_t pixels_where(const std::uint32_t* ids, Compare compare) {
+  std::uint32_t bits = 0;
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+    bits |= mask_bits(kInt, compare(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes))) << (chunk * kLanes);
+  return bits;
+}
+
 /// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and forgets it.
 inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, int y1) {
   TileWorkspace::Memory& memory = run.memory;
@@ -164,12 +173,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
     for (int bx = x0 & ~3; bx <= x1; bx += 4) {
       const int index = run.block_index(bx, by);
       std::uint32_t* ids = memory.ids + index;
-      std::uint32_t waiting = 0;
-      const Int none = splat(-1);
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-        const Int id = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes);
-        waiting |= mask_bits(kInt, hn::Gt(id, none)) << (chunk * kLanes);
-      }
+      std::uint32_t waiting = pixels_where(ids, [](Int at) HWY_ATTR { return hn::Gt(at, splat(-1)); });
       if (waiting == 0) continue;
       while (waiting != 0) {
         // All pixels of the block that belong to the surface of the first one still waiting.
@@ -181,10 +185,8 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
         while (left != 0) {
           const std::uint32_t id = ids[std::countr_zero(left)];
           const ShadedTriangle& triangle = memory.triangles[id];
-          std::uint32_t same = 0;
           const Int wanted = splat(static_cast<std::int32_t>(id));
-          for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-            same |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes), wanted)) << (chunk * kLanes);
+          const std::uint32_t same = pixels_where(ids, [wanted](Int at) HWY_ATTR { return hn::Eq(at, wanted); });
           left &= ~same;
           if (!pixels.is_of(triangle)) continue;
           gather_attributes(run, pixels, triangle, bx, by, same, taken);
@@ -195,7 +197,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
         pixels.covered[pixels.blocks] = taken;
         ++pixels.blocks;
       }
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(none, kInt, reinterpret_cast<std::int32_t*>(ids) + chunk * kLanes);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(splat(-1), kInt, reinterpret_cast<std::int32_t*>(ids) + chunk * kLanes);
     }
   }
   shade_batch(run, pixels);

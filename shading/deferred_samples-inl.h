@@ -33,7 +33,7 @@ static_assert(kMaxSamples == 8);
 
 /// What one triangle covers of one chunk of pixels. Its points stand side by side in the batch.
 struct SampledPixels {
-  int first;              // point in the batch
+  int point;              // the first one, in the batch
   int index;              // of the chunk's first pixel in tile memory
   std::uint32_t covered;  // a bit a lane
   SampleBits seen;        // by which samples of these pixels
@@ -42,7 +42,7 @@ struct SampledPixels {
 /// Points of one surface. A pixel has one for each triangle that its samples see: they are packed, since the places of a block's
 /// pixels would not do.
 struct SampledBatch : BatchSurface {
-  int points = 0, pieces = 0;
+  int count = 0, pieces = 0;
   SampledPixels piece[kBatchPoints];  // each has a point at least
 };
 
@@ -59,72 +59,64 @@ HWY_INLINE void shade_points(TileRun& run, const SampledBatch& points, std::int3
   const TileDraw& draw = run.frame.draws[points.draw];
   ShadingBatch& batch = run.memory.batch;
   const bool per_pixel = draw.source == ColorSource::per_pixel;
-  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, (points.points + kLanes - 1) / kLanes * kLanes);
-  for (int first = 0; first < points.points; first += kLanes) {
-    if (!per_pixel) clamp_colors(batch, first);
-    const int count = std::min(points.points - first, kLanes);
-    hn::Store(quantize_chunk(run.frame, batch, first, (1u << count) - 1), kInt, words + first);
+  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, (points.count + kLanes - 1) / kLanes * kLanes);
+  for (int point = 0; point < points.count; point += kLanes) {
+    if (!per_pixel) clamp_colors(batch, point);
+    const int count = std::min(points.count - point, kLanes);
+    hn::Store(quantize_chunk(run.frame, batch, point, (1u << count) - 1), kInt, words + point);
   }
 }
 
 inline HWY_NOINLINE void shade_sampled_batch(TileRun& run, SampledBatch& points) {
-  if (points.points == 0) return;
+  if (points.count == 0) return;
   alignas(64) std::int32_t words[kBatchPoints + kLanes];  // the last ones are read along with others
   shade_points(run, points, words);
   const Int writable = splat(static_cast<std::int32_t>(run.frame.draws[points.draw].write_mask));
   for (int i = 0; i < points.pieces; ++i) {
     const SampledPixels& pixels = points.piece[i];
-    const Int of_pixels = hn::TableLookupLanes(hn::LoadU(kInt, words + pixels.first), unpacking_of(kInt, pixels.covered));
-    for (int first = 0; first < run.samples; first += 4)
+    const Int of_pixels = hn::TableLookupLanes(hn::LoadU(kInt, words + pixels.point), unpacking_of(kInt, pixels.covered));
+    for (int w = 0; w < run.samples / 4; ++w)
       for (int s = 0; s < 4; ++s)
-        store_words(run.sample[first + s].color + pixels.index, of_pixels, mask_from_bits(static_cast<std::uint32_t>(pixels.seen.word[first / 4] >> (16 * s))), writable);
+        store_words(run.sample[4 * w + s].color + pixels.index, of_pixels, mask_from_bits(static_cast<std::uint32_t>(pixels.seen.word[w] >> (16 * s))), writable);
   }
-  run.counts.shaded_pixels += static_cast<std::uint64_t>(points.points);
-  points.points = points.pieces = 0;
+  run.counts.shaded_pixels += static_cast<std::uint64_t>(points.count);
+  points.count = points.pieces = 0;
 }
 
 /// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: as in gather_counted.
 template <int kCount>
-HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, const SampleBits& seen) {
-  const int count = kCount > 0 ? kCount : points.attribute_count, index = run.block_index(bx, by);
+HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, int index, const SampleBits& seen) {
+  const int count = kCount > 0 ? kCount : points.attribute_count;
   const CornerArrays values(triangle, points.first_attribute, count);
   const NarrowEdges edges(triangle, bx, by);
   const std::uint32_t covered = at_any_sample(seen);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = chunk_bits(covered, chunk);
     if (bits == 0) continue;
-    if (points.points > kBatchPoints - kLanes) shade_sampled_batch(run, points);  // whole vectors are stored
+    if (points.count > kBatchPoints - kLanes) shade_sampled_batch(run, points);  // whole vectors are stored
     const Barycentric at = barycentric_of(run, edges, bx, by, chunk);
     const auto packing = packing_of(kFloat, bits);
-    float* const first = points.target[0] + points.points;
     for (int j = 0; j < count; ++j) {
-      float* const target = kCount > 0 ? first + j * kBatchPoints : points.target[j] + points.points;
-      hn::StoreU(hn::TableLookupLanes(interpolate(at, values[j]), packing), kFloat, target);
+      float* const target = kCount > 0 ? points.target[0] + j * kBatchPoints : points.target[j];
+      hn::StoreU(hn::TableLookupLanes(interpolate(at, values[j]), packing), kFloat, target + points.count);
     }
     SampledPixels& pixels = points.piece[points.pieces++];
-    pixels.first = points.points;
+    pixels.point = points.count;
     pixels.index = index + chunk * kLanes;
     pixels.covered = bits;
     for (int w = 0; w < kMaxSamples / 4; ++w) pixels.seen.word[w] = seen.word[w] >> (chunk * kLanes) & at_all_samples((1u << kLanes) - 1).word[0];
-    points.points += std::popcount(bits);
+    points.count += std::popcount(bits);
   }
 }
-inline HWY_NOINLINE void add_points(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, const SampleBits& seen) {
+inline HWY_NOINLINE void add_points(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, int index, const SampleBits& seen) {
   switch (points.adjacent ? points.attribute_count : 0) {
-    case 3: return add_points_counted<3>(run, points, triangle, bx, by, seen);
-    case 6: return add_points_counted<6>(run, points, triangle, bx, by, seen);
-    default: return add_points_counted<0>(run, points, triangle, bx, by, seen);
+    case 3: return add_points_counted<3>(run, points, triangle, bx, by, index, seen);
+    case 6: return add_points_counted<6>(run, points, triangle, bx, by, index, seen);
+    default: return add_points_counted<0>(run, points, triangle, bx, by, index, seen);
   }
 }
 
-/// The pixels of a block whose triangles compare so at a sample.
-template <class Compare>
-HWY_INLINE std::uint32_t pixels_where(const std::uint32_t* ids, Compare compare) {
-  std::uint32_t bits = 0;
-  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-    bits |= mask_bits(kInt, compare(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes))) << (chunk * kLanes);
-  return bits;
-}
+/// The same at each sample.
 template <int kSamples, class Compare>
 HWY_INLINE SampleBits samples_where(const TileRun& run, int index, Compare compare) {
   SampleBits bits;
@@ -171,7 +163,7 @@ HWY_INLINE bool add_block(TileRun& run, SampledBatch& points, int bx, int by, in
           for (int w = 0; w < kWords; ++w) left.word[w] &= ~seen.word[w];
           if (!points.is_of(triangle)) continue;
           for (int w = 0; w < kWords; ++w) waiting.word[w] &= ~seen.word[w];
-          add_points(run, points, triangle, bx, by, kSamples == 1 ? at_all_samples(static_cast<std::uint32_t>(seen.word[0])) : seen);
+          add_points(run, points, triangle, bx, by, index, kSamples == 1 ? at_all_samples(static_cast<std::uint32_t>(seen.word[0])) : seen);
         }
       }
     }

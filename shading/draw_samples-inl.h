@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Blocks in which nothing of a triangle can be seen are passed over. With any test but `less`, depths may grow.
+/// Blocks in which nothing of a triangle can be seen are passed over. Only `less` does so, and keeps the blocks' farthest depths exact.
 template <class Depth, Test kTest>
 inline constexpr bool kCulls = kHasDepth<Depth> && kTest == Test::less;
 
@@ -45,7 +45,7 @@ struct SampledTrianglePixels {
   Int value;                     // the word, or the triangle's number
   Int writable, depth_writable;
   std::int32_t nearest;          // no sample of the triangle has a smaller depth key
-  Int seen = hn::Zero(kInt);     // collect: -1 where a pixel passed; word: minus the number of those that passed at the first sample
+  Int seen = hn::Zero(kInt);     // minus the number of pixels that passed at any sample, in each lane
 
   HWY_INLINE SampledTrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, int i, std::uint32_t new_value, std::int32_t nearest_key)
       : run(tile_run), draw(tile_draw), edges(tile_edges(tile_run.memory.group, i)), value(splat(static_cast<std::int32_t>(new_value))),
@@ -67,6 +67,7 @@ struct SampledTrianglePixels {
     for (int s = 0; s < run.samples; ++s) anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(run.samples)[s], run.tile_x, run.tile_y);
   }
 
+  // Whether the block is full is known of the edges that dominate, not of each sample's.
   template <bool>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     if (kCulls<Depth, kTest> && is_hidden(run, nearest, bx, by)) return;
@@ -80,10 +81,10 @@ struct SampledTrianglePixels {
   template <int kSamples>
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
     const int block = run.block_index(bx, by);
-    const bool cut = run.cut;
     const auto step = depth.step_to(bx, by);
+    const bool cut = run.cut;  // in registers: stores to the tile might change members
     const Int new_value = value, writes_depth = depth_writable;
-    Int farthest = splat(std::numeric_limits<std::int32_t>::min()), block_seen = hn::Zero(kInt);
+    Int farthest = splat(std::numeric_limits<std::int32_t>::min());
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
       const Int e0 = block_edges.at(0, chunk), e1 = block_edges.at(1, chunk), e2 = block_edges.at(2, chunk);
@@ -92,6 +93,7 @@ struct SampledTrianglePixels {
           for (int s = 0; s < kSamples; ++s) farthest = hn::Max(farthest, hn::Load(kInt, stored_depth[s] + index));
         continue;
       }
+      Int chunk_seen = hn::Zero(kInt);
       for (int s = 0; s < kSamples; ++s) {
         auto mask = hn::Gt(hn::Or(hn::Or(hn::Add(e0, below[s][0]), hn::Add(e1, below[s][1])), hn::Add(e2, below[s][2])), splat(-1));
         if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
@@ -103,24 +105,24 @@ struct SampledTrianglePixels {
           hn::Store(after, kInt, at);
           if constexpr (kCulls<Depth, kTest>) farthest = hn::Max(farthest, after);
         }
-        if constexpr (kSeen == Seen::collect) block_seen = hn::Or(block_seen, hn::VecFromMask(kInt, mask));
-        if (kSeen == Seen::word && s == 0) block_seen = hn::Add(block_seen, hn::VecFromMask(kInt, mask));
+        chunk_seen = hn::Or(chunk_seen, hn::VecFromMask(kInt, mask));
         if constexpr (kSeen == Seen::word) store_words(reinterpret_cast<std::uint32_t*>(stored[s]) + index, new_value, mask, writable);
         if constexpr (kSeen == Seen::collect) {
           std::int32_t* const at = stored[s] + index;
           hn::Store(hn::IfThenElse(mask, new_value, hn::Load(kInt, at)), kInt, at);
         }
       }
+      if constexpr (kSeen != Seen::nothing) seen = hn::Add(seen, chunk_seen);
     }
-    seen = kSeen == Seen::collect ? hn::Or(seen, block_seen) : hn::Add(seen, block_seen);
     if constexpr (kCulls<Depth, kTest>) run.memory.samples->farthest[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, farthest));
   }
 };
 
-/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of them is collected.
+/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of them is collected, by
+/// numbers from `first_id` on.
 /// @pre set up, with the samples' reach
 template <class Depth, Test kTest, Seen kSeen>
-HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number) {
+HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number, std::size_t first_id) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_samples(g, run.memory.samples->narrow, run.samples, kHasDepth<Depth> ? run.frame.depth_kind : DepthKind::none, run.tile_x, run.tile_y);
@@ -134,7 +136,7 @@ HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number) {
     }
     std::uint32_t value = 0;
     if constexpr (kSeen == Seen::word) value = triangle_word(run, draw, i, !is_front(g.signed_area[i], draw.front_is_clockwise));
-    if constexpr (kSeen == Seen::collect) value = static_cast<std::uint32_t>(run.memory.triangles.size()) - static_cast<std::uint32_t>(g.count - i);
+    if constexpr (kSeen == Seen::collect) value = static_cast<std::uint32_t>(first_id) + static_cast<std::uint32_t>(i);
     SampledTrianglePixels<Depth, kTest, kSeen> pixels(run, draw, i, value, nearest);
     const BlockOffsets offsets(pixels.edges);
     for_each_block(pixels.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
@@ -154,19 +156,19 @@ void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
   bool any_wide = false;
   for (int i = 0; i < g.count; ++i) any_wide |= g.wide[i] != 0;
   if (any_wide) return draw_fragments_samples<Depth>(run, draw_number);
-  const std::size_t triangles = memory.triangles.size();
+  const std::size_t first_id = memory.triangles.size();
   if constexpr (kSeen == Seen::collect) {
     set_up_weights(g);
-    memory.triangles.resize(triangles + static_cast<std::size_t>(g.count));
+    memory.triangles.resize(first_id + static_cast<std::size_t>(g.count));
     for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      fill_shaded_triangle(memory.triangles[triangles + static_cast<std::size_t>(i)], run, draw_number, i, !is_front(g.signed_area[i], run.frame.draws[draw_number].front_is_clockwise));
+      fill_shaded_triangle(memory.triangles[first_id + static_cast<std::size_t>(i)], run, draw_number, i, !is_front(g.signed_area[i], run.frame.draws[draw_number].front_is_clockwise));
     }
   }
-  const bool any_seen = draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number);
+  const bool any_seen = draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number, first_id);
   if constexpr (kSeen == Seen::collect) {
     if (!any_seen) {
-      memory.triangles.resize(triangles);
+      memory.triangles.resize(first_id);
     } else if (run.frame.shade_at_once) {
       shade_whole_tile(run);
     }

@@ -143,7 +143,7 @@ struct FragmentTriangle {
   HWY_NOINLINE void operator()(int bx, int by, const BlockFragments* blocks) {
     std::uint32_t passed[kMaxSamples], bits = 0;
     for (int s = 0; s < run.samples; ++s) bits |= passed[s] = test(run.sample[s], bx, by, blocks[s]);
-    if (bits == 0 || draw.write_mask == 0) return;
+    if (bits == 0 || draw.write_mask == 0 || draw.source == ColorSource::none) return;
     seen = true;
     const int index = run.block_index(bx, by);
     if (draw.deferred) {

@@ -115,7 +115,7 @@ struct IndexMaterial {
 /// The same for indices.
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons);
 
-/// Lights `count` points, a multiple of 16, of the batch: needs the fields that the program names, leaves the colour or index.
+/// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names, leaves the colour or index.
 /// Bit-identical to light_points_reference() on every instruction set.
 using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
 LightPoints* light_points(Isa isa);

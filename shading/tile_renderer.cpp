@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "framebuffer/check.h"
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
 #include "shading/draw_samples-inl.h"
@@ -20,7 +21,7 @@ template <class Depth, Test kTest>
 DrawGroup pick_by_color(Seen seen, bool sampled) {
   if (sampled) {
     switch (seen) {
-      case Seen::nothing: return &draw_group_samples<Depth, Test::any, Seen::nothing>;
+      case Seen::nothing: return &draw_group_samples<Depth, Test::any, Seen::nothing>;  // rare: once for all tests
       case Seen::word: return &draw_group_samples<Depth, kTest, Seen::word>;
       default: return &draw_group_samples<Depth, kTest, Seen::collect>;
     }
@@ -54,6 +55,7 @@ DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
                     : draw.source == ColorSource::interpolated                           ? Seen::interpolate
                                                                                          : Seen::word;
   const bool less = draw.depth_test == CompareOp::less, sampled = frame.samples > 1;
+  TESSERA_ASSERT(!sampled || draw.deferred || (draw.source != ColorSource::interpolated && draw.source != ColorSource::per_pixel));
   if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen, sampled);
   switch (frame.depth_kind) {
     case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen, sampled) : pick_by_color<Float32Depth, Test::any>(seen, sampled);
@@ -127,6 +129,11 @@ bool has_triangles(const TileFrame& frame, int tile) {
   return false;
 }
 
+/// What passes the test may be farther than what was stored.
+constexpr bool may_raise_depth(CompareOp test) {
+  return test == CompareOp::greater || test == CompareOp::notequal || test == CompareOp::gequal || test == CompareOp::always;
+}
+
 /// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all be the same: one does.
 void begin_samples(TileRun& run, int tile) {
   TileWorkspace::Memory& memory = run.memory;
@@ -168,7 +175,7 @@ struct GroupBuilder {
     draw_number = number;
     draw = &next;
     draw_group_function = pick_draw_group(frame, next);
-    if (run.samples > 1 && next.depth_write && next.depth_test != CompareOp::less) set_farthest(run, kFarthestKey);
+    if (run.samples > 1 && next.depth_write && may_raise_depth(next.depth_test)) set_farthest(run, kFarthestKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
     run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x, next.rect.y1 - run.tile_y},
                          {0, 0, run.tile_size, run.tile_size});

@@ -81,7 +81,7 @@ Triangle random_triangle(Random& random, int turn) {
       case 0: p = around(300); break;
       case 1: p = around(8 * kScale); break;
       case 2: p = random_point(random); break;
-      case 3: p = {4 * below(random, kWidth * kScale) - kWidth * kScale, 4 * below(random, kHeight * kScale) - kHeight * kScale}; break;
+      case 3: p = {20 * below(random, kWidth * kScale) - 8 * kWidth * kScale, 20 * below(random, kHeight * kScale) - 8 * kHeight * kScale}; break;
       case 4: p = sample_of(static_cast<int>(below(random, kWidth)), static_cast<int>(below(random, kHeight)), pattern(8)[random.next() % 8]); break;
       default: p = {32 * kScale * (below(random, 3) + 3) + below(random, 257) - 128, 32 * kScale * (below(random, 3) + 1) + below(random, 257) - 128};
     }
@@ -107,17 +107,19 @@ TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
       white.scissor = Rect{x / 2, y / 2, 1 + static_cast<int>(below(random, kWidth)), 1 + static_cast<int>(below(random, kHeight))};
     }
     std::vector<std::uint32_t> expected;
+    std::uint64_t shaded = 0;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const int covered = in(white.scissor, x, y) ? covered_samples(triangle, x, y, samples) : 0;
         in_part += covered != 0 && covered != samples;
+        shaded += covered != 0;
         expected.push_back(0x010101u * mean_level(255 * covered, samples));
       }
     for (Renderer& renderer : renderers) {
       FrameBuffer buffer(format_of(samples));
       Frame frame(buffer);
       frame.draw(mesh.view(), white);
-      renderer.finish(frame);
+      ASSERT_EQ(renderer.finish(frame).shaded_pixels, shaded) << "triangle " << turn << ", tiles of " << renderer.options().tile_size;
       const std::vector<std::uint32_t> found = color_words(buffer);
       const auto differ = std::mismatch(found.begin(), found.end(), expected.begin());
       ASSERT_TRUE(differ.first == found.end()) << "triangle " << turn << ", tiles of " << renderer.options().tile_size << ", pixel " << (differ.first - found.begin()) % kWidth << ", "
