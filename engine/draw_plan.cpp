@@ -229,8 +229,9 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
     plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled;
-    // Greys and palette entries are not linear in the colour, and samples share one: shade what is seen.
-    plan.deferred = (layout.index || layout.luminance || sampled) && !needs_order(plan, layout);
+    // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a colour that is not just stored.
+    const bool shades_seen = layout.index || layout.luminance || (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
+    plan.deferred = shades_seen && !needs_order(plan, layout);
     plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }

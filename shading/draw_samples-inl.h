@@ -32,6 +32,27 @@ HWY_INLINE bool is_hidden(const TileRun& run, std::int32_t nearest, int x0, int 
   return true;
 }
 
+/// Colours of a triangle that are interpolated at once, at the pixels' centres.
+struct SampledColor {
+  const ShadedTriangle* triangle = nullptr;
+  const ColorLayout* layout = nullptr;
+  Corners r, g, b;
+  Int to_center[3];  // from the edges that the blocks are found by
+
+  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw, const ShadedTriangle& shaded, int i) {
+    triangle = &shaded;
+    layout = &run.frame.layout;
+    const int attribute = draw.color_attribute[shaded.back ? 1 : 0];
+    r = corners(shaded, attribute), g = corners(shaded, attribute + 1), b = corners(shaded, attribute + 2);
+    for (int k = 0; k < 3; ++k) to_center[k] = splat(shaded.edges.e[k] - run.memory.samples->narrow.highest[k][i]);
+  }
+  // Centres may lie outside of the triangles that their samples see: colours are extrapolated there, and cut.
+  HWY_NOINLINE Int words(Int e0, Int e1, Int e2) const {
+    const Barycentric at = barycentric_from_edges(*triangle, hn::Add(e0, to_center[0]), hn::Add(e1, to_center[1]), hn::Add(e2, to_center[2]));
+    return words_of(*layout, {{clamped_unit(interpolate(at, r)), clamped_unit(interpolate(at, g)), clamped_unit(interpolate(at, b)), splat(1.0f)}}, splat(0.5f));
+  }
+};
+
 /// One narrow triangle's way through the blocks of a tile, at all samples of a pixel.
 template <class Depth, Test kTest, Seen kSeen>
 struct SampledTrianglePixels {
@@ -43,12 +64,13 @@ struct SampledTrianglePixels {
   Int below[kMaxSamples][3];     // what a sample's edges are more than those
   std::int32_t *stored_depth[kMaxSamples], *stored[kMaxSamples];  // of the sample: depth; the words or triangles' numbers that it writes
   Int value;                     // the word, or the triangle's number
+  const SampledColor* color;     // collect: words in place of numbers, all of their bits; or null
   Int writable, depth_writable;
   std::int32_t nearest;          // no sample of the triangle has a smaller depth key
   Int seen = hn::Zero(kInt);     // minus the number of pixels that passed at any sample, in each lane
 
-  HWY_INLINE SampledTrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, int i, std::uint32_t new_value, std::int32_t nearest_key)
-      : run(tile_run), draw(tile_draw), edges(tile_edges(tile_run.memory.group, i)), value(splat(static_cast<std::int32_t>(new_value))),
+  HWY_INLINE SampledTrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, int i, std::uint32_t new_value, const SampledColor* interpolated, std::int32_t nearest_key)
+      : run(tile_run), draw(tile_draw), edges(tile_edges(tile_run.memory.group, i)), value(splat(static_cast<std::int32_t>(new_value))), color(interpolated),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), nearest(nearest_key) {
     const TriangleGroup& g = run.memory.group;
     const SampleGroup& samples = run.memory.samples->narrow;
@@ -62,7 +84,7 @@ struct SampledTrianglePixels {
     }
     for (int s = 0; s < run.samples; ++s) {
       stored_depth[s] = run.sample[s].depth;
-      stored[s] = reinterpret_cast<std::int32_t*>(kSeen == Seen::word ? run.sample[s].color : run.sample[s].ids);
+      stored[s] = reinterpret_cast<std::int32_t*>(kSeen == Seen::word || color != nullptr ? run.sample[s].color : run.sample[s].ids);
     }
     for (int s = 0; s < run.samples; ++s) anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(run.samples)[s], run.tile_x, run.tile_y);
   }
@@ -83,7 +105,7 @@ struct SampledTrianglePixels {
     const int block = run.block_index(bx, by);
     const auto step = depth.step_to(bx, by);
     const bool cut = run.cut;  // in registers: stores to the tile might change members
-    const Int new_value = value, writes_depth = depth_writable;
+    const Int writes_depth = depth_writable;
     Int farthest = splat(std::numeric_limits<std::int32_t>::min());
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
@@ -93,6 +115,7 @@ struct SampledTrianglePixels {
           for (int s = 0; s < kSamples; ++s) farthest = hn::Max(farthest, hn::Load(kInt, stored_depth[s] + index));
         continue;
       }
+      const Int new_value = kSeen == Seen::collect && color != nullptr ? color->words(e0, e1, e2) : value;
       Int chunk_seen = hn::Zero(kInt);
       for (int s = 0; s < kSamples; ++s) {
         auto mask = hn::Gt(hn::Or(hn::Or(hn::Add(e0, below[s][0]), hn::Add(e1, below[s][1])), hn::Add(e2, below[s][2])), splat(-1));
@@ -118,30 +141,33 @@ struct SampledTrianglePixels {
   }
 };
 
-/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of them is collected, by
-/// numbers from `first_id` on.
+/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of them waits for its
+/// colour, by numbers from `id` on.
 /// @pre set up, with the samples' reach
 template <class Depth, Test kTest, Seen kSeen>
-HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number, std::size_t first_id) {
+HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number, std::uint32_t id) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_samples(g, run.memory.samples->narrow, run.samples, kHasDepth<Depth> ? run.frame.depth_kind : DepthKind::none, run.tile_x, run.tile_y);
   bool any_seen = false;
-  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
+  for (std::uint32_t left = g.mask; left != 0; left &= left - 1, ++id) {
     const int i = std::countr_zero(left);
     std::int32_t nearest = 0;
     if constexpr (kCulls<Depth, kTest>) {
       nearest = Depth::nearest_key(g, i, run.frame.depth_kind);
       if (is_hidden(run, nearest, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
     }
-    std::uint32_t value = 0;
-    if constexpr (kSeen == Seen::word) value = triangle_word(run, draw, i, !is_front(g.signed_area[i], draw.front_is_clockwise));
-    if constexpr (kSeen == Seen::collect) value = static_cast<std::uint32_t>(first_id) + static_cast<std::uint32_t>(i);
-    SampledTrianglePixels<Depth, kTest, kSeen> pixels(run, draw, i, value, nearest);
+    const std::uint32_t value = kSeen == Seen::word ? triangle_word(run, draw, i, !is_front(g.signed_area[i], draw.front_is_clockwise)) : id;
+    const bool at_once = kSeen == Seen::collect && !draw.deferred && draw.source == ColorSource::interpolated;
+    SampledColor color;
+    if (at_once) color.set_up(run, draw, run.memory.triangles[id], i);
+    SampledTrianglePixels<Depth, kTest, kSeen> pixels(run, draw, i, value, at_once ? &color : nullptr, nearest);
     const BlockOffsets offsets(pixels.edges);
     for_each_block(pixels.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
-    if constexpr (kSeen == Seen::collect) any_seen |= !hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)));
-    if constexpr (kSeen == Seen::word) run.counts.shaded_pixels += count_of(pixels.seen);
+    if (kSeen == Seen::word || at_once)
+      run.counts.shaded_pixels += count_of(pixels.seen);
+    else if constexpr (kSeen == Seen::collect)
+      any_seen |= !hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)));
   }
   return any_seen;
 }
@@ -159,13 +185,12 @@ void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
   const std::size_t first_id = memory.triangles.size();
   if constexpr (kSeen == Seen::collect) {
     set_up_weights(g);
-    memory.triangles.resize(first_id + static_cast<std::size_t>(g.count));
     for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      fill_shaded_triangle(memory.triangles[first_id + static_cast<std::size_t>(i)], run, draw_number, i, !is_front(g.signed_area[i], run.frame.draws[draw_number].front_is_clockwise));
+      fill_shaded_triangle(memory.triangles.emplace_back(), run, draw_number, i, !is_front(g.signed_area[i], run.frame.draws[draw_number].front_is_clockwise));
     }
   }
-  const bool any_seen = draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number, first_id);
+  const bool any_seen = draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number, static_cast<std::uint32_t>(first_id));
   if constexpr (kSeen == Seen::collect) {
     if (!any_seen) {
       memory.triangles.resize(first_id);

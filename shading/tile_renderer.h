@@ -50,7 +50,7 @@ struct TileDraw {
   int color_attribute[2] = {0, 0};
   bool scaled_colors = true;
   bool index[2] = {};                      ///< front, back: the colour is a single float, a masked index
-  bool deferred = false;                   ///< shade once for each visible pixel. @pre set if pixels have several samples, unless colours are words or `ops` want an order
+  bool deferred = false;                   ///< shade once for each visible pixel. @pre set without `ops` if pixels have several samples, for per_pixel, and for interpolated under a mask
   /// per_pixel: programs for front and back, and which batch field each attribute goes to, from first_attribute on.
   const LightingProgram* programs[2] = {};
   int first_attribute = 0;
