@@ -52,49 +52,80 @@ TEST(Samples, MeanRoundsHalvesUp) {
   EXPECT_EQ(resolved_word(rgb_layout(1), greys, 4), 1u);
 }
 
-// Interpolated colours that wait, in one surface or several, and those of draws with operations are the same.
-TEST(Samples, HaveTheSameColorsLaterAtOnceAndWithOperations) {
+// How draws of interpolated colours go through a tile.
+enum class Way { later, later_one_by_one, at_once, mixed, with_operations };
+constexpr Way kWays[] = {Way::later, Way::later_one_by_one, Way::at_once, Way::mixed, Way::with_operations};
+constexpr const char* kWayNames[] = {"later", "later, one by one", "at once", "at once between others that wait", "with operations"};
+
+constexpr std::uint32_t kTriangles = 51, kDraws = 3;
+
+// Three draws of random triangles, in perspective, behind and through each other, with colours of their fronts and backs.
+struct InterpolatedDraws {
+  std::vector<WindowVertex> vertices;
+  std::vector<float> colors;
+  std::vector<std::uint32_t> visible;
+  bool uses_depth = true;
+  CompareOp depth_test = CompareOp::less;
+  PixelRect rect{0, 0, kTile, kTile};
+
+  InterpolatedDraws(RandomTriangles& source, int round) {
+    for (std::uint32_t i = 0; i < kTriangles; ++i) {
+      const bool wide = round % 3 == 2 && i % 13 == 0;
+      const Triangle triangle = source.next(wide ? Shape::wide : i % 3 == 0 ? Shape::large : i % 3 == 1 ? Shape::medium : Shape::tiny);
+      if (reference_of(triangle).area != 0) visible.push_back(i);
+      for (WindowVertex v : triangle) {
+        v.z = (static_cast<std::uint32_t>(source.random()()) & 0x7fffff00u) | 0x80u;
+        v.rw = 0.5f + static_cast<float>(source.unit());
+        vertices.push_back(v);
+        for (int c = 0; c < 8; ++c) colors.push_back(static_cast<float>(source.unit()));
+      }
+    }
+    colors.resize(colors.size() + 64);
+    if (round % 4 == 1) uses_depth = false;
+    if (round % 4 == 2) depth_test = CompareOp::notequal;
+    if (round % 5 >= 3) rect = {source.between(0, 9), source.between(0, 9), source.between(20, kTile), source.between(20, kTile)};
+  }
+
+  void add_to(TileStage& stage, Way way, const FragmentOps& operations) const {
+    stage.forget_draws();
+    for (std::uint32_t d = 0; d < kDraws; ++d) {
+      TileDraw& draw = stage.add_draw(vertices.data());
+      draw.source = ColorSource::interpolated;
+      draw.scaled_colors = false;
+      draw.uses_depth = uses_depth;
+      draw.depth_test = depth_test;
+      draw.rect = rect;
+      draw.attributes = colors.data();
+      draw.attribute_stride = draw.attribute_count = 8;
+      draw.color_attribute[1] = 4;
+      draw.deferred = way == Way::later || way == Way::later_one_by_one || (way == Way::mixed && d != 1);
+      draw.ops = way == Way::with_operations ? &operations : nullptr;
+    }
+    stage.frame().shade_at_once = way == Way::later_one_by_one;
+    for (const std::uint32_t id : visible) stage.push(0, id / (kTriangles / kDraws), id);
+  }
+};
+
+TEST(Samples, HaveTheSameColorsWheneverTheyComeAbout) {
   RandomTriangles source(22, kTile);
   const FragmentOps operations{};
   for (const int samples : {4, 8}) {
     TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
     stage.frame().samples = samples;
     for (int round = 0; round < 60; ++round) {
-      std::vector<WindowVertex> vertices;
-      std::vector<float> colors;
-      std::vector<std::uint32_t> visible;
-      for (std::uint32_t i = 0; i < 50; ++i) {
-        const Triangle triangle = source.next(i % 3 == 0 ? Shape::large : i % 3 == 1 ? Shape::medium : Shape::tiny);
-        if (reference_of(triangle).area != 0) visible.push_back(i);
-        for (WindowVertex v : triangle) {
-          v.z = (static_cast<std::uint32_t>(source.random()()) & 0x7fffff00u) | 0x80u;
-          v.rw = 0.5f + static_cast<float>(source.unit());
-          vertices.push_back(v);
-          for (int c = 0; c < 4; ++c) colors.push_back(static_cast<float>(source.unit()));
-        }
-      }
-      colors.resize(colors.size() + 64);
+      const InterpolatedDraws draws(source, round);
       for (const Isa isa : available_isas()) {
-        std::vector<std::uint32_t> seen[3];
-        for (int way = 0; way < 3; ++way) {
-          stage.forget_draws();
-          TileDraw& draw = stage.add_draw(vertices.data());
-          draw.source = ColorSource::interpolated;
-          draw.scaled_colors = false;
-          draw.uses_depth = true;
-          draw.attributes = colors.data();
-          draw.attribute_stride = draw.attribute_count = 4;
-          draw.deferred = way != 2;
-          draw.ops = way == 2 ? &operations : nullptr;
-          stage.frame().shade_at_once = way == 1;
-          for (const std::uint32_t id : visible) stage.push(0, 0, id);
+        std::vector<std::uint32_t> first;
+        for (const Way way : kWays) {
+          draws.add_to(stage, way, operations);
           stage.render(isa, 0, 0x102030, 0xffffff);
+          std::vector<std::uint32_t> seen;
           for (int s = 0; s < samples; ++s)
             for (int y = 0; y < kTile; ++y)
-              for (int x = 0; x < kTile; ++x) seen[way].push_back(stage.sample_color(s, x, y));
+              for (int x = 0; x < kTile; ++x) seen.push_back(stage.sample_color(s, x, y));
+          if (first.empty()) first = seen;
+          ASSERT_EQ(seen, first) << name_of(isa) << ", round " << round << ": " << kWayNames[static_cast<int>(way)];
         }
-        ASSERT_EQ(seen[1], seen[0]) << name_of(isa) << ": at once";
-        ASSERT_EQ(seen[2], seen[0]) << name_of(isa) << ": with operations";
       }
     }
   }
