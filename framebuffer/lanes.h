@@ -20,7 +20,8 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #endif
 #define HWY_BROKEN_EMU128 1  // one baseline for every compiler: a single lane
-#if defined(TESSERA_SCALAR_ONLY)
+// Vectors are for x86: the kernels take widths and layouts of its vectors for granted (raster/lane_packing-inl.h).
+#if defined(TESSERA_SCALAR_ONLY) || !(defined(__x86_64__) || defined(__i386__) || defined(_M_X64) || defined(_M_IX86))
 #define HWY_COMPILE_ONLY_SCALAR
 #endif
 #endif

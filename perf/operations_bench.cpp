@@ -77,6 +77,7 @@ constexpr Picture kPictures[] = {{"640x480_phong", 640, 480, Shading::phong},
                                  {"1920x1080_flat", 1920, 1080, Shading::flat}};
 
 std::string row_name(const Picture& picture, const Operation& operation) { return std::string(picture.name) + "_" + operation.name; }
+
 int run(int argc, char** argv) {
   initialize_rows(argc, argv);
   for (const Picture& picture : kPictures)

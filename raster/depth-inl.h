@@ -95,6 +95,7 @@ struct Unorm32Depth : UnormDepth {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(cut) ^ 0x80000000u);
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }
+  static std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind kind) = delete;  // keys are others than above
   struct Block {
     std::uint64_t start;
   };

@@ -56,7 +56,8 @@ DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
                                                                                          : Seen::word;
   const bool less = draw.depth_test == CompareOp::less, sampled = frame.samples > 1;
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::per_pixel);
-  TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::interpolated || draw.write_mask == 0xffffffffu);
+  TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::interpolated ||
+                 (draw.write_mask == 0xffffffffu && !draw.scaled_colors && !frame.layout.index && !frame.layout.luminance));
   if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen, sampled);
   switch (frame.depth_kind) {
     case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen, sampled) : pick_by_color<Float32Depth, Test::any>(seen, sampled);

@@ -133,6 +133,14 @@ TEST(Determinism, RandomTrianglesWithClippingAndOverdrawHaveTheSameBits) {
   EXPECT_GT(stats.shaded_pixels, 4u * 330 * 210);
 }
 
+// Nothing but colours and depth, which samples have ways of their own for.
+TEST(Determinism, RandomTrianglesOfSamplesHaveTheSameBitsInEveryDepth) {
+  for (const DepthFormat depth : {DepthFormat::none, DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
+    const RandomFrame random({.width = 150, .height = 90, .depth = depth, .samples = depth == DepthFormat::unorm16 ? 8 : 4});
+    expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
+  }
+}
+
 TEST(Determinism, RandomTrianglesHaveTheSameBitsInSixteenBitColorAndFloatDepth) {
   const RandomFrame random(random_format(ColorMode::rgb, 16, DepthFormat::float32));
   expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });

@@ -166,6 +166,19 @@ TEST(Explain, ShadingTellsHowOftenItIsLit) {
   EXPECT_THAT(explain(s), AllOf(HasSubstr("no normals"), HasSubstr("area-weighted")));
 }
 
+TEST(Explain, ColorsOfSamplesWaitOnlyWhereMoreThanStoringFollows) {
+  Setting s;
+  s.state.shading = Shading::gouraud;
+  for (const int samples : {1, 4, 8}) {
+    s.format.samples = samples;
+    EXPECT_THAT(explain(s), HasSubstr("colours interpolated at once"));
+  }
+  s.state.plane_mask = 0xff00;
+  EXPECT_THAT(explain(s), HasSubstr("colours interpolated at each visible pixel, once"));
+  s.format.samples = 1;
+  EXPECT_THAT(explain(s), HasSubstr("colours interpolated at once"));
+}
+
 TEST(Explain, EachLineIsOneEffectAndDrawsAreTold) {
   FrameBuffer buffer({.width = 4, .height = 4});
   Frame frame(buffer);

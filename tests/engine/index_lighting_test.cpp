@@ -1,4 +1,6 @@
 // Lighting of indices, by hand where numbers are few.
+#include <array>
+
 #include "tests/engine/index_pictures.h"
 
 namespace tessera {

@@ -1,4 +1,6 @@
 // Palettes that change under a picture.
+#include <limits>
+
 #include "tests/engine/index_pictures.h"
 
 namespace tessera {

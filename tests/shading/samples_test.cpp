@@ -1,6 +1,10 @@
 // Pixels of several samples: their colour is the mean of the samples' levels, whichever way the samples got their colours.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <iterator>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "raster/sample_positions.h"
@@ -59,7 +63,11 @@ constexpr const char* kWayNames[] = {"later", "later, one by one", "at once", "a
 
 constexpr std::uint32_t kTriangles = 51, kDraws = 3;
 
+
 // Three draws of random triangles, in perspective, behind and through each other, with colours of their fronts and backs.
+constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
+float unit_depth(std::uint32_t random) { return static_cast<float>(random >> 8) * 0x1p-24f; }
+
 struct InterpolatedDraws {
   std::vector<WindowVertex> vertices;
   std::vector<float> colors;
@@ -68,13 +76,14 @@ struct InterpolatedDraws {
   CompareOp depth_test = CompareOp::less;
   PixelRect rect{0, 0, kTile, kTile};
 
-  InterpolatedDraws(RandomTriangles& source, int round) {
+  InterpolatedDraws(RandomTriangles& source, int round, DepthKind depth_kind) {
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       const bool wide = round % 3 == 2 && i % 13 == 0;
       const Triangle triangle = source.next(wide ? Shape::wide : i % 3 == 0 ? Shape::large : i % 3 == 1 ? Shape::medium : Shape::tiny);
       if (reference_of(triangle).area != 0) visible.push_back(i);
       for (WindowVertex v : triangle) {
-        v.z = (static_cast<std::uint32_t>(source.random()()) & 0x7fffff00u) | 0x80u;
+        const auto depth = static_cast<std::uint32_t>(source.random()());
+        v.z = depth_kind == DepthKind::float32 ? std::bit_cast<std::uint32_t>(unit_depth(depth)) : depth_kind == DepthKind::unorm32 ? depth : (depth & 0xffff0000u) | 0x8000u;
         v.rw = 0.5f + static_cast<float>(source.unit());
         vertices.push_back(v);
         for (int c = 0; c < 8; ++c) colors.push_back(static_cast<float>(source.unit()));
@@ -106,19 +115,22 @@ struct InterpolatedDraws {
   }
 };
 
-TEST(Samples, HaveTheSameColorsWheneverTheyComeAbout) {
+class SampledColors : public testing::TestWithParam<DepthKind> {};
+
+TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
   RandomTriangles source(22, kTile);
   const FragmentOps operations{};
   for (const int samples : {4, 8}) {
-    TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
+    TileStage stage(kTile, kTile, kTile, GetParam());
     stage.frame().samples = samples;
     for (int round = 0; round < 60; ++round) {
-      const InterpolatedDraws draws(source, round);
+      const InterpolatedDraws draws(source, round, GetParam());
+      std::vector<std::uint32_t> first;
       for (const Isa isa : available_isas()) {
-        std::vector<std::uint32_t> first;
+        std::uint64_t shaded[std::size(kWays)];
         for (const Way way : kWays) {
           draws.add_to(stage, way, operations);
-          stage.render(isa, 0, 0x102030, 0xffffff);
+          shaded[static_cast<int>(way)] = stage.render(isa, 0, 0x102030, kFarthest).shaded_pixels;
           std::vector<std::uint32_t> seen;
           for (int s = 0; s < samples; ++s)
             for (int y = 0; y < kTile; ++y)
@@ -126,10 +138,15 @@ TEST(Samples, HaveTheSameColorsWheneverTheyComeAbout) {
           if (first.empty()) first = seen;
           ASSERT_EQ(seen, first) << name_of(isa) << ", round " << round << ": " << kWayNames[static_cast<int>(way)];
         }
+        ASSERT_EQ(shaded[static_cast<int>(Way::at_once)], shaded[static_cast<int>(Way::with_operations)]) << name_of(isa) << ", round " << round;
+        ASSERT_LE(shaded[static_cast<int>(Way::later)], shaded[static_cast<int>(Way::at_once)]) << name_of(isa) << ", round " << round;
       }
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Formats, SampledColors, testing::Values(DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32),
+                         [](const auto& kind) { return (kind.param == DepthKind::float32 ? "float" : "unorm") + std::to_string(depth_bits(kind.param)); });
 
 }  // namespace
 }  // namespace tessera::test
