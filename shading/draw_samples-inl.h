@@ -135,7 +135,7 @@ HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number, std
       if (is_hidden(run, nearest, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
     }
     std::uint32_t value = 0;
-    if constexpr (kSeen == Seen::word) value = triangle_word(run, draw, i, !is_front(g.signed_area[i], draw.front_is_clockwise));
+    if constexpr (kSeen == Seen::word) value = triangle_word(run, draw, i, is_back(run, draw, i));
     if constexpr (kSeen == Seen::collect) value = static_cast<std::uint32_t>(first_id) + static_cast<std::uint32_t>(i);
     SampledTrianglePixels<Depth, kTest, kSeen> pixels(run, draw, i, value, nearest);
     const BlockOffsets offsets(pixels.edges);
@@ -162,7 +162,7 @@ void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
     memory.triangles.resize(first_id + static_cast<std::size_t>(g.count));
     for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      fill_shaded_triangle(memory.triangles[first_id + static_cast<std::size_t>(i)], run, draw_number, i, !is_front(g.signed_area[i], run.frame.draws[draw_number].front_is_clockwise));
+      fill_shaded_triangle(memory.triangles[first_id + static_cast<std::size_t>(i)], run, draw_number, i, is_back(run, run.frame.draws[draw_number], i));
     }
   }
   const bool any_seen = draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number, first_id);
