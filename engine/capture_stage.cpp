@@ -15,6 +15,13 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
     for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->triangles);
     numbers_.resize(most);
     std::iota(numbers_.begin(), numbers_.end(), 0u);
+    for (const GeometryDraw& geometry : commands.geometry) {
+      std::vector<std::uint32_t>& numbers = polygon_numbers_.emplace_back();
+      const std::size_t each = geometry.mesh->polygon_triangles();
+      if (each < 2) continue;
+      numbers.resize(geometry.mesh->triangles);
+      for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
+    }
   }
   passes_.reserve(4);  // frames of passes point into them
   if (!capture.objects.empty()) add_pass(What::objects, commands, frame);
@@ -44,11 +51,11 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       ops.logic = Logic::copy;
       draw.ops = &ops;
       draw.deferred = false;
-      draw.number = what == What::primitives ? TileDraw::Number::triangle : TileDraw::Number::draw;
+      draw.number = what == What::primitives ? TileDraw::Number::primitive : TileDraw::Number::draw;
     }
     if (what == What::primitives) {
       draw.source = ColorSource::triangle_word;
-      draw.words[0] = draw.words[1] = numbers_.data();
+      draw.words[0] = draw.words[1] = (polygon_numbers_[i].empty() ? numbers_ : polygon_numbers_[i]).data();
     } else if (what == What::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;

@@ -49,6 +49,7 @@ class CaptureStage {
   RenderTile* render_;
   LightingProgram normal_program_;            ///< makes normals of length 1, and no light
   std::vector<std::uint32_t> numbers_;        ///< 0, 1, 2, ...: the triangles of the longest mesh
+  std::vector<std::vector<std::uint32_t>> polygon_numbers_;  ///< of each draw: the polygon of each triangle, where it has several
   std::vector<Pass> passes_;
 };
 

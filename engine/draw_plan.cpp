@@ -168,7 +168,7 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.source = ColorSource::interpolated;
   plan.flat = state.shading == Shading::flat;
   plan.scaled_colors = false;
-  plan.attribute_count = 4;
+  plan.attribute_count = plan.colors_triangles() ? 0 : 4;
 }
 
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled, std::string* reasons) {
@@ -217,14 +217,15 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     note(plan.deferred ? "lit at each visible pixel, once" : "lit at each pixel of each triangle: its operations depend on the order");
   } else if (state.shading == Shading::flat) {
     plan.face_normals = generate;
-    plan.source = generate ? ColorSource::triangle_word : ColorSource::vertex_word;
+    const bool by_triangle = generate || plan.provoking_apart;
+    plan.source = by_triangle ? ColorSource::triangle_word : ColorSource::vertex_word;
     if (plan.has_ops) {
       plan.source = ColorSource::interpolated;
       plan.flat = true;
       plan.scaled_colors = false;
-      plan.attribute_count = generate ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
+      plan.attribute_count = by_triangle ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
     }
-    note(generate ? "flat, lit once a triangle with its face's normal" : "flat, lit at the vertices");
+    note(generate ? "flat, lit once a triangle with its face's normal" : by_triangle ? "flat, one colour a triangle: that of its quad's vertex" : "flat, lit at the vertices");
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
@@ -267,6 +268,7 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   plan.keep_front = state.cull != Cull::front;
   plan.keep_back = state.cull != Cull::back;
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
+  plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
   plan_faces(plan, draw, target.layout);
 

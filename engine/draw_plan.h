@@ -42,6 +42,7 @@ struct DrawPlan {
   bool uses_vertex_colors = false, uses_color_indices = false;
   bool smooth_normals = false;    ///< the mesh has none: means of its faces
   bool face_normals = false;      ///< the mesh has none: flat
+  bool provoking_apart = false;   ///< flat, and the provoking vertex is not one of each triangle's
   bool scaled_colors = true;      ///< interpolated colours are carried in levels
 
   /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back]; then the normal
@@ -55,7 +56,7 @@ struct DrawPlan {
   /// beside a face with colours as much room as those.
   int color_floats() const { return only_indices() ? 1 : has_ops ? 4 : 3; }
   /// Colours are made for triangles, not for vertices.
-  bool colors_triangles() const { return source == ColorSource::triangle_word || (flat && face_normals); }
+  bool colors_triangles() const { return source == ColorSource::triangle_word || (flat && (face_normals || provoking_apart)); }
 };
 
 /// @param capture_normals  each pixel's normal is wanted besides its colour

@@ -139,7 +139,7 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
   draw.flat = plan.flat;
   for (int face = 0; face < 2; ++face) {
     const int side = plan.two_sided ? face : 0;
-    if (plan.flat && plan.face_normals) draw.face_colors[face] = buffers.face_colors[side].data();
+    if (plan.flat && plan.colors_triangles()) draw.face_colors[face] = buffers.face_colors[side].data();
     for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = clamp_unit(plan.constant_color[c]);
     if (plan.index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
@@ -236,7 +236,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
     geometry.buffers = &buffers[i];
     geometry.layout = &target.layout;
     geometry.search = commands.plans[i].looks_up_colors() ? target.search() : nullptr;
-    geometry.provoking = draw.state.provoking_vertex == ProvokingVertex::last ? 2 : 0;
+    geometry.provoking_vertex = draw.state.provoking_vertex;
     commands.geometry.push_back(geometry);
   }
   return commands;
@@ -252,9 +252,11 @@ void connect_draws(FrameCommands& commands) {
     draw.attributes = buffers.attributes.data();
     draw.attribute_stride = plan.attribute_count;
     draw.attribute_count = plan.captured_normal >= 0 ? plan.captured_normal : plan.attribute_count;
-    draw.provoking = static_cast<int>(geometry.provoking);
+    draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
+    draw.facing = geometry.facing();
+    draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->polygon_triangles());
     draw.uses_depth = plan.uses_depth;
     draw.depth_write = plan.depth_write;
     draw.depth_test = plan.depth_test;

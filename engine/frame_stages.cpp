@@ -100,12 +100,7 @@ void RendererState::process_geometry(FrameCommands& commands, FrameWatch& watch)
   });
 }
 
-std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch) {
-  std::vector<std::size_t> first_triangle{0};  // of each draw, counted through the frame
-  for (const GeometryDraw& draw : commands.geometry) first_triangle.push_back(first_triangle.back() + draw.mesh->triangles);
-  const std::size_t total = first_triangle.back();
-  const std::size_t batches = std::clamp<std::size_t>(total / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
-  if (bins.size() < batches) bins.resize(batches);
+std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, int samples) {
   std::vector<BinDraw> draws;
   for (std::size_t d = 0; d < commands.geometry.size(); ++d) {
     const GeometryDraw& geometry = commands.geometry[d];
@@ -119,6 +114,7 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     draw.keep_front = plan.keep_front;
     draw.keep_back = plan.keep_back;
     draw.front_is_clockwise = plan.front_is_clockwise;
+    draw.facing = geometry.facing();
     draw.rect = plan.rect;
     draw.sample_reach = sample_reach(samples);
     draw.transform = &plan.transform;
@@ -128,6 +124,26 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     draw.attribute_count = draw.attribute_stride = plan.attribute_count;
     draws.push_back(draw);
   }
+  std::vector<Range> polygons;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const std::size_t count = draws[d].facing != nullptr ? commands.geometry[d].mesh->triangles : 0;
+    for (std::size_t first = 0; first < count; first += kTrianglesPerBatch) polygons.push_back({d, first, std::min(count, first + kTrianglesPerBatch)});
+  }
+  parallel.for_each(polygons.size(), [&](std::size_t i, int) {
+    const Range& range = polygons[i];
+    const GeometryDraw& geometry = commands.geometry[range.draw];
+    face_polygons(draws[range.draw], geometry.mesh->polygon_triangles(), range.first, range.last, geometry.buffers->facing.data());
+  });
+  return draws;
+}
+
+std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch) {
+  std::vector<std::size_t> first_triangle{0};  // of each draw, counted through the frame
+  for (const GeometryDraw& draw : commands.geometry) first_triangle.push_back(first_triangle.back() + draw.mesh->triangles);
+  const std::size_t total = first_triangle.back();
+  const std::size_t batches = std::clamp<std::size_t>(total / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
+  if (bins.size() < batches) bins.resize(batches);
+  const std::vector<BinDraw> draws = prepare_bins(commands, samples);
   watch.begin_stage(kBinningShare, batches);
   parallel.for_each(batches, [&](std::size_t b, int) {
     bins[b].reset(grid.count());

@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-
 namespace tessera {
 namespace {
 
@@ -17,12 +16,20 @@ glm::dvec3 position(const MeshArrays& mesh, std::size_t vertex) {
   return mesh.components == 4 && p[3] != 0 ? xyz / double{p[3]} : xyz;
 }
 
-std::size_t corner(const MeshArrays& mesh, std::size_t triangle, std::size_t k) { return mesh.vertex_at(3 * triangle + k); }
+std::array<std::size_t, 3> vertices_of(const MeshArrays& mesh, std::size_t triangle) {
+  const auto corners = triangle_corners(mesh.primitive, ProvokingVertex::last, triangle);
+  return {mesh.vertex_at(corners[0]), mesh.vertex_at(corners[1]), mesh.vertex_at(corners[2])};
+}
 
-// Twice the area times the unit normal.
-glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t triangle) {
-  const glm::dvec3 a = position(mesh, corner(mesh, triangle, 0));
-  return glm::cross(position(mesh, corner(mesh, triangle, 1)) - a, position(mesh, corner(mesh, triangle, 2)) - a);
+// Twice the area times the unit normal: the sum over the polygon's triangles, which is the same however it is split.
+glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t first, std::size_t last) {
+  glm::dvec3 sum(0);
+  for (std::size_t t = first; t < last; ++t) {
+    const auto v = vertices_of(mesh, t);
+    const glm::dvec3 a = position(mesh, v[0]);
+    sum += glm::cross(position(mesh, v[1]) - a, position(mesh, v[2]) - a);
+  }
+  return sum;
 }
 
 void store_unit(const glm::dvec3& v, float* out) {
@@ -65,10 +72,13 @@ std::vector<std::uint32_t> first_at_position(const MeshArrays& mesh) {
 std::vector<float> smooth_normals(const MeshArrays& mesh) {
   const std::vector<std::uint32_t> first = first_at_position(mesh);
   std::vector<glm::dvec3> sums(first.size(), glm::dvec3(0));
-  for (std::size_t t = 0; t < mesh.triangles; ++t) {
-    const glm::dvec3 normal = area_normal(mesh, t);
-    if (!std::isfinite(normal.x + normal.y + normal.z)) continue;  // this triangle will be dropped; its neighbours keep theirs
-    for (std::size_t k = 0; k < 3; ++k) sums[first[corner(mesh, t, k)]] += normal;
+  const std::size_t each = mesh.polygon_triangles();
+  for (std::size_t begin = 0; begin < mesh.triangles; begin += each) {
+    const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
+    if (!std::isfinite(normal.x + normal.y + normal.z)) continue;  // this polygon will be dropped; its neighbours keep theirs
+    // A polygon's first triangle has three of its vertices, each further one another: the one that those before it have not.
+    for (const std::size_t v : vertices_of(mesh, begin)) sums[first[v]] += normal;
+    for (std::size_t t = begin + 1; t < begin + each; ++t) sums[first[mesh.vertex_at(added_corner(mesh.primitive, t))]] += normal;
   }
   std::vector<float> normals(3 * first.size());
   for (std::size_t v = 0; v < first.size(); ++v) store_unit(sums[first[v]], &normals[3 * v]);
@@ -77,7 +87,11 @@ std::vector<float> smooth_normals(const MeshArrays& mesh) {
 
 std::vector<float> face_normals(const MeshArrays& mesh) {
   std::vector<float> normals(3 * mesh.triangles);
-  for (std::size_t t = 0; t < mesh.triangles; ++t) store_unit(area_normal(mesh, t), &normals[3 * t]);
+  const std::size_t each = mesh.polygon_triangles();
+  for (std::size_t begin = 0; begin < mesh.triangles; begin += each) {
+    const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
+    for (std::size_t t = begin; t < begin + each; ++t) store_unit(normal, &normals[3 * t]);
+  }
   return normals;
 }
 

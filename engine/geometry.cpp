@@ -44,8 +44,9 @@ void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
 }
 
 // Unlit: the vertices' indices, masked as those are that come out of lighting.
-void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t first, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) batch.field[kColorR][i] = masked_index(*draw.mesh->color_indices.at(first + i), draw.layout->index_modulus());
+template <class VertexOf>
+void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count, const VertexOf& vertex) {
+  for (std::size_t i = 0; i < count; ++i) batch.field[kColorR][i] = masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
 }
 
 // Where the colours of a batch go, and whose alpha they have.
@@ -159,6 +160,14 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
     for (std::size_t c = 0; c < 3; ++c) out[c] = eye[c][i];
 }
 
+// Three indices for each triangle, its provoking vertex where provoking_place() says.
+void assemble_triangles(const GeometryDraw& draw) {
+  const MeshArrays& mesh = *draw.mesh;
+  std::uint32_t* out = draw.buffers->indices.resize(3 * mesh.triangles);
+  for (std::size_t t = 0; t < mesh.triangles; ++t)
+    for (const std::size_t corner : triangle_corners(mesh.primitive, draw.provoking_vertex, t)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+}
+
 void clear_batch(ShadingBatch& batch) {
   for (auto& field : batch.field) std::fill(std::begin(field), std::end(field), 0.0f);
 }
@@ -176,7 +185,8 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
-  if (const std::uint16_t* const indices = draw.mesh->short_indices) std::copy_n(indices, 3 * triangles, buffers.indices.resize(3 * triangles));
+  if (draw.makes_indices()) assemble_triangles(draw);
+  buffers.facing.resize(draw.mesh->polygon_triangles() > 1 ? triangles : 0);
   buffers.normals.clear();
   if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
   if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);
@@ -202,15 +212,13 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
     if (plan.uses_color_indices) codes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.codes.data() + at);
     if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
+    if (needs_normal(plan) && !plan.face_normals) codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
     if (!colors_matter || plan.colors_triangles()) continue;
-    if (needs_normal(plan)) {
-      eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
-      codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
-    }
+    if (needs_normal(plan)) eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
     if (needs_position(plan))
       eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
     if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
-    if (plan.uses_color_indices) load_color_indices(draw, batch, at, count);
+    if (plan.uses_color_indices) load_color_indices(draw, batch, count, [at](std::size_t i) { return at + i; });
     if (plan.source == ColorSource::per_pixel)
       store_inputs(draw, batch, at, count);
     else
@@ -223,18 +231,23 @@ void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t 
   const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
   const auto components = static_cast<std::size_t>(mesh.components);
-  const auto vertex_of = [&](std::size_t triangle) { return mesh.vertex_at(3 * triangle + draw.provoking); };
+  const auto vertex_of = [&](std::size_t triangle) { return mesh.vertex_at(provoking_corner(mesh.primitive, draw.provoking_vertex, triangle)); };
   ShadingBatch batch;
   clear_batch(batch);
-  float positions[4 * kVertexBatch];
+  float positions[4 * kVertexBatch], normals[3 * kVertexBatch];
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
-    eye_normals(isa)(plan.eye, normals_of(draw).from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+    if (needs_normal(plan)) {
+      for (std::size_t i = 0; i < count && !plan.face_normals; ++i) std::copy_n(mesh.normals.at(vertex_of(at + i)), 3, normals + 3 * i);
+      const StridedFloats of_triangles = plan.face_normals ? normals_of(draw).from(at) : StridedFloats{normals, 3};
+      eye_normals(isa)(plan.eye, of_triangles, count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+    }
     if (needs_position(plan)) {
       for (std::size_t i = 0; i < count; ++i) std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
       eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
     }
     if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+    if (plan.uses_color_indices) load_color_indices(draw, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
     shade_batch(draw, batch, batch_of(draw, at, count, true, [&](std::size_t i) { return vertex_of(at + i); }), isa);
   }
 }

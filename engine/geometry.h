@@ -8,6 +8,7 @@
 #include "engine/draw_plan.h"
 #include "engine/scratch.h"
 #include "framebuffer/palette_search.h"
+#include "raster/polygon_facing.h"
 
 namespace tessera {
 
@@ -18,7 +19,8 @@ struct DrawBuffers {
   Scratch<float> attributes;
   Scratch<std::uint32_t> words[2];
   Scratch<float> face_colors[2];         ///< r g b a for each triangle, of flat draws with operations
-  Scratch<std::uint32_t> indices;        ///< widened from 16 bits
+  Scratch<std::uint32_t> indices;        ///< three a triangle: widened from 16 bits, or made of other primitives
+  Scratch<Facing> facing;                ///< of each triangle, where several make a polygon
   std::vector<float> normals;            ///< generated
   std::vector<float> captured_normals;   ///< generated, where a capture wants normals
   std::atomic<bool> any_code = false;    ///< some vertex has a clip code
@@ -31,10 +33,13 @@ struct GeometryDraw {
   DrawBuffers* buffers = nullptr;
   const ColorLayout* layout = nullptr;
   const PaletteSearch* search = nullptr;
-  std::size_t provoking = 2;             ///< corner
+  ProvokingVertex provoking_vertex = ProvokingVertex::last;
 
-  /// Of 32 bits, or null: vertices in order. @pre prepare_geometry
-  const std::uint32_t* indices() const { return mesh->short_indices ? buffers->indices.data() : mesh->indices; }
+  bool makes_indices() const { return mesh->short_indices != nullptr || mesh->primitive != Primitive::triangles; }
+  /// Three a triangle, of 32 bits, or null: vertices in order. @pre prepare_geometry
+  const std::uint32_t* indices() const { return makes_indices() ? buffers->indices.data() : mesh->indices; }
+  /// Of each triangle, or null: its own area decides. @pre face_polygons
+  const Facing* facing() const { return mesh->polygon_triangles() > 1 ? buffers->facing.data() : nullptr; }
 };
 
 /// Takes the memory and makes normals where the mesh has none. Throws std::bad_alloc.

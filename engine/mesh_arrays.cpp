@@ -101,8 +101,11 @@ MeshArrays check_mesh(const Mesh& mesh) {
   add_colors(mesh.colors, arrays);
   arrays.color_indices = strided(mesh.color_indices, "color_indices", 1, arrays.vertices);
   const std::size_t corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
-  if (corners % 3 != 0) fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", triangles need a multiple of 3");
-  arrays.triangles = corners / 3;
+  arrays.primitive = mesh.primitive;
+  if (!makes_whole_primitives(mesh.primitive, corners))
+    fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", " + std::string(name_of_mesh(mesh.primitive)) +
+         (mesh.primitive == Primitive::triangles || mesh.primitive == Primitive::quads ? " need " : " needs ") + std::string(corners_needed(mesh.primitive)));
+  arrays.triangles = triangle_count(mesh.primitive, corners);
   if (arrays.triangles > kMaxTriangles)
     fail("has " + std::to_string(arrays.triangles) + " triangles, at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
   add_indices(mesh.indices, arrays);

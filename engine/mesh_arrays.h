@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/primitive_assembly.h"
 #include "engine/tessera/tessera.hpp"
 #include "raster/vertex_transform.h"
 
 namespace tessera {
 
 struct MeshArrays {
-  std::size_t vertices = 0, triangles = 0;
+  Primitive primitive = Primitive::triangles;
+  std::size_t vertices = 0, triangles = 0;     ///< those that polygons are split into
   StridedFloats positions;
   int components = 3;                          ///< of a position
   StridedFloats normals;                       ///< or none
@@ -22,8 +24,9 @@ struct MeshArrays {
   const std::uint16_t* short_indices = nullptr;
 
   bool indexed() const { return indices != nullptr || short_indices != nullptr; }
+  std::size_t polygon_triangles() const { return triangles_of_polygon(primitive, triangles); }
   bool has_colors() const { return colors || color_bytes != nullptr; }
-  /// The vertex at a corner, three corners a triangle.
+  /// The vertex at a corner, counted along the indices.
   std::size_t vertex_at(std::size_t corner) const { return indices ? indices[corner] : short_indices ? short_indices[corner] : corner; }
   /// Component c of a vertex's colour.
   float color(std::size_t vertex, std::size_t c) const {

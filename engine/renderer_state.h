@@ -41,6 +41,7 @@ struct RendererState {
 
  private:
   void process_geometry(FrameCommands& commands, FrameWatch& watch);
+  std::vector<BinDraw> prepare_bins(const FrameCommands& commands, int samples);
   std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch);
   void render_tiles(const TileStage& stage, const TileMemory& memory, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;

@@ -15,9 +15,10 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
                         int x0, int y0, int x1, int y1);
 /// Clips one triangle and bins what is left of it.
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes);
-inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t triangle, int corner) {
-  const std::uint32_t i = triangle * 3 + static_cast<std::uint32_t>(corner);
-  return draw.indices ? draw.indices[i] : i;
+/// Whether the side that is seen of a triangle is kept.
+inline bool keeps(const BinDraw& draw, std::uint32_t triangle, double area) {
+  const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front : is_front(area, draw.front_is_clockwise);
+  return front ? draw.keep_front : draw.keep_back;
 }
 #endif
 }  // namespace tessera
@@ -63,7 +64,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
       const std::uint32_t i0 = vertex_index(draw, triangle, 0), i1 = vertex_index(draw, triangle, 1), i2 = vertex_index(draw, triangle, 2);
       if (draw.any_code) {
         const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
-        if ((c0 | c1 | c2) & kNonFinite) {
+        if (((c0 | c1 | c2) & kNonFinite) != 0 || (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped)) {
           ++counts.non_finite;
           continue;
         }
@@ -97,7 +98,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
         ++counts.zero_area;
         continue;
       }
-      if (!(is_front(b.area[k], draw.front_is_clockwise) ? draw.keep_front : draw.keep_back)) {
+      if (!keeps(draw, ids[k], b.area[k])) {
         ++counts.culled;
         continue;
       }
@@ -173,41 +174,42 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
   }
 }
 
-static double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
-  return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
-}
-
-void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes) {
+WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count) {
   ClipVertex corners[3];
   for (int k = 0; k < 3; ++k) {
     const std::uint32_t i = vertex_index(draw, triangle, k);
     const float* p = draw.positions.at(i);
     corners[k].position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
     const float* a = draw.attributes + std::size_t{i} * static_cast<std::size_t>(draw.attribute_stride);
-    for (int j = 0; j < draw.attribute_count; ++j) corners[k].attributes[j] = a[j];
+    for (int j = 0; j < attribute_count; ++j) corners[k].attributes[j] = a[j];
   }
-  const ClippedPolygon polygon = clip_triangle(*draw.transform, corners, codes, draw.attribute_count);
-  if (polygon.count == 0) {
+  WindowPolygon polygon;
+  polygon.clipped = clip_triangle(*draw.transform, corners, codes, attribute_count);
+  for (int i = 0; i < polygon.clipped.count; ++i) polygon.window[i] = project(*draw.transform, polygon.clipped.vertices[i].position);
+  for (int i = 2; i < polygon.clipped.count; ++i) polygon.area += doubled_area(polygon.window[0], polygon.window[i - 1], polygon.window[i]);
+  return polygon;
+}
+
+void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes) {
+  const WindowPolygon polygon = clip_to_window(draw, triangle, codes, draw.attribute_count);
+  if (polygon.clipped.count == 0) {
     ++bins.counts.outside;
     return;
   }
-  WindowVertex window[kMaxClippedVertices];
-  for (int i = 0; i < polygon.count; ++i) window[i] = project(*draw.transform, polygon.vertices[i].position);
-  // Facing belongs to the whole polygon; a sliver of a piece that snapping turned over has no say.
-  double polygon_area = 0;
-  for (int i = 2; i < polygon.count; ++i) polygon_area += doubled_area(window[0], window[i - 1], window[i]);
-  if (polygon_area == 0) {
+  // Facing belongs to the whole of it; a sliver of a piece that snapping turned over has no say.
+  if (polygon.area == 0) {
     ++bins.counts.zero_area;
     return;
   }
-  if (!(is_front(polygon_area, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back)) {
+  if (!keeps(draw, triangle, polygon.area)) {
     ++bins.counts.culled;
     return;
   }
-  for (int i = 2; i < polygon.count; ++i) {
+  const WindowVertex* const window = polygon.window;
+  for (int i = 2; i < polygon.clipped.count; ++i) {
     const int corner[3] = {0, i - 1, i};
     const double area = doubled_area(window[0], window[i - 1], window[i]);
-    if (area == 0 || (area < 0) != (polygon_area < 0)) continue;
+    if (area == 0 || (area < 0) != (polygon.area < 0)) continue;
     const auto [low_x, high_x] = std::minmax({window[0].x, window[i - 1].x, window[i].x});
     const auto [low_y, high_y] = std::minmax({window[0].y, window[i - 1].y, window[i].y});
     const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0), px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
@@ -217,7 +219,7 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     piece.source = triangle;
     for (int k = 0; k < 3; ++k) {
       piece.vertices[k] = window[corner[k]];
-      std::copy_n(polygon.vertices[corner[k]].attributes, kMaxAttributes, piece.attributes[k]);
+      std::copy_n(polygon.clipped.vertices[corner[k]].attributes, kMaxAttributes, piece.attributes[k]);
     }
     const std::uint32_t id = kClippedTriangle | static_cast<std::uint32_t>(bins.clipped.size());
     bins.clipped.push_back(piece);

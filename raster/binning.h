@@ -11,6 +11,7 @@
 #include "framebuffer/instruction_set.h"
 #include "framebuffer/tile_grid.h"
 #include "raster/clip.h"
+#include "raster/polygon_facing.h"
 #include "raster/vertex_transform.h"
 
 namespace tessera {
@@ -86,6 +87,7 @@ struct BinDraw {
   bool any_code = false;                     ///< false: no vertex has one
   bool keep_front = true, keep_back = true;
   bool front_is_clockwise = false;           ///< seen in the window
+  const Facing* facing = nullptr;            ///< of each triangle, where it is its polygon's; null: its own area decides
   PixelRect rect;                            ///< scissor, viewport and frame buffer
   std::int32_t sample_reach = 0;             ///< how far a pixel is looked at around its centre, 1/256 pixel
   // For clipping.
@@ -98,6 +100,24 @@ struct BinDraw {
 
 /// True for a triangle whose snapped area faces the viewer; `area` is its doubled area in raster space (y down).
 constexpr bool is_front(double area, bool front_is_clockwise) { return (area < 0) != front_is_clockwise; }
+
+inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t triangle, int corner) {
+  const std::uint32_t i = triangle * 3 + static_cast<std::uint32_t>(corner);
+  return draw.indices ? draw.indices[i] : i;
+}
+
+/// A triangle after clipping, in the window.
+struct WindowPolygon {
+  ClippedPolygon clipped;                    ///< with the attributes that were asked for
+  WindowVertex window[kMaxClippedVertices];
+  double area = 0;                           ///< doubled; of what snapping left of it
+};
+/// @param codes  the three vertices' codes or-ed
+WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count);
+
+constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
+  return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
+}
 
 /// Culls and bins triangles [first, last) of a draw.
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa);

@@ -143,6 +143,12 @@ HWY_INLINE std::uint32_t triangle_word(const TileRun& run, const TileDraw& draw,
   return draw.words[back ? 1 : 0][draw.indices ? draw.indices[corner] : corner];
 }
 
+/// Whether triangle i of the group shows its back: by its own area, or as its polygon does.
+HWY_INLINE bool is_back(const TileRun& run, const TileDraw& draw, int i) {
+  if (draw.facing != nullptr) return draw.facing[run.memory.source[i]] == Facing::back;
+  return !is_front(run.memory.group.signed_area[i], draw.front_is_clockwise);
+}
+
 /// Everything but pixels of triangle i of the group.
 template <class Depth, Test kTest, Seen kSeen>
 HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw, int i, bool back) {
@@ -194,7 +200,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       hits_known = true;
     }
     if (small && hits[i] == 0) continue;
-    const bool back = !is_front(g.signed_area[i], draw.front_is_clockwise);
+    const bool back = is_back(run, draw, i);
     TileEdges edges = tile_edges(g, i);
     WideEdges wide_edges;
     if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;

@@ -157,7 +157,7 @@ HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number, std
       nearest = Depth::nearest_key(g, i, run.frame.depth_kind);
       if (is_hidden(run, nearest, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
     }
-    const std::uint32_t value = kSeen == Seen::word ? triangle_word(run, draw, i, !is_front(g.signed_area[i], draw.front_is_clockwise)) : id;
+    const std::uint32_t value = kSeen == Seen::word ? triangle_word(run, draw, i, is_back(run, draw, i)) : id;
     const bool at_once = kSeen == Seen::collect && !draw.deferred && draw.source == ColorSource::interpolated;
     SampledColor color;
     if (at_once) color.set_up(run, draw, run.memory.triangles[id], i);
@@ -187,7 +187,7 @@ void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
     set_up_weights(g);
     for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      fill_shaded_triangle(memory.triangles.emplace_back(), run, draw_number, i, !is_front(g.signed_area[i], run.frame.draws[draw_number].front_is_clockwise));
+      fill_shaded_triangle(memory.triangles.emplace_back(), run, draw_number, i, is_back(run, run.frame.draws[draw_number], i));
     }
   }
   const bool any_seen = draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number, static_cast<std::uint32_t>(first_id));

@@ -262,7 +262,7 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth, .pixels = {}};
   fragments.id = static_cast<std::int32_t>(memory.triangles.size());
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
-  if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::triangle ? memory.source[i] : triangle_word(run, draw, i, triangle.back);
+  if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles : triangle_word(run, draw, i, triangle.back);
   if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
   if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, triangle);
   blocks(fragments);
@@ -288,7 +288,7 @@ void draw_fragments(TileRun& run, std::uint32_t draw_number) {
     WideEdges wide_edges;
     if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
     ShadedTriangle triangle;
-    fill_shaded_triangle(triangle, run, draw_number, i, !is_front(g.signed_area[i], draw.front_is_clockwise));
+    fill_shaded_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
     if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
     draw_fragments_of(run, draw_number, i, triangle, kHasDepth<Depth>, [&](FragmentTriangle& fragments) HWY_ATTR {
       FragmentBlocks<Depth> blocks{fragments, {}};
@@ -358,7 +358,7 @@ void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
   for (std::uint32_t left = visible; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     ShadedTriangle triangle;
-    fill_centered_triangle(triangle, run, draw_number, i, !is_front(center.signed_area[i], draw.front_is_clockwise));
+    fill_centered_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
     draw_fragments_of(run, draw_number, i, triangle, kHasDepth<Depth>, [&](FragmentTriangle& fragments) HWY_ATTR {
       SampledBlocks<Depth> blocks{fragments, {}, {}};
       SampledBounds bounds{};

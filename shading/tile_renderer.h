@@ -37,6 +37,8 @@ struct TileDraw {
   int provoking = 2;                       ///< corner of the triangle
   PixelRect rect;                          ///< scissor, viewport and frame buffer, raster space
   bool front_is_clockwise = false;
+  const Facing* facing = nullptr;          ///< of each triangle, where it is its polygon's; null: its own area decides
+  std::uint32_t primitive_triangles = 1;   ///< that each primitive was split into
 
   bool uses_depth = false, depth_write = true;
   CompareOp depth_test = CompareOp::less;
@@ -65,7 +67,7 @@ struct TileDraw {
   int alpha_attribute[2] = {-1, -1};       ///< interpolated alpha for front and back faces; -1: `alpha`
   float alpha[2] = {1, 1};
   float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
-  enum class Number : std::uint8_t { none, draw, triangle } number = Number::none;  ///< colour words are `word`, or the triangle's number
+  enum class Number : std::uint8_t { none, draw, primitive } number = Number::none;  ///< colour words are `word`, or the primitive's number
 };
 
 /// A clear inside a frame, in words; before draw `before_draw`.

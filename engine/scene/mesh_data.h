@@ -6,24 +6,27 @@
 #include <string>
 #include <vector>
 
+#include "engine/primitive_assembly.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 
 struct MeshData {
   std::string name;
+  Primitive primitive = Primitive::triangles;
   std::vector<float> positions;  ///< x y z, or x y z w with position_components 4
   int position_components = 3;
   std::vector<float> normals;           ///< x y z for each vertex, or empty
   std::vector<float> colors;            ///< r g b a for each vertex, or empty
-  std::vector<std::uint32_t> indices;   ///< three a triangle; empty: vertices in order
+  std::vector<std::uint32_t> indices;   ///< of vertices, in the primitives' order; empty: vertices in order
   std::vector<float> color_indices;     ///< one for each vertex, or empty
 
   std::size_t vertex_count() const { return positions.size() / static_cast<std::size_t>(position_components); }
-  std::size_t triangle_count() const { return (indices.empty() ? vertex_count() : indices.size()) / 3; }
+  /// Those that its primitives are split into.
+  std::size_t triangle_count() const { return tessera::triangle_count(primitive, indices.empty() ? vertex_count() : indices.size()); }
   /// Valid while this object lives and is not changed.
   Mesh view() const {
-    return {.positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices, .color_indices = color_indices};
+    return {.primitive = primitive, .positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices, .color_indices = color_indices};
   }
 };
 

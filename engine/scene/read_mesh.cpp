@@ -65,8 +65,14 @@ std::vector<float> read_color_indices(const Value& list, std::size_t vertices) {
   return indices;
 }
 
-std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices) {
-  if (list.size() == 0 || list.size() % 3 != 0) list.fail("three indices for each triangle");
+// What makes no whole primitives is told at the list that is too long or too short.
+void require_whole_primitives(const Value& list, Primitive primitive, const char* corners) {
+  if (list.size() != 0 && makes_whole_primitives(primitive, list.size())) return;
+  list.fail(std::string(corners_needed(primitive)) + " " + corners + ", for " + std::string(name_of_mesh(primitive)));
+}
+
+std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices, Primitive primitive) {
+  require_whole_primitives(list, primitive, "indices");
   std::vector<std::uint32_t> indices;
   indices.reserve(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -79,22 +85,23 @@ std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices)
 
 MeshData read_inline(const Value& value) {
   const Object object(value, {"primitive", "positions", "normals", "colors", "color_indices", "indices"}, {"texcoords"});
-  if (const auto primitive = object.find("primitive"))
-    primitive->choice<int>({{"triangles", 0}}, {"points", "lines", "line_strip", "line_loop", "triangle_strip", "triangle_fan", "quads",
-                                                "quad_strip", "polygon"});
   const Value positions = object.require("positions");
   const std::size_t vertices = positions.size();
-  if (vertices == 0) positions.fail("at least 3 positions");
   MeshData mesh;
+  if (const auto primitive = object.find("primitive"))
+    mesh.primitive = primitive->choice<Primitive>({{"triangles", Primitive::triangles}, {"triangle_strip", Primitive::triangle_strip}, {"triangle_fan", Primitive::triangle_fan},
+                                                   {"quads", Primitive::quads}, {"quad_strip", Primitive::quad_strip}, {"polygon", Primitive::polygon}},
+                                                  {"points", "lines", "line_strip", "line_loop"});
+  if (vertices == 0) positions.fail("at least 3 positions");
   mesh.position_components = positions.json()[0].is_array() && positions.json()[0].size() == 4 ? 4 : 3;
   mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
   mesh.normals = read_per_vertex(object, "normals", 3, vertices);
   mesh.colors = read_per_vertex(object, "colors", 4, vertices);
   if (const auto indices = object.find("color_indices")) mesh.color_indices = read_color_indices(*indices, vertices);
   if (const auto indices = object.find("indices"))
-    mesh.indices = read_indices(*indices, vertices);
-  else if (vertices % 3 != 0)
-    positions.fail("three positions for each triangle, or \"indices\"");
+    mesh.indices = read_indices(*indices, vertices, mesh.primitive);
+  else
+    require_whole_primitives(positions, mesh.primitive, "positions, or \"indices\"");
   return mesh;
 }
 

@@ -249,13 +249,19 @@ struct IndexArray {
   constexpr bool empty() const { return count == 0; }
 };
 
-/// Triangles, borrowed from the caller until the frame is finished. Arrays other than positions may be empty.
+/// What the vertices of a mesh make, in their order [GL 2.1, 2.6.1]. Quads are split from their first to their third vertex, those of
+/// a strip from the first to the last of its four, polygons, which are convex, from their first vertex to all others. Which side of a
+/// quad or polygon is seen is a matter of the whole of it; so are its generated normals.
+enum class Primitive : std::uint8_t { triangles, triangle_strip, triangle_fan, quads, quad_strip, polygon };
+
+/// Primitives, borrowed from the caller until the frame is finished. Arrays other than positions may be empty.
 struct Mesh {
+  Primitive primitive = Primitive::triangles;
   FloatArray positions{};                   ///< x y z, or x y z w with position_components 4
   int position_components = 3;
   FloatArray normals{};                     ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
   ColorArray colors{};                      ///< r g b a for each vertex
-  IndexArray indices{};                     ///< three a triangle; empty: vertices in order
+  IndexArray indices{};                     ///< of vertices, in the primitives' order; empty: vertices in order
   FloatArray color_indices{};               ///< one for each vertex, continuous: what unlit draws into index buffers show in place of colours
 };
 
@@ -423,7 +429,7 @@ struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 
   std::span<std::uint32_t> objects{};       ///< which draw of the frame, counted from 0
-  std::span<std::uint32_t> primitives{};    ///< which triangle of that draw's mesh
+  std::span<std::uint32_t> primitives{};    ///< which triangle, quad or polygon of that draw's mesh
   /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated, in eye space, of
   /// length 1; 0 0 0 where nothing was drawn and where they cancel out.
   std::span<float> normals{};

@@ -1,0 +1,206 @@
+// Pixels of lines against the diamond-exit rule as it is written: for each pixel whether the moved segment meets its open diamond and
+// its end lies outside of it, in exact fractions whose numerators carry the move's e and e^2.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "raster/line_walk.h"
+#include "tests/raster/random_triangles.h"
+
+namespace tessera::test {
+namespace {
+
+struct Random {
+  std::mt19937 bits;
+  explicit Random(unsigned seed) : bits(seed) {}
+  int between(int low, int high) { return low + static_cast<int>(bits() % static_cast<unsigned>(high - low + 1)); }
+};
+
+// v[0] + v[1] e + v[2] e^2: e is smaller than every fraction.
+struct Moved {
+  std::array<__int128, 3> v{};
+  Moved operator-(const Moved& o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
+  Moved operator+(const Moved& o) const { return {{v[0] + o.v[0], v[1] + o.v[1], v[2] + o.v[2]}}; }
+  Moved times(__int128 k) const { return {{v[0] * k, v[1] * k, v[2] * k}}; }
+  bool negative() const { return v[0] != 0 ? v[0] < 0 : v[1] != 0 ? v[1] < 0 : v[2] < 0; }
+  friend bool operator<(const Moved& a, const Moved& b) { return (a - b).negative(); }
+};
+Moved whole(__int128 n) { return {{n, 0, 0}}; }
+
+struct MovedPoint {
+  Moved x, y;
+};
+MovedPoint moved(LinePoint p) { return {{{p.x, -1, 0}}, {{p.y, 0, 1}}}; }  // (-e, -e^2) with y up
+
+constexpr int kSigns[4][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+
+// How far a point lies from a pixel's centre in one of the four directions that bound a diamond.
+Moved towards(const MovedPoint& p, int x, int y, const int (&sign)[2]) {
+  return (p.x - whole(256 * x + 128)).times(sign[0]) + (p.y - whole(256 * y + 128)).times(sign[1]);
+}
+bool inside(const MovedPoint& p, int x, int y) {
+  for (const auto& sign : kSigns)
+    if (!(towards(p, x, y, sign) < whole(128))) return false;
+  return true;
+}
+
+// Whether a + t (b - a) is inside for some t in 0..1.
+bool meets(const LinePoint& a, const LinePoint& b, int x, int y) {
+  const MovedPoint from = moved(a);
+  // t is above each of `above` and below each of `below`: numerators over positive denominators.
+  struct Fraction {
+    Moved numerator;
+    __int128 denominator;
+  };
+  std::vector<Fraction> above, below;
+  for (const auto& sign : kSigns) {
+    const Moved room = whole(128) - towards(from, x, y, sign);  // at t = 0
+    const __int128 speed = __int128{sign[0]} * (b.x - a.x) + __int128{sign[1]} * (b.y - a.y);
+    if (speed == 0) {
+      if (!(whole(0) < room)) return false;
+    } else if (speed > 0) {
+      below.push_back({room, speed});
+    } else {
+      above.push_back({room.times(-1), -speed});
+    }
+  }
+  for (const Fraction& low : above) {
+    if (!(low.numerator < whole(low.denominator))) return false;  // below 1
+    for (const Fraction& high : below)
+      if (!(low.numerator.times(high.denominator) < high.numerator.times(low.denominator))) return false;
+  }
+  for (const Fraction& high : below)
+    if (!(whole(0) < high.numerator)) return false;
+  return true;
+}
+
+using Pixels = std::vector<std::pair<int, int>>;
+std::set<std::pair<int, int>> by_the_rule(const LinePoint& a, const LinePoint& b) {
+  std::set<std::pair<int, int>> pixels;
+  for (int y = (std::min(a.y, b.y) >> 8) - 1; y <= (std::max(a.y, b.y) >> 8) + 1; ++y)
+    for (int x = (std::min(a.x, b.x) >> 8) - 1; x <= (std::max(a.x, b.x) >> 8) + 1; ++x)
+      if (meets(a, b, x, y) && !inside(moved(b), x, y)) pixels.insert({x, y});
+  return pixels;
+}
+constexpr PixelRect kEverywhere{-40000, -40000, 40000, 40000};
+Pixels walked(const LinePoint& a, const LinePoint& b, int width = 1, const PixelRect& rect = kEverywhere) {
+  Pixels pixels;
+  LineWalk(a, b, width).for_each(rect, [&](int x, int y) { pixels.push_back({x, y}); });
+  return pixels;
+}
+std::string text(const LinePoint& a, const LinePoint& b) {
+  return std::to_string(a.x) + " " + std::to_string(a.y) + " to " + std::to_string(b.x) + " " + std::to_string(b.y);
+}
+void expect_the_rule(const LinePoint& a, const LinePoint& b) {
+  const Pixels found = walked(a, b);
+  const std::set<std::pair<int, int>> once(found.begin(), found.end());
+  ASSERT_EQ(once.size(), found.size()) << text(a, b) << ": a pixel twice";
+  ASSERT_EQ(once, by_the_rule(a, b)) << text(a, b);
+}
+
+TEST(LineWalk, FollowsTheDiamondExitRuleAnywhere) {
+  Random random(1);
+  const int lines = long_tests() ? 1000000 : 30000;
+  for (int i = 0; i < lines; ++i) {
+    const int reach = i % 3 == 0 ? 300 : i % 3 == 1 ? 1500 : 5000;
+    const LinePoint a{random.between(-2000, 2000), random.between(-2000, 2000)};
+    expect_the_rule(a, {a.x + random.between(-reach, reach), a.y + random.between(-reach, reach)});
+    if (HasFatalFailure()) return;
+  }
+}
+
+// Where borders meet: ends on multiples of an eighth of a pixel, so that corners, sides and centres of diamonds are hit all the time.
+TEST(LineWalk, FollowsTheDiamondExitRuleOnBorders) {
+  for (const int grid : {32, 64, 128}) {
+    const int n = 256 / grid;
+    for (int ay = 0; ay < n; ++ay)
+      for (int ax = 0; ax < n; ++ax)
+        for (int by = -n - 2; by <= 2 * n + 2; ++by)
+          for (int bx = -n - 2; bx <= 2 * n + 2; ++bx) {
+            expect_the_rule({ax * grid, ay * grid}, {bx * grid, by * grid});
+            if (HasFatalFailure()) return;
+          }
+  }
+}
+
+TEST(LineWalk, OfNoLengthIsEmpty) {
+  for (int y = 0; y < 256; y += 32)
+    for (int x = 0; x < 256; x += 32) EXPECT_TRUE(walked({x, y}, {x, y}).empty());
+}
+
+TEST(LineWalk, GoesFromStartToEnd) {
+  Random random(2);
+  for (int i = 0; i < 3000; ++i) {
+    const LinePoint a{random.between(-5000, 5000), random.between(-5000, 5000)}, b{random.between(-5000, 5000), random.between(-5000, 5000)};
+    const Pixels pixels = walked(a, b);
+    for (std::size_t k = 1; k < pixels.size(); ++k) {  // connected, each closer to the end
+      ASSERT_LE(std::abs(pixels[k].first - pixels[k - 1].first), 1) << text(a, b);
+      ASSERT_LE(std::abs(pixels[k].second - pixels[k - 1].second), 1) << text(a, b);
+      const auto along = [&](const std::pair<int, int>& p) { return std::int64_t{p.first} * (b.x - a.x) + std::int64_t{p.second} * (b.y - a.y); };
+      ASSERT_GT(along(pixels[k]), along(pixels[k - 1])) << text(a, b);
+    }
+  }
+}
+
+TEST(LineWalk, IsTheSameInParts) {
+  Random random(3);
+  for (int i = 0; i < 3000; ++i) {
+    const LinePoint a{random.between(-20000, 20000), random.between(-20000, 20000)}, b{random.between(-20000, 20000), random.between(-20000, 20000)};
+    const int width = i % 4 == 0 ? random.between(2, 9) : 1;
+    std::set<std::pair<int, int>> whole_line, in_parts;
+    for (const auto& p : walked(a, b, width)) whole_line.insert(p);
+    std::size_t count = 0;
+    for (int y = -96; y < 96; y += 32)
+      for (int x = -96; x < 96; x += 32)
+        for (const auto& p : walked(a, b, width, {x, y, x + 32, y + 32})) in_parts.insert(p), ++count;
+    ASSERT_EQ(in_parts, whole_line) << text(a, b);
+    ASSERT_EQ(count, whole_line.size()) << text(a, b);
+  }
+}
+
+// Strips whose joints go on in the same octant: never a gap, never a pixel twice.
+TEST(LineWalk, JoinsWithoutGapsAndDoubles) {
+  Random random(4);
+  const int strips = long_tests() ? 200000 : 5000;
+  for (int i = 0; i < strips; ++i) {
+    const int octant = i % 8;
+    LinePoint at{random.between(-500, 500), random.between(-500, 500)};
+    Pixels pixels;
+    for (int segment = 0; segment < 6; ++segment) {
+      const int along = random.between(1, 900), across = random.between(0, along - 1);
+      const int x = (octant & 1) != 0 ? along : across, y = (octant & 1) != 0 ? across : along;
+      const LinePoint next{at.x + ((octant & 2) != 0 ? x : -x), at.y + ((octant & 4) != 0 ? y : -y)};
+      for (const auto& p : walked(at, next)) pixels.push_back(p);
+      at = next;
+    }
+    for (std::size_t k = 1; k < pixels.size(); ++k) {
+      const int dx = std::abs(pixels[k].first - pixels[k - 1].first), dy = std::abs(pixels[k].second - pixels[k - 1].second);
+      ASSERT_EQ(std::max(dx, dy), 1) << "octant " << octant << ", strip " << i << ": " << pixels[k - 1].first << " " << pixels[k - 1].second << " then " << pixels[k].first << " " << pixels[k].second;
+    }
+  }
+}
+
+TEST(LineWalk, WideLinesRepeatTheirPixelsAcross) {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const LinePoint a{random.between(-4000, 4000), random.between(-4000, 4000)}, b{random.between(-4000, 4000), random.between(-4000, 4000)};
+    const int width = random.between(2, 8);
+    const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
+    // y up: the line is moved by -(w - 1) / 2 along its minor axis, and each fragment repeated w times from there on.
+    const int aside = 128 * (width - 1);
+    const LinePoint from{a.x - (x_major ? 0 : aside), a.y + (x_major ? aside : 0)}, to{b.x - (x_major ? 0 : aside), b.y + (x_major ? aside : 0)};
+    std::set<std::pair<int, int>> expected;
+    for (const auto& [x, y] : by_the_rule(from, to))
+      for (int k = 0; k < width; ++k) expected.insert({x_major ? x : x + k, x_major ? y - k : y});
+    const Pixels found = walked(a, b, width);
+    ASSERT_EQ(std::set(found.begin(), found.end()), expected) << text(a, b) << ", width " << width;
+    ASSERT_EQ(found.size(), expected.size());
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
