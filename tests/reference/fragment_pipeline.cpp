@@ -6,7 +6,7 @@
 
 namespace tessera::reference {
 
-FragmentPipeline::FragmentPipeline(const Draw& draw, const TriangleShader& shader, Source source, SampleBuffers& buffers)
+FragmentPipeline::FragmentPipeline(const Draw& draw, const PrimitiveShader& shader, Source source, SampleBuffers& buffers)
     : draw_(draw),
       shader_(shader),
       source_(source),
@@ -16,7 +16,7 @@ FragmentPipeline::FragmentPipeline(const Draw& draw, const TriangleShader& shade
 void FragmentPipeline::take(const Fragment& fragment) {
   std::optional<Shade> shade;  // once a pixel, if anything asks for it
   const auto shaded = [&]() -> const Shade& {
-    if (!shade) shade = shader_.shade(fragment.share);
+    if (!shade) shade = shader_.shade(fragment);
     return *shade;
   };
   if (draw_.alpha_test && !passes(draw_.alpha_test->func, shaded().color.w, draw_.alpha_test->ref)) return;
@@ -28,7 +28,7 @@ void FragmentPipeline::take(const Fragment& fragment) {
     if (planes_ == 0) continue;
     std::uint32_t& word = buffers_.word(fragment.x, fragment.y, s);
     word = (word & ~planes_) | (new_word(shaded(), word, dither) & planes_);
-    buffers_.sign(fragment.x, fragment.y, source_.command, source_.triangle);
+    buffers_.sign(fragment.x, fragment.y, source_.command, source_.primitive);
   }
 }
 

@@ -2,23 +2,23 @@
 // The scissor is done before, by what is rasterized.
 #pragma once
 
-#include "rasterize.h"
+#include "primitive_shader.h"
 #include "sample_buffers.h"
-#include "triangle_shader.h"
+#include "window.h"
 
 namespace tessera::reference {
 
-/// Takes the fragments of one polygon.
+/// Takes the fragments of one primitive.
 class FragmentPipeline {
  public:
-  /// What stays the same over the polygon.
+  /// What stays the same over the primitive.
   struct Source {
     std::int32_t command = 0;   ///< index in Scene::frame
-    std::int32_t triangle = 0;  ///< index in the mesh
+    std::int32_t primitive = 0;  ///< index in the mesh
     bool is_back = false;
   };
 
-  FragmentPipeline(const Draw& draw, const TriangleShader& shader, Source source, SampleBuffers& buffers);
+  FragmentPipeline(const Draw& draw, const PrimitiveShader& shader, Source source, SampleBuffers& buffers);
 
   void take(const Fragment& fragment);
 
@@ -28,7 +28,7 @@ class FragmentPipeline {
   std::uint32_t new_word(const Shade& shade, std::uint32_t stored, double dither) const;
 
   const Draw& draw_;
-  const TriangleShader& shader_;
+  const PrimitiveShader& shader_;
   Source source_;
   SampleBuffers& buffers_;
   std::uint32_t planes_;  // that may change

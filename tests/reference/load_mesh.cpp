@@ -6,15 +6,26 @@
 #include <tiny_obj_loader.h>
 
 #include "builtin_meshes.h"
+#include "primitives.h"
 #include "scene_parts.h"
 
 namespace tessera::reference {
 namespace {
 
-Mesh parse_inline(ObjectReader& reader, const std::string& pointer) {
+const std::vector<std::pair<const char*, PrimitiveType>> kPrimitives{{"points", PrimitiveType::kPoints},
+                                                                     {"lines", PrimitiveType::kLines},
+                                                                     {"line_strip", PrimitiveType::kLineStrip},
+                                                                     {"line_loop", PrimitiveType::kLineLoop},
+                                                                     {"triangles", PrimitiveType::kTriangles},
+                                                                     {"triangle_strip", PrimitiveType::kTriangleStrip},
+                                                                     {"triangle_fan", PrimitiveType::kTriangleFan},
+                                                                     {"quads", PrimitiveType::kQuads},
+                                                                     {"quad_strip", PrimitiveType::kQuadStrip},
+                                                                     {"polygon", PrimitiveType::kPolygon}};
+
+Mesh parse_inline(ObjectReader& reader) {
   Mesh mesh;
-  if (const Value primitive = reader.find("primitive"); primitive && text(primitive) != "triangles")
-    fail(primitive.pointer, "\"triangles\" (all that the reference covers)");
+  if (const Value primitive = reader.find("primitive")) mesh.primitive = choice(primitive, kPrimitives);
   const Value positions = reader.require("positions");
   for (std::size_t i = 0; i < array_size(positions); ++i) {
     if (array_size(positions[i]) == 4) {
@@ -35,14 +46,16 @@ Mesh parse_inline(ObjectReader& reader, const std::string& pointer) {
   for_each_vertex("color_indices", [&](const Value& v) { mesh.color_indices.push_back(number(v)); });
   for_each_vertex("texcoords", [](const Value& v) { numbers<2>(v); });  // without textures they have no effect
 
-  if (const Value indices = reader.find("indices")) {
+  const Value indices = reader.find("indices");
+  if (indices) {
     for (std::size_t i = 0; i < array_size(indices); ++i)
       mesh.indices.push_back(
           static_cast<std::uint32_t>(integer(indices[i], 0, static_cast<std::int64_t>(mesh.positions.size()) - 1)));
   } else {
     for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
   }
-  if (mesh.indices.size() % 3 != 0) fail(pointer, "three corners for each triangle");
+  if (const std::string expected = wrong_vertex_count(mesh.primitive, mesh.indices.size()); !expected.empty())
+    fail(indices ? indices.pointer : positions.pointer, expected, std::to_string(mesh.indices.size()));
   return mesh;
 }
 
@@ -102,7 +115,7 @@ Mesh parse_mesh(const Value& v, const std::string& name, const std::string& dire
     if (!path.ends_with(".obj")) fail(file.pointer, "an .obj file (all that the reference covers)");
     mesh = load_obj(path.starts_with('/') || directory.empty() ? path : directory + "/" + path);
   } else {
-    mesh = parse_inline(reader, v.pointer);
+    mesh = parse_inline(reader);
   }
   reader.finish();
   mesh.name = name;

@@ -88,21 +88,35 @@ struct Material {
 
 // ---- Meshes
 
-/// Independent triangles: indices[3 i], indices[3 i + 1], indices[3 i + 2] are the corners of triangle i in winding order.
+enum class PrimitiveType {
+  kPoints,
+  kLines,
+  kLineStrip,
+  kLineLoop,
+  kTriangles,
+  kTriangleStrip,
+  kTriangleFan,
+  kQuads,
+  kQuadStrip,
+  kPolygon
+};
+
+/// A list of vertices and what they make up, as glBegin() and glDrawElements() take them (see primitives.h).
 struct Mesh {
   std::string name;
+  PrimitiveType primitive = PrimitiveType::kTriangles;
   std::vector<Vec4> positions;       ///< object space, w = 1 unless the scene gives it
   std::vector<Vec3> normals;         ///< one for each position, or empty: the mesh has none (see generated_normals.h)
   std::vector<Vec4> colors;          ///< RGBA, one for each position, or empty: the mesh has none
   std::vector<double> color_indices;   ///< palette indices, one for each position, or empty; unlit draws into index buffers use them
-  std::vector<std::uint32_t> indices;  ///< a multiple of 3, all below positions.size()
+  std::vector<std::uint32_t> indices;  ///< as many as the primitive needs, all below positions.size()
 };
 
 // ---- What happens in a frame
 
 enum class Shading { kFlat, kGouraud, kPhong };
 enum class ColorMaterial { kNone, kAmbientAndDiffuse, kDiffuse, kAmbient, kEmission, kSpecular };
-enum class ProvokingVertex { kLast, kFirst };  ///< of a triangle: its third or its first corner
+enum class ProvokingVertex { kLast, kFirst };  ///< see primitives.h
 enum class Cull { kNone, kBack, kFront };
 enum class FrontFace { kCcw, kCw };
 

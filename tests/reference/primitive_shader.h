@@ -1,4 +1,4 @@
-// The colours, or palette indices, of the points of one triangle.
+// The colours, or palette indices, of the points of one point, line or polygon.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include "lighting.h"
 #include "scene.h"
 #include "vertex_stage.h"
+#include "window.h"
 
 namespace tessera::reference {
 
@@ -26,33 +27,32 @@ struct Shade {
   std::optional<double> index;  ///< a palette index, continuous; if there is one it stands instead of the colour
 };
 
-class TriangleShader {
+class PrimitiveShader {
  public:
   /// The arguments must outlive this.
-  TriangleShader(const Triangle& triangle, bool is_back, const DrawColors& colors);
+  PrimitiveShader(const Corners& corners, bool is_back, const DrawColors& colors);
 
-  /// @param share  of each of the three corners, summing to 1; may lie outside 0..1 at a centre that is not covered: colours
-  /// that are interpolated beyond 0..1 are clamped.
-  Shade shade(Vec3 share) const;
+  /// The shares may lie outside 0..1 at a centre that is not covered: colours that are interpolated beyond 0..1 are clamped.
+  Shade shade(const Fragment& fragment) const;
 
  private:
-  /// A point of the triangle: a corner or a pixel of Phong shading.
-  struct Point {
+  /// A point of the primitive: a corner or a pixel of Phong shading.
+  struct SurfacePoint {
     Vec3 position, normal;
     Vec4 vertex_color;
     double vertex_index = 0;
   };
 
-  Vec4 color(const Point& point) const;
-  double index(const Point& point) const;
+  Vec4 color(const SurfacePoint& point) const;
+  double index(const SurfacePoint& point) const;
 
-  const Triangle& triangle_;
+  const Corners& corners_;
   const DrawColors& colors_;
   bool lights_back_;
   Material material_;       // of the side that is seen
   bool has_index_;
-  std::array<Vec4, 3> corner_colors_;  // these and the next: all the provoking one's if flat; unused by lit Phong
-  std::array<double, 3> corner_indices_{};
+  std::vector<Vec4> corner_colors_;  // of these one is filled unless Phong is lit: one for each corner, or the provoking one's alone
+  std::vector<double> corner_indices_;
 };
 
 }  // namespace tessera::reference

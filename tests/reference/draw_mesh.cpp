@@ -1,0 +1,86 @@
+#include "draw_mesh.h"
+
+#include "clip.h"
+#include "fragment_pipeline.h"
+#include "polygon_offset.h"
+#include "primitive_shader.h"
+#include "rasterize_polygon.h"
+#include "vertex_stage.h"
+
+namespace tessera::reference {
+namespace {
+
+bool is_finite(const Corners& corners) {
+  for (const Corner& corner : corners.all) {
+    const Vec4 p = corner.position_clip;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w)) return false;
+  }
+  return true;
+}
+
+std::vector<ClipVertex> clip_vertices(const Corners& corners) {
+  std::vector<ClipVertex> vertices;
+  for (std::size_t i = 0; i < corners.all.size(); ++i)
+    vertices.push_back(corner_vertex(corners.all[i].position_clip, i, corners.all.size()));
+  return vertices;
+}
+
+class MeshDrawing {
+ public:
+  MeshDrawing(const Draw& draw, const FrameState& state, const Rect& viewport, SampleBuffers& buffers)
+      : draw_(draw),
+        command_(state.command),
+        buffers_(buffers),
+        volume_(clip_volume(state.camera, viewport)),
+        window_{viewport, intersection(intersection(viewport, buffers.rect()), draw.scissor.value_or(buffers.rect())),
+                draw.depth_range, state.camera.reversed, buffers.format().samples},
+        colors_{draw,
+                state.scene.light_model,
+                lights_in_eye_space(state.lights, state.camera.view_from_world),
+                buffers.format(),
+                !state.scene.meshes.at(draw.mesh).colors.empty(),
+                !state.scene.meshes.at(draw.mesh).color_indices.empty()} {}
+
+  void draw_primitive(const Corners& corners, std::size_t number) {
+    number_ = static_cast<std::int32_t>(number);
+    if (is_finite(corners)) draw_polygon(corners);
+  }
+
+ private:
+  // Facing, culling and offset are those of the whole polygon, whatever it splits into.
+  void draw_polygon(const Corners& corners) {
+    const std::vector<ClipVertex> vertices = clip_vertices(corners);
+    std::vector<WindowPolygon> triangles;
+    std::int64_t area = 0;
+    for (std::size_t i = 2; i < vertices.size(); ++i) {
+      triangles.emplace_back(clip_polygon({vertices[0], vertices[i - 1], vertices[i]}, volume_), window_);
+      area += triangles.back().signed_area();
+    }
+    const bool is_back = draw_.front_face == FrontFace::kCcw ? area < 0 : area > 0;
+    if (draw_.cull == (is_back ? Cull::kBack : Cull::kFront)) return;
+    const PrimitiveShader shader(corners, is_back, colors_);
+    FragmentPipeline pipeline(draw_, shader, {command_, number_, is_back}, buffers_);
+    const double offset = depth_offset(draw_.polygon_offset, triangles, buffers_.format().depth);
+    for (const WindowPolygon& triangle : triangles)
+      triangle.for_each_fragment(offset, [&](const Fragment& fragment) { pipeline.take(fragment); });
+  }
+
+  const Draw& draw_;
+  std::int32_t command_, number_ = 0;
+  SampleBuffers& buffers_;
+  ClipVolume volume_;
+  Window window_;
+  DrawColors colors_;
+};
+
+}  // namespace
+
+void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers) {
+  const Rect viewport = draw.viewport.value_or(buffers.rect());
+  if (viewport.width == 0 || viewport.height == 0) return;
+  const VertexStage vertices(state.scene.meshes.at(draw.mesh), draw, state.camera);
+  MeshDrawing drawing(draw, state, viewport, buffers);
+  for (std::size_t i = 0; i < vertices.primitive_count(); ++i) drawing.draw_primitive(vertices.corners(i), i);
+}
+
+}  // namespace tessera::reference
