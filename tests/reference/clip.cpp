@@ -63,4 +63,21 @@ std::vector<ClipVertex> clip_polygon(std::vector<ClipVertex> polygon, const Clip
   return polygon.size() < 3 ? std::vector<ClipVertex>{} : polygon;
 }
 
+std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolume& volume) {
+  for (const Plane& plane : planes_of(volume)) {
+    const double d_from = plane.distance(from.position), d_to = plane.distance(to.position);
+    if (d_from < 0 && d_to < 0) return {};
+    if (d_from < 0) from = crossing(to, from, d_to / (d_to - d_from));
+    else if (d_to < 0) to = crossing(from, to, d_from / (d_from - d_to));
+  }
+  if (!(from.position.w > 0 && to.position.w > 0)) return {};
+  return {from, to};
+}
+
+bool is_in_view(Vec4 position, const ClipVolume& volume) {
+  for (const Plane& plane : planes_of({volume.reversed, volume.infinite_far, 1, 1}))
+    if (!(plane.distance(position) >= 0)) return false;
+  return true;
+}
+
 }  // namespace tessera::reference

@@ -32,4 +32,11 @@ struct ClipVolume {
 /// The convex polygon that is left of one, in its winding order; empty if nothing is.
 std::vector<ClipVertex> clip_polygon(std::vector<ClipVertex> polygon, const ClipVolume& volume);
 
+/// The segment that is left of one, in its direction; empty if nothing is.
+std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolume& volume);
+
+/// Whether a point is drawn: not only the near and far plane but the sides of the view volume too decide by its centre, whatever
+/// its size [GL 2.1, 2.12].
+bool is_in_view(Vec4 position, const ClipVolume& volume);
+
 }  // namespace tessera::reference

@@ -4,6 +4,8 @@
 #include "fragment_pipeline.h"
 #include "polygon_offset.h"
 #include "primitive_shader.h"
+#include "rasterize_line.h"
+#include "rasterize_point.h"
 #include "rasterize_polygon.h"
 #include "vertex_stage.h"
 
@@ -43,10 +45,33 @@ class MeshDrawing {
 
   void draw_primitive(const Corners& corners, std::size_t number) {
     number_ = static_cast<std::int32_t>(number);
-    if (is_finite(corners)) draw_polygon(corners);
+    if (!is_finite(corners)) return;
+    switch (corners.all.size()) {
+      case 1: return draw_point(corners);
+      case 2: return draw_line(corners);
+      default: return draw_polygon(corners);
+    }
   }
 
  private:
+  void draw_point(const Corners& corners) {
+    const ClipVertex vertex = clip_vertices(corners)[0];
+    if (!is_in_view(vertex.position, volume_)) return;
+    const PrimitiveShader shader(corners, kIsBack, colors_);
+    FragmentPipeline pipeline(draw_, shader, {command_, number_, kIsBack}, buffers_);
+    rasterize_point(window_vertex(vertex, window_), draw_.point_size, kNoOffset, window_,
+                    [&](const Fragment& fragment) { pipeline.take(fragment); });
+  }
+
+  void draw_line(const Corners& corners) {
+    const std::vector<ClipVertex> vertices = clip_vertices(corners), line = clip_line(vertices[0], vertices[1], volume_);
+    if (line.empty()) return;
+    const PrimitiveShader shader(corners, kIsBack, colors_);
+    FragmentPipeline pipeline(draw_, shader, {command_, number_, kIsBack}, buffers_);
+    rasterize_line(window_vertex(line[0], window_), window_vertex(line[1], window_), draw_.line_width, kNoOffset, window_,
+                   [&](const Fragment& fragment) { pipeline.take(fragment); });
+  }
+
   // Facing, culling and offset are those of the whole polygon, whatever it splits into.
   void draw_polygon(const Corners& corners) {
     const std::vector<ClipVertex> vertices = clip_vertices(corners);
@@ -64,6 +89,10 @@ class MeshDrawing {
     for (const WindowPolygon& triangle : triangles)
       triangle.for_each_fragment(offset, [&](const Fragment& fragment) { pipeline.take(fragment); });
   }
+
+  // Points and lines are front and have no slope.
+  static constexpr bool kIsBack = false;
+  static constexpr double kNoOffset = 0;
 
   const Draw& draw_;
   std::int32_t command_, number_ = 0;

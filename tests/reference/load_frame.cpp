@@ -46,11 +46,15 @@ Material find_material(const Value& v, const Scene& scene) {
 // Keys of the format whose features the reference renderers do not have.
 void refuse_other_features(ObjectReader& reader) {
   reader.only_default("polygon_mode", "fill");
-  reader.only_default("point_size", 1);
-  reader.only_default("line_width", 1);
   reader.only_default("texture_env", "modulate");
   reader.only_default("texture_env_color", Json::array({0, 0, 0, 0}));
   reader.only_default("stages", Json::array());
+}
+
+double parse_size(const Value& v) {
+  const double size = number(v);
+  if (!(size > 0)) fail(v.pointer, "a size in pixels above 0", v.json->dump());
+  return size;
 }
 
 Draw parse_draw(const Value& v, const Scene& scene) {
@@ -83,6 +87,9 @@ Draw parse_draw(const Value& v, const Scene& scene) {
     draw.cull = choice<Cull>(cull, {{"none", Cull::kNone}, {"back", Cull::kBack}, {"front", Cull::kFront}});
   if (const Value front = reader.find("front_face"))
     draw.front_face = choice<FrontFace>(front, {{"ccw", FrontFace::kCcw}, {"cw", FrontFace::kCw}});
+
+  if (const Value size = reader.find("point_size")) draw.point_size = parse_size(size);
+  if (const Value width = reader.find("line_width")) draw.line_width = parse_size(width);
 
   if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
   parse_fragment_state(reader, scene.framebuffer, draw);

@@ -160,6 +160,8 @@ struct Draw {
   LogicOp logic_op = LogicOp::kCopy;
   std::array<double, 2> depth_range{0, 1};
   PolygonOffset polygon_offset;
+  double point_size = 1;               ///< in pixels, above 0
+  double line_width = 1;
   std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
   std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
   std::optional<Rect> viewport;        ///< absent: the whole buffer

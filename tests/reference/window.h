@@ -32,6 +32,9 @@ inline constexpr std::int64_t kExtent = std::int64_t{1} << 21;
 inline constexpr std::int64_t kMaxDifference = 2 * (kExtent + 1) * kSubpixels;
 static_assert(kMaxDifference <= INT64_MAX / kMaxDifference / 2);
 
+/// Points and lines that are larger, in pixels, are drawn at this size, which more than covers any window.
+inline constexpr double kMaxSize = 1 << 18;
+
 /// A guard band that keeps every snapped coordinate within kExtent.
 ClipVolume clip_volume(const Camera& camera, Rect viewport);
 
