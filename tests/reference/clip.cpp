@@ -75,9 +75,11 @@ std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolu
 }
 
 bool is_in_view(Vec4 position, const ClipVolume& volume) {
-  for (const Plane& plane : planes_of({volume.reversed, volume.infinite_far, 1, 1}))
+  for (const Plane& plane : planes_of(volume))
     if (!(plane.distance(position) >= 0)) return false;
-  return true;
+  return is_between_sides(position);
 }
+
+bool is_between_sides(Vec4 p) { return std::abs(p.x) <= p.w && std::abs(p.y) <= p.w; }
 
 }  // namespace tessera::reference

@@ -39,4 +39,7 @@ std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolu
 /// its size [GL 2.1, 2.12].
 bool is_in_view(Vec4 position, const ClipVolume& volume);
 
+/// The same for the corner of a clipped polygon, for which the near and far plane have been asked.
+bool is_between_sides(Vec4 position);
+
 }  // namespace tessera::reference

@@ -45,10 +45,18 @@ Material find_material(const Value& v, const Scene& scene) {
 
 // Keys of the format whose features the reference renderers do not have.
 void refuse_other_features(ObjectReader& reader) {
-  reader.only_default("polygon_mode", "fill");
   reader.only_default("texture_env", "modulate");
   reader.only_default("texture_env_color", Json::array({0, 0, 0, 0}));
   reader.only_default("stages", Json::array());
+}
+
+std::array<PolygonMode, 2> parse_polygon_mode(const Value& v) {
+  const auto mode = [](const Value& name) {
+    return choice<PolygonMode>(name, {{"fill", PolygonMode::kFill}, {"line", PolygonMode::kLine}, {"point", PolygonMode::kPoint}});
+  };
+  if (!v.json->is_array()) return {mode(v), mode(v)};
+  if (array_size(v) != 2) fail(v.pointer, "a mode or [front, back]");
+  return {mode(v[0]), mode(v[1])};
 }
 
 double parse_size(const Value& v) {
@@ -88,6 +96,7 @@ Draw parse_draw(const Value& v, const Scene& scene) {
   if (const Value front = reader.find("front_face"))
     draw.front_face = choice<FrontFace>(front, {{"ccw", FrontFace::kCcw}, {"cw", FrontFace::kCw}});
 
+  if (const Value mode = reader.find("polygon_mode")) draw.polygon_mode = parse_polygon_mode(mode);
   if (const Value size = reader.find("point_size")) draw.point_size = parse_size(size);
   if (const Value width = reader.find("line_width")) draw.line_width = parse_size(width);
 

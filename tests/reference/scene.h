@@ -119,6 +119,7 @@ enum class ColorMaterial { kNone, kAmbientAndDiffuse, kDiffuse, kAmbient, kEmiss
 enum class ProvokingVertex { kLast, kFirst };  ///< see primitives.h
 enum class Cull { kNone, kBack, kFront };
 enum class FrontFace { kCcw, kCw };
+enum class PolygonMode { kFill, kLine, kPoint };
 
 /// Clears the buffers named, through full masks.
 struct Clear {
@@ -153,6 +154,8 @@ struct Draw {
   bool normalize = true;               ///< eye-space normals are normalized at the vertices
   Cull cull = Cull::kNone;
   FrontFace front_face = FrontFace::kCcw;
+  /// Of front and of back faces. Lines are the boundary of the polygon, or of what clipping leaves of it, points its corners.
+  std::array<PolygonMode, 2> polygon_mode{PolygonMode::kFill, PolygonMode::kFill};
   std::optional<AlphaTest> alpha_test;   ///< absent: off; so the other optional ones
   std::optional<StencilState> stencil;
   std::optional<DepthState> depth = DepthState{};  ///< absent: no depth test and no depth write
