@@ -27,6 +27,11 @@ std::vector<ClipVertex> clip_vertices(const Corners& corners) {
   return vertices;
 }
 
+std::optional<TextureSampler> sampler(const Draw& draw, const Scene& scene) {
+  if (!draw.texture) return std::nullopt;
+  return TextureSampler(scene.textures.at(*draw.texture));
+}
+
 class MeshDrawing {
  public:
   MeshDrawing(const Draw& draw, const FrameState& state, const Rect& viewport, SampleBuffers& buffers)
@@ -34,12 +39,14 @@ class MeshDrawing {
         command_(state.command),
         buffers_(buffers),
         volume_(clip_volume(state.camera, viewport)),
+        texture_(sampler(draw, state.scene)),
         window_{viewport, intersection(intersection(viewport, buffers.rect()), draw.scissor.value_or(buffers.rect())),
-                draw.depth_range, state.camera.reversed, buffers.format().samples},
+                draw.depth_range, state.camera.reversed, buffers.format().samples, draw.texture.has_value()},
         colors_{draw,
                 state.scene.light_model,
                 lights_in_eye_space(state.lights, state.camera.view_from_world),
                 buffers.format(),
+                texture_ ? &*texture_ : nullptr,
                 !state.scene.meshes.at(draw.mesh).colors.empty(),
                 !state.scene.meshes.at(draw.mesh).color_indices.empty()} {}
 
@@ -116,6 +123,7 @@ class MeshDrawing {
   std::int32_t command_, number_ = 0;
   SampleBuffers& buffers_;
   ClipVolume volume_;
+  std::optional<TextureSampler> texture_;
   Window window_;
   DrawColors colors_;
 };

@@ -45,9 +45,23 @@ Material find_material(const Value& v, const Scene& scene) {
 
 // Keys of the format whose features the reference renderers do not have.
 void refuse_other_features(ObjectReader& reader) {
-  reader.only_default("texture_env", "modulate");
-  reader.only_default("texture_env_color", Json::array({0, 0, 0, 0}));
   reader.only_default("stages", Json::array());
+}
+
+void parse_texturing(ObjectReader& reader, const Scene& scene, Draw& draw) {
+  if (const Value name = reader.find("texture")) {
+    std::size_t number = 0;
+    while (number < scene.textures.size() && scene.textures[number].name != text(name)) ++number;
+    if (number == scene.textures.size()) fail(name.pointer, "the name of a texture", name.json->dump());
+    draw.texture = number;
+  }
+  if (const Value env = reader.find("texture_env"))
+    draw.texture_env = choice<TextureEnv>(env, {{"modulate", TextureEnv::kModulate},
+                                                {"replace", TextureEnv::kReplace},
+                                                {"decal", TextureEnv::kDecal},
+                                                {"blend", TextureEnv::kBlend},
+                                                {"add", TextureEnv::kAdd}});
+  if (const Value color = reader.find("texture_env_color")) draw.texture_env_color = vec4(color);
 }
 
 std::array<PolygonMode, 2> parse_polygon_mode(const Value& v) {
@@ -101,6 +115,7 @@ Draw parse_draw(const Value& v, const Scene& scene) {
   if (const Value width = reader.find("line_width")) draw.line_width = parse_size(width);
 
   if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
+  parse_texturing(reader, scene, draw);
   parse_fragment_state(reader, scene.framebuffer, draw);
   refuse_other_features(reader);
   reader.finish();

@@ -1,6 +1,7 @@
 #include "primitive_shader.h"
 
 #include "pixel_format.h"
+#include "texture_env.h"
 
 namespace tessera::reference {
 namespace {
@@ -58,13 +59,22 @@ Shade PrimitiveShader::shade(const Fragment& fragment) const {
     const auto mixed = [&](auto member) { return mix(share, [&](std::size_t i) { return corners_.all[i].*member; }); };
     const SurfacePoint point{mixed(&Corner::position_eye), normalize(mixed(&Corner::normal_eye)), mixed(&Corner::color)};
     if (has_index_) return {{}, index(point)};
-    return {clamp01(color(point)), {}};
+    return {textured(clamp01(color(point)), fragment), {}};
   }
   const auto interpolated = [&](const auto& values) {
     return values.size() == 1 ? values[0] : mix(share, [&](std::size_t i) { return values[i]; });
   };
   if (has_index_) return {{}, interpolated(corner_indices_)};
-  return {clamp01(interpolated(corner_colors_)), {}};
+  return {textured(clamp01(interpolated(corner_colors_)), fragment), {}};
+}
+
+Vec4 PrimitiveShader::textured(Vec4 color, const Fragment& fragment) const {
+  if (colors_.texture == nullptr) return color;
+  const TextureSampler& texture = *colors_.texture;
+  const auto mixed = [&](const Share& share) { return mix(share, [&](std::size_t i) { return corners_.all[i].texcoord; }); };
+  const double level = texture.level_of_detail(mixed(fragment.share_dx), mixed(fragment.share_dy));
+  return reference::textured(colors_.draw.texture_env, color, texture.sample(mixed(fragment.share), level), texture.channels(),
+                             colors_.draw.texture_env_color);
 }
 
 Vec4 PrimitiveShader::color(const SurfacePoint& point) const {

@@ -17,6 +17,7 @@ struct DrawColors {
   const LightModel& model;
   std::vector<EyeLight> lights;
   const FrameBufferFormat& format;
+  const TextureSampler* texture = nullptr;  ///< null: none
   bool mesh_has_colors = false;
   bool mesh_has_indices = false;
 };
@@ -45,6 +46,7 @@ class PrimitiveShader {
 
   Vec4 color(const SurfacePoint& point) const;
   double index(const SurfacePoint& point) const;
+  Vec4 textured(Vec4 color, const Fragment& fragment) const;
 
   const Corners& corners_;
   const DrawColors& colors_;

@@ -13,6 +13,7 @@ class Line {
   Line(const WindowVertex& a, const WindowVertex& b, double depth_offset, const Window& window, const TakeFragment& take)
       : a_(a), b_(b), along_(b.at - a.at), depth_offset_(depth_offset), window_(window), take_(take) {
     fragment_.share.resize(a.share.size());
+    fragment_.share_dx = fragment_.share_dy = Share(a.share.size(), 0.0);
   }
 
   void rasterize_pixels(std::int64_t width) {
@@ -98,7 +99,16 @@ class Line {
     const double t = t_at(centre), wa = (1 - t) * a_.inverse_w, wb = t * b_.inverse_w;
     for (std::size_t i = 0; i < fragment_.share.size(); ++i)
       fragment_.share[i] = wa / (wa + wb) * a_.share[i] + wb / (wa + wb) * b_.share[i];
+    if (window_.derivatives) set_derivatives(wa + wb);
     take_(fragment_);
+  }
+
+  // The quotient rule on equation 3.6; t grows by 1 along the length of the line.
+  void set_derivatives(double sum) {
+    const double length = std::hypot(static_cast<double>(along_.x), static_cast<double>(along_.y)) / kSubpixels;
+    for (std::size_t i = 0; i < fragment_.share.size(); ++i)
+      fragment_.share_dx[i] = (b_.inverse_w * b_.share[i] - a_.inverse_w * a_.share[i] -
+                               fragment_.share[i] * (b_.inverse_w - a_.inverse_w)) / sum / length;
   }
 
   const WindowVertex& a_;

@@ -26,6 +26,7 @@ void rasterize_point(const WindowVertex& vertex, double size, double depth_offse
   Fragment fragment;
   fragment.depth.fill(std::clamp(vertex.depth + depth_offset, 0.0, 1.0));
   fragment.share = vertex.share;
+  fragment.share_dx = fragment.share_dy = Share(vertex.share.size(), 0.0);
   const double used = std::min(size, kMaxSize);
   const auto whole = std::max(std::int64_t{1}, static_cast<std::int64_t>(std::floor(used + 0.5)));
   const auto reach = static_cast<std::int64_t>(std::ceil(used)) * kSubpixels;

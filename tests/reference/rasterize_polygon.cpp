@@ -51,6 +51,38 @@ void set_share(Fragment& fragment, const Part& part, Point p) {
     fragment.share[i] = wa / sum * part.a.share[i] + wb / sum * part.b.share[i] + wc / sum * part.c.share[i];
 }
 
+/// How the edge functions change from pixel to pixel.
+struct EdgeSteps {
+  Edges dx, dy;
+};
+
+template <class Part>
+EdgeSteps edge_steps(const Part& part) {
+  const Point a = part.c.at - part.b.at, b = part.a.at - part.c.at, c = part.b.at - part.a.at;
+  return {{-a.y * kSubpixels, -b.y * kSubpixels, -c.y * kSubpixels}, {a.x * kSubpixels, b.x * kSubpixels, c.x * kSubpixels}};
+}
+
+// A share is a quotient of two linear functions of the window: the quotient rule.
+template <class Part>
+void set_derivatives(Fragment& fragment, const Part& part, Point p) {
+  const auto weights = [&](const Edges& e) {
+    return Vec3{ratio(e.a, part.area) * part.a.inverse_w, ratio(e.b, part.area) * part.b.inverse_w, ratio(e.c, part.area) * part.c.inverse_w};
+  };
+  const auto derivative = [&](Vec3 step, double sum, std::size_t i) {
+    const double numerator = step.x * part.a.share[i] + step.y * part.b.share[i] + step.z * part.c.share[i];
+    return (numerator - fragment.share[i] * (step.x + step.y + step.z)) / sum;
+  };
+  const Vec3 at = weights(edges(part, p));
+  const EdgeSteps steps = edge_steps(part);
+  const std::size_t count = fragment.share.size();
+  fragment.share_dx.resize(count);
+  fragment.share_dy.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    fragment.share_dx[i] = derivative(weights(steps.dx), at.x + at.y + at.z, i);
+    fragment.share_dy[i] = derivative(weights(steps.dy), at.x + at.y + at.z, i);
+  }
+}
+
 }  // namespace
 
 WindowPolygon::WindowPolygon(const std::vector<ClipVertex>& polygon, const Window& window) : window_(window) {
@@ -112,8 +144,10 @@ void WindowPolygon::for_each_fragment(double depth_offset, const TakeFragment& t
         fragment.depth[i] = std::clamp(depth_at(*part, sample) + depth_offset, 0.0, 1.0);
       }
       if (fragment.coverage == 0) continue;
-      const Part* part = part_at(centre);  // none: beyond the edge, where a sliver of the fan would say nonsense
-      set_share(fragment, part != nullptr ? *part : largest_part(), centre);
+      const Part* covering = part_at(centre);  // none: beyond the edge, where a sliver of the fan would say nonsense
+      const Part& part = covering != nullptr ? *covering : largest_part();
+      set_share(fragment, part, centre);
+      if (window_.derivatives) set_derivatives(fragment, part, centre);
       take(fragment);
     }
 }

@@ -86,6 +86,31 @@ struct Material {
   std::optional<std::array<double, 3>> color_indexes;
 };
 
+// ---- Textures
+
+/// Levels of 8 bits, row by row from the bottom, the channels of a pixel side by side: luminance, luminance and alpha, RGB or RGBA.
+struct Image {
+  int width = 0, height = 0;
+  int channels = 0;                  ///< 1 to 4
+  std::vector<std::uint8_t> levels;
+};
+
+enum class MagFilter { kNearest, kLinear };
+enum class MinFilter { kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear };
+enum class Wrap { kRepeat, kClampToEdge, kMirroredRepeat };
+
+/// One row high: a 1-D texture, of which t has no say.
+struct Texture {
+  std::string name;
+  Image image;
+  MagFilter mag = MagFilter::kLinear;
+  MinFilter min = MinFilter::kLinearMipmapLinear;
+  Wrap wrap_s = Wrap::kRepeat;
+  Wrap wrap_t = Wrap::kRepeat;
+};
+
+enum class TextureEnv { kModulate, kReplace, kDecal, kBlend, kAdd };
+
 // ---- Meshes
 
 enum class PrimitiveType {
@@ -108,6 +133,7 @@ struct Mesh {
   std::vector<Vec4> positions;       ///< object space, w = 1 unless the scene gives it
   std::vector<Vec3> normals;         ///< one for each position, or empty: the mesh has none (see generated_normals.h)
   std::vector<Vec4> colors;          ///< RGBA, one for each position, or empty: the mesh has none
+  std::vector<std::array<double, 2>> texcoords;  ///< s and t, one for each position, or empty: 0, 0 everywhere
   std::vector<double> color_indices;   ///< palette indices, one for each position, or empty; unlit draws into index buffers use them
   std::vector<std::uint32_t> indices;  ///< as many as the primitive needs, all below positions.size()
 };
@@ -165,6 +191,9 @@ struct Draw {
   PolygonOffset polygon_offset;
   double point_size = 1;               ///< in pixels, above 0
   double line_width = 1;
+  std::optional<std::size_t> texture;  ///< index into Scene::textures; it has no say where a palette index is drawn
+  TextureEnv texture_env = TextureEnv::kModulate;
+  Vec4 texture_env_color{0, 0, 0, 0};
   std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
   std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
   std::optional<Rect> viewport;        ///< absent: the whole buffer
@@ -190,6 +219,7 @@ struct Scene {
   LightModel light_model;
   std::vector<Light> lights;           ///< in force at the start of the frame
   std::map<std::string, Material> materials;
+  std::vector<Texture> textures;       ///< in the order of the file
   std::vector<Mesh> meshes;            ///< in the order of the file
   std::vector<Command> frame;          ///< in order; the default frame if the scene has none
 };

@@ -16,6 +16,13 @@ Camera default_camera(double aspect);
 
 std::vector<Light> parse_lights(const Value& v);
 
+/// A path as it is written, or relative to the scene's directory.
+std::string path_in(const std::string& directory, const std::string& path);
+
+/// @param v  the path
+Image parse_image_file(const Value& v, const std::string& directory);
+Texture parse_texture(const Value& v, const std::string& name, const std::string& directory);
+
 /// @param directory  what file paths are relative to.
 Mesh parse_mesh(const Value& v, const std::string& name, const std::string& directory);
 

@@ -50,6 +50,7 @@ Corners VertexStage::corners(std::size_t index) const {
       corner.normal_eye = draw_.normalize ? normalize(normal) : normal;
     }
     if (!mesh_.colors.empty()) corner.color = mesh_.colors[vertex];
+    if (!mesh_.texcoords.empty()) corner.texcoord = {mesh_.texcoords[vertex][0], mesh_.texcoords[vertex][1]};
     if (!mesh_.color_indices.empty()) corner.index = mesh_.color_indices[vertex];
     corners.all.push_back(corner);
   }

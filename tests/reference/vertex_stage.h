@@ -5,6 +5,7 @@
 
 #include "primitives.h"
 #include "scene.h"
+#include "texture_sampler.h"
 
 namespace tessera::reference {
 
@@ -13,6 +14,7 @@ struct Corner {
   Vec3 position_eye;
   Vec3 normal_eye;  ///< normalized if the draw says so; null if the draw is unlit
   Vec4 color;       ///< the vertex colour as given; unused if the mesh has none
+  TexCoord texcoord;
   double index = 0; ///< the palette index as given; unused if the mesh has none
 };
 

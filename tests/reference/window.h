@@ -18,6 +18,7 @@ struct Window {
   std::array<double, 2> depth_range{0, 1};
   bool reversed = false;
   int samples = 1;
+  bool derivatives = false;  ///< fragments bring the derivatives of their shares
 };
 
 /// The part that two rectangles have in common; width or height 0 if there is none.
@@ -67,6 +68,9 @@ struct Fragment {
   std::uint32_t coverage = 0;               ///< bit i: sample i is covered
   std::array<double, kMaxSamples> depth{};  ///< of each covered sample: after depth range and offset, 0..1, not yet rounded to a level
   Share share;       ///< perspective-correct, of each of the primitive's corners, at the pixel's centre, covered or not
+  /// Derivatives of the shares there, for each pixel, if the window asks for them. Of a line the one along it stands in x [GL 2.1,
+  /// equation 3.15]; of a point they are 0.
+  Share share_dx, share_dy;
 };
 
 using TakeFragment = std::function<void(const Fragment&)>;
