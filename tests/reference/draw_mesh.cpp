@@ -61,11 +61,15 @@ class MeshDrawing {
   }
 
  private:
+  FragmentPipeline pipeline(const PrimitiveShader& shader, bool is_back) const {
+    return {draw_, [&shader](const Fragment& fragment) { return shader.shade(fragment); }, {command_, number_, is_back}, buffers_};
+  }
+
   void draw_point(const Corners& corners) {
     const ClipVertex vertex = clip_vertices(corners)[0];
     if (!is_in_view(vertex.position, volume_)) return;
     const PrimitiveShader shader(corners, kIsBack, colors_);
-    FragmentPipeline pipeline(draw_, shader, {command_, number_, kIsBack}, buffers_);
+    FragmentPipeline pipeline = this->pipeline(shader, kIsBack);
     rasterize_point(window_vertex(vertex, window_), draw_.point_size, kNoOffset, window_,
                     [&](const Fragment& fragment) { pipeline.take(fragment); });
   }
@@ -74,7 +78,7 @@ class MeshDrawing {
     const std::vector<ClipVertex> vertices = clip_vertices(corners), line = clip_line(vertices[0], vertices[1], volume_);
     if (line.empty()) return;
     const PrimitiveShader shader(corners, kIsBack, colors_);
-    FragmentPipeline pipeline(draw_, shader, {command_, number_, kIsBack}, buffers_);
+    FragmentPipeline pipeline = this->pipeline(shader, kIsBack);
     rasterize_line(window_vertex(line[0], window_), window_vertex(line[1], window_), draw_.line_width, kNoOffset, window_,
                    [&](const Fragment& fragment) { pipeline.take(fragment); });
   }
@@ -91,7 +95,7 @@ class MeshDrawing {
     const bool is_back = draw_.front_face == FrontFace::kCcw ? area < 0 : area > 0;
     if (draw_.cull == (is_back ? Cull::kBack : Cull::kFront)) return;
     const PrimitiveShader shader(corners, is_back, colors_);
-    FragmentPipeline pipeline(draw_, shader, {command_, number_, is_back}, buffers_);
+    FragmentPipeline pipeline = this->pipeline(shader, is_back);
     const TakeFragment take = [&](const Fragment& fragment) { pipeline.take(fragment); };
     const double offset = depth_offset(draw_.polygon_offset, triangles, buffers_.format().depth);
     switch (draw_.polygon_mode[is_back ? 1 : 0]) {

@@ -117,19 +117,24 @@ Draw parse_draw(const Value& v, const Scene& scene) {
   if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
   parse_texturing(reader, scene, draw);
   parse_fragment_state(reader, scene.framebuffer, draw);
+  if (const Value depth = reader.find("depth"); depth && depth.json->is_number()) fail(depth.pointer, "a depth test or false");
+  parse_window_depths(reader, scene.framebuffer, draw);
   refuse_other_features(reader);
   reader.finish();
   return draw;
 }
 
-Command parse_command(const Value& v, const Scene& scene) {
+Command parse_command(const Value& v, const Scene& scene, const std::string& directory) {
   const double aspect = static_cast<double>(scene.framebuffer.width_px) / scene.framebuffer.height_px;
   if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene);
   ObjectReader reader(v);
   if (v.json->size() != 1) fail(v.pointer, "one command");
-  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"), accum = reader.find("accum");
+  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"), accum = reader.find("accum"),
+              bitmap = reader.find("bitmap"), image = reader.find("image");
   reader.finish();
   if (clear) return parse_clear(clear, scene);
+  if (bitmap) return parse_bitmap(bitmap, scene.framebuffer);
+  if (image) return parse_image(image, scene.framebuffer, directory);
   if (accum) return parse_accum(accum, scene);
   if (camera) return CameraChange{parse_camera(camera, aspect)};
   return LightsChange{parse_lights(lights)};
@@ -137,9 +142,9 @@ Command parse_command(const Value& v, const Scene& scene) {
 
 }  // namespace
 
-std::vector<Command> parse_frame(const Value& v, const Scene& scene) {
+std::vector<Command> parse_frame(const Value& v, const Scene& scene, const std::string& directory) {
   std::vector<Command> frame;
-  for (std::size_t i = 0; i < array_size(v); ++i) frame.push_back(parse_command(v[i], scene));
+  for (std::size_t i = 0; i < array_size(v); ++i) frame.push_back(parse_command(v[i], scene, directory));
   return frame;
 }
 

@@ -110,7 +110,7 @@ Scene parse_scene(const std::string& json_text, const std::string& directory) {
                     [&](const std::string& name, const Value& v) { scene.textures.push_back(parse_texture(v, name, directory)); });
   const Value frame = reader.find("frame");
   reader.finish();
-  scene.frame = frame ? parse_frame(frame, scene) : default_frame(scene);
+  scene.frame = frame ? parse_frame(frame, scene, directory) : default_frame(scene);
   return scene;
 }
 

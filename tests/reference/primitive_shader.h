@@ -1,11 +1,11 @@
 // The colours, or palette indices, of the points of one point, line or polygon.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "lighting.h"
 #include "scene.h"
+#include "shade.h"
 #include "vertex_stage.h"
 #include "window.h"
 
@@ -20,12 +20,6 @@ struct DrawColors {
   const TextureSampler* texture = nullptr;  ///< null: none
   bool mesh_has_colors = false;
   bool mesh_has_indices = false;
-};
-
-/// A shaded fragment.
-struct Shade {
-  Vec4 color;                   ///< 0..1
-  std::optional<double> index;  ///< a palette index, continuous; if there is one it stands instead of the colour
 };
 
 class PrimitiveShader {

@@ -1,6 +1,7 @@
 #include "render.h"
 
 #include "draw_mesh.h"
+#include "draw_raster.h"
 #include "fragment_ops.h"
 #include "sample_buffers.h"
 #include "window.h"
@@ -63,6 +64,9 @@ class Renderer {
         stored = accumulated(accum.op, accum.value, stored, colors.color(buffers_.resolved(x, y)), bits);
     });
   }
+
+  void execute(const Bitmap& bitmap) { draw_bitmap(bitmap, static_cast<std::int32_t>(command_), buffers_); }
+  void execute(const ImageDrawing& drawing) { draw_image(drawing, static_cast<std::int32_t>(command_), buffers_); }
 
   void execute(const Draw& draw) { draw_mesh(draw, {scene_, camera_, lights_, static_cast<std::int32_t>(command_)}, buffers_); }
 

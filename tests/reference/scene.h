@@ -167,7 +167,19 @@ struct Accum {
   std::array<bool, 4> color_mask{true, true, true, true};  ///< of kReturn
 };
 
-struct Draw {
+/// What happens to fragments on their way into the buffers.
+struct FragmentState {
+  std::optional<Rect> scissor;         ///< absent: off; so the other optional ones
+  std::optional<AlphaTest> alpha_test;
+  std::optional<StencilState> stencil;
+  std::optional<DepthState> depth = DepthState{};  ///< absent: no depth test and no depth write
+  std::optional<Blend> blend;
+  LogicOp logic_op = LogicOp::kCopy;
+  std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
+  std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
+};
+
+struct Draw : FragmentState {
   std::size_t mesh = 0;                ///< index into Scene::meshes
   Material material;                   ///< front faces, and back faces too unless lighting is two-sided
   Material back_material;              ///< back faces under two-sided lighting
@@ -182,11 +194,6 @@ struct Draw {
   FrontFace front_face = FrontFace::kCcw;
   /// Of front and of back faces. Lines are the boundary of the polygon, or of what clipping leaves of it, points its corners.
   std::array<PolygonMode, 2> polygon_mode{PolygonMode::kFill, PolygonMode::kFill};
-  std::optional<AlphaTest> alpha_test;   ///< absent: off; so the other optional ones
-  std::optional<StencilState> stencil;
-  std::optional<DepthState> depth = DepthState{};  ///< absent: no depth test and no depth write
-  std::optional<Blend> blend;
-  LogicOp logic_op = LogicOp::kCopy;
   std::array<double, 2> depth_range{0, 1};
   PolygonOffset polygon_offset;
   double point_size = 1;               ///< in pixels, above 0
@@ -194,10 +201,24 @@ struct Draw {
   std::optional<std::size_t> texture;  ///< index into Scene::textures; it has no say where a palette index is drawn
   TextureEnv texture_env = TextureEnv::kModulate;
   Vec4 texture_env_color{0, 0, 0, 0};
-  std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
-  std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
   std::optional<Rect> viewport;        ///< absent: the whole buffer
-  std::optional<Rect> scissor;         ///< absent: off
+};
+
+/// Bits at a window position: each that is set is a pixel of one colour, whose lower left corner lies at whole coordinates.
+struct Bitmap : FragmentState {
+  std::array<double, 2> at{0, 0};      ///< window coordinates of the lower left corner, rounded down
+  double raster_depth = 0;             ///< in the window, 0..1
+  int width = 0, height = 0;
+  std::vector<bool> bits;              ///< row by row from the bottom
+  Vec4 color{1, 1, 1, 1};
+};
+
+/// An image at a window position, each of its pixels a rectangle of the zoom's size.
+struct ImageDrawing : FragmentState {
+  std::array<double, 2> at{0, 0};      ///< window coordinates of the lower left corner of the lower left pixel
+  double raster_depth = 0;             ///< in the window, 0..1
+  Image image;
+  std::array<double, 2> zoom{1, 1};    ///< of x and y; below 0 the image extends to the left or downwards
 };
 
 /// The camera from here on.
@@ -210,7 +231,7 @@ struct LightsChange {
   std::vector<Light> lights;
 };
 
-using Command = std::variant<Clear, Draw, Accum, CameraChange, LightsChange>;
+using Command = std::variant<Clear, Draw, Bitmap, ImageDrawing, Accum, CameraChange, LightsChange>;
 
 struct Scene {
   std::string title;

@@ -26,9 +26,16 @@ Texture parse_texture(const Value& v, const std::string& name, const std::string
 /// @param directory  what file paths are relative to.
 Mesh parse_mesh(const Value& v, const std::string& name, const std::string& directory);
 
-/// Reads the keys of a draw that its fragments obey.
+/// Reads the keys of a draw, bitmap or image that its fragments obey. A `depth` that is a number is left alone: it is where a
+/// bitmap or an image lies.
 /// @throws std::runtime_error for what the frame buffer has no buffer for and for what it refuses.
-void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format, Draw& draw);
+void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format, FragmentState& state);
+
+/// Reads depth range and polygon offset.
+void parse_window_depths(ObjectReader& reader, const FrameBufferFormat& format, Draw& draw);
+
+Bitmap parse_bitmap(const Value& v, const FrameBufferFormat& format);
+ImageDrawing parse_image(const Value& v, const FrameBufferFormat& format, const std::string& directory);
 
 /// Four of true and false: red, green and blue the same if the buffer holds one value for each pixel.
 std::array<bool, 4> parse_color_mask(const Value& v, const FrameBufferFormat& format);
@@ -37,7 +44,8 @@ Clear parse_clear(const Value& v, const Scene& scene);
 Accum parse_accum(const Value& v, const Scene& scene);
 
 /// @param scene  all but the frame has been read.
-std::vector<Command> parse_frame(const Value& v, const Scene& scene);
+/// @param directory  what file paths are relative to.
+std::vector<Command> parse_frame(const Value& v, const Scene& scene, const std::string& directory);
 
 /// One clear of what there is and one draw of every mesh.
 std::vector<Command> default_frame(const Scene& scene);

@@ -38,6 +38,17 @@ std::int64_t wrapped_texel(std::int64_t i, Wrap wrap, int size) {
 
 }  // namespace
 
+Vec4 pixel_color(const Image& image, std::int64_t column, std::int64_t row) {
+  const std::size_t at = level_at(image, column, row, 0);
+  const auto channel = [&](std::size_t c) { return image.levels[at + c] / 255.0; };
+  switch (image.channels) {
+    case 1: return {channel(0), channel(0), channel(0), 1};
+    case 2: return {channel(0), channel(0), channel(0), channel(1)};
+    case 3: return {channel(0), channel(1), channel(2), 1};
+    default: return {channel(0), channel(1), channel(2), channel(3)};
+  }
+}
+
 Image next_mipmap(const Image& image) {
   Image next{std::max(1, image.width / 2), std::max(1, image.height / 2), image.channels, {}};
   const std::int64_t w = image.width, h = image.height, area = w * h;
@@ -66,22 +77,10 @@ double TextureSampler::level_of_detail(TexCoord d_dx, TexCoord d_dy) const {
   return std::log2(std::max(texels(d_dx), texels(d_dy)));
 }
 
-Vec4 TextureSampler::texel(std::size_t level, std::int64_t i, std::int64_t j) const {
-  const Image& image = mipmaps_[level];
-  const std::size_t at = level_at(image, i, j, 0);
-  const auto channel = [&](std::size_t c) { return image.levels[at + c] / 255.0; };
-  switch (image.channels) {
-    case 1: return {channel(0), channel(0), channel(0), 1};
-    case 2: return {channel(0), channel(0), channel(0), channel(1)};
-    case 3: return {channel(0), channel(1), channel(2), 1};
-    default: return {channel(0), channel(1), channel(2), channel(3)};
-  }
-}
-
 Vec4 TextureSampler::nearest(std::size_t level, TexCoord at) const {
   const auto [w, h] = std::pair{mipmaps_[level].width, mipmaps_[level].height};
   const auto index = [](double f, int size) { return std::min(static_cast<std::int64_t>(std::floor(f * size)), std::int64_t{size - 1}); };
-  return texel(level, index(wrapped(at.s, wrap_s_, w), w), index(wrapped(at.t, wrap_t_, h), h));
+  return pixel_color(mipmaps_[level], index(wrapped(at.s, wrap_s_, w), w), index(wrapped(at.t, wrap_t_, h), h));
 }
 
 Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
@@ -90,7 +89,7 @@ Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
   const double a = u - std::floor(u), b = v - std::floor(v);
   const auto i = static_cast<std::int64_t>(std::floor(u)), j = static_cast<std::int64_t>(std::floor(v));
   const auto at_texel = [&, width = w, height = h](std::int64_t x, std::int64_t y) {
-    return texel(level, wrapped_texel(x, wrap_s_, width), wrapped_texel(y, wrap_t_, height));
+    return pixel_color(mipmaps_[level], wrapped_texel(x, wrap_s_, width), wrapped_texel(y, wrap_t_, height));
   };
   return (1 - b) * ((1 - a) * at_texel(i, j) + a * at_texel(i + 1, j)) + b * ((1 - a) * at_texel(i, j + 1) + a * at_texel(i + 1, j + 1));
 }

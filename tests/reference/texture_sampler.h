@@ -14,6 +14,10 @@ struct TexCoord {
 inline TexCoord operator+(TexCoord a, TexCoord b) { return {a.s + b.s, a.t + b.t}; }
 inline TexCoord operator*(double f, TexCoord a) { return {f * a.s, f * a.t}; }
 
+/// Red, green, blue, alpha, 0..1, of a pixel of an image, its rows counted from the bottom; of one and two channels red = green =
+/// blue; alpha 1 if there is none.
+Vec4 pixel_color(const Image& image, std::int64_t column, std::int64_t row);
+
 /// The next smaller mipmap: half the size, rounded down, at least 1; each texel the mean of what it covers of `image`, weighted by
 /// area, rounded to a level.
 Image next_mipmap(const Image& image);
@@ -28,11 +32,10 @@ class TextureSampler {
   /// minus infinity where they are null.
   double level_of_detail(TexCoord d_dx, TexCoord d_dy) const;
 
-  /// Red, green, blue, alpha, 0..1; of one and two channels red = green = blue; alpha 1 if there is none.
+  /// As pixel_color()
   Vec4 sample(TexCoord at, double level_of_detail) const;
 
  private:
-  Vec4 texel(std::size_t level, std::int64_t i, std::int64_t j) const;
   Vec4 nearest(std::size_t level, TexCoord at) const;
   Vec4 linear(std::size_t level, TexCoord at) const;
 
