@@ -2,6 +2,7 @@
 
 #include "clip.h"
 #include "fragment_pipeline.h"
+#include "planar_shadow.h"
 #include "polygon_offset.h"
 #include "primitive_shader.h"
 #include "rasterize_line.h"
@@ -32,6 +33,17 @@ std::optional<TextureSampler> sampler(const Draw& draw, const Scene& scene) {
   return TextureSampler(scene.textures.at(*draw.texture));
 }
 
+// The same draw in one colour, projected after the object's transform.
+Draw shadow_of(const Draw& draw, const std::vector<Light>& lights) {
+  Draw shadow = draw;
+  const Mat4 projection = shadow_matrix(draw.shadow_on->plane, lights.at(draw.shadow_on->light)).value();
+  shadow.world_from_object = multiply(projection, draw.world_from_object);
+  shadow.lighting = false;
+  shadow.texture = std::nullopt;
+  shadow.material.diffuse = draw.shadow_on->color;
+  return shadow;
+}
+
 class MeshDrawing {
  public:
   MeshDrawing(const Draw& draw, const FrameState& state, const Rect& viewport, SampleBuffers& buffers)
@@ -47,8 +59,8 @@ class MeshDrawing {
                 lights_in_eye_space(state.lights, state.camera.view_from_world),
                 buffers.format(),
                 texture_ ? &*texture_ : nullptr,
-                !state.scene.meshes.at(draw.mesh).colors.empty(),
-                !state.scene.meshes.at(draw.mesh).color_indices.empty()} {}
+                !draw.shadow_on && !state.scene.meshes.at(draw.mesh).colors.empty(),
+                !draw.shadow_on && !state.scene.meshes.at(draw.mesh).color_indices.empty()} {}
 
   void draw_primitive(const Corners& corners, std::size_t number) {
     number_ = static_cast<std::int32_t>(number);
@@ -137,8 +149,9 @@ class MeshDrawing {
 void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers) {
   const Rect viewport = draw.viewport.value_or(buffers.rect());
   if (viewport.width == 0 || viewport.height == 0) return;
-  const VertexStage vertices(state.scene.meshes.at(draw.mesh), draw, state.camera);
-  MeshDrawing drawing(draw, state, viewport, buffers);
+  const Draw drawn = draw.shadow_on ? shadow_of(draw, state.lights) : draw;
+  const VertexStage vertices(state.scene.meshes.at(draw.mesh), drawn, state.camera);
+  MeshDrawing drawing(drawn, state, viewport, buffers);
   for (std::size_t i = 0; i < vertices.primitive_count(); ++i) drawing.draw_primitive(vertices.corners(i), i);
 }
 

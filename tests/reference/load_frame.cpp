@@ -1,6 +1,7 @@
 // The list of commands of a frame.
 #include <numbers>
 
+#include "planar_shadow.h"
 #include "scene_parts.h"
 
 namespace tessera::reference {
@@ -79,7 +80,25 @@ double parse_size(const Value& v) {
   return size;
 }
 
-Draw parse_draw(const Value& v, const Scene& scene) {
+ShadowOn parse_shadow_on(const Value& v, const std::vector<Light>& lights) {
+  ObjectReader reader(v);
+  ShadowOn shadow;
+  const Value plane = reader.require("plane");
+  shadow.plane = vec4(plane);
+  const Value light = reader.find("light");
+  if (light) shadow.light = static_cast<std::size_t>(integer(light, 0, 1 << 30));
+  const std::string& pointer = light ? light.pointer : v.pointer;
+  if (shadow.light >= lights.size())
+    fail(pointer, "the number of a light, of which there are " + std::to_string(lights.size()), std::to_string(shadow.light));
+  if (!shadow_matrix(shadow.plane, lights[shadow.light]))
+    fail(plane.pointer, "a plane that neither holds the light nor is parallel to its direction", plane.json->dump());
+  if (const Value color = reader.find("color")) shadow.color = vec4(color);
+  reader.finish();
+  return shadow;
+}
+
+/// @param lights  in force at the draw
+Draw parse_draw(const Value& v, const Scene& scene, const std::vector<Light>& lights) {
   ObjectReader reader(v);
   Draw draw;
   const Value mesh = reader.require("draw");
@@ -114,6 +133,7 @@ Draw parse_draw(const Value& v, const Scene& scene) {
   if (const Value size = reader.find("point_size")) draw.point_size = parse_size(size);
   if (const Value width = reader.find("line_width")) draw.line_width = parse_size(width);
 
+  if (const Value shadow = reader.find("shadow_on")) draw.shadow_on = parse_shadow_on(shadow, lights);
   if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
   parse_texturing(reader, scene, draw);
   parse_fragment_state(reader, scene.framebuffer, draw);
@@ -124,9 +144,9 @@ Draw parse_draw(const Value& v, const Scene& scene) {
   return draw;
 }
 
-Command parse_command(const Value& v, const Scene& scene, const std::string& directory) {
+Command parse_command(const Value& v, const Scene& scene, const std::string& directory, const std::vector<Light>& lights_in_force) {
   const double aspect = static_cast<double>(scene.framebuffer.width_px) / scene.framebuffer.height_px;
-  if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene);
+  if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene, lights_in_force);
   ObjectReader reader(v);
   if (v.json->size() != 1) fail(v.pointer, "one command");
   const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"), accum = reader.find("accum"),
@@ -144,7 +164,11 @@ Command parse_command(const Value& v, const Scene& scene, const std::string& dir
 
 std::vector<Command> parse_frame(const Value& v, const Scene& scene, const std::string& directory) {
   std::vector<Command> frame;
-  for (std::size_t i = 0; i < array_size(v); ++i) frame.push_back(parse_command(v[i], scene, directory));
+  std::vector<Light> lights = scene.lights;
+  for (std::size_t i = 0; i < array_size(v); ++i) {
+    frame.push_back(parse_command(v[i], scene, directory, lights));
+    if (const auto* change = std::get_if<LightsChange>(&frame.back())) lights = change->lights;
+  }
   return frame;
 }
 

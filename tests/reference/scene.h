@@ -179,6 +179,13 @@ struct FragmentState {
   std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
 };
 
+/// Instead of the object its shadow: flattened onto a plane, unlit and untextured (see planar_shadow.h).
+struct ShadowOn {
+  Vec4 plane;                          ///< a, b, c, d of a x + b y + c z + d = 0 in world space
+  std::size_t light = 0;               ///< number in the list of lights in force
+  Vec4 color{0, 0, 0, 1};
+};
+
 struct Draw : FragmentState {
   std::size_t mesh = 0;                ///< index into Scene::meshes
   Material material;                   ///< front faces, and back faces too unless lighting is two-sided
@@ -201,6 +208,7 @@ struct Draw : FragmentState {
   std::optional<std::size_t> texture;  ///< index into Scene::textures; it has no say where a palette index is drawn
   TextureEnv texture_env = TextureEnv::kModulate;
   Vec4 texture_env_color{0, 0, 0, 0};
+  std::optional<ShadowOn> shadow_on;   ///< absent: the object itself
   std::optional<Rect> viewport;        ///< absent: the whole buffer
 };
 
