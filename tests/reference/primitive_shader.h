@@ -47,8 +47,9 @@ class PrimitiveShader {
   bool lights_back_;
   Material material_;       // of the side that is seen
   bool has_index_;
-  std::vector<Vec4> corner_colors_;  // of these one is filled unless Phong is lit: one for each corner, or the provoking one's alone
-  std::vector<double> corner_indices_;
+  // One for each corner, or if flat the provoking one's alone; lit Phong uses none.
+  std::vector<Vec4> corner_colors_;
+  std::vector<double> corner_indices_;  // instead of colours
 };
 
 }  // namespace tessera::reference

@@ -31,16 +31,6 @@ Pattern pattern(PrimitiveType type, std::size_t i, std::size_t count) {
 
 }  // namespace
 
-int primitive_dimension(PrimitiveType type) {
-  switch (type) {
-    case PrimitiveType::kPoints: return 1;
-    case PrimitiveType::kLines:
-    case PrimitiveType::kLineStrip:
-    case PrimitiveType::kLineLoop: return 2;
-    default: return 3;
-  }
-}
-
 std::string wrong_vertex_count(PrimitiveType type, std::size_t vertices) {
   const auto multiple_of = [&](std::size_t n) {
     return vertices % n == 0 ? std::string() : "a multiple of " + std::to_string(n) + " vertices";

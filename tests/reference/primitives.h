@@ -15,9 +15,6 @@ struct Primitive {
   std::size_t provoking = 0;            ///< place in `vertices`
 };
 
-/// 1: points, 2: lines, 3: polygons of three or more corners.
-int primitive_dimension(PrimitiveType type);
-
 /// How many vertices a list of this type may have, in words; empty if `vertices` is such a number.
 /// None at all is always allowed and draws nothing.
 std::string wrong_vertex_count(PrimitiveType type, std::size_t vertices);

@@ -44,6 +44,9 @@ Clear parse_clear(const Value& v, const Scene& scene);
 Accum parse_accum(const Value& v, const Scene& scene);
 
 /// @param scene  all but the frame has been read.
+/// @param lights  in force at the draw
+Draw parse_draw(const Value& v, const Scene& scene, const std::vector<Light>& lights);
+
 /// @param directory  what file paths are relative to.
 std::vector<Command> parse_frame(const Value& v, const Scene& scene, const std::string& directory);
 
