@@ -36,6 +36,7 @@ void append_quads(Mesh& mesh, int columns, int rows, const Surface& surface) {
       const SurfacePoint point = surface(static_cast<double>(i) / columns, static_cast<double>(j) / rows);
       mesh.positions.push_back({point.position.x, point.position.y, point.position.z, 1});
       mesh.normals.push_back(point.normal);
+      mesh.texcoords.push_back({static_cast<double>(i) / columns, static_cast<double>(j) / rows});
     }
   const auto corner = [&](int i, int j) { return base + static_cast<std::uint32_t>(j * (columns + 1) + i); };
   const auto append_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -30,11 +30,12 @@ std::vector<Plane> planes_of(const ClipVolume& volume) {
 ClipVertex crossing(const ClipVertex& inside, const ClipVertex& outside, double t) {
   const auto mix = [t](double a, double b) { return a + t * (b - a); };
   const Vec4 p = inside.position, q = outside.position;
-  const Vec3 s = inside.share, r = outside.share;
-  return {{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, {mix(s.x, r.x), mix(s.y, r.y), mix(s.z, r.z)}};
+  ClipVertex vertex{{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, inside.share};
+  for (std::size_t i = 0; i < vertex.share.size(); ++i) vertex.share[i] = mix(inside.share[i], outside.share[i]);
+  return vertex;
 }
 
-std::vector<ClipVertex> clip_polygon(const std::vector<ClipVertex>& polygon, const Plane& plane) {
+std::vector<ClipVertex> clipped(const std::vector<ClipVertex>& polygon, const Plane& plane) {
   std::vector<ClipVertex> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const ClipVertex& a = polygon[i];
@@ -49,12 +50,36 @@ std::vector<ClipVertex> clip_polygon(const std::vector<ClipVertex>& polygon, con
 
 }  // namespace
 
-std::vector<ClipVertex> clip_triangle(const std::array<Vec4, 3>& positions, const ClipVolume& volume) {
-  std::vector<ClipVertex> polygon{{positions[0], {1, 0, 0}}, {positions[1], {0, 1, 0}}, {positions[2], {0, 0, 1}}};
-  for (const Plane& plane : planes_of(volume)) polygon = clip_polygon(polygon, plane);
+ClipVertex corner_vertex(Vec4 position, std::size_t index, std::size_t count) {
+  ClipVertex vertex{position, Share(count, 0.0)};
+  vertex.share[index] = 1;
+  return vertex;
+}
+
+std::vector<ClipVertex> clip_polygon(std::vector<ClipVertex> polygon, const ClipVolume& volume) {
+  for (const Plane& plane : planes_of(volume)) polygon = clipped(polygon, plane);
   for (const ClipVertex& vertex : polygon)
     if (!(vertex.position.w > 0)) return {};
   return polygon.size() < 3 ? std::vector<ClipVertex>{} : polygon;
 }
+
+std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolume& volume) {
+  for (const Plane& plane : planes_of(volume)) {
+    const double d_from = plane.distance(from.position), d_to = plane.distance(to.position);
+    if (d_from < 0 && d_to < 0) return {};
+    if (d_from < 0) from = crossing(to, from, d_to / (d_to - d_from));
+    else if (d_to < 0) to = crossing(from, to, d_from / (d_from - d_to));
+  }
+  if (!(from.position.w > 0 && to.position.w > 0)) return {};
+  return {from, to};
+}
+
+bool is_in_view(Vec4 position, const ClipVolume& volume) {
+  for (const Plane& plane : planes_of(volume))
+    if (!(plane.distance(position) >= 0)) return false;
+  return is_between_sides(position);
+}
+
+bool is_between_sides(Vec4 p) { return std::abs(p.x) <= p.w && std::abs(p.y) <= p.w; }
 
 }  // namespace tessera::reference

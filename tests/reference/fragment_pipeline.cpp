@@ -6,20 +6,20 @@
 
 namespace tessera::reference {
 
-FragmentPipeline::FragmentPipeline(const Draw& draw, const TriangleShader& shader, Source source, SampleBuffers& buffers)
-    : draw_(draw),
-      shader_(shader),
+FragmentPipeline::FragmentPipeline(const FragmentState& state, Shader shader, Source source, SampleBuffers& buffers)
+    : state_(state),
+      shader_(std::move(shader)),
       source_(source),
       buffers_(buffers),
-      planes_(buffers.colors().writable_planes(draw.color_mask, draw.plane_mask)) {}
+      planes_(buffers.colors().writable_planes(state.color_mask, state.plane_mask)) {}
 
 void FragmentPipeline::take(const Fragment& fragment) {
   std::optional<Shade> shade;  // once a pixel, if anything asks for it
   const auto shaded = [&]() -> const Shade& {
-    if (!shade) shade = shader_.shade(fragment.share);
+    if (!shade) shade = shader_(fragment);
     return *shade;
   };
-  if (draw_.alpha_test && !passes(draw_.alpha_test->func, shaded().color.w, draw_.alpha_test->ref)) return;
+  if (state_.alpha_test && !passes(state_.alpha_test->func, shaded().color.w, state_.alpha_test->ref)) return;
 
   const double dither = dither_threshold(buffers_.format().dither, fragment.x, fragment.y);
   for (int s = 0; s < buffers_.format().samples; ++s) {
@@ -28,14 +28,14 @@ void FragmentPipeline::take(const Fragment& fragment) {
     if (planes_ == 0) continue;
     std::uint32_t& word = buffers_.word(fragment.x, fragment.y, s);
     word = (word & ~planes_) | (new_word(shaded(), word, dither) & planes_);
-    buffers_.sign(fragment.x, fragment.y, source_.command, source_.triangle);
+    buffers_.sign(fragment.x, fragment.y, source_.command, source_.primitive);
   }
 }
 
 bool FragmentPipeline::passes_stencil_and_depth(SampleBuffers::Sample& stored, double depth) const {
-  if (!draw_.stencil) return passes_depth(stored, depth);
+  if (!state_.stencil) return passes_depth(stored, depth);
   const int bits = buffers_.format().stencil_bits;
-  const StencilFace& face = source_.is_back ? draw_.stencil->back : draw_.stencil->front;
+  const StencilFace& face = source_.is_back ? state_.stencil->back : state_.stencil->front;
   if (!passes_stencil(face, stored.stencil, bits)) {
     stored.stencil = stencil_after(face.fail, face, stored.stencil, bits);
     return false;
@@ -46,13 +46,13 @@ bool FragmentPipeline::passes_stencil_and_depth(SampleBuffers::Sample& stored, d
 }
 
 bool FragmentPipeline::passes_depth(SampleBuffers::Sample& stored, double depth) const {
-  if (!draw_.depth) return true;
+  if (!state_.depth) return true;
   const DepthFormat format = buffers_.format().depth;
   const std::uint32_t level = depth_level(format, depth);
   const bool passed = format == DepthFormat::kFloat32
-                          ? passes(draw_.depth->test, std::bit_cast<float>(level), std::bit_cast<float>(stored.depth_level))
-                          : passes(draw_.depth->test, level, stored.depth_level);
-  if (passed && draw_.depth->write) {
+                          ? passes(state_.depth->test, std::bit_cast<float>(level), std::bit_cast<float>(stored.depth_level))
+                          : passes(state_.depth->test, level, stored.depth_level);
+  if (passed && state_.depth->write) {
     stored.depth_level = level;
     stored.depth = depth;
   }
@@ -62,9 +62,9 @@ bool FragmentPipeline::passes_depth(SampleBuffers::Sample& stored, double depth)
 std::uint32_t FragmentPipeline::new_word(const Shade& shade, std::uint32_t stored, double dither) const {
   const ColorFormat& colors = buffers_.colors();
   const std::uint32_t word = shade.index   ? colors.index_word(*shade.index)
-                             : draw_.blend ? colors.word(blended(*draw_.blend, shade.color, colors.color(stored)), dither)
+                             : state_.blend ? colors.word(blended(*state_.blend, shade.color, colors.color(stored)), dither)
                                            : colors.word(shade.color, dither);
-  return combined(draw_.logic_op, word, stored);
+  return combined(state_.logic_op, word, stored);
 }
 
 }  // namespace tessera::reference

@@ -3,6 +3,8 @@
 #include <map>
 #include <tuple>
 
+#include "primitives.h"
+
 namespace tessera::reference {
 namespace {
 
@@ -10,32 +12,31 @@ using Key = std::tuple<double, double, double, double>;
 
 Key key_of(Vec4 p) { return {p.x, p.y, p.z, p.w}; }
 
+Primitive any_primitive(const Mesh& mesh, std::size_t index) { return primitive(mesh, index, ProvokingVertex::kLast); }
+
 // Twice the area long.
-Vec3 area_normal(const Mesh& mesh, std::size_t triangle) {
-  const auto [a, b, c] = triangle_corners(mesh, triangle);
-  const Vec3 normal = cross(b - a, c - a);
+Vec3 area_normal(const Mesh& mesh, const Primitive& polygon) {
+  const auto corner = [&](std::size_t i) {
+    const Vec4 p = mesh.positions[polygon.vertices[i]];
+    return Vec3{p.x / p.w, p.y / p.w, p.z / p.w};
+  };
+  Vec3 normal;
+  for (std::size_t i = 2; i < polygon.vertices.size(); ++i)
+    normal = normal + cross(corner(i - 1) - corner(0), corner(i) - corner(0));
   return std::isfinite(dot(normal, normal)) ? normal : Vec3{};
 }
 
 }  // namespace
 
-std::array<Vec3, 3> triangle_corners(const Mesh& mesh, std::size_t triangle) {
-  std::array<Vec3, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec4 p = mesh.positions[mesh.indices[3 * triangle + i]];
-    corners[i] = {p.x / p.w, p.y / p.w, p.z / p.w};
-  }
-  return corners;
-}
-
-Vec3 face_normal(const Mesh& mesh, std::size_t triangle) { return normalize(area_normal(mesh, triangle)); }
+Vec3 face_normal(const Mesh& mesh, std::size_t primitive) { return normalize(area_normal(mesh, any_primitive(mesh, primitive))); }
 
 std::vector<Vec3> mean_face_normals(const Mesh& mesh) {
   std::map<Key, Vec3> sums;
-  for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
-    const Vec3 normal = area_normal(mesh, t);
-    for (std::size_t i = 0; i < 3; ++i) {
-      Vec3& sum = sums[key_of(mesh.positions[mesh.indices[3 * t + i]])];
+  for (std::size_t i = 0; i < primitive_count(mesh); ++i) {
+    const Primitive polygon = any_primitive(mesh, i);
+    const Vec3 normal = area_normal(mesh, polygon);
+    for (const std::uint32_t vertex : polygon.vertices) {
+      Vec3& sum = sums[key_of(mesh.positions[vertex])];
       sum = sum + normal;
     }
   }

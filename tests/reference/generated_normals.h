@@ -1,4 +1,5 @@
-// Normals of meshes that bring none: the face's for flat shading, the area-weighted mean for Gouraud and Phong.
+// Normals of meshes that bring none: the face's for flat shading, the area-weighted mean for Gouraud and Phong. A face is a
+// whole polygon, however it splits; points and lines have no faces and so no normals but null ones.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +9,9 @@
 
 namespace tessera::reference {
 
-/// The corners of a triangle in object space, divided by their w.
-std::array<Vec3, 3> triangle_corners(const Mesh& mesh, std::size_t triangle);
-
-/// Unit normal of a triangle, counter-clockwise side, object space; the null vector for a degenerate triangle.
-Vec3 face_normal(const Mesh& mesh, std::size_t triangle);
+/// Unit normal of a polygon of the mesh, counter-clockwise side, object space: the sum over its triangles, each as long as its
+/// area. The null vector for a degenerate polygon.
+Vec3 face_normal(const Mesh& mesh, std::size_t primitive);
 
 /// For each position the unit area-weighted mean of the normals of all faces that have a corner at the very same position
 /// (coordinates compare equal as doubles), whatever index that corner has.

@@ -18,6 +18,10 @@ using Json = nlohmann::ordered_json;
   throw std::runtime_error("scene" + pointer + ": expected " + expected);
 }
 
+[[noreturn]] inline void fail(const std::string& pointer, const std::string& expected, const std::string& found) {
+  throw std::runtime_error("scene" + pointer + ": expected " + expected + ", found " + found);
+}
+
 /// A value and where it stands.
 struct Value {
   const Json* json = nullptr;

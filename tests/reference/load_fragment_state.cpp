@@ -1,4 +1,4 @@
-// The per-fragment keys of a draw, and the buffers that each of them needs.
+// The per-fragment keys of draws, bitmaps and images, and the buffers that each of them needs.
 #include <limits>
 
 #include "scene_parts.h"
@@ -116,7 +116,9 @@ Blend parse_blend(const Value& v, const FrameBufferFormat& format) {
   return blend;
 }
 
-void parse_depth_values(ObjectReader& reader, const FrameBufferFormat& format, Draw& draw) {
+}  // namespace
+
+void parse_window_depths(ObjectReader& reader, const FrameBufferFormat& format, Draw& draw) {
   if (const Value range = reader.find("depth_range")) {
     draw.depth_range = numbers<2>(range);
     for (std::size_t i = 0; i < 2; ++i) number(range[i], 0, 1);
@@ -128,8 +130,6 @@ void parse_depth_values(ObjectReader& reader, const FrameBufferFormat& format, D
   }
 }
 
-}  // namespace
-
 std::array<bool, 4> parse_color_mask(const Value& v, const FrameBufferFormat& format) {
   if (array_size(v) != 4) fail(v.pointer, "four of true and false");
   std::array<bool, 4> mask;
@@ -139,22 +139,21 @@ std::array<bool, 4> parse_color_mask(const Value& v, const FrameBufferFormat& fo
   return mask;
 }
 
-void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format, Draw& draw) {
-  if (const Value scissor = reader.find("scissor")) draw.scissor = rect(scissor);
-  if (const Value test = reader.find("alpha_test")) draw.alpha_test = parse_alpha_test(test, format);
-  if (const Value stencil = reader.find("stencil")) draw.stencil = parse_stencil(stencil, format);
-  if (format.depth == DepthFormat::kNone) draw.depth = std::nullopt;
-  if (const Value depth = reader.find("depth")) draw.depth = parse_depth(depth, format);
-  parse_depth_values(reader, format, draw);
-  if (const Value blend = reader.find("blend")) draw.blend = parse_blend(blend, format);
+void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format, FragmentState& state) {
+  if (const Value scissor = reader.find("scissor")) state.scissor = rect(scissor);
+  if (const Value test = reader.find("alpha_test")) state.alpha_test = parse_alpha_test(test, format);
+  if (const Value stencil = reader.find("stencil")) state.stencil = parse_stencil(stencil, format);
+  if (format.depth == DepthFormat::kNone) state.depth = std::nullopt;
+  if (const Value depth = reader.find("depth"); depth && !depth.json->is_number()) state.depth = parse_depth(depth, format);
+  if (const Value blend = reader.find("blend")) state.blend = parse_blend(blend, format);
   if (const Value op = reader.find("logic_op")) {
-    draw.logic_op = choice(op, kLogicOps);
-    if (draw.blend && draw.logic_op != LogicOp::kCopy)
+    state.logic_op = choice(op, kLogicOps);
+    if (state.blend && state.logic_op != LogicOp::kCopy)
       fail(op.pointer, "\"copy\" beside \"blend\": blending and a logic operation exclude each other");
   }
-  if (const Value mask = reader.find("color_mask")) draw.color_mask = parse_color_mask(mask, format);
+  if (const Value mask = reader.find("color_mask")) state.color_mask = parse_color_mask(mask, format);
   if (const Value planes = reader.find("plane_mask"))
-    draw.plane_mask = static_cast<std::uint32_t>(integer(planes, 0, std::numeric_limits<std::uint32_t>::max()));
+    state.plane_mask = static_cast<std::uint32_t>(integer(planes, 0, std::numeric_limits<std::uint32_t>::max()));
 }
 
 }  // namespace tessera::reference

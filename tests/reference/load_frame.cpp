@@ -1,104 +1,20 @@
 // The list of commands of a frame.
-#include <numbers>
-
 #include "scene_parts.h"
 
 namespace tessera::reference {
 namespace {
 
-Mat4 translation(Vec3 t) { return {{{{1, 0, 0, t.x}, {0, 1, 0, t.y}, {0, 0, 1, t.z}, {0, 0, 0, 1}}}}; }
-Mat4 scaling(Vec3 s) { return {{{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}}; }
-
-// As glRotate.
-Mat4 rotation(double degrees, Vec3 axis) {
-  const Vec3 a = normalize(axis);
-  const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle), k = 1 - c;
-  return {{{{a.x * a.x * k + c, a.x * a.y * k - a.z * s, a.x * a.z * k + a.y * s, 0},
-            {a.y * a.x * k + a.z * s, a.y * a.y * k + c, a.y * a.z * k - a.x * s, 0},
-            {a.z * a.x * k - a.y * s, a.z * a.y * k + a.x * s, a.z * a.z * k + c, 0},
-            {0, 0, 0, 1}}}};
-}
-
-Mat4 parse_transform(const Value& v) {
-  Mat4 product;
-  for (std::size_t i = 0; i < array_size(v); ++i) {
-    ObjectReader step(v[i]);
-    if (v[i].json->size() != 1) fail(v[i].pointer, "one of translate, rotate, scale, matrix");
-    if (const Value t = step.find("translate")) product = multiply(product, translation(vec3(t)));
-    if (const Value s = step.find("scale")) product = multiply(product, scaling(vec3(s)));
-    if (const Value m = step.find("matrix")) product = multiply(product, mat4(m));
-    if (const Value r = step.find("rotate")) {
-      const auto [angle, x, y, z] = numbers<4>(r);
-      if (length({x, y, z}) == 0) fail(r.pointer, "an axis that is not null");
-      product = multiply(product, rotation(angle, {x, y, z}));
-    }
-    step.finish();
-  }
-  return product;
-}
-
-Material find_material(const Value& v, const Scene& scene) {
-  const auto found = scene.materials.find(text(v));
-  if (found == scene.materials.end()) fail(v.pointer, "the name of a material");
-  return found->second;
-}
-
-// Keys of the format whose features the reference renderers do not have.
-void refuse_other_features(ObjectReader& reader) {
-  reader.only_default("polygon_mode", "fill");
-  reader.only_default("point_size", 1);
-  reader.only_default("line_width", 1);
-  reader.only_default("texture_env", "modulate");
-  reader.only_default("texture_env_color", Json::array({0, 0, 0, 0}));
-  reader.only_default("stages", Json::array());
-}
-
-Draw parse_draw(const Value& v, const Scene& scene) {
-  ObjectReader reader(v);
-  Draw draw;
-  const Value mesh = reader.require("draw");
-  while (draw.mesh < scene.meshes.size() && scene.meshes[draw.mesh].name != text(mesh)) ++draw.mesh;
-  if (draw.mesh == scene.meshes.size()) fail(mesh.pointer, "the name of a mesh");
-
-  if (const Value name = reader.find("material")) draw.material = find_material(name, scene);
-  const Value back = reader.find("back_material");
-  draw.back_material = back ? find_material(back, scene) : draw.material;
-  if (const Value transform = reader.find("transform")) draw.world_from_object = parse_transform(transform);
-  if (const Value shading = reader.find("shading"))
-    draw.shading =
-        choice<Shading>(shading, {{"flat", Shading::kFlat}, {"gouraud", Shading::kGouraud}, {"phong", Shading::kPhong}});
-  if (const Value lighting = reader.find("lighting")) draw.lighting = boolean(lighting);
-  if (const Value mode = reader.find("color_material"))
-    draw.color_material = choice<ColorMaterial>(mode, {{"none", ColorMaterial::kNone},
-                                                       {"ambient_and_diffuse", ColorMaterial::kAmbientAndDiffuse},
-                                                       {"diffuse", ColorMaterial::kDiffuse},
-                                                       {"ambient", ColorMaterial::kAmbient},
-                                                       {"emission", ColorMaterial::kEmission},
-                                                       {"specular", ColorMaterial::kSpecular}});
-  if (const Value vertex = reader.find("provoking_vertex"))
-    draw.provoking_vertex =
-        choice<ProvokingVertex>(vertex, {{"last", ProvokingVertex::kLast}, {"first", ProvokingVertex::kFirst}});
-  if (const Value normalize = reader.find("normalize")) draw.normalize = boolean(normalize);
-  if (const Value cull = reader.find("cull"))
-    draw.cull = choice<Cull>(cull, {{"none", Cull::kNone}, {"back", Cull::kBack}, {"front", Cull::kFront}});
-  if (const Value front = reader.find("front_face"))
-    draw.front_face = choice<FrontFace>(front, {{"ccw", FrontFace::kCcw}, {"cw", FrontFace::kCw}});
-
-  if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
-  parse_fragment_state(reader, scene.framebuffer, draw);
-  refuse_other_features(reader);
-  reader.finish();
-  return draw;
-}
-
-Command parse_command(const Value& v, const Scene& scene) {
+Command parse_command(const Value& v, const Scene& scene, const std::string& directory, const std::vector<Light>& lights_in_force) {
   const double aspect = static_cast<double>(scene.framebuffer.width_px) / scene.framebuffer.height_px;
-  if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene);
+  if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene, lights_in_force);
   ObjectReader reader(v);
   if (v.json->size() != 1) fail(v.pointer, "one command");
-  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"), accum = reader.find("accum");
+  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"), accum = reader.find("accum"),
+              bitmap = reader.find("bitmap"), image = reader.find("image");
   reader.finish();
   if (clear) return parse_clear(clear, scene);
+  if (bitmap) return parse_bitmap(bitmap, scene.framebuffer);
+  if (image) return parse_image(image, scene.framebuffer, directory);
   if (accum) return parse_accum(accum, scene);
   if (camera) return CameraChange{parse_camera(camera, aspect)};
   return LightsChange{parse_lights(lights)};
@@ -106,9 +22,13 @@ Command parse_command(const Value& v, const Scene& scene) {
 
 }  // namespace
 
-std::vector<Command> parse_frame(const Value& v, const Scene& scene) {
+std::vector<Command> parse_frame(const Value& v, const Scene& scene, const std::string& directory) {
   std::vector<Command> frame;
-  for (std::size_t i = 0; i < array_size(v); ++i) frame.push_back(parse_command(v[i], scene));
+  std::vector<Light> lights = scene.lights;
+  for (std::size_t i = 0; i < array_size(v); ++i) {
+    frame.push_back(parse_command(v[i], scene, directory, lights));
+    if (const auto* change = std::get_if<LightsChange>(&frame.back())) lights = change->lights;
+  }
   return frame;
 }
 

@@ -6,15 +6,26 @@
 #include <tiny_obj_loader.h>
 
 #include "builtin_meshes.h"
+#include "primitives.h"
 #include "scene_parts.h"
 
 namespace tessera::reference {
 namespace {
 
-Mesh parse_inline(ObjectReader& reader, const std::string& pointer) {
+const std::vector<std::pair<const char*, PrimitiveType>> kPrimitives{{"points", PrimitiveType::kPoints},
+                                                                     {"lines", PrimitiveType::kLines},
+                                                                     {"line_strip", PrimitiveType::kLineStrip},
+                                                                     {"line_loop", PrimitiveType::kLineLoop},
+                                                                     {"triangles", PrimitiveType::kTriangles},
+                                                                     {"triangle_strip", PrimitiveType::kTriangleStrip},
+                                                                     {"triangle_fan", PrimitiveType::kTriangleFan},
+                                                                     {"quads", PrimitiveType::kQuads},
+                                                                     {"quad_strip", PrimitiveType::kQuadStrip},
+                                                                     {"polygon", PrimitiveType::kPolygon}};
+
+Mesh parse_inline(ObjectReader& reader) {
   Mesh mesh;
-  if (const Value primitive = reader.find("primitive"); primitive && text(primitive) != "triangles")
-    fail(primitive.pointer, "\"triangles\" (all that the reference covers)");
+  if (const Value primitive = reader.find("primitive")) mesh.primitive = choice(primitive, kPrimitives);
   const Value positions = reader.require("positions");
   for (std::size_t i = 0; i < array_size(positions); ++i) {
     if (array_size(positions[i]) == 4) {
@@ -33,21 +44,23 @@ Mesh parse_inline(ObjectReader& reader, const std::string& pointer) {
   for_each_vertex("normals", [&](const Value& v) { mesh.normals.push_back(vec3(v)); });
   for_each_vertex("colors", [&](const Value& v) { mesh.colors.push_back(vec4(v)); });
   for_each_vertex("color_indices", [&](const Value& v) { mesh.color_indices.push_back(number(v)); });
-  for_each_vertex("texcoords", [](const Value& v) { numbers<2>(v); });  // without textures they have no effect
+  for_each_vertex("texcoords", [&](const Value& v) { mesh.texcoords.push_back(numbers<2>(v)); });
 
-  if (const Value indices = reader.find("indices")) {
+  const Value indices = reader.find("indices");
+  if (indices) {
     for (std::size_t i = 0; i < array_size(indices); ++i)
       mesh.indices.push_back(
           static_cast<std::uint32_t>(integer(indices[i], 0, static_cast<std::int64_t>(mesh.positions.size()) - 1)));
   } else {
     for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
   }
-  if (mesh.indices.size() % 3 != 0) fail(pointer, "three corners for each triangle");
+  if (const std::string expected = wrong_vertex_count(mesh.primitive, mesh.indices.size()); !expected.empty())
+    fail(indices ? indices.pointer : positions.pointer, expected, std::to_string(mesh.indices.size()));
   return mesh;
 }
 
-// Every corner becomes a vertex of its own; polygons fan from their first corner. Normals and colours count only if the
-// file has them at every corner. The file's own materials play no part: a draw names its material.
+// Every corner becomes a vertex of its own; polygons fan from their first corner. Normals, colours and texture coordinates count only
+// if the file has them at every corner. The file's own materials play no part: a draw names its material.
 Mesh load_obj(const std::string& path) {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
@@ -60,7 +73,7 @@ Mesh load_obj(const std::string& path) {
     throw std::runtime_error("cannot read " + path + ": " + error);
 
   Mesh mesh;
-  bool has_normals = true;
+  bool has_normals = true, has_texcoords = true;
   const bool has_colors = attributes.colors.size() == attributes.vertices.size();
   const auto triple = [](const std::vector<tinyobj::real_t>& list, int index) {
     const auto at = 3 * static_cast<std::size_t>(index);
@@ -72,6 +85,10 @@ Mesh load_obj(const std::string& path) {
     mesh.positions.push_back({p.x, p.y, p.z, 1});
     if (corner.normal_index < 0) has_normals = false;
     mesh.normals.push_back(corner.normal_index < 0 ? Vec3{} : triple(attributes.normals, corner.normal_index));
+    if (corner.texcoord_index < 0) has_texcoords = false;
+    const auto texcoord = 2 * static_cast<std::size_t>(std::max(corner.texcoord_index, 0));
+    mesh.texcoords.push_back({});
+    if (has_texcoords) mesh.texcoords.back() = {attributes.texcoords[texcoord], attributes.texcoords[texcoord + 1]};
     if (has_colors) {
       const Vec3 c = triple(attributes.colors, corner.vertex_index);
       mesh.colors.push_back({c.x, c.y, c.z, 1});
@@ -86,6 +103,7 @@ Mesh load_obj(const std::string& path) {
     }
   }
   if (!has_normals) mesh.normals.clear();
+  if (!has_texcoords) mesh.texcoords.clear();
   return mesh;
 }
 
@@ -100,9 +118,9 @@ Mesh parse_mesh(const Value& v, const std::string& name, const std::string& dire
   } else if (const Value file = reader.find("file")) {
     const std::string path = text(file);
     if (!path.ends_with(".obj")) fail(file.pointer, "an .obj file (all that the reference covers)");
-    mesh = load_obj(path.starts_with('/') || directory.empty() ? path : directory + "/" + path);
+    mesh = load_obj(path_in(directory, path));
   } else {
-    mesh = parse_inline(reader, v.pointer);
+    mesh = parse_inline(reader);
   }
   reader.finish();
   mesh.name = name;

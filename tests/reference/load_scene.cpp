@@ -105,10 +105,12 @@ Scene parse_scene(const std::string& json_text, const std::string& directory) {
   if (const Value meshes = reader.find("meshes"))
     for_each_member(meshes,
                     [&](const std::string& name, const Value& v) { scene.meshes.push_back(parse_mesh(v, name, directory)); });
-  reader.only_default("textures", Json::object());
+  if (const Value textures = reader.find("textures"))
+    for_each_member(textures,
+                    [&](const std::string& name, const Value& v) { scene.textures.push_back(parse_texture(v, name, directory)); });
   const Value frame = reader.find("frame");
   reader.finish();
-  scene.frame = frame ? parse_frame(frame, scene) : default_frame(scene);
+  scene.frame = frame ? parse_frame(frame, scene, directory) : default_frame(scene);
   return scene;
 }
 

@@ -18,9 +18,14 @@ double smallest_difference(DepthFormat format, double largest_depth) {
   return std::ldexp(1.0, exponent - kFractionBits);
 }
 
-double depth_offset(const PolygonOffset& offset, const WindowPolygon& polygon, DepthFormat format) {
-  const double slope = offset.factor != 0 ? offset.factor * polygon.depth_slope() : 0;
-  return slope + offset.units * smallest_difference(format, polygon.largest_depth());
+double depth_offset(const PolygonOffset& offset, std::span<const WindowPolygon> triangles, DepthFormat format) {
+  if (triangles.empty()) return 0;
+  double largest_depth = 0;
+  for (const WindowPolygon& triangle : triangles) largest_depth = std::max(largest_depth, triangle.largest_depth());
+  const auto area = [](const WindowPolygon& triangle) { return std::abs(triangle.signed_area()); };
+  const WindowPolygon& largest = *std::ranges::max_element(triangles, {}, area);
+  const double slope = offset.factor != 0 ? offset.factor * largest.depth_slope() : 0;
+  return slope + offset.units * smallest_difference(format, largest_depth);
 }
 
 }  // namespace tessera::reference

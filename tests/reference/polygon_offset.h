@@ -1,7 +1,9 @@
 // What polygon offset adds to the depths of one polygon.
 #pragma once
 
-#include "rasterize.h"
+#include <span>
+
+#include "rasterize_polygon.h"
 #include "scene.h"
 
 namespace tessera::reference {
@@ -10,6 +12,7 @@ namespace tessera::reference {
 /// `largest_depth` (as Direct3D 11). 0 without a depth buffer.
 double smallest_difference(DepthFormat format, double largest_depth);
 
-double depth_offset(const PolygonOffset& offset, const WindowPolygon& polygon, DepthFormat format);
+/// @param triangles  of one polygon. If it is not quite flat, the slope is that of the largest.
+double depth_offset(const PolygonOffset& offset, std::span<const WindowPolygon> triangles, DepthFormat format);
 
 }  // namespace tessera::reference

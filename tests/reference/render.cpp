@@ -1,24 +1,13 @@
 #include "render.h"
 
-#include "clip.h"
+#include "draw_mesh.h"
+#include "draw_raster.h"
 #include "fragment_ops.h"
-#include "fragment_pipeline.h"
-#include "polygon_offset.h"
-#include "rasterize.h"
 #include "sample_buffers.h"
-#include "triangle_shader.h"
-#include "vertex_stage.h"
+#include "window.h"
 
 namespace tessera::reference {
 namespace {
-
-bool is_finite(const Triangle& triangle) {
-  for (const Corner& corner : triangle) {
-    const Vec4 p = corner.position_clip;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w)) return false;
-  }
-  return true;
-}
 
 class Renderer {
  public:
@@ -76,32 +65,10 @@ class Renderer {
     });
   }
 
-  void execute(const Draw& draw) {
-    const Mesh& mesh = scene_.meshes.at(draw.mesh);
-    const Rect viewport = draw.viewport.value_or(buffers_.rect());
-    if (viewport.width == 0 || viewport.height == 0) return;
-    const Rect visible = intersection(intersection(viewport, buffers_.rect()), draw.scissor.value_or(buffers_.rect()));
-    const Window window{viewport, visible, draw.depth_range, camera_.reversed, format_.samples};
-    const ClipVolume volume = clip_volume(camera_, viewport);
-    const DrawColors colors{draw, scene_.light_model, lights_in_eye_space(lights_, camera_.view_from_world), format_, !mesh.colors.empty(),
-                            !mesh.color_indices.empty()};
-    const VertexStage vertices(mesh, draw, camera_);
+  void execute(const Bitmap& bitmap) { draw_bitmap(bitmap, static_cast<std::int32_t>(command_), buffers_); }
+  void execute(const ImageDrawing& drawing) { draw_image(drawing, static_cast<std::int32_t>(command_), buffers_); }
 
-    for (std::size_t t = 0; t < vertices.triangle_count(); ++t) {
-      const Triangle triangle = vertices.triangle(t);
-      if (!is_finite(triangle)) continue;
-      const WindowPolygon polygon(
-          clip_triangle({triangle[0].position_clip, triangle[1].position_clip, triangle[2].position_clip}, volume), window);
-      const std::int64_t area = polygon.signed_area();
-      if (area == 0) continue;
-      const bool is_back = (area < 0) == (draw.front_face == FrontFace::kCcw);
-      if (draw.cull == (is_back ? Cull::kBack : Cull::kFront)) continue;
-      const TriangleShader shader(triangle, is_back, colors);
-      FragmentPipeline pipeline(draw, shader, {static_cast<std::int32_t>(command_), static_cast<std::int32_t>(t), is_back}, buffers_);
-      polygon.for_each_fragment(depth_offset(draw.polygon_offset, polygon, format_.depth),
-                                [&](const Fragment& fragment) { pipeline.take(fragment); });
-    }
-  }
+  void execute(const Draw& draw) { draw_mesh(draw, {scene_, camera_, lights_, static_cast<std::int32_t>(command_)}, buffers_); }
 
   const Scene& scene_;
   const FrameBufferFormat& format_;

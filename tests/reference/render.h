@@ -23,7 +23,7 @@ struct Picture {
   std::vector<AccumPixel> accumulation;     ///< levels of red, green, blue, alpha; empty without an accumulation buffer
   std::vector<std::uint32_t> sample_words;  ///< the word of each sample, those of a pixel side by side: `samples` times as many
   std::vector<std::int32_t> draws;  ///< index in Scene::frame of the draw that wrote any sample's colour last, -1: none since the clear
-  std::vector<std::int32_t> triangles;  ///< and which triangle of its mesh; -1 for the background
+  std::vector<std::int32_t> primitives;  ///< and which primitive of its mesh; -1 for the background
 
   std::size_t pixel(int x, int row_from_top) const {
     return static_cast<std::size_t>(row_from_top) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);

@@ -9,7 +9,7 @@ SampleBuffers::SampleBuffers(const FrameBufferFormat& format) : format_(format),
   samples_.assign(samples, Sample{1, depth_level(format.depth, 1), 0});
   if (format.accumulation_bits > 0) accumulation_.assign(pixels, AccumPixel{});
   commands_.assign(pixels, -1);
-  triangles_.assign(pixels, -1);
+  primitives_.assign(pixels, -1);
 }
 
 std::uint32_t SampleBuffers::resolved(int x, int y) const {
@@ -25,9 +25,9 @@ void SampleBuffers::write_word(int x, int y, std::uint32_t word_in, std::uint32_
   }
 }
 
-void SampleBuffers::sign(int x, int y, std::int32_t command, std::int32_t triangle) {
+void SampleBuffers::sign(int x, int y, std::int32_t command, std::int32_t primitive) {
   commands_[pixel(x, y)] = command;
-  triangles_[pixel(x, y)] = triangle;
+  primitives_[pixel(x, y)] = primitive;
 }
 
 Picture SampleBuffers::picture() const {
@@ -46,7 +46,7 @@ Picture SampleBuffers::picture() const {
   picture.accumulation = accumulation_;
   picture.sample_words = words_;
   picture.draws = commands_;
-  picture.triangles = triangles_;
+  picture.primitives = primitives_;
   return picture;
 }
 

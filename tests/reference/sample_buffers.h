@@ -38,8 +38,8 @@ class SampleBuffers {
   /// The same for all samples of a pixel, through the planes that may change.
   void write_word(int x, int y, std::uint32_t word, std::uint32_t planes);
 
-  /// Notes which triangle of which command wrote the colour last.
-  void sign(int x, int y, std::int32_t command, std::int32_t triangle);
+  /// Notes which primitive of which command wrote the colour last.
+  void sign(int x, int y, std::int32_t command, std::int32_t primitive);
 
   /// Everything as it is now.
   Picture picture() const;
@@ -55,7 +55,7 @@ class SampleBuffers {
   std::vector<std::uint32_t> words_;  // a pixel's samples lie together; rows from the top
   std::vector<Sample> samples_;
   std::vector<AccumPixel> accumulation_;  // empty without the buffer
-  std::vector<std::int32_t> commands_, triangles_;
+  std::vector<std::int32_t> commands_, primitives_;
 };
 
 }  // namespace tessera::reference

@@ -86,25 +86,66 @@ struct Material {
   std::optional<std::array<double, 3>> color_indexes;
 };
 
+// ---- Textures
+
+/// Levels of 8 bits, row by row from the bottom, the channels of a pixel side by side: luminance, luminance and alpha, RGB or RGBA.
+struct Image {
+  int width = 0, height = 0;
+  int channels = 0;                  ///< 1 to 4
+  std::vector<std::uint8_t> levels;
+};
+
+enum class MagFilter { kNearest, kLinear };
+enum class MinFilter { kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear };
+enum class Wrap { kRepeat, kClampToEdge, kMirroredRepeat };
+
+/// One row high: a 1-D texture, of which t has no say.
+struct Texture {
+  std::string name;
+  Image image;
+  MagFilter mag = MagFilter::kLinear;
+  MinFilter min = MinFilter::kLinearMipmapLinear;
+  Wrap wrap_s = Wrap::kRepeat;
+  Wrap wrap_t = Wrap::kRepeat;
+};
+
+enum class TextureEnv { kModulate, kReplace, kDecal, kBlend, kAdd };
+
 // ---- Meshes
 
-/// Independent triangles: indices[3 i], indices[3 i + 1], indices[3 i + 2] are the corners of triangle i in winding order.
+enum class PrimitiveType {
+  kPoints,
+  kLines,
+  kLineStrip,
+  kLineLoop,
+  kTriangles,
+  kTriangleStrip,
+  kTriangleFan,
+  kQuads,
+  kQuadStrip,
+  kPolygon
+};
+
+/// A list of vertices and what they make up, as glBegin() and glDrawElements() take them (see primitives.h).
 struct Mesh {
   std::string name;
+  PrimitiveType primitive = PrimitiveType::kTriangles;
   std::vector<Vec4> positions;       ///< object space, w = 1 unless the scene gives it
   std::vector<Vec3> normals;         ///< one for each position, or empty: the mesh has none (see generated_normals.h)
   std::vector<Vec4> colors;          ///< RGBA, one for each position, or empty: the mesh has none
+  std::vector<std::array<double, 2>> texcoords;  ///< s and t, one for each position, or empty: 0, 0 everywhere
   std::vector<double> color_indices;   ///< palette indices, one for each position, or empty; unlit draws into index buffers use them
-  std::vector<std::uint32_t> indices;  ///< a multiple of 3, all below positions.size()
+  std::vector<std::uint32_t> indices;  ///< as many as the primitive needs, all below positions.size()
 };
 
 // ---- What happens in a frame
 
 enum class Shading { kFlat, kGouraud, kPhong };
 enum class ColorMaterial { kNone, kAmbientAndDiffuse, kDiffuse, kAmbient, kEmission, kSpecular };
-enum class ProvokingVertex { kLast, kFirst };  ///< of a triangle: its third or its first corner
+enum class ProvokingVertex { kLast, kFirst };  ///< see primitives.h
 enum class Cull { kNone, kBack, kFront };
 enum class FrontFace { kCcw, kCw };
+enum class PolygonMode { kFill, kLine, kPoint };
 
 /// Clears the buffers named, through full masks.
 struct Clear {
@@ -126,7 +167,26 @@ struct Accum {
   std::array<bool, 4> color_mask{true, true, true, true};  ///< of kReturn
 };
 
-struct Draw {
+/// What happens to fragments on their way into the buffers.
+struct FragmentState {
+  std::optional<Rect> scissor;         ///< absent: off; so the other optional ones
+  std::optional<AlphaTest> alpha_test;
+  std::optional<StencilState> stencil;
+  std::optional<DepthState> depth = DepthState{};  ///< absent: no depth test and no depth write
+  std::optional<Blend> blend;
+  LogicOp logic_op = LogicOp::kCopy;
+  std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
+  std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
+};
+
+/// Instead of the object its shadow: flattened onto a plane, unlit and untextured (see planar_shadow.h).
+struct ShadowOn {
+  Vec4 plane;                          ///< a, b, c, d of a x + b y + c z + d = 0 in world space
+  std::size_t light = 0;               ///< number in the list of lights in force
+  Vec4 color{0, 0, 0, 1};
+};
+
+struct Draw : FragmentState {
   std::size_t mesh = 0;                ///< index into Scene::meshes
   Material material;                   ///< front faces, and back faces too unless lighting is two-sided
   Material back_material;              ///< back faces under two-sided lighting
@@ -139,17 +199,34 @@ struct Draw {
   bool normalize = true;               ///< eye-space normals are normalized at the vertices
   Cull cull = Cull::kNone;
   FrontFace front_face = FrontFace::kCcw;
-  std::optional<AlphaTest> alpha_test;   ///< absent: off; so the other optional ones
-  std::optional<StencilState> stencil;
-  std::optional<DepthState> depth = DepthState{};  ///< absent: no depth test and no depth write
-  std::optional<Blend> blend;
-  LogicOp logic_op = LogicOp::kCopy;
+  /// Of front and of back faces. Lines are the boundary of the polygon, or of what clipping leaves of it, points its corners.
+  std::array<PolygonMode, 2> polygon_mode{PolygonMode::kFill, PolygonMode::kFill};
   std::array<double, 2> depth_range{0, 1};
   PolygonOffset polygon_offset;
-  std::array<bool, 4> color_mask{true, true, true, true};  ///< R, G, B, A
-  std::uint32_t plane_mask = 0xffffffffu;  ///< bit k: bitplane k of the colour word A:R:G:B (or of the index) may change
+  double point_size = 1;               ///< in pixels, above 0
+  double line_width = 1;
+  std::optional<std::size_t> texture;  ///< index into Scene::textures; it has no say where a palette index is drawn
+  TextureEnv texture_env = TextureEnv::kModulate;
+  Vec4 texture_env_color{0, 0, 0, 0};
+  std::optional<ShadowOn> shadow_on;   ///< absent: the object itself
   std::optional<Rect> viewport;        ///< absent: the whole buffer
-  std::optional<Rect> scissor;         ///< absent: off
+};
+
+/// Bits at a window position: each that is set is a pixel of one colour, whose lower left corner lies at whole coordinates.
+struct Bitmap : FragmentState {
+  std::array<double, 2> at{0, 0};      ///< window coordinates of the lower left corner, rounded down
+  double raster_depth = 0;             ///< in the window, 0..1
+  int width = 0, height = 0;
+  std::vector<bool> bits;              ///< row by row from the bottom
+  Vec4 color{1, 1, 1, 1};
+};
+
+/// An image at a window position, each of its pixels a rectangle of the zoom's size.
+struct ImageDrawing : FragmentState {
+  std::array<double, 2> at{0, 0};      ///< window coordinates of the lower left corner of the lower left pixel
+  double raster_depth = 0;             ///< in the window, 0..1
+  Image image;
+  std::array<double, 2> zoom{1, 1};    ///< of x and y; below 0 the image extends to the left or downwards
 };
 
 /// The camera from here on.
@@ -162,7 +239,7 @@ struct LightsChange {
   std::vector<Light> lights;
 };
 
-using Command = std::variant<Clear, Draw, Accum, CameraChange, LightsChange>;
+using Command = std::variant<Clear, Draw, Bitmap, ImageDrawing, Accum, CameraChange, LightsChange>;
 
 struct Scene {
   std::string title;
@@ -171,6 +248,7 @@ struct Scene {
   LightModel light_model;
   std::vector<Light> lights;           ///< in force at the start of the frame
   std::map<std::string, Material> materials;
+  std::vector<Texture> textures;       ///< in the order of the file
   std::vector<Mesh> meshes;            ///< in the order of the file
   std::vector<Command> frame;          ///< in order; the default frame if the scene has none
 };

@@ -32,24 +32,27 @@ VertexStage::VertexStage(const Mesh& mesh, const Draw& draw, const Camera& camer
   if (mesh.normals.empty() && draw.lighting && draw.shading != Shading::kFlat) mean_normals_ = mean_face_normals(mesh);
 }
 
-Vec3 VertexStage::object_normal(std::size_t triangle, std::uint32_t vertex) const {
+Vec3 VertexStage::object_normal(std::size_t primitive, std::uint32_t vertex) const {
   if (!mesh_.normals.empty()) return mesh_.normals[vertex];
-  return draw_.shading == Shading::kFlat ? face_normal(mesh_, triangle) : mean_normals_[vertex];
+  return draw_.shading == Shading::kFlat ? face_normal(mesh_, primitive) : mean_normals_[vertex];
 }
 
-Triangle VertexStage::triangle(std::size_t index) const {
-  Triangle corners;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t vertex = mesh_.indices[3 * index + i];
+Corners VertexStage::corners(std::size_t index) const {
+  const Primitive primitive = reference::primitive(mesh_, index, draw_.provoking_vertex);
+  Corners corners{{}, primitive.provoking};
+  for (const std::uint32_t vertex : primitive.vertices) {
+    Corner corner;
     const Vec4 eye = transform(eye_from_object_, mesh_.positions[vertex]);
-    corners[i].position_clip = transform(clip_from_eye_, eye);
-    corners[i].position_eye = {eye.x / eye.w, eye.y / eye.w, eye.z / eye.w};
+    corner.position_clip = transform(clip_from_eye_, eye);
+    corner.position_eye = {eye.x / eye.w, eye.y / eye.w, eye.z / eye.w};
     if (draw_.lighting) {
       const Vec3 normal = transform_direction(normal_matrix_, object_normal(index, vertex));
-      corners[i].normal_eye = draw_.normalize ? normalize(normal) : normal;
+      corner.normal_eye = draw_.normalize ? normalize(normal) : normal;
     }
-    if (!mesh_.colors.empty()) corners[i].color = mesh_.colors[vertex];
-    if (!mesh_.color_indices.empty()) corners[i].index = mesh_.color_indices[vertex];
+    if (!mesh_.colors.empty()) corner.color = mesh_.colors[vertex];
+    if (!mesh_.texcoords.empty()) corner.texcoord = {mesh_.texcoords[vertex][0], mesh_.texcoords[vertex][1]};
+    if (!mesh_.color_indices.empty()) corner.index = mesh_.color_indices[vertex];
+    corners.all.push_back(corner);
   }
   return corners;
 }

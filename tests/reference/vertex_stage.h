@@ -1,10 +1,11 @@
-// The corners of a draw in eye and clip space.
+// The corners of a draw's primitives in eye and clip space.
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "primitives.h"
 #include "scene.h"
+#include "texture_sampler.h"
 
 namespace tessera::reference {
 
@@ -13,21 +14,26 @@ struct Corner {
   Vec3 position_eye;
   Vec3 normal_eye;  ///< normalized if the draw says so; null if the draw is unlit
   Vec4 color;       ///< the vertex colour as given; unused if the mesh has none
+  TexCoord texcoord;
   double index = 0; ///< the palette index as given; unused if the mesh has none
 };
 
-using Triangle = std::array<Corner, 3>;
+/// The corners of one point, line or polygon, in the order of Primitive::vertices.
+struct Corners {
+  std::vector<Corner> all;
+  std::size_t provoking = 0;
+};
 
-/// The triangles of a mesh under one draw and one camera, one at a time.
+/// The primitives of a mesh under one draw and one camera, one at a time.
 class VertexStage {
  public:
   VertexStage(const Mesh& mesh, const Draw& draw, const Camera& camera);
 
-  std::size_t triangle_count() const { return mesh_.indices.size() / 3; }
-  Triangle triangle(std::size_t index) const;
+  std::size_t primitive_count() const { return reference::primitive_count(mesh_); }
+  Corners corners(std::size_t primitive) const;
 
  private:
-  Vec3 object_normal(std::size_t triangle, std::uint32_t vertex) const;
+  Vec3 object_normal(std::size_t primitive, std::uint32_t vertex) const;
 
   const Mesh& mesh_;
   const Draw& draw_;

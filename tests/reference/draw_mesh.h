@@ -1,0 +1,22 @@
+// Drawing a mesh: each of its primitives is clipped, rasterized, shaded and stored, one after the other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sample_buffers.h"
+#include "scene.h"
+
+namespace tessera::reference {
+
+/// What is in force at a draw.
+struct FrameState {
+  const Scene& scene;
+  const Camera& camera;
+  const std::vector<Light>& lights;
+  std::int32_t command = 0;  ///< index in Scene::frame
+};
+
+void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers);
+
+}  // namespace tessera::reference
