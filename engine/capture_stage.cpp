@@ -12,14 +12,14 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
   normal_program_.needs_normal = normal_program_.renormalize = true;
   if (!capture.primitives.empty()) {
     std::size_t most = 0;
-    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->triangles);
+    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->elements);
     numbers_.resize(most);
     std::iota(numbers_.begin(), numbers_.end(), 0u);
     for (const GeometryDraw& geometry : commands.geometry) {
       std::vector<std::uint32_t>& numbers = polygon_numbers_.emplace_back();
       const std::size_t each = geometry.mesh->polygon_triangles();
       if (each < 2) continue;
-      numbers.resize(geometry.mesh->triangles);
+      numbers.resize(geometry.mesh->elements);
       for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
     }
   }

@@ -14,6 +14,8 @@ namespace tessera {
 struct DrawPlan {
   VertexTransform transform;
   EyeTransform eye;
+  Topology topology = Topology::triangles;
+  float size = 1;                 ///< of points, or the lines' width, pixels
   PixelRect rect;                 ///< where pixels may change, raster space
   bool keep_front = true, keep_back = true, front_is_clockwise = false;
   bool invisible = false;         ///< no buffer can change

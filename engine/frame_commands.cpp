@@ -157,7 +157,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   for (std::size_t i = 0; i < recording.draws.size(); ++i) {
     first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
     DrawPlan plan = plan_draw(recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
-    if (plan.invisible || recording.draws[i].mesh.triangles == 0) continue;
+    if (plan.invisible || recording.draws[i].mesh.elements == 0) continue;
     commands.plans.push_back(std::move(plan));
     commands.plan_draw.push_back(i);
   }
@@ -247,6 +247,8 @@ void connect_draws(FrameCommands& commands) {
     const DrawPlan& plan = *geometry.plan;
     DrawBuffers& buffers = *geometry.buffers;
     TileDraw draw;
+    draw.topology = plan.topology;
+    draw.size = plan.size;
     draw.vertices = buffers.vertices.data();
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();

@@ -25,10 +25,18 @@ std::vector<Range> cut_into_tasks(const std::vector<GeometryDraw>& draws, bool t
   std::vector<Range> tasks;
   for (std::size_t d = 0; d < draws.size(); ++d) {
     if (triangles && !draws[d].plan->colors_triangles()) continue;
-    const std::size_t count = triangles ? draws[d].mesh->triangles : draws[d].mesh->vertices;
+    const std::size_t count = triangles ? draws[d].mesh->elements : draws[d].mesh->vertices;
     for (std::size_t first = 0; first < count; first += kVerticesPerTask) tasks.push_back({d, first, std::min(count, first + kVerticesPerTask)});
   }
   return tasks;
+}
+
+void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
+  switch (draw.topology) {
+    case Topology::points: return bin_points(bins, grid, draw, first, last);
+    case Topology::lines: return bin_lines(bins, grid, draw, first, last);
+    case Topology::triangles: return bin_triangles(bins, grid, draw, first, last, isa);
+  }
 }
 
 /// Seconds since it was last asked.
@@ -107,6 +115,9 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
     const DrawPlan& plan = *geometry.plan;
     BinDraw draw;
     draw.draw = static_cast<std::uint32_t>(d);
+    draw.topology = plan.topology;
+    draw.size = plan.size;
+    draw.samples = samples;
     draw.vertices = geometry.buffers->vertices.data();
     draw.indices = geometry.indices();
     draw.codes = geometry.buffers->codes.data();
@@ -126,7 +137,7 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
   }
   std::vector<Range> polygons;
   for (std::size_t d = 0; d < draws.size(); ++d) {
-    const std::size_t count = draws[d].facing != nullptr ? commands.geometry[d].mesh->triangles : 0;
+    const std::size_t count = draws[d].facing != nullptr ? commands.geometry[d].mesh->elements : 0;
     for (std::size_t first = 0; first < count; first += kTrianglesPerBatch) polygons.push_back({d, first, std::min(count, first + kTrianglesPerBatch)});
   }
   parallel.for_each(polygons.size(), [&](std::size_t i, int) {
@@ -138,9 +149,9 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
 }
 
 std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch) {
-  std::vector<std::size_t> first_triangle{0};  // of each draw, counted through the frame
-  for (const GeometryDraw& draw : commands.geometry) first_triangle.push_back(first_triangle.back() + draw.mesh->triangles);
-  const std::size_t total = first_triangle.back();
+  std::vector<std::size_t> first_element{0};  // of each draw, counted through the frame
+  for (const GeometryDraw& draw : commands.geometry) first_element.push_back(first_element.back() + draw.mesh->elements);
+  const std::size_t total = first_element.back();
   const std::size_t batches = std::clamp<std::size_t>(total / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
   if (bins.size() < batches) bins.resize(batches);
   const std::vector<BinDraw> draws = prepare_bins(commands, samples);
@@ -149,9 +160,8 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     bins[b].reset(grid.count());
     const std::size_t begin = total * b / batches, end = total * (b + 1) / batches;
     for (std::size_t d = 0; d < draws.size(); ++d) {
-      const std::size_t low = std::max(begin, first_triangle[d]), high = std::min(end, first_triangle[d + 1]);
-      if (low < high)
-        bin_triangles(bins[b], grid, draws[d], static_cast<std::uint32_t>(low - first_triangle[d]), static_cast<std::uint32_t>(high - first_triangle[d]), isa);
+      const std::size_t low = std::max(begin, first_element[d]), high = std::min(end, first_element[d + 1]);
+      if (low < high) bin_elements(bins[b], grid, draws[d], static_cast<std::uint32_t>(low - first_element[d]), static_cast<std::uint32_t>(high - first_element[d]), isa);
     }
     watch.task_done();
   });

@@ -174,15 +174,19 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
   }
 }
 
+ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t element, int corner, int attribute_count) {
+  ClipVertex vertex;
+  const std::uint32_t i = vertex_index(draw, element, corner);
+  const float* p = draw.positions.at(i);
+  vertex.position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
+  const float* a = draw.attributes + std::size_t{i} * static_cast<std::size_t>(draw.attribute_stride);
+  for (int j = 0; j < attribute_count; ++j) vertex.attributes[j] = a[j];
+  return vertex;
+}
+
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count) {
-  ClipVertex corners[3];
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t i = vertex_index(draw, triangle, k);
-    const float* p = draw.positions.at(i);
-    corners[k].position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
-    const float* a = draw.attributes + std::size_t{i} * static_cast<std::size_t>(draw.attribute_stride);
-    for (int j = 0; j < attribute_count; ++j) corners[k].attributes[j] = a[j];
-  }
+  const ClipVertex corners[3] = {clip_vertex(draw, triangle, 0, attribute_count), clip_vertex(draw, triangle, 1, attribute_count),
+                                 clip_vertex(draw, triangle, 2, attribute_count)};
   WindowPolygon polygon;
   polygon.clipped = clip_triangle(*draw.transform, corners, codes, attribute_count);
   for (int i = 0; i < polygon.clipped.count; ++i) polygon.window[i] = project(*draw.transform, polygon.clipped.vertices[i].position);

@@ -12,6 +12,7 @@
 #include "framebuffer/tile_grid.h"
 #include "raster/clip.h"
 #include "raster/polygon_facing.h"
+#include "raster/topology.h"
 #include "raster/vertex_transform.h"
 
 namespace tessera {
@@ -81,6 +82,7 @@ class Bins {
 /// What binning needs of a draw.
 struct BinDraw {
   std::uint32_t draw = 0;                    ///< its number in the frame
+  Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;    ///< null: vertices in order
   const std::uint8_t* codes = nullptr;
@@ -96,15 +98,20 @@ struct BinDraw {
   int components = 3;
   const float* attributes = nullptr;
   int attribute_count = 0, attribute_stride = 0;
+  // Points and lines.
+  float size = 1;                            ///< of points, or the lines' width
+  int samples = 1;
 };
 
 /// True for a triangle whose snapped area faces the viewer; `area` is its doubled area in raster space (y down).
 constexpr bool is_front(double area, bool front_is_clockwise) { return (area < 0) != front_is_clockwise; }
 
-inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t triangle, int corner) {
-  const std::uint32_t i = triangle * 3 + static_cast<std::uint32_t>(corner);
+inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, int corner) {
+  const std::uint32_t i = element * static_cast<std::uint32_t>(draw.topology) + static_cast<std::uint32_t>(corner);
   return draw.indices ? draw.indices[i] : i;
 }
+/// A corner with its attributes, before clipping.
+ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t element, int corner, int attribute_count);
 
 /// A triangle after clipping, in the window.
 struct WindowPolygon {
@@ -118,6 +125,11 @@ WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::u
 constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
   return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
 }
+
+/// Points whose centres are outside of the view volume are not drawn [GL 2.1, 2.12]; lines are clipped to its near and far planes and to
+/// the guard band.
+void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last);
+void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last);
 
 /// Culls and bins triangles [first, last) of a draw.
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa);

@@ -5,6 +5,12 @@
 namespace tessera {
 namespace {
 
+// Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
+constexpr ClipCode kPlanes[] = {kBeforeNear, kBehindFar, kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand};
+// A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the first cut every plane is
+// looked at.
+bool is_looked_at(ClipCode plane, std::uint8_t codes) { return (codes & (plane | kBeforeNear | kBehindFar)) != 0; }
+
 // How far inside a plane a position lies; negative outside.
 double distance(const VertexTransform& t, ClipCode plane, const ClipPosition& p) {
   switch (plane) {
@@ -33,11 +39,8 @@ ClipVertex cut(const ClipVertex& inner, const ClipVertex& outer, double inner_di
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count) {
   ClippedPolygon polygon;
   for (const ClipVertex& v : triangle) polygon.vertices[polygon.count++] = v;
-  // Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
-  for (const ClipCode plane : {kBeforeNear, kBehindFar, kNoPositiveW, kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand}) {
-    // A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the first cut
-    // every plane is looked at.
-    if (plane == kNoPositiveW || ((codes & plane) == 0 && (codes & (kBeforeNear | kBehindFar)) == 0)) continue;
+  for (const ClipCode plane : kPlanes) {
+    if (!is_looked_at(plane, codes)) continue;
     ClippedPolygon kept;
     const auto keep = [&kept](const ClipVertex& v) {  // a convex polygon gains one vertex a plane; only rounding could make more
       if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;
@@ -56,6 +59,21 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
   for (int i = 0; i < polygon.count; ++i)
     if (!(polygon.vertices[i].position.w > 0)) return {};  // touches the eye's plane in a single point: no pixel
   return polygon;
+}
+
+bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t codes, int attribute_count) {
+  for (const ClipCode plane : kPlanes) {
+    if (!is_looked_at(plane, codes)) continue;
+    const double d0 = distance(transform, plane, line[0].position), d1 = distance(transform, plane, line[1].position);
+    if (!(d0 >= 0 || d1 >= 0)) return false;
+    if (d0 < 0) line[0] = cut(line[1], line[0], d1, d0, attribute_count);
+    if (d1 < 0) line[1] = cut(line[0], line[1], d0, d1, attribute_count);
+  }
+  return line[0].position.w > 0 && line[1].position.w > 0;
+}
+
+bool is_in_view(const VertexTransform& transform, const ClipPosition& p) {
+  return p.w > 0 && std::abs(p.x) <= p.w && std::abs(p.y) <= p.w && distance(transform, kBeforeNear, p) >= 0 && distance(transform, kBehindFar, p) >= 0;
 }
 
 }  // namespace tessera

@@ -233,9 +233,7 @@ struct SampledBlocks {
 HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
   const int face = back ? 1 : 0;
   if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;
-  const std::size_t corner = std::size_t{source} * 3 + static_cast<std::size_t>(draw.provoking);
-  const std::size_t vertex = draw.indices ? draw.indices[corner] : corner;
-  return draw.attributes + vertex * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
+  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
 }
 
 template <class Depth>

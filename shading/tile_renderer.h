@@ -30,11 +30,13 @@ enum class ColorSource : std::uint8_t {
 
 /// What the tiles need of a draw. Pointers are the frame's.
 struct TileDraw {
+  Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
   const float* attributes = nullptr;       ///< attribute_stride floats for each vertex
   int attribute_stride = 0, attribute_count = 0;
-  int provoking = 2;                       ///< corner of the triangle
+  int provoking = 2;                       ///< corner of each point, line or triangle
+  float size = 1;                          ///< of points in pixels, or the lines' width
   PixelRect rect;                          ///< scissor, viewport and frame buffer, raster space
   bool front_is_clockwise = false;
   const Facing* facing = nullptr;          ///< of each triangle, where it is its polygon's; null: its own area decides

@@ -112,6 +112,13 @@ void read_target(const Object& object, const Scene& scene, DrawState& state) {
   if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
 }
 
+// Of points and lines, in pixels.
+float read_size(const Value& value) {
+  const float size = value.real();
+  if (!(size > 0)) value.fail("a number above 0");
+  return size;
+}
+
 DrawCommand read_draw(const Value& value, const Names& names) {
   const Object object(value,
                       {"draw", "material", "back_material", "transform", "shading", "lighting", "color_material", "provoking_vertex", "normalize",
@@ -130,8 +137,8 @@ DrawCommand read_draw(const Value& value, const Names& names) {
       for (const char* back : {"fill", "line", "point"}) others.push_back(Json{front, back});
     object.only_default("polygon_mode", "fill", others);
   }
-  object.only_default("point_size", 1);
-  object.only_default("line_width", 1);
+  if (const auto size = object.find("point_size")) draw.state.point_size = read_size(*size);
+  if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
   object.only_default("texture_env", "modulate", {"replace", "decal", "blend", "add"});
   object.only_default("texture_env_color", {0, 0, 0, 0});
   object.only_default("stages", Json::array());
