@@ -274,9 +274,16 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   plan_transform(plan, draw, target);
   plan.topology = draw.mesh.topology();
   const bool has_faces = plan.topology == Topology::triangles;
-  plan.size = plan.topology == Topology::points ? state.point_size : state.line_width;
+  plan.point_size = state.point_size;
+  plan.line_width = state.line_width;
   plan.keep_front = state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
   plan.keep_back = state.cull != Cull::back && has_faces;
+  static_assert(static_cast<int>(PolygonMode::point) == static_cast<int>(PolygonStyle::point));
+  const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode, plan.keep_back ? state.back_mode : state.front_mode};
+  for (int face = 0; face < 2 && has_faces; ++face) {
+    plan.style[face] = static_cast<PolygonStyle>(modes[face]);
+    plan.outlines |= modes[face] != PolygonMode::fill;
+  }
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
   plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
@@ -303,7 +310,8 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   }
   const bool has_offset = plan.offset_factor != 0 || plan.offset_units != 0;
   if (reasons && has_offset) *reasons += "  polygon offset\n";
-  plan.has_ops = fragments.needed || has_offset;
+  if (reasons && plan.outlines) *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
+  plan.has_ops = fragments.needed || has_offset || plan.outlines;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
   plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
   if (capture_normals && plan.write_mask != 0) {

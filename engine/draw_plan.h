@@ -15,7 +15,9 @@ struct DrawPlan {
   VertexTransform transform;
   EyeTransform eye;
   Topology topology = Topology::triangles;
-  float size = 1;                 ///< of points, or the lines' width, pixels
+  float point_size = 1, line_width = 1;  ///< pixels
+  bool outlines = false;          ///< some faces are drawn as lines or points
+  PolygonStyle style[2] = {};     ///< of fronts and backs
   PixelRect rect;                 ///< where pixels may change, raster space
   bool keep_front = true, keep_back = true, front_is_clockwise = false;
   bool invisible = false;         ///< no buffer can change

@@ -35,8 +35,10 @@ void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
   switch (draw.topology) {
     case Topology::points: return bin_points(bins, grid, draw, first, last);
     case Topology::lines: return bin_lines(bins, grid, draw, first, last);
-    case Topology::triangles: return bin_triangles(bins, grid, draw, first, last, isa);
+    case Topology::triangles: break;
   }
+  if (draw.modes != nullptr) return bin_polygons(bins, grid, draw, first, last, isa);
+  bin_triangles(bins, grid, draw, first, last, isa);
 }
 
 /// Seconds since it was last asked.
@@ -114,9 +116,9 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
     const GeometryDraw& geometry = commands.geometry[d];
     const DrawPlan& plan = *geometry.plan;
     BinDraw draw;
-    draw.draw = static_cast<std::uint32_t>(d);
+    draw.draw = commands.first_tile_draw[d];
     draw.topology = plan.topology;
-    draw.size = plan.size;
+    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
     draw.samples = samples;
     draw.vertices = geometry.buffers->vertices.data();
     draw.indices = geometry.indices();
@@ -133,6 +135,14 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
     draw.components = geometry.mesh->components;
     draw.attributes = geometry.buffers->attributes.data();
     draw.attribute_count = draw.attribute_stride = plan.attribute_count;
+    if (plan.outlines) {
+      PolygonModes& modes = geometry.buffers->modes;
+      modes = {.style = {plan.style[0], plan.style[1]}, .line_width = plan.line_width, .point_size = plan.point_size, .triangles = geometry.mesh->polygon_triangles(),
+               .boundary = geometry.buffers->boundary.data(), .offset_factor = plan.offset_factor, .offset_units = plan.offset_units};
+      std::uint32_t number = draw.draw;
+      for (const PolygonStyle style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
+      draw.modes = &modes;
+    }
     draws.push_back(draw);
   }
   std::vector<Range> polygons;

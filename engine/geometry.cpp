@@ -171,6 +171,17 @@ void assemble_elements(const GeometryDraw& draw) {
   }
 }
 
+// Around the first triangle, with what each further one adds before its end.
+void list_boundaries(const GeometryDraw& draw) {
+  const MeshArrays& mesh = *draw.mesh;
+  const std::size_t each = mesh.polygon_triangles(), polygons = mesh.elements / each;
+  std::uint32_t* out = draw.buffers->boundary.resize(polygons * (each + 2));
+  for (std::size_t first = 0; first < mesh.elements; first += each) {
+    for (const std::size_t corner : element_corners(mesh.primitive, draw.provoking_vertex, mesh.corners, first)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+    for (std::size_t t = first + 1; t < first + each; ++t) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
+  }
+}
+
 void clear_batch(ShadingBatch& batch) {
   for (auto& field : batch.field) std::fill(std::begin(field), std::end(field), 0.0f);
 }
@@ -189,7 +200,8 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
   if (draw.makes_indices()) assemble_elements(draw);
-  buffers.facing.resize(draw.mesh->polygon_triangles() > 1 ? triangles : 0);
+  buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
+  if (plan.outlines) list_boundaries(draw);
   buffers.normals.clear();
   if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
   if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);

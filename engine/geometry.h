@@ -20,7 +20,9 @@ struct DrawBuffers {
   Scratch<std::uint32_t> words[2];
   Scratch<float> face_colors[2];         ///< r g b a for each triangle, of flat draws with operations
   Scratch<std::uint32_t> indices;        ///< of elements: widened from 16 bits, or made of other primitives
-  Scratch<Facing> facing;                ///< of each triangle, where several make a polygon
+  Scratch<Facing> facing;                ///< of each triangle, where several make a polygon or outlines are drawn
+  Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
+  PolygonModes modes;
   std::vector<float> normals;            ///< generated
   std::vector<float> captured_normals;   ///< generated, where a capture wants normals
   std::atomic<bool> any_code = false;    ///< some vertex has a clip code
@@ -42,7 +44,8 @@ struct GeometryDraw {
   /// As many for each element as it has corners, of 32 bits, or null: vertices in order. @pre prepare_geometry
   const std::uint32_t* indices() const { return makes_indices() ? buffers->indices.data() : mesh->indices; }
   /// Of each triangle, or null: its own area decides. @pre face_polygons
-  const Facing* facing() const { return mesh->polygon_triangles() > 1 ? buffers->facing.data() : nullptr; }
+  const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
+  bool faces_polygons() const { return plan->outlines || mesh->polygon_triangles() > 1; }
 };
 
 /// Takes the memory and makes normals where the mesh has none. Throws std::bad_alloc.

@@ -22,11 +22,12 @@ inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
 inline constexpr std::uint32_t kClippedTriangle = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
 inline constexpr std::uint32_t kMaxTriangles = kClippedTriangle - 1;
 
-/// A piece of a triangle that clipping cut, with its own vertices.
+/// A piece of a triangle or line that clipping cut, or an edge or corner of a polygon, with its own vertices.
 struct ClippedTriangle {
   WindowVertex vertices[3];
   float attributes[3][kMaxAttributes + kAttributePadding] = {};
-  std::uint32_t source;  ///< the triangle that it was cut from
+  std::uint32_t source;  ///< the element that it was cut from
+  double depth_offset = 0;  ///< edges and corners: their polygon's, in units of depth words (unorm) or of depth
 };
 
 struct BinCounts {
@@ -79,6 +80,19 @@ class Bins {
   std::size_t used_ = 0;
 };
 
+/// How polygons are drawn: filled, as their boundary's lines, or as points at their corners.
+enum class PolygonStyle : std::uint8_t { fill, line, point };
+
+/// What binning needs besides of a draw whose polygons are not all filled.
+struct PolygonModes {
+  PolygonStyle style[2] = {};                ///< of fronts and backs
+  std::uint32_t draw[3] = {};                ///< the numbers in the frame of what is filled, of lines, of points
+  float line_width = 1, point_size = 1;
+  std::size_t triangles = 1;                 ///< that each polygon was split into
+  const std::uint32_t* boundary = nullptr;   ///< the vertices of each polygon, two more than triangles
+  float offset_factor = 0, offset_units = 0;
+};
+
 /// What binning needs of a draw.
 struct BinDraw {
   std::uint32_t draw = 0;                    ///< its number in the frame
@@ -101,6 +115,7 @@ struct BinDraw {
   // Points and lines.
   float size = 1;                            ///< of points, or the lines' width
   int samples = 1;
+  const PolygonModes* modes = nullptr;       ///< null: polygons are filled
 };
 
 /// True for a triangle whose snapped area faces the viewer; `area` is its doubled area in raster space (y down).
@@ -130,6 +145,13 @@ constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, cons
 /// the guard band.
 void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last);
 void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last);
+
+/// Polygons that begin in triangles [first, last), each in the style of the face that is seen. Of what clipping leaves of a polygon the edges
+/// that clipping made are lines, too. Throws std::bad_alloc. @pre draw.modes and draw.facing
+void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa);
+/// Pieces of points and lines that stand last in the list of clipped ones. False if they are outside.
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw);
+bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 
 /// Culls and bins triangles [first, last) of a draw.
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa);

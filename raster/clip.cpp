@@ -1,6 +1,7 @@
 #include "raster/clip.h"
 
 #include <cmath>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -34,6 +35,18 @@ ClipVertex cut(const ClipVertex& inner, const ClipVertex& outer, double inner_di
   return v;
 }
 
+// What of a polygon is inside of one plane, vertex by vertex.
+template <class Keep>
+void keep_inside(const VertexTransform& transform, ClipCode plane, const ClipVertex* vertices, int count, int attribute_count, const Keep& keep) {
+  for (int i = 0; i < count; ++i) {
+    const ClipVertex &a = vertices[i], &b = vertices[i + 1 == count ? 0 : i + 1];
+    const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
+    if (da >= 0) keep(a);
+    if (da >= 0 && db < 0) keep(cut(a, b, da, db, attribute_count));
+    if (da < 0 && db >= 0) keep(cut(b, a, db, da, attribute_count));
+  }
+}
+
 }  // namespace
 
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count) {
@@ -42,22 +55,27 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
     ClippedPolygon kept;
-    const auto keep = [&kept](const ClipVertex& v) {  // a convex polygon gains one vertex a plane; only rounding could make more
-      if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;
-    };
-    for (int i = 0; i < polygon.count; ++i) {
-      const ClipVertex& a = polygon.vertices[i];
-      const ClipVertex& b = polygon.vertices[(i + 1) % polygon.count];
-      const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
-      if (da >= 0) keep(a);
-      if (da >= 0 && db < 0) keep(cut(a, b, da, db, attribute_count));
-      if (da < 0 && db >= 0) keep(cut(b, a, db, da, attribute_count));
-    }
+    keep_inside(transform, plane, polygon.vertices, polygon.count, attribute_count, [&kept](const ClipVertex& v) {
+      if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;  // a convex polygon gains one vertex a plane; only rounding could make more
+    });
     polygon = kept;
     if (polygon.count < 3) return {};
   }
   for (int i = 0; i < polygon.count; ++i)
     if (!(polygon.vertices[i].position.w > 0)) return {};  // touches the eye's plane in a single point: no pixel
+  return polygon;
+}
+
+std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vector<ClipVertex> polygon, std::uint8_t codes, int attribute_count) {
+  for (const ClipCode plane : kPlanes) {
+    if (!is_looked_at(plane, codes)) continue;
+    std::vector<ClipVertex> kept;
+    keep_inside(transform, plane, polygon.data(), static_cast<int>(polygon.size()), attribute_count, [&kept](const ClipVertex& v) { kept.push_back(v); });
+    polygon = std::move(kept);
+    if (polygon.size() < 3) return {};
+  }
+  for (const ClipVertex& v : polygon)
+    if (!(v.position.w > 0)) return {};
   return polygon;
 }
 
@@ -72,8 +90,10 @@ bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uin
   return line[0].position.w > 0 && line[1].position.w > 0;
 }
 
+bool is_between_sides(const ClipPosition& p) { return std::abs(p.x) <= p.w && std::abs(p.y) <= p.w; }
+
 bool is_in_view(const VertexTransform& transform, const ClipPosition& p) {
-  return p.w > 0 && std::abs(p.x) <= p.w && std::abs(p.y) <= p.w && distance(transform, kBeforeNear, p) >= 0 && distance(transform, kBehindFar, p) >= 0;
+  return p.w > 0 && is_between_sides(p) && distance(transform, kBeforeNear, p) >= 0 && distance(transform, kBehindFar, p) >= 0;
 }
 
 }  // namespace tessera

@@ -55,8 +55,19 @@ bool bin_band(Bins& bins, const TileGrid& grid, const BinDraw& draw, const LineB
   return true;
 }
 
-// Clips a line that has codes; the id that its piece then has, or nothing.
-bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t codes, std::uint32_t& id) {
+bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint at, std::uint32_t id) {
+  const PixelRect pixels = bounds_of_point(draw, at);
+  if (pixels.empty()) return false;
+  const int size = grid.tile_size;
+  for (int ty = pixels.y0 / size; ty <= (pixels.y1 - 1) / size; ++ty)
+    for (int tx = pixels.x0 / size; tx <= (pixels.x1 - 1) / size; ++tx) bins.push(ty * grid.columns() + tx, draw.draw, id);
+  return true;
+}
+
+std::uint32_t id_of_last_piece(const Bins& bins) { return kClippedTriangle | static_cast<std::uint32_t>(bins.clipped.size() - 1); }
+
+// Clips a line that has codes. False if nothing is left, else its piece stands last.
+bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t codes) {
   ClipVertex ends[2] = {clip_vertex(draw, line, 0, draw.attribute_count), clip_vertex(draw, line, 1, draw.attribute_count)};
   if (!clip_line(*draw.transform, ends, codes, draw.attribute_count)) return false;
   ClippedTriangle piece;
@@ -65,12 +76,17 @@ bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::ui
     piece.vertices[k] = project(*draw.transform, ends[k].position);
     std::copy_n(ends[k].attributes, kMaxAttributes, piece.attributes[k]);
   }
-  id = kClippedTriangle | static_cast<std::uint32_t>(bins.clipped.size());
   bins.clipped.push_back(piece);
   return true;
 }
 
 }  // namespace
+
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.clipped.back().vertices[0]), id_of_last_piece(bins)); }
+bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
+  const ClippedTriangle& piece = bins.clipped.back();
+  return bin_band(bins, grid, draw, LineBand(draw, point_of(piece.vertices[0]), point_of(piece.vertices[1])), id_of_last_piece(bins));
+}
 
 void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
   BinCounts& counts = bins.counts;
@@ -83,15 +99,7 @@ void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint
       continue;
     }
     const WindowVertex& v = draw.vertices[vertex];
-    const PixelRect pixels = codes == 0 && is_in_view(draw, point, v) ? bounds_of_point(draw, point_of(v)) : PixelRect{};
-    if (pixels.empty()) {
-      ++counts.outside;
-      continue;
-    }
-    ++counts.binned;
-    const int size = grid.tile_size;
-    for (int ty = pixels.y0 / size; ty <= (pixels.y1 - 1) / size; ++ty)
-      for (int tx = pixels.x0 / size; tx <= (pixels.x1 - 1) / size; ++tx) bins.push(ty * grid.columns() + tx, draw.draw, point);
+    ++(codes == 0 && is_in_view(draw, point, v) && bin_square(bins, grid, draw, point_of(v), point) ? counts.binned : counts.outside);
   }
 }
 
@@ -105,16 +113,12 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
       ++counts.non_finite;
       continue;
     }
-    std::uint32_t id = line;
     bool is_left = (c0 & c1) == 0;
     if (is_left && (c0 | c1) != 0) {
       ++counts.clipped;
-      is_left = clip_to_window(bins, draw, line, c0 | c1, id);
-    }
-    if (is_left) {
-      const bool is_piece = (id & kClippedTriangle) != 0;
-      const WindowVertex &a = is_piece ? bins.clipped.back().vertices[0] : draw.vertices[i0], &b = is_piece ? bins.clipped.back().vertices[1] : draw.vertices[i1];
-      is_left = bin_band(bins, grid, draw, LineBand(draw, point_of(a), point_of(b)), id);
+      is_left = clip_to_window(bins, draw, line, c0 | c1) && bin_line_piece(bins, grid, draw);
+    } else if (is_left) {
+      is_left = bin_band(bins, grid, draw, LineBand(draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1])), line);
     }
     ++(is_left ? counts.binned : counts.outside);
   }

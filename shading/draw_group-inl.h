@@ -136,7 +136,7 @@ struct TrianglePixels {
 };
 
 HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t element) {
-  const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.topology) + static_cast<std::size_t>(draw.provoking);
+  const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.element_corners) + static_cast<std::size_t>(draw.provoking);
   return draw.indices ? draw.indices[corner] : corner;
 }
 

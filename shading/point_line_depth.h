@@ -13,8 +13,9 @@ namespace tessera {
 class PointLineDepth {
  public:
   /// @param z0, z1  depth words of the vertices (raster/fixed_point.h)
-  PointLineDepth(DepthKind kind, std::uint32_t z0, std::uint32_t z1) : kind_(kind), first_(value(z0)), change_(value(z1) - first_) {}
-  PointLineDepth(DepthKind kind, std::uint32_t z) : PointLineDepth(kind, z, z) {}
+  /// @param offset  in units of depth words (unorm) or of depth
+  PointLineDepth(DepthKind kind, std::uint32_t z0, std::uint32_t z1, double offset)
+      : kind_(kind), first_(value(z0) + (kind == DepthKind::float32 ? offset : std::floor(std::clamp(offset, -0x1p32, 0x1p32) + 0.5))), change_(value(z1) - value(z0)) {}
 
   /// The key where the line has come as far as `t` of its length; beyond its ends no depth leaves 0..1.
   std::int32_t key(double t = 0) const {

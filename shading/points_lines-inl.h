@@ -33,7 +33,7 @@ HWY_INLINE PixelRect in_tile(const TileRun& run, const PixelRect& rect) {
 struct PointValues {
   std::int32_t depth_key;
 
-  HWY_INLINE PointValues(const TileRun& run, int i) : depth_key(PointLineDepth(run.frame.depth_kind, run.memory.group.z[0][i]).key()) {}
+  HWY_INLINE PointValues(const TileRun& run, int i) : depth_key(PointLineDepth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[0][i], run.memory.depth_offset[i]).key()) {}
   HWY_INLINE std::int32_t key(LinePoint) const { return depth_key; }
 };
 
@@ -43,7 +43,7 @@ struct LineValues {
   double dx, dy, per_squared_length;
   PointLineDepth depth;
 
-  HWY_INLINE LineValues(const TileRun& run, int i) : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[1][i]) {
+  HWY_INLINE LineValues(const TileRun& run, int i) : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[1][i], run.memory.depth_offset[i]) {
     const TriangleGroup& g = run.memory.group;
     dx = g.x[1][i] - g.x[0][i];
     dy = g.y[1][i] - g.y[0][i];
@@ -56,7 +56,7 @@ struct LineValues {
 };
 
 /// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
-HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i) {
+HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i, bool back) {
   const TriangleGroup& g = run.memory.group;
   const bool is_line = run.frame.draws[draw].topology == Topology::lines;
   const int second = is_line ? 1 : 0;
@@ -78,7 +78,7 @@ HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::
     t.attributes[k] = run.memory.attributes[vertex][i];
   }
   t.edges = {};
-  t.back = false;
+  t.back = back;
   t.draw = draw;
   keep_wide_edges(t, run.memory, wide);
 }
@@ -212,8 +212,9 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, co
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
     const Values values(run, i);
+    const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
     if (plain) {
-      const PlainPixels pixels{run, draw, has_depth, triangle_word(run, draw, i, false)};
+      const PlainPixels pixels{run, draw, has_depth, triangle_word(run, draw, i, back)};
       shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
       continue;
     }
@@ -224,7 +225,7 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, co
       shape.cover(bits);
     if (bits.blocks.count == 0) continue;
     ShadedTriangle values_at;
-    fill_shaded_point_or_line(values_at, run, draw_number, i);
+    fill_shaded_point_or_line(values_at, run, draw_number, i, back);
     draw_fragments_of(run, draw_number, i, values_at, has_depth, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
   }
 }

@@ -218,6 +218,7 @@ struct GroupBuilder {
         run.memory.attributes[k][i] = piece.attributes[k];
       }
       run.memory.source[i] = piece.source;
+      run.memory.depth_offset[i] = piece.depth_offset;
       return;
     }
     for (int k = 0; k < kCorners; ++k) {
@@ -227,6 +228,7 @@ struct GroupBuilder {
       run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
     }
     run.memory.source[i] = id;
+    if constexpr (kCorners < 3) run.memory.depth_offset[i] = 0;
   }
   HWY_INLINE void load_vertex(int i, int k, const WindowVertex& v) {
     TriangleGroup& g = run.memory.group;

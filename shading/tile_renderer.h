@@ -35,7 +35,8 @@ struct TileDraw {
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
   const float* attributes = nullptr;       ///< attribute_stride floats for each vertex
   int attribute_stride = 0, attribute_count = 0;
-  int provoking = 2;                       ///< corner of each point, line or triangle
+  int provoking = 2;                       ///< corner of each element: point, line or triangle
+  int element_corners = 3;                 ///< edges and corners of polygons are parts of triangles
   float size = 1;                          ///< of points in pixels, or the lines' width
   PixelRect rect;                          ///< scissor, viewport and frame buffer, raster space
   bool front_is_clockwise = false;

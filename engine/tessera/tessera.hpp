@@ -323,6 +323,8 @@ enum class Shading : std::uint8_t { flat, gouraud, phong };
 enum class ColorMaterial : std::uint8_t { none, ambient_and_diffuse, diffuse, ambient, emission, specular };
 enum class ProvokingVertex : std::uint8_t { last, first };
 enum class Cull : std::uint8_t { none, back, front };
+/// Line: the boundary of each polygon, and of what clipping leaves of it. Point: its corners.
+enum class PolygonMode : std::uint8_t { fill, line, point };
 enum class FrontFace : std::uint8_t { ccw, cw };
 enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
 
@@ -383,6 +385,7 @@ struct DrawState {
   bool normalize = true;
   Cull cull = Cull::none;
   FrontFace front_face = FrontFace::ccw;
+  PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;
   /// In pixels, above 0. With one sample a pixel it is rounded, and points are squares, lines rows of pixels along x or y; with several
   /// samples points are discs, lines rectangles.
   float point_size = 1, line_width = 1;
