@@ -56,12 +56,12 @@ constexpr bool makes_whole_primitives(Primitive primitive, std::size_t corners) 
 /// "a multiple of 3", "3 or more", ...: what makes_whole_primitives() asks for.
 constexpr std::string_view corners_needed(Primitive primitive) {
   switch (primitive) {
-    case Primitive::lines: return "an even number";
+    case Primitive::lines: return "a multiple of 2";
     case Primitive::line_strip:
     case Primitive::line_loop: return "2 or more";
     case Primitive::triangles: return "a multiple of 3";
     case Primitive::quads: return "a multiple of 4";
-    case Primitive::quad_strip: return "an even number from 4 on";
+    case Primitive::quad_strip: return "4, 6, 8, ...";
     default: return "3 or more";
   }
 }

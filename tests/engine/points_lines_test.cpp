@@ -311,7 +311,7 @@ TEST(PointsAndLines, RefuseSizesThatAreNone) {
 }
 
 TEST(PointsAndLines, RefuseCornersThatAreLeftOver) {
-  EXPECT_THAT(refusal(mesh_of(Primitive::lines, {{}, {}, {}}), {}), AllOf(HasSubstr("3 vertices"), HasSubstr("lines need an even number")));
+  EXPECT_THAT(refusal(mesh_of(Primitive::lines, {{}, {}, {}}), {}), AllOf(HasSubstr("3 vertices"), HasSubstr("lines need a multiple of 2")));
   EXPECT_THAT(refusal(mesh_of(Primitive::line_strip, {{}}), {}), AllOf(HasSubstr("1 vertices"), HasSubstr("a line strip needs 2 or more")));
   EXPECT_THAT(refusal(mesh_of(Primitive::line_loop, {{}}), {}), HasSubstr("a line loop needs 2 or more"));
   EXPECT_EQ(refusal(mesh_of(Primitive::points, {{}}), {}), "accepted");
