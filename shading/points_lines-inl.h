@@ -55,6 +55,11 @@ struct LineValues {
   HWY_INLINE std::int32_t key(LinePoint p) const { return depth.key(t(p)); }
 };
 
+template <class Values>
+inline constexpr bool kIsLine = false;
+template <>
+inline constexpr bool kIsLine<LineValues> = true;
+
 /// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
 HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i, bool back) {
   const TriangleGroup& g = run.memory.group;
@@ -182,23 +187,63 @@ struct LineShape {
   }
 };
 
+/// One word for all pixels.
+struct OneWord {
+  std::uint32_t value;
+  template <class Values>
+  HWY_INLINE std::uint32_t word(LinePoint, const Values&) const { return value; }
+};
+
+/// Colours of an RGB buffer, interpolated along a line.
+struct LineColors {
+  float first[3], change[3], most[3], rw[2];
+  int shift[3];
+
+  HWY_INLINE LineColors(const TileRun& run, const TileDraw& draw, int i, bool back) {
+    const ColorLayout& layout = run.frame.layout;
+    const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits}, shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
+    for (int c = 0; c < 3; ++c) {
+      const int attribute = draw.color_attribute[back ? 1 : 0] + c;
+      first[c] = run.memory.attributes[0][i][attribute];
+      change[c] = run.memory.attributes[1][i][attribute] - first[c];
+      most[c] = static_cast<float>((1 << bits[c]) - 1);
+      shift[c] = shifts[c];
+    }
+    for (int k = 0; k < 2; ++k) rw[k] = run.memory.group.rw[k][i];
+  }
+  /// Equation 3.6
+  template <class Values>
+  HWY_INLINE std::uint32_t word(LinePoint p, const Values& values) const {
+    float t = static_cast<float>(values.t(p));
+    if (rw[0] != rw[1]) t = t * rw[1] / ((1 - t) * rw[0] + t * rw[1]);
+    std::uint32_t word = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float x = std::fma(t, change[c], first[c]), above = x > 0 ? x : 0.0f;  // a NaN is 0
+      word |= static_cast<std::uint32_t>(std::fma(above < 1 ? above : 1.0f, most[c], 0.5f)) << shift[c];
+    }
+    return word;
+  }
+};
+
 /// Colours that are just stored, pixel by pixel, where that is all there is to do.
+template <class Colors>
 struct PlainPixels {
   TileRun& run;
   const TileDraw& draw;
   bool has_depth;
-  std::uint32_t word;
+  Colors colors;
 
   template <class Values>
   HWY_INLINE void store(int x, int y, const Values& values) const {
     const int index = run.pixel_index(x, y);
+    const LinePoint center = center_of(run, x, y);
     if (has_depth) {
-      const std::int32_t key = values.key(center_of(run, x, y)), stored = run.memory.depth[index];
+      const std::int32_t key = values.key(center), stored = run.memory.depth[index];
       if (!compares(key, draw.depth_test, stored)) return;
       if (draw.depth_write) run.memory.depth[index] = key;
     }
     ++run.counts.shaded_pixels;
-    run.memory.color[index] = (word & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
+    run.memory.color[index] = (colors.word(center, values) & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
   }
 };
 
@@ -208,15 +253,22 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, co
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
   const bool has_depth = draw.uses_depth && run.frame.depth_kind != DepthKind::none;
-  const bool plain = draw.ops == nullptr && run.samples == 1 && has_words(draw);
+  const bool plain = draw.ops == nullptr && run.samples == 1, interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
     const Values values(run, i);
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
-    if (plain) {
-      const PlainPixels pixels{run, draw, has_depth, triangle_word(run, draw, i, back)};
+    if (plain && has_words(draw)) {
+      const PlainPixels<OneWord> pixels{run, draw, has_depth, {triangle_word(run, draw, i, back)}};
       shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
       continue;
+    }
+    if constexpr (kIsLine<Values>) {
+      if (plain && interpolated) {
+        const PlainPixels<LineColors> pixels{run, draw, has_depth, LineColors(run, draw, i, back)};
+        shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
+        continue;
+      }
     }
     BlockBits bits{run, run.memory.touched};
     if (run.samples == 1)
