@@ -308,10 +308,9 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
     plan.offset_factor = state.polygon_offset.factor;
     plan.offset_units = state.polygon_offset.units;
   }
-  const bool has_offset = plan.offset_factor != 0 || plan.offset_units != 0;
-  if (reasons && has_offset) *reasons += "  polygon offset\n";
+  if (reasons && plan.has_offset()) *reasons += "  polygon offset\n";
   if (reasons && plan.outlines) *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
-  plan.has_ops = fragments.needed || has_offset || plan.outlines;
+  plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
   plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
   if (capture_normals && plan.write_mask != 0) {

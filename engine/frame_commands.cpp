@@ -276,6 +276,7 @@ void connect_draws(FrameCommands& commands) {
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
     draw.facing = geometry.facing();
+    draw.depth_offsets = geometry.depth_offsets();
     draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->polygon_triangles());
     draw.uses_depth = plan.uses_depth;
     draw.depth_write = plan.depth_write;
@@ -319,7 +320,6 @@ void connect_draws(FrameCommands& commands) {
       if (style != PolygonStyle::fill) {
         draw.topology = style == PolygonStyle::line ? Topology::lines : Topology::points;
         draw.size = style == PolygonStyle::line ? plan.line_width : plan.point_size;
-        draw.offset_factor = draw.offset_units = 0;  // the pieces have theirs
       }
       add();
     }

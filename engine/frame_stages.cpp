@@ -7,6 +7,7 @@
 #include "engine/capture_stage.h"
 #include "engine/recording.h"
 #include "engine/renderer_state.h"
+#include "raster/polygon_offset.h"
 #include "raster/sample_positions.h"
 
 namespace tessera {
@@ -138,7 +139,7 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
     if (plan.outlines) {
       PolygonModes& modes = geometry.buffers->modes;
       modes = {.style = {plan.style[0], plan.style[1]}, .line_width = plan.line_width, .point_size = plan.point_size, .triangles = geometry.mesh->polygon_triangles(),
-               .boundary = geometry.buffers->boundary.data(), .offset_factor = plan.offset_factor, .offset_units = plan.offset_units};
+               .boundary = geometry.buffers->boundary.data()};
       std::uint32_t number = draw.draw;
       for (const PolygonStyle style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
       draw.modes = &modes;
@@ -153,7 +154,10 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
   parallel.for_each(polygons.size(), [&](std::size_t i, int) {
     const Range& range = polygons[i];
     const GeometryDraw& geometry = commands.geometry[range.draw];
-    face_polygons(draws[range.draw], geometry.mesh->polygon_triangles(), range.first, range.last, geometry.buffers->facing.data());
+    const std::size_t each = geometry.mesh->polygon_triangles();
+    face_polygons(draws[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
+    const DrawPlan& plan = *geometry.plan;
+    if (plan.has_offset()) offset_polygons(draws[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
   });
   return draws;
 }

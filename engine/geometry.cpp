@@ -171,13 +171,13 @@ void assemble_elements(const GeometryDraw& draw) {
   }
 }
 
-// Around the first triangle, with what each further one adds before its end.
+// Around the first triangle, with what each further one adds before its end. From the same vertex on under both conventions.
 void list_boundaries(const GeometryDraw& draw) {
   const MeshArrays& mesh = *draw.mesh;
   const std::size_t each = mesh.polygon_triangles(), polygons = mesh.elements / each;
   std::uint32_t* out = draw.buffers->boundary.resize(polygons * (each + 2));
   for (std::size_t first = 0; first < mesh.elements; first += each) {
-    for (const std::size_t corner : element_corners(mesh.primitive, draw.provoking_vertex, mesh.corners, first)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+    for (const std::size_t corner : element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, first)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
     for (std::size_t t = first + 1; t < first + each; ++t) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
   }
 }
@@ -201,6 +201,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.words[1].resize(plan.two_sided ? words : 0);
   if (draw.makes_indices()) assemble_elements(draw);
   buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
+  buffers.depth_offsets.resize(draw.faces_polygons() && plan.has_offset() ? triangles : 0);
   if (plan.outlines) list_boundaries(draw);
   buffers.normals.clear();
   if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);

@@ -22,6 +22,7 @@ struct DrawBuffers {
   Scratch<std::uint32_t> indices;        ///< of elements: widened from 16 bits, or made of other primitives
   Scratch<Facing> facing;                ///< of each triangle, where several make a polygon or outlines are drawn
   Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
+  Scratch<double> depth_offsets;         ///< of each triangle's polygon, likewise
   PolygonModes modes;
   std::vector<float> normals;            ///< generated
   std::vector<float> captured_normals;   ///< generated, where a capture wants normals
@@ -45,6 +46,8 @@ struct GeometryDraw {
   const std::uint32_t* indices() const { return makes_indices() ? buffers->indices.data() : mesh->indices; }
   /// Of each triangle, or null: its own area decides. @pre face_polygons
   const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
+  /// Of each triangle's polygon, or null: each has its own, or there are none. @pre offset_polygons
+  const double* depth_offsets() const { return faces_polygons() && plan->has_offset() ? buffers->depth_offsets.data() : nullptr; }
   bool faces_polygons() const { return plan->outlines || mesh->polygon_triangles() > 1; }
 };
 

@@ -19,15 +19,14 @@ namespace tessera {
 
 // A bin entry is a triangle of the current draw, or a marker that makes another draw current.
 inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
-inline constexpr std::uint32_t kClippedTriangle = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
-inline constexpr std::uint32_t kMaxTriangles = kClippedTriangle - 1;
+inline constexpr std::uint32_t kPiece = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
+inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
 
-/// A piece of a triangle or line that clipping cut, or an edge or corner of a polygon, with its own vertices.
-struct ClippedTriangle {
+/// A part of an element that has vertices of its own: what clipping left, or an edge or corner of a polygon.
+struct Piece {
   WindowVertex vertices[3];
-  float attributes[3][kMaxAttributes + kAttributePadding] = {};
-  std::uint32_t source;  ///< the element that it was cut from
-  double depth_offset = 0;  ///< edges and corners: their polygon's, in units of depth words (unorm) or of depth
+  std::size_t first_attribute = 0;  ///< see Bins::attributes()
+  std::uint32_t source = 0;         ///< the element that it is a part of
 };
 
 struct BinCounts {
@@ -61,7 +60,25 @@ class Bins {
   std::uint32_t triangles(int tile) const { return tails_[static_cast<std::size_t>(tile)].triangles; }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
 
-  std::vector<ClippedTriangle> clipped;
+  /// A new piece at the end of the list, with room for the attributes of its corners. Throws std::bad_alloc.
+  Piece& add_piece(std::uint32_t source, int corners, int attribute_count) {
+    const std::size_t first = attributes_.size() - kAttributePadding;
+    attributes_.resize(attributes_.size() + static_cast<std::size_t>(corners * attribute_count));
+    Piece& piece = pieces.emplace_back();
+    piece.source = source;
+    piece.first_attribute = first;
+    return piece;
+  }
+  void drop_last_piece() {
+    attributes_.resize(pieces.back().first_attribute + kAttributePadding);
+    pieces.pop_back();
+  }
+  std::uint32_t id_of_last_piece() const { return kPiece | static_cast<std::uint32_t>(pieces.size() - 1); }
+  /// Attributes of a piece, corner by corner; kAttributePadding floats may be read from each.
+  float* attributes(const Piece& piece) { return attributes_.data() + piece.first_attribute; }
+  const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
+
+  std::vector<Piece> pieces;
   BinCounts counts;
 
  private:
@@ -75,6 +92,7 @@ class Bins {
   }
   void add_block(Tail& tail);
 
+  std::vector<float> attributes_;  // of the pieces, and padding
   std::vector<Tail> tails_;
   std::vector<Block> blocks_;
   std::size_t used_ = 0;
@@ -90,7 +108,6 @@ struct PolygonModes {
   float line_width = 1, point_size = 1;
   std::size_t triangles = 1;                 ///< that each polygon was split into
   const std::uint32_t* boundary = nullptr;   ///< the vertices of each polygon, two more than triangles
-  float offset_factor = 0, offset_units = 0;
 };
 
 /// What binning needs of a draw.
@@ -121,12 +138,14 @@ struct BinDraw {
 /// True for a triangle whose snapped area faces the viewer; `area` is its doubled area in raster space (y down).
 constexpr bool is_front(double area, bool front_is_clockwise) { return (area < 0) != front_is_clockwise; }
 
-inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, int corner) {
-  const std::uint32_t i = element * static_cast<std::uint32_t>(draw.topology) + static_cast<std::uint32_t>(corner);
+/// Of an element of so many corners.
+template <std::uint32_t kCorners>
+std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint32_t corner) {
+  const std::uint32_t i = element * kCorners + corner;
   return draw.indices ? draw.indices[i] : i;
 }
-/// A corner with its attributes, before clipping.
-ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t element, int corner, int attribute_count);
+/// A vertex with its attributes, before clipping.
+ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
 
 /// A triangle after clipping, in the window.
 struct WindowPolygon {

@@ -10,13 +10,13 @@ namespace {
 LinePoint point_of(const WindowVertex& v) { return {v.x, v.y}; }
 
 // Window coordinates are off by half of 1/256 pixel: only within a whole one of the viewport's border are they not enough to tell.
-bool is_in_view(const BinDraw& draw, std::uint32_t point, const WindowVertex& v) {
+bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v) {
   const VertexTransform& t = *draw.transform;
   const double x = std::abs(static_cast<double>(v.x) - t.center_x) - kSubpixelScale * t.half_width;
   const double y = std::abs(static_cast<double>(v.y) - t.center_y) - kSubpixelScale * t.half_height;
   if (x < -1 && y < -1) return true;
   if (x > 1 || y > 1) return false;
-  return is_in_view(t, clip_vertex(draw, point, 0, 0).position);
+  return is_in_view(t, clip_vertex(draw, vertex, 0).position);
 }
 
 PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
@@ -64,42 +64,38 @@ bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint
   return true;
 }
 
-std::uint32_t id_of_last_piece(const Bins& bins) { return kClippedTriangle | static_cast<std::uint32_t>(bins.clipped.size() - 1); }
-
 // Clips a line that has codes. False if nothing is left, else its piece stands last.
 bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t codes) {
-  ClipVertex ends[2] = {clip_vertex(draw, line, 0, draw.attribute_count), clip_vertex(draw, line, 1, draw.attribute_count)};
+  ClipVertex ends[2] = {clip_vertex(draw, vertex_index<2>(draw, line, 0), draw.attribute_count), clip_vertex(draw, vertex_index<2>(draw, line, 1), draw.attribute_count)};
   if (!clip_line(*draw.transform, ends, codes, draw.attribute_count)) return false;
-  ClippedTriangle piece;
-  piece.source = line;
+  Piece& piece = bins.add_piece(line, 2, draw.attribute_count);
   for (int k = 0; k < 2; ++k) {
     piece.vertices[k] = project(*draw.transform, ends[k].position);
-    std::copy_n(ends[k].attributes, kMaxAttributes, piece.attributes[k]);
+    std::copy_n(ends[k].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
   }
-  bins.clipped.push_back(piece);
   return true;
 }
 
 }  // namespace
 
-bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.clipped.back().vertices[0]), id_of_last_piece(bins)); }
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.pieces.back().vertices[0]), bins.id_of_last_piece()); }
 bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
-  const ClippedTriangle& piece = bins.clipped.back();
-  return bin_band(bins, grid, draw, LineBand(draw, point_of(piece.vertices[0]), point_of(piece.vertices[1])), id_of_last_piece(bins));
+  const Piece& piece = bins.pieces.back();
+  return bin_band(bins, grid, draw, LineBand(draw, point_of(piece.vertices[0]), point_of(piece.vertices[1])), bins.id_of_last_piece());
 }
 
 void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
   for (std::uint32_t point = first; point < last; ++point) {
-    const std::uint32_t vertex = vertex_index(draw, point, 0);
+    const std::uint32_t vertex = vertex_index<1>(draw, point, 0);
     const std::uint8_t codes = draw.any_code ? draw.codes[vertex] : 0;
     if ((codes & kNonFinite) != 0) {
       ++counts.non_finite;
       continue;
     }
     const WindowVertex& v = draw.vertices[vertex];
-    ++(codes == 0 && is_in_view(draw, point, v) && bin_square(bins, grid, draw, point_of(v), point) ? counts.binned : counts.outside);
+    ++(codes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point) ? counts.binned : counts.outside);
   }
 }
 
@@ -107,7 +103,7 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
   for (std::uint32_t line = first; line < last; ++line) {
-    const std::uint32_t i0 = vertex_index(draw, line, 0), i1 = vertex_index(draw, line, 1);
+    const std::uint32_t i0 = vertex_index<2>(draw, line, 0), i1 = vertex_index<2>(draw, line, 1);
     const std::uint8_t c0 = draw.any_code ? draw.codes[i0] : 0, c1 = draw.any_code ? draw.codes[i1] : 0;
     if (((c0 | c1) & kNonFinite) != 0) {
       ++counts.non_finite;

@@ -242,7 +242,12 @@ inline constexpr bool kHasOffset = std::is_same_v<Depth, OffsetUnormDepth> || st
 template <class Depth>
 HWY_INLINE void set_up_fragment_depth(Depth& depth, const TileRun& run, const TileDraw& draw, const TriangleGroup& g, int i) {
   depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-  if constexpr (kHasOffset<Depth>) depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+  if constexpr (kHasOffset<Depth>) {
+    if (draw.depth_offsets != nullptr)
+      depth.move_by(draw.depth_offsets[run.memory.source[i]]);
+    else
+      depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+  }
   depth.prepare_blocks();
 }
 

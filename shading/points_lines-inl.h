@@ -29,11 +29,17 @@ HWY_INLINE PixelRect in_tile(const TileRun& run, const PixelRect& rect) {
   return intersect({rect.x0 - run.tile_x, rect.y0 - run.tile_y, rect.x1 - run.tile_x, rect.y1 - run.tile_y}, run.rect);
 }
 
+/// Of edges and corners of polygons.
+HWY_INLINE double depth_offset_of(const TileRun& run, const TileDraw& draw, int i) {
+  return draw.depth_offsets != nullptr ? draw.depth_offsets[run.memory.source[i]] : 0.0;
+}
+
 /// A point: the same everywhere.
 struct PointValues {
   std::int32_t depth_key;
 
-  HWY_INLINE PointValues(const TileRun& run, int i) : depth_key(PointLineDepth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[0][i], run.memory.depth_offset[i]).key()) {}
+  HWY_INLINE PointValues(const TileRun& run, const TileDraw& draw, int i)
+      : depth_key(PointLineDepth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[0][i], depth_offset_of(run, draw, i)).key()) {}
   HWY_INLINE std::int32_t key(LinePoint) const { return depth_key; }
 };
 
@@ -43,7 +49,8 @@ struct LineValues {
   double dx, dy, per_squared_length;
   PointLineDepth depth;
 
-  HWY_INLINE LineValues(const TileRun& run, int i) : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[1][i], run.memory.depth_offset[i]) {
+  HWY_INLINE LineValues(const TileRun& run, const TileDraw& draw, int i)
+      : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[1][i], depth_offset_of(run, draw, i)) {
     const TriangleGroup& g = run.memory.group;
     dx = g.x[1][i] - g.x[0][i];
     dy = g.y[1][i] - g.y[0][i];
@@ -215,7 +222,8 @@ struct LineColors {
   template <class Values>
   HWY_INLINE std::uint32_t word(LinePoint p, const Values& values) const {
     float t = static_cast<float>(values.t(p));
-    if (rw[0] != rw[1]) t = t * rw[1] / ((1 - t) * rw[0] + t * rw[1]);
+    const float sum = (1 - t) * rw[0] + t * rw[1];
+    if (rw[0] != rw[1] && sum != 0) t = t * rw[1] / sum;
     std::uint32_t word = 0;
     for (int c = 0; c < 3; ++c) {
       const float x = std::fma(t, change[c], first[c]), above = x > 0 ? x : 0.0f;  // a NaN is 0
@@ -256,7 +264,7 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, co
   const bool plain = draw.ops == nullptr && run.samples == 1, interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
-    const Values values(run, i);
+    const Values values(run, draw, i);
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
     if (plain && has_words(draw)) {
       const PlainPixels<OneWord> pixels{run, draw, has_depth, {triangle_word(run, draw, i, back)}};

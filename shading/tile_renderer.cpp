@@ -211,14 +211,14 @@ struct GroupBuilder {
  private:
   template <int kCorners>
   HWY_INLINE void load(const Bins& bins, std::uint32_t id, int i) {
-    if ((id & kClippedTriangle) != 0) {
-      const ClippedTriangle& piece = bins.clipped[id & ~kClippedTriangle];
+    if ((id & kPiece) != 0) {
+      const Piece& piece = bins.pieces[id & ~kPiece];
+      const float* const attributes = bins.attributes(piece);
       for (int k = 0; k < kCorners; ++k) {
         load_vertex(i, k, piece.vertices[k]);
-        run.memory.attributes[k][i] = piece.attributes[k];
+        run.memory.attributes[k][i] = attributes + k * draw->attribute_stride;
       }
       run.memory.source[i] = piece.source;
-      run.memory.depth_offset[i] = piece.depth_offset;
       return;
     }
     for (int k = 0; k < kCorners; ++k) {
@@ -228,7 +228,6 @@ struct GroupBuilder {
       run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
     }
     run.memory.source[i] = id;
-    if constexpr (kCorners < 3) run.memory.depth_offset[i] = 0;
   }
   HWY_INLINE void load_vertex(int i, int k, const WindowVertex& v) {
     TriangleGroup& g = run.memory.group;

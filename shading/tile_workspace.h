@@ -75,7 +75,6 @@ struct alignas(64) TileWorkspace::Memory {
   // Of the group's triangles.
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
-  double depth_offset[kGroupSize];  ///< of points and lines
   ShadingBatch batch;
   TouchedBlocks touched;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them

@@ -287,6 +287,23 @@ TEST(Lines, AreFrontsThatNothingCulls) {
     }
 }
 
+// A line's first pixel may lie before its start: its index leaves the range at one end and comes back at the other.
+TEST(Lines, OfIndicesWrapAround) {
+  for (const InstructionSet set : available_instruction_sets()) {
+    FrameBuffer buffer({.width = 32, .height = 16, .color_mode = ColorMode::index, .color_bits = 4});
+    Frame frame(buffer);
+    MeshData mesh;
+    mesh.primitive = Primitive::lines;
+    mesh.positions = {2 * 10.703125f / 32 - 1, 1.0f / 16, 0, 2 * 14.703125f / 32 - 1, 1.0f / 16, 0};  // on a row's centre
+    mesh.color_indices = {0, 15};
+    frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
+    Renderer({.threads = 1, .instruction_set = set}).finish(frame);
+    const std::vector<std::uint32_t> words = color_words(buffer);
+    // Pixel i has its centre at i + 0.5: the index there is 15 (i + 0.5 - 10.703125) / 4.
+    for (std::size_t i = 10; i < 15; ++i) EXPECT_EQ(words[7 * 32 + i], static_cast<std::uint32_t>(std::floor(15 * (static_cast<double>(i) - 10.203125) / 4 + 0.5)) & 15u) << i;
+  }
+}
+
 std::string refusal(const MeshData& mesh, const DrawState& state) {
   FrameBuffer buffer(format_of(1));
   Frame frame(buffer);
