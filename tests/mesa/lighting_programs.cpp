@@ -4,92 +4,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lighting_sources.h"
+#include "textures.h"
+
 namespace tessera::mesa {
 namespace {
-
-// Shared by both programs. A light takes seven vectors, in the order of append_light(); a material five.
-constexpr const char* kLighting = R"(#version 130
-uniform int light_count;
-uniform vec4 light_values[7 * 32];
-uniform vec4 materials[2 * 5];  // front, back
-uniform vec4 scene_ambient;
-uniform int local_viewer, phong_highlight, color_material, normalize_normals;
-
-vec3 unit(vec3 v) { float l = length(v); return l > 0.0 ? v / l : vec3(0.0); }
-float power(float x, float y) { return y == 0.0 ? 1.0 : x <= 0.0 ? 0.0 : pow(x, y); }
-
-vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
-  vec4 ambient = materials[5 * side], diffuse = materials[5 * side + 1], specular = materials[5 * side + 2], emission = materials[5 * side + 3];
-  float shininess = materials[5 * side + 4].x;
-  if (color_material == 1 || color_material == 3) ambient = vertex_color;
-  if (color_material == 1 || color_material == 2) diffuse = vertex_color;
-  if (color_material == 4) emission = vertex_color;
-  if (color_material == 5) specular = vertex_color;
-
-  vec3 e = local_viewer != 0 ? unit(-p) : vec3(0.0, 0.0, 1.0);
-  vec3 sum = emission.rgb + scene_ambient.rgb * ambient.rgb;
-  for (int i = 0; i < light_count; ++i) {
-    vec4 position = light_values[7 * i + 3], spot = light_values[7 * i + 4], factors = light_values[7 * i + 5];
-    float exponent = light_values[7 * i + 6].x;
-    bool is_spot = light_values[7 * i + 6].y != 0.0;
-    vec3 to_light = position.xyz;  // w = 0: a unit vector already
-    float strength = 1.0;
-    if (position.w != 0.0) {
-      vec3 way = position.xyz - p;
-      float d = length(way), denominator = factors.x + factors.y * d + factors.z * d * d;
-      to_light = unit(way);
-      strength = denominator <= 0.0 ? 1.0e6 : 1.0 / denominator;
-    }
-    if (is_spot) {
-      float along = dot(-to_light, spot.xyz);
-      strength *= along < spot.w || along <= 0.0 ? 0.0 : power(along, exponent);
-    }
-    float facing = dot(to_light, n);
-    vec3 light = light_values[7 * i].rgb * ambient.rgb + max(facing, 0.0) * light_values[7 * i + 1].rgb * diffuse.rgb;
-    if (facing > 0.0) {
-      float cosine = phong_highlight != 0 ? dot(2.0 * facing * n - to_light, e) : dot(unit(to_light + e), n);
-      light += power(max(cosine, 0.0), shininess) * light_values[7 * i + 2].rgb * specular.rgb;
-    }
-    sum += strength * light;
-  }
-  return clamp(vec4(sum, diffuse.a), 0.0, 1.0);
-}
-
-vec3 divided(vec4 p) { return p.xyz / p.w; }
-)";
-
-constexpr const char* kVertexLit = R"(
-void main() {
-  vec3 p = divided(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * gl_Normal;
-  if (normalize_normals != 0) n = unit(n);
-  gl_Position = ftransform();
-  gl_FrontColor = lit(p, n, 0, gl_Color);
-  gl_BackColor = lit(p, -n, 1, gl_Color);
-}
-)";
-
-constexpr const char* kPixelLitVertex = R"(
-out vec3 position, normal;
-out vec4 color;
-void main() {
-  position = divided(gl_ModelViewMatrix * gl_Vertex);
-  normal = gl_NormalMatrix * gl_Normal;
-  if (normalize_normals != 0) normal = unit(normal);
-  color = gl_Color;
-  gl_Position = ftransform();
-}
-)";
-
-constexpr const char* kPixelLitFragment = R"(
-uniform int two_sided;
-in vec3 position, normal;
-in vec4 color;
-void main() {
-  bool back = two_sided != 0 && !gl_FrontFacing;
-  vec3 n = unit(normal);
-  gl_FragColor = lit(position, back ? -n : n, back ? 1 : 0, color);
-}
-)";
 
 using Values = std::vector<GLfloat>;
 
@@ -131,6 +50,17 @@ int color_material_number(reference::ColorMaterial mode) {
   return 0;
 }
 
+int texture_env_number(reference::TextureEnv env) {
+  switch (env) {
+    case reference::TextureEnv::kModulate: break;
+    case reference::TextureEnv::kReplace: return 1;
+    case reference::TextureEnv::kDecal: return 2;
+    case reference::TextureEnv::kBlend: return 3;
+    case reference::TextureEnv::kAdd: return 4;
+  }
+  return 0;
+}
+
 void attach(const Functions& gl, GLuint program, GLenum type, const char* head, const char* body) {
   const GLuint shader = gl.create_shader(type);
   const char* const parts[] = {head, body};
@@ -167,7 +97,7 @@ GLuint LightingPrograms::program(bool at_each_pixel) {
 }
 
 void LightingPrograms::use(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                           const reference::Camera& camera, bool has_vertex_colors) {
+                           const reference::Camera& camera, bool has_vertex_colors, const reference::Texture* texture) {
   const Functions& gl = functions_;
   const GLuint used = program(draw.shading == reference::Shading::kPhong);
   gl.use_program(used);
@@ -175,11 +105,12 @@ void LightingPrograms::use(const reference::Draw& draw, const reference::LightMo
   const auto set_vectors = [&](const char* uniform, const Values& values) {
     gl.uniform_4fv(gl.get_uniform_location(used, uniform), static_cast<GLsizei>(values.size() / 4), values.data());
   };
-  Values light_values, materials, ambient;
+  Values light_values, materials, ambient, env_color;
   for (const reference::Light& light : lights) append_light(light_values, light, camera.view_from_world);
   append_material(materials, draw.material);
   append_material(materials, draw.back_material);
   append(ambient, model.ambient);
+  append(env_color, draw.texture_env_color);
 
   set_integer("light_count", static_cast<int>(lights.size()));
   if (!lights.empty()) set_vectors("light_values", light_values);
@@ -190,6 +121,12 @@ void LightingPrograms::use(const reference::Draw& draw, const reference::LightMo
   set_integer("color_material", has_vertex_colors ? color_material_number(draw.color_material) : 0);
   set_integer("normalize_normals", draw.normalize ? 1 : 0);
   set_integer("two_sided", model.two_sided ? 1 : 0);
+  set_integer("texture_dimensions", texture == nullptr ? 0 : is_row(*texture) ? 1 : 2);
+  set_integer("texture_env", texture_env_number(draw.texture_env));
+  set_integer("texture_has_alpha", texture != nullptr && texture->image.channels % 2 == 0 ? 1 : 0);
+  set_vectors("texture_env_color", env_color);
+  set_integer("image", kImageUnit);
+  set_integer("row", kRowUnit);
   if (model.two_sided) glEnable(GL_VERTEX_PROGRAM_TWO_SIDE);
   else glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
 }

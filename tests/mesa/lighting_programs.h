@@ -16,9 +16,12 @@ class LightingPrograms {
   explicit LightingPrograms(const Functions& functions) : functions_(functions) {}
 
   /// Makes the program for this lit draw current and sets its uniforms. Two-sided lighting at the vertices wants
-  /// GL_VERTEX_PROGRAM_TWO_SIDE, which this sets too. Lights go into eye space by the camera.
+  /// GL_VERTEX_PROGRAM_TWO_SIDE, which this sets too. Lights go into eye space by the camera. Lighting at the vertices leaves
+  /// texturing to fixed functions.
+  ///
+  /// @param texture  the draw's, bound by Textures::use(); null: none
   void use(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights, const reference::Camera& camera,
-           bool has_vertex_colors);
+           bool has_vertex_colors, const reference::Texture* texture);
 
  private:
   GLuint program(bool at_each_pixel);
