@@ -141,7 +141,8 @@ void set_fragment_functions(const Functions& gl, const reference::FragmentState&
 void set_window_depths(const reference::Draw& draw, reference::DepthFormat depth) {
   const reference::PolygonOffset offset = draw.polygon_offset;
   glDepthRange(draw.depth_range[0], draw.depth_range[1]);
-  for (const GLenum mode : {GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT}) set_enabled(mode, offset.factor != 0 || offset.units != 0);
+  for (const GLenum mode : {GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT})
+    set_enabled(mode, offset.factor != 0 || offset.units != 0);
   const double units = depth == reference::DepthFormat::kFloat32 ? offset.units : offset.units / 2;
   glPolygonOffset(static_cast<GLfloat>(offset.factor), static_cast<GLfloat>(units));
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "buffers.h"
-#include "lighting_programs.h"
 #include "primitive_limits.h"
+#include "program_lighting.h"
 #include "shadow.h"
 #include "texture_limits.h"
 
@@ -37,7 +37,8 @@ Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
 
 Reason index_limit(const Draw& draw, const reference::Scene& scene) {
   if (scene.framebuffer.color_mode != ColorMode::kIndex || draw.shadow_on) return std::nullopt;
-  const bool lit_by_index = draw.lighting && (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
+  const bool lit_by_index =
+      draw.lighting && (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
   const bool drawn_by_index = !draw.lighting && !scene.meshes.at(draw.mesh).color_indices.empty();
   if (lit_by_index || drawn_by_index) return "OSMesa has no colour-index mode";
   return std::nullopt;
@@ -65,10 +66,13 @@ bool meets_a_clear(double depth, const std::vector<double>& cleared) {
 Reason draw_limit(const Draw& draw, const reference::Scene& scene, const FrameState& frame) {
   const FrameBufferFormat& format = scene.framebuffer;
   if (draw.lighting && frame.lights.size() > kMaxProgramLights) return "more lights than the programs take";
-  if (draw.viewport && (draw.viewport->width > kLargestViewport || draw.viewport->height > kLargestViewport)) return "a viewport beyond Mesa's";
-  if (format.depth == DepthFormat::kUnorm32 && draw.polygon_offset.units != 0) return "Mesa's float depth is too coarse for a unit of 32 bits";
+  if (draw.viewport && (draw.viewport->width > kLargestViewport || draw.viewport->height > kLargestViewport))
+    return "a viewport beyond Mesa's";
+  if (format.depth == DepthFormat::kUnorm32 && draw.polygon_offset.units != 0)
+    return "Mesa's float depth is too coarse for a unit of 32 bits";
   const auto [near, far] = draw.depth_range;
-  if (draw.depth && near == far && meets_a_clear(near, frame.cleared_depths)) return "a polygon at exactly a cleared depth: Mesa's float depth may lie a step beside it";
+  if (draw.depth && near == far && meets_a_clear(near, frame.cleared_depths))
+    return "a polygon at exactly a cleared depth: Mesa's float depth may lie a step beside it";
   if (const Reason reason = index_limit(draw, scene)) return reason;
   if (const Reason reason = texture_limit(draw, scene)) return reason;
   return primitive_limit(draw, scene, frame.camera);
@@ -95,7 +99,8 @@ struct CommandLimit {
   Reason operator()(const auto&) const { return std::nullopt; }
 
   Reason raster_limit(const reference::FragmentState& state, double depth) const {
-    if (state.depth && meets_a_clear(depth, frame.cleared_depths)) return "pixels at exactly a cleared depth: Mesa's float depth may lie a step beside it";
+    if (state.depth && meets_a_clear(depth, frame.cleared_depths))
+      return "pixels at exactly a cleared depth: Mesa's float depth may lie a step beside it";
     return std::nullopt;
   }
 };
@@ -143,7 +148,8 @@ Reason first_limit(const reference::Scene& scene) {
   for (const reference::Command& command : scene.frame) {
     std::visit([&](const auto& c) { frame.take(c), accumulation.take(c); }, command);
     if (accumulation.may_wrap()) return "Mesa's accumulation buffer wraps where it ought to saturate";
-    if (const reference::FragmentState* state = fragment_state(command); state && !component_mask(state->color_mask, state->plane_mask, scene.framebuffer))
+    if (const reference::FragmentState* state = fragment_state(command);
+        state && !component_mask(state->color_mask, state->plane_mask, scene.framebuffer))
       return "a plane mask splits a colour component";
     if (const Reason reason = std::visit(CommandLimit{scene, frame}, command)) return reason;
   }

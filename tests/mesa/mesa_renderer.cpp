@@ -6,10 +6,11 @@
 #include "context.h"
 #include "fixed_function.h"
 #include "fragment_functions.h"
-#include "lighting_programs.h"
 #include "limits.h"
 #include "pixel_rectangles.h"
 #include "primitives.h"
+#include "program_lighting.h"
+#include "program_texturing.h"
 #include "shadow.h"
 #include "stored_colors.h"
 #include "textures.h"
@@ -38,7 +39,14 @@ GLenum accum_operation(reference::AccumOp op) {
 class Renderer {
  public:
   explicit Renderer(const reference::Scene& scene)
-      : scene_(scene), format_(scene.framebuffer), context_(format_.width_px, format_.height_px, buffers_for(scene)), gl_(context_.functions()), programs_(gl_), textures_(gl_, scene), camera_(scene.camera), lights_(scene.lights) {}
+      : scene_(scene),
+        format_(scene.framebuffer),
+        context_(format_.width_px, format_.height_px, buffers_for(scene)),
+        gl_(context_.functions()),
+        programs_(gl_),
+        textures_(gl_, scene),
+        camera_(scene.camera),
+        lights_(scene.lights) {}
 
   std::vector<std::uint8_t> run() {
     for (const reference::Command& command : scene_.frame) std::visit([this](const auto& c) { execute(c); }, command);
@@ -91,7 +99,7 @@ class Renderer {
   void set_raster_state(reference::FragmentState state) {
     if (state.stencil) state.stencil->back = state.stencil->front;
     set_fragment_functions(gl_, state, format_);
-    gl_.use_program(0);
+    programs_.use(LightingBy::kFixedFunctions, false);
     textures_.use_none();
   }
 
@@ -116,8 +124,7 @@ class Renderer {
     set_window_depths(draw, format_.depth);
     set_window(draw);
     set_primitive_state(gl_, draw);
-    textures_.use(draw);
-    set_colors(draw, has_vertex_colors(draw, mesh), vertices);
+    set_colors(draw, mesh, vertices);
     draw_vertices(mesh.primitive, vertices);
     check_errors("drawing " + mesh.name);
   }
@@ -131,16 +138,25 @@ class Renderer {
     glMatrixMode(GL_MODELVIEW);
   }
 
+  LightingBy lighting_by(const Draw& draw, const std::vector<Vertex>& vertices) const {
+    if (fixed_functions_can(draw, scene_.light_model, lights_, vertices)) return LightingBy::kFixedFunctions;
+    return draw.shading == reference::Shading::kPhong ? LightingBy::kFragmentProgram : LightingBy::kVertexProgram;
+  }
+
   // Leaves the matrix that takes objects into eye space.
-  void set_colors(const Draw& draw, bool has_vertex_colors, const std::vector<Vertex>& vertices) {
+  void set_colors(const Draw& draw, const reference::Mesh& mesh, const std::vector<Vertex>& vertices) {
+    const reference::Texture* const texture = draw.texture ? &scene_.textures.at(*draw.texture) : nullptr;
+    const LightingBy lighting = lighting_by(draw, vertices);
     glShadeModel(draw.shading == reference::Shading::kFlat ? GL_FLAT : GL_SMOOTH);
     set_enabled(GL_NORMALIZE, draw.normalize);
-    if (fixed_functions_can(draw, scene_.light_model, lights_, vertices)) {
-      gl_.use_program(0);
+    textures_.use(draw);
+    programs_.use(lighting, texture != nullptr && asks_for_level(*texture));
+    set_program_texture(programs_, draw, mesh, texture);
+    if (lighting == LightingBy::kFixedFunctions) {
       load_matrix(camera_.view_from_world);
-      set_fixed_function_lighting(draw, scene_.light_model, lights_, has_vertex_colors);
+      set_fixed_function_lighting(draw, scene_.light_model, lights_, has_vertex_colors(draw, mesh));
     } else {
-      programs_.use(draw, scene_.light_model, lights_, camera_, has_vertex_colors, draw.texture ? &scene_.textures.at(*draw.texture) : nullptr);
+      set_program_lighting(programs_, draw, scene_.light_model, lights_, camera_, has_vertex_colors(draw, mesh));
     }
     load_matrix(reference::multiply(camera_.view_from_world, draw.world_from_object));
   }
@@ -151,7 +167,7 @@ class Renderer {
   const FrameBufferFormat& format_;
   Context context_;
   const Functions& gl_;
-  LightingPrograms programs_;
+  Programs programs_;
   Textures textures_;
   reference::Camera camera_;
   std::vector<reference::Light> lights_;

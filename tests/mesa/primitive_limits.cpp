@@ -52,7 +52,8 @@ std::vector<Corners> primitives_in_clip_space(const Draw& draw, const Mesh& mesh
 /// Whether a plane, where `inside` is 0, has corners on both sides.
 template <class Inside>
 bool cuts(const Corners& corners, const Inside& inside) {
-  return std::ranges::any_of(corners, [&](Vec4 p) { return inside(p) < 0; }) && std::ranges::any_of(corners, [&](Vec4 p) { return inside(p) > 0; });
+  return std::ranges::any_of(corners, [&](Vec4 p) { return inside(p) < 0; }) &&
+         std::ranges::any_of(corners, [&](Vec4 p) { return inside(p) > 0; });
 }
 
 bool is_cut_in_depth(const Corners& corners, const reference::Camera& camera) {
@@ -86,14 +87,18 @@ bool sides_matter(const Draw& draw, bool two_sided_lighting) {
 }
 
 Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera& camera) {
-  if (draw.shading == reference::Shading::kFlat && is_cut_in_depth(line, camera)) return "a flat line cut by the near or far plane: Mesa takes its other end's colour";
+  if (draw.shading == reference::Shading::kFlat && is_cut_in_depth(line, camera))
+    return "a flat line cut by the near or far plane: Mesa takes its other end's colour";
   return std::nullopt;
 }
 
 Reason polygon_limit(const Corners& polygon, const Draw& draw, bool two_sided_lighting, const reference::Camera& camera) {
-  if (!has_one_mode(draw, PolygonMode::kFill) && is_cut_in_depth(polygon, camera)) return "lines or points of a polygon that is cut: Mesa leaves out what the cut adds";
-  if (has_mode(draw, PolygonMode::kPoint) && is_cut_by_sides(polygon)) return "points of a polygon that is cut: Mesa adds points where it leaves the picture";
-  if (sides_matter(draw, two_sided_lighting) && faces_both_ways(polygon)) return "a polygon whose parts face both ways: Mesa decides for each";
+  if (!has_one_mode(draw, PolygonMode::kFill) && is_cut_in_depth(polygon, camera))
+    return "lines or points of a polygon that is cut: Mesa leaves out what the cut adds";
+  if (has_mode(draw, PolygonMode::kPoint) && is_cut_by_sides(polygon))
+    return "points of a polygon that is cut: Mesa adds points where it leaves the picture";
+  if (sides_matter(draw, two_sided_lighting) && faces_both_ways(polygon))
+    return "a polygon whose parts face both ways: Mesa decides for each";
   return std::nullopt;
 }
 
@@ -104,7 +109,8 @@ Reason primitive_limit(const Draw& draw, const reference::Scene& scene, const re
   if (is_quads(mesh.primitive) && draw.provoking_vertex == ProvokingVertex::kFirst)
     return "Mesa's quads keep to the last vertex under the first one's convention, and split along the other diagonal";
   if (std::max(draw.point_size, draw.line_width) > kLargestSize) return "a point or line of more pixels than Mesa's";
-  if (stencils_each_side(draw) && !has_one_mode(draw, PolygonMode::kFill)) return "a stencil for each side: to Mesa lines and points of polygons are front";
+  if (stencils_each_side(draw) && !has_one_mode(draw, PolygonMode::kFill))
+    return "a stencil for each side: to Mesa lines and points of polygons are front";
   for (const Corners& corners : primitives_in_clip_space(draw, mesh, camera)) {
     Reason reason;
     if (corners.size() == 2) reason = line_limit(corners, draw, camera);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program_texturing.h"
+
 namespace tessera::mesa {
 namespace {
 
@@ -22,9 +24,13 @@ bool is_moved(double at, double zoom) {
 
 Reason texture_limit(const reference::Draw& draw, const reference::Scene& scene) {
   if (!draw.texture) return std::nullopt;
-  const reference::Image& image = scene.textures.at(*draw.texture).image;
+  const reference::Texture& texture = scene.textures.at(*draw.texture);
+  const reference::Image& image = texture.image;
   if (is_too_large(image.width, image.height)) return "a texture beyond Mesa's";
   if (draw.texture_env == reference::TextureEnv::kDecal && image.channels < 3) return "OpenGL leaves the decal of luminance open";
+  const bool fills = draw.polygon_mode[0] == reference::PolygonMode::kFill || draw.polygon_mode[1] == reference::PolygonMode::kFill;
+  const bool outlines = draw.polygon_mode[0] == reference::PolygonMode::kLine || draw.polygon_mode[1] == reference::PolygonMode::kLine;
+  if (fills && outlines && asks_for_level(texture)) return "a level of detail for lines on one side and for polygons on the other";
   return std::nullopt;
 }
 

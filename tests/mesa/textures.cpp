@@ -52,8 +52,9 @@ GLint stored_format(const reference::Image& image) {
 
 void upload_level(GLenum target, GLint level, const reference::Image& image) {
   const GLenum format = pixel_format(image);
-  if (target == GL_TEXTURE_1D) glTexImage1D(target, level, stored_format(image), image.width, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
-  else glTexImage2D(target, level, stored_format(image), image.width, image.height, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
+  const GLint stored = stored_format(image);
+  if (target == GL_TEXTURE_1D) glTexImage1D(target, level, stored, image.width, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
+  else glTexImage2D(target, level, stored, image.width, image.height, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
 }
 
 bool has_mipmaps(reference::MinFilter min) { return min != reference::MinFilter::kNearest && min != reference::MinFilter::kLinear; }

@@ -1,11 +1,13 @@
-// The lighting programs' texts.
+// The programs' texts.
 #pragma once
 
 namespace tessera::mesa {
 
-// Shared by both programs. A light takes seven vectors, in the order of append_light(); a material five.
-inline constexpr const char* kLighting = R"(#version 130
-uniform int light_count;
+// The first line of every text.
+inline constexpr const char* kVersion = "#version 130\n";
+
+// Shared by both kinds of lighting. A light takes seven vectors, in the order of append_light(); a material five.
+inline constexpr const char* kLighting = R"(uniform int light_count;
 uniform vec4 light_values[7 * 32];
 uniform vec4 materials[2 * 5];  // front, back
 uniform vec4 scene_ambient;
@@ -79,34 +81,52 @@ void main() {
 }
 )";
 
-// Tables 3.22 and 3.23 of OpenGL 1.5. Where they multiply by the texel's alpha, one without alpha has 1.
-inline constexpr const char* kPixelLitFragment = R"(
-uniform int two_sided;
-uniform int texture_dimensions;  // 0: none
+// Shared by the fragment programs. The derivatives that the level of detail is made of are exact: 1/w and what is multiplied by it
+// are linear in the window, so that the differences between neighbours are those of every point, and the quotient rule does the
+// rest. Along a line both derivatives are shares of the one along its length. What Mesa would take instead are differences of
+// the quotients, and a logarithm that is straight between powers of two. The environments are tables 3.22 and 3.23 of OpenGL 1.5;
+// where they multiply by the texel's alpha, one without alpha has 1.
+inline constexpr const char* kTexturing = R"(uniform int texture_dimensions;  // 0: none
+uniform vec4 texture_size;       // in texels, a row's height 0; z: whether on a line; w: the level up to which it is magnified
 uniform int texture_env;         // modulate, replace, decal, blend, add
 uniform int texture_has_alpha;
 uniform vec4 texture_env_color;
 uniform sampler2D image;
 uniform sampler1D row;
-in vec3 position, normal;
-in vec4 color;
-in vec2 texcoord;
 
-vec4 textured(vec4 f, vec4 t) {
+float level_of_detail(vec2 at) {
+  float r = gl_FragCoord.w;  // 1/w
+  vec2 dx = texture_size.xy * (dFdx(at * r) - at * dFdx(r)) / r, dy = texture_size.xy * (dFdy(at * r) - at * dFdy(r)) / r;
+  float square = texture_size.z != 0.0 ? dot(dx, dx) + dot(dy, dy) : max(dot(dx, dx), dot(dy, dy));
+  float level = 0.5 * log2(max(square, 1.0e-30));
+  return level > texture_size.w ? level : 0.0;
+}
+
+vec4 textured(vec4 f, vec2 at) {
+  if (texture_dimensions == 0) return f;
+  float level = level_of_detail(at);
+  vec4 t = texture_dimensions == 2 ? textureLod(image, at, level) : textureLod(row, at.s, level);
   if (texture_env == 0) return f * t;
   if (texture_env == 1) return vec4(t.rgb, texture_has_alpha != 0 ? t.a : f.a);
   if (texture_env == 2) return vec4(mix(f.rgb, t.rgb, t.a), f.a);
   if (texture_env == 3) return vec4(mix(f.rgb, clamp(texture_env_color.rgb, 0.0, 1.0), t.rgb), f.a * t.a);
   return vec4(min(f.rgb + t.rgb, 1.0), f.a * t.a);
 }
+)";
 
+inline constexpr const char* kTexturedFragment = R"(
+void main() { gl_FragColor = textured(gl_Color, gl_TexCoord[0].st); }
+)";
+
+inline constexpr const char* kPixelLitFragment = R"(
+uniform int two_sided;
+in vec3 position, normal;
+in vec4 color;
+in vec2 texcoord;
 void main() {
   bool back = two_sided != 0 && !gl_FrontFacing;
   vec3 n = unit(normal);
-  vec4 f = lit(position, back ? -n : n, back ? 1 : 0, color);
-  if (texture_dimensions == 2) f = textured(f, texture(image, texcoord));
-  else if (texture_dimensions == 1) f = textured(f, texture(row, texcoord.s));
-  gl_FragColor = f;
+  gl_FragColor = textured(lit(position, back ? -n : n, back ? 1 : 0, color), texcoord);
 }
 )";
 
