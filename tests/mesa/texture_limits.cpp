@@ -20,6 +20,15 @@ bool is_moved(double at, double zoom) {
   return fraction != 0 && (std::abs(zoom) != 1 || fraction == 0.5);
 }
 
+// Whether the centre of a pixel lies between two of an image's: Mesa finds the texel in float and takes either.
+bool meets_a_centre(double at, double zoom, int count) {
+  for (int n = 1; n <= count; ++n) {
+    const double border = at + zoom * n;
+    if (std::abs(border - std::floor(border) - 0.5) < 1e-4) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Reason texture_limit(const reference::Draw& draw, const reference::Scene& scene) {
@@ -42,6 +51,9 @@ Reason bitmap_limit(const reference::Bitmap& bitmap) {
 Reason image_limit(const reference::ImageDrawing& drawing) {
   if (is_too_large(drawing.image.width, drawing.image.height)) return "an image beyond Mesa's textures";
   if (is_moved(drawing.at[0], drawing.zoom[0]) || is_moved(drawing.at[1], drawing.zoom[1])) return "Mesa rounds the position of an image";
+  if (meets_a_centre(drawing.at[0], drawing.zoom[0], drawing.image.width) ||
+      meets_a_centre(drawing.at[1], drawing.zoom[1], drawing.image.height))
+    return "a pixel's centre between two of an image's: Mesa takes either";
   return std::nullopt;
 }
 
