@@ -153,7 +153,7 @@ const BadScene kBadScenes[] = {
     {mesh(R"("file": "no such file.obj")"), "/meshes/m/file", "cannot read \"no such file.obj\": No such file or directory"},
     {mesh(R"("file": "model.txt")"), "/meshes/m/file", "cannot read"},
     {mesh(R"("positions": [])"), "/meshes/m/positions", "found an empty array, expected at least 3 positions"},
-    {mesh(R"("positions": [[0,0,0],[1,0,0]])"), "/meshes/m/positions", "three positions for each triangle"},
+    {mesh(R"("positions": [[0,0,0],[1,0,0]])"), "/meshes/m/positions", "expected a multiple of 3 positions, or \"indices\", for triangles"},
     {mesh(R"("positions": [[0,0,0],[1,0,0],[0,1]])"), "/meshes/m/positions/2", "expected an array of 3 numbers"},
     {mesh(R"("positions": [[0,0,0],[1,0,null],[0,1,0]])"), "/meshes/m/positions/1/2", "found null, expected a number"},
     {mesh(R"("positions": [[0,0,0],[1,0,1e39],[0,1,0]])"), "/meshes/m/positions/1/2", "32-bit float"},

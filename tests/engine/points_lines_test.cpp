@@ -120,6 +120,7 @@ TEST(Points, AreThereIfTheirCentersAreInTheViewVolume) {
         mesh.positions[static_cast<std::size_t>(axis)] = inside ? side : std::nextafter(side, 2 * side);
         DrawState state = unlit({1, 1, 1, 1});
         state.point_size = 8;
+        state.depth.enabled = false;
         const std::vector<std::uint32_t> words = drawn(mesh, state, renderer);
         const auto count = std::count(words.begin(), words.end(), 0xffffffu);
         EXPECT_EQ(count, !inside ? 0 : axis == 2 ? 64 : 32) << "axis " << axis << ", " << side;
