@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "hwy/cache_control.h"
-
 #include "framebuffer/check.h"
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
@@ -200,11 +198,11 @@ struct GroupBuilder {
     if (fetched_count == 2 * kGroupSize) draw_fetched(bins, kGroupSize);
   }
   HWY_INLINE void fetch(std::size_t vertex) const {
-    hwy::Prefetch(draw->vertices + vertex);
+    __builtin_prefetch(draw->vertices + vertex);
     if (draw->words[0] != nullptr)
-      hwy::Prefetch(draw->words[0] + vertex);
+      __builtin_prefetch(draw->words[0] + vertex);
     else
-      hwy::Prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
+      __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
   }
   /// All but the last `kept` of them.
   HWY_NOINLINE void draw_fetched(const Bins& bins, int kept) {
