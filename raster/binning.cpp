@@ -174,6 +174,11 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
   }
 }
 
+void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect) {
+  for (int ty = rect.y0 / grid.tile_size; ty <= (rect.y1 - 1) / grid.tile_size; ++ty)
+    for (int tx = rect.x0 / grid.tile_size; tx <= (rect.x1 - 1) / grid.tile_size; ++tx) bins.push_draw(ty * grid.columns() + tx, draw);
+}
+
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count) {
   ClipVertex corners[3];
   for (int k = 0; k < 3; ++k) {
