@@ -7,6 +7,7 @@
 
 #include "engine/fragment_plan.h"
 #include "engine/matrix.h"
+#include "engine/pixel_plan.h"
 #include "raster/fixed_point.h"
 #include "shading/fragment_word.h"
 
@@ -87,7 +88,6 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   t.depth = target.depth_kind;
 
   plan.rect = intersect({0, 0, format.width, format.height}, raster_rect(viewport, format.height));
-  if (draw.state.scissor) plan.rect = intersect(plan.rect, raster_rect(*draw.state.scissor, format.height));
 }
 
 const Material& back_material(const DrawState& state) { return state.back_material ? *state.back_material : state.material; }
@@ -264,13 +264,19 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
 DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
   const DrawState& state = draw.state;
   DrawPlan plan;
-  plan_transform(plan, draw, target);
-  plan.keep_front = state.cull != Cull::front;
-  plan.keep_back = state.cull != Cull::back;
-  plan.front_is_clockwise = state.front_face == FrontFace::cw;
-  plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
-  plan_faces(plan, draw, target.layout);
+  if (draw.pixels) {
+    plan_pixel_places(plan, *draw.pixels, target);
+  } else {
+    plan_transform(plan, draw, target);
+    plan.keep_front = state.cull != Cull::front;
+    plan.keep_back = state.cull != Cull::back;
+    plan.front_is_clockwise = state.front_face == FrontFace::cw;
+    plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
+    plan_faces(plan, draw, target.layout);
+    if (reasons && state.shadow_on) *reasons += "  a planar shadow: unlit, in one colour\n";
+  }
+  if (state.scissor) plan.rect = intersect(plan.rect, raster_rect(*state.scissor, target.format.height));
 
   static_assert(static_cast<int>(CompareOp::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(CompareOp::less) == static_cast<int>(Compare::less));
   const bool has_depth = state.depth.enabled && target.depth_kind != DepthKind::none;
@@ -295,8 +301,11 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   if (reasons && has_offset) *reasons += "  polygon offset\n";
   plan.has_ops = fragments.needed || has_offset;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
-  plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
-  if (capture_normals && plan.write_mask != 0) {
+  if (draw.pixels)
+    plan_pixel_colors(plan, *draw.pixels, reasons);
+  else
+    plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
+  if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
     plan.captured_normal = plan.attribute_count;
     plan.attribute_count += 3;
   }
