@@ -90,7 +90,8 @@ void check_fragment_state(const char* function, const DrawState& s, const FrameB
   if (s.blend) {
     if (is_index) refuse("blending is asked for, but the frame buffer holds indices, which do not blend");
     if (s.logic_op != LogicOp::copy) refuse("blending and a logic operation are asked for; a draw has one of them");
-    for (const float c : {s.blend->color.r, s.blend->color.g, s.blend->color.b, s.blend->color.a}) require_range({function, ": a component of blend.color"}, c, 0, 1);
+    const Color& constant = s.blend->color;
+    for (const float c : {constant.r, constant.g, constant.b, constant.a}) require_range({function, ": a component of blend.color"}, c, 0, 1);
   }
   if (s.stencil && target.format.stencil_bits == 0) refuse("a stencil test is asked for, but the frame buffer has no stencil buffer");
 }

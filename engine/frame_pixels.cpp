@@ -47,7 +47,12 @@ void record(FrameRecording& recording, const char* function, const RecordedPixel
 
 void Frame::draw_bitmap(const Bitmap& bitmap, const FragmentState& state) {
   constexpr const char* kFunction = "Frame::draw_bitmap";
-  RecordedPixels pixels{.texels = {.x = bitmap.x, .y = bitmap.y, .width = bitmap.width, .height = bitmap.height, .top_row = bitmap.bits, .stride_bytes = bitmap.stride_bytes},
+  RecordedPixels pixels{.texels = {.x = bitmap.x,
+                                   .y = bitmap.y,
+                                   .width = bitmap.width,
+                                   .height = bitmap.height,
+                                   .top_row = bitmap.bits,
+                                   .stride_bytes = bitmap.stride_bytes},
                         .depth = bitmap.depth,
                         .color = bitmap.color};
   check_pixels(kFunction, pixels, "bits", (std::int64_t{bitmap.width} + 7) / 8);
@@ -60,7 +65,15 @@ void Frame::draw_bitmap(const Bitmap& bitmap, const FragmentState& state) {
 void Frame::draw_image(const PixelImage& image, const FragmentState& state) {
   constexpr const char* kFunction = "Frame::draw_image";
   require_range({kFunction, ": channels"}, image.channels, 1, 4);
-  RecordedPixels pixels{.texels = {.x = image.x, .y = image.y, .zoom_x = image.zoom_x, .zoom_y = image.zoom_y, .width = image.width, .height = image.height, .top_row = image.pixels, .stride_bytes = image.stride_bytes, .channels = image.channels},
+  RecordedPixels pixels{.texels = {.x = image.x,
+                                   .y = image.y,
+                                   .zoom_x = image.zoom_x,
+                                   .zoom_y = image.zoom_y,
+                                   .width = image.width,
+                                   .height = image.height,
+                                   .top_row = image.pixels,
+                                   .stride_bytes = image.stride_bytes,
+                                   .channels = image.channels},
                         .depth = image.depth,
                         .color = {}};
   check_pixels(kFunction, pixels, "pixels", std::int64_t{image.width} * image.channels);

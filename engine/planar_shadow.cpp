@@ -38,8 +38,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
     const bool directional = l[3] == 0;
     if (!directional)
       for (std::size_t i = 0; i < 3; ++i) l[i] /= l[3];
-    throw Error(std::string(owner) + ": " + (directional ? "the light's direction " : "the light at ") + list_of(l, 3) + (directional ? " is parallel to" : " lies in") + " the plane " + list_of(plane, 4) +
-                ", it has no shadow there");
+    const std::string place = directional ? "the light's direction " + list_of(l, 3) + " is parallel to" : "the light at " + list_of(l, 3) + " lies in";
+    throw Error(std::string(owner) + ": " + place + " the plane " + list_of(plane, 4) + ", it has no shadow there");
   }
   Matrix m;
   for (std::size_t row = 0; row < 4; ++row)
@@ -55,7 +55,8 @@ void turn_into_shadow(RecordedDraw& draw) {
   const ShadowOn& shadow = *draw.state.shadow_on;
   const std::vector<Light>& lights = draw.surroundings->lights;
   if (shadow.light >= lights.size())
-    throw Error("Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " + std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") + ", counted from 0");
+    throw Error("Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " + std::to_string(lights.size()) +
+                (lights.size() == 1 ? " light" : " lights") + ", counted from 0");
   require_finite({"Frame::draw: shadow_on.color"}, shadow.color);
   draw.state.transform = shadow_matrix("Frame::draw: shadow_on", shadow.plane, lights[shadow.light]) * draw.state.transform;
   draw.state.lighting = false;

@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 
 #include "raster/pixel_rectangle.h"
 #include "shading/fragments-inl.h"
@@ -36,11 +37,13 @@ struct TexelPlaces {
 
 /// The pixels of a block that see a texel, or a bit that is set; 16 bits.
 HWY_INLINE std::uint32_t covered_bits(const PixelRectangle& texels, const TexelPlaces& at, int bx, int by) {
-  std::uint32_t bits = 0;
-  for (int p = 0; p < kBlockPixels; ++p) {
-    const std::int32_t column = at.column[bx + p % kBlockSize], row = at.row[by + p / kBlockSize];
-    if (column == kNoTexel || row == kNoTexel) continue;
-    if (texels.channels != 0 || texels.bit(column, row)) bits |= 1u << p;
+  std::uint32_t columns = 0, bits = 0;
+  for (int i = 0; i < kBlockSize; ++i) columns |= at.column[bx + i] != kNoTexel ? 1u << i : 0;
+  for (int i = 0; i < kBlockSize; ++i) bits |= at.row[by + i] != kNoTexel ? columns << (i * kBlockSize) : 0;
+  if (texels.channels != 0) return bits;
+  for (std::uint32_t left = bits; left != 0; left &= left - 1) {
+    const int p = std::countr_zero(left);
+    if (!texels.bit(at.column[bx + p % kBlockSize], at.row[by + p / kBlockSize])) bits &= ~(1u << p);
   }
   return bits;
 }

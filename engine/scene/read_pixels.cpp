@@ -27,7 +27,14 @@ double read_raster_depth(const Object& object) {
 FragmentState read_state(const Object& object, const Scene& scene) {
   DrawState s;
   read_fragment_state(object, scene, s);
-  return {.depth = s.depth, .alpha_test = s.alpha_test, .stencil = s.stencil, .blend = s.blend, .logic_op = s.logic_op, .color_mask = s.color_mask, .plane_mask = s.plane_mask, .scissor = s.scissor};
+  return {.depth = s.depth,
+          .alpha_test = s.alpha_test,
+          .stencil = s.stencil,
+          .blend = s.blend,
+          .logic_op = s.logic_op,
+          .color_mask = s.color_mask,
+          .plane_mask = s.plane_mask,
+          .scissor = s.scissor};
 }
 
 int hexadecimal_digit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; }
@@ -56,7 +63,8 @@ std::shared_ptr<const Picture> read_image_file(const Value& file, const std::str
 }  // namespace
 
 BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
-  const Object object(value, {"at", "depth", "width", "height", "rows", "color", "color_mask", "plane_mask", "scissor", "alpha_test", "stencil", "blend", "logic_op"});
+  const Object object(value, {"at", "depth", "width", "height", "rows", "color",  //
+                              "color_mask", "plane_mask", "scissor", "alpha_test", "stencil", "blend", "logic_op"});
   BitmapCommand command;
   Bitmap& bitmap = command.bitmap;
   const auto [x, y] = read_two(object.require("at"));
@@ -64,7 +72,8 @@ BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
   bitmap.width = static_cast<int>(object.require("width").integer(1, kMaxFrameBufferSize));
   bitmap.height = static_cast<int>(object.require("height").integer(1, kMaxFrameBufferSize));
   const Value rows = object.require("rows");
-  if (!rows.json().is_array() || rows.size() != static_cast<std::size_t>(bitmap.height)) rows.fail("one row for each of the bitmap's " + std::to_string(bitmap.height));
+  if (!rows.json().is_array() || rows.size() != static_cast<std::size_t>(bitmap.height))
+    rows.fail("one row for each of the bitmap's " + std::to_string(bitmap.height));
   for (std::size_t i = 0; i < rows.size(); ++i) read_row(rows.element(i), (static_cast<std::size_t>(bitmap.width) + 7) / 8, command.bits);
   bitmap.depth = read_raster_depth(object);
   if (const auto color = object.find("color")) bitmap.color = color->color();

@@ -492,7 +492,7 @@ struct FrameStats {
   std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles, bitmaps and images in them
   std::uint64_t tiles = 0, tiles_touched = 0;
   int tile_size = 0;                        ///< pixels, as chosen for the frame
-  std::uint64_t fragments = 0;              ///< pixels covered by triangles, bitmaps and images, before any test, in draws that can change one; if RendererOptions asks for it
+  std::uint64_t fragments = 0;              ///< pixels covered by draws that can change one, before any test; if RendererOptions asks for it
   std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
   double plan_seconds = 0, vertex_seconds = 0, binning_seconds = 0, tile_seconds = 0;  ///< of each stage; tiles with scan-out and store
 };

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/pixel_support.h"
 
 namespace tessera::test {
 
@@ -66,13 +66,15 @@ struct RandomOperations {
   // A bitmap, or an image of 1 to 4 channels and any zoom.
   void draw_pixels(Frame& frame, Random& random, int i) const {
     const DrawState s = state(random, i);
-    const FragmentState state{.depth = s.depth, .alpha_test = s.alpha_test, .stencil = s.stencil, .blend = s.blend, .logic_op = s.logic_op, .color_mask = s.color_mask, .plane_mask = s.plane_mask, .scissor = s.scissor};
-    const double x = random.between(-20, static_cast<float>(format.width)), y = random.between(-20, static_cast<float>(format.height)), depth = random.between(0, 1);
-    const int width = 1 + below(random, 40), height = 1 + below(random, 40);
+    const double x = random.between(-20, static_cast<float>(format.width)), y = random.between(-20, static_cast<float>(format.height));
+    const double depth = random.between(0, 1), zoom_x = random.between(-4, 6), zoom_y = random.between(-4, 6);
+    const int width = 1 + below(random, 40), height = 1 + below(random, 40), channels = 1 + i / 2 % 4;
     if (i % 2 == 0)
-      frame.draw_bitmap({.bits = texels.data(), .width = 8 * width, .height = height, .x = x, .y = y, .depth = depth, .color = color(random)}, state);
+      frame.draw_bitmap({.bits = texels.data(), .width = 8 * width, .height = height, .x = x, .y = y, .depth = depth, .color = color(random)},
+                        fragment_state_of(s));
     else
-      frame.draw_image({.pixels = texels.data(), .width = width, .height = height, .channels = 1 + i / 2 % 4, .x = x, .y = y, .zoom_x = random.between(-4, 6), .zoom_y = random.between(-4, 6), .depth = depth}, state);
+      frame.draw_image({.pixels = texels.data(), .width = width, .height = height, .channels = channels, .x = x, .y = y, .zoom_x = zoom_x, .zoom_y = zoom_y, .depth = depth},
+                       fragment_state_of(s));
   }
 
   static bool coin(Random& random) { return random.next() % 2 == 0; }

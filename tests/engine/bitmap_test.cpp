@@ -67,7 +67,8 @@ TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
         bitmaps.reserve(60);
         std::uint64_t touched = 0;
         for (int i = 0; i < 60; ++i) {
-          OwnBitmap& own = bitmaps.emplace_back(random, 1 + static_cast<int>(below(random, i % 5 == 0 ? 140 : 20)), 1 + static_cast<int>(below(random, i % 7 == 0 ? 120 : 20)), i % 3 + 1);
+          const auto width = 1 + static_cast<int>(below(random, i % 5 == 0 ? 140 : 20)), height = 1 + static_cast<int>(below(random, i % 7 == 0 ? 120 : 20));
+          OwnBitmap& own = bitmaps.emplace_back(random, width, height, i % 3 + 1);
           const std::int64_t x = random_position(random, kWidth), y = random_position(random, kHeight);
           const std::uint32_t word = random.next() & 0xffffff;
           own.bitmap.x = static_cast<double>(x) / 16;
@@ -91,7 +92,7 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 60; ++turn) {
       Random random(100 + static_cast<std::uint64_t>(turn));
-      const Rect place{static_cast<int>(below(random, 50)), static_cast<int>(below(random, 30)), 1 + static_cast<int>(below(random, 40)), 1 + static_cast<int>(below(random, 30))};
+      const Rect place = random_place(random);
       const std::vector<std::uint8_t> ones(static_cast<std::size_t>((place.width + 7) / 8 * place.height), 0xff);
       const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)};
       const double depth = static_cast<double>(below(random, 257)) / 256;  // exact in every format's way to it
@@ -101,7 +102,9 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
       Frame bits(by_bits), triangles(by_triangles);
       background(bits);
       background(triangles);
-      bits.draw_bitmap({.bits = ones.data(), .width = place.width, .height = place.height, .x = static_cast<double>(place.x), .y = static_cast<double>(place.y), .depth = depth, .color = color}, state);
+      Bitmap bitmap{.bits = ones.data(), .width = place.width, .height = place.height, .depth = depth, .color = color};
+      bitmap.x = place.x, bitmap.y = place.y;
+      bits.draw_bitmap(bitmap, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
       DrawState same = draw_state_of(state);
       same.lighting = false;
@@ -125,8 +128,9 @@ TEST(Bitmap, DepthIsQuantizedLikeAClear) {
       frame.clear({.color = Color{}, .depth = 1.0});
       frame.draw_bitmap({.bits = &one, .width = 1, .height = 1, .x = 2, .y = 1, .depth = depth}, {.depth = {.test = Compare::always}});
       Renderer({.threads = 1}).finish(frame);
-      const std::uint32_t level = format == DepthFormat::float32 ? std::bit_cast<std::uint32_t>(static_cast<float>(depth))
-                                                                 : static_cast<std::uint32_t>(std::floor(static_cast<long double>(depth) * (std::ldexp(1.0L, bits) - 1) + 0.5L));
+      const long double scaled = static_cast<long double>(depth) * (std::ldexp(1.0L, bits) - 1);
+      const bool is_float = format == DepthFormat::float32;
+      const std::uint32_t level = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(depth)) : static_cast<std::uint32_t>(std::floor(scaled + 0.5L));
       EXPECT_EQ(depth_words(buffer)[7], level) << depth << " in " << bits << " bits";
     }
   }
@@ -134,7 +138,9 @@ TEST(Bitmap, DepthIsQuantizedLikeAClear) {
 
 TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
   const std::vector<std::uint8_t> ones(8, 0xff);
-  const auto square = [&](double x, double y, Color color, double depth = 0) { return Bitmap{.bits = ones.data(), .width = 8, .height = 8, .x = x, .y = y, .depth = depth, .color = color}; };
+  const auto square = [&](double x, double y, Color color, double depth = 0) {
+    return Bitmap{.bits = ones.data(), .width = 8, .height = 8, .x = x, .y = y, .depth = depth, .color = color};
+  };
   for (const int samples : {1, 4})
     for (const bool defer : {true, false}) {
       FrameBuffer buffer({.width = 48, .height = 40, .accumulation_bits = 16, .samples = samples});

@@ -161,19 +161,23 @@ TEST(Image, OfOneTexelGoesThroughEveryOperationAsTrianglesDo) {
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 60; ++turn) {
       Random random(500 + static_cast<std::uint64_t>(turn));
-      const Rect place{static_cast<int>(below(random, 50)), static_cast<int>(below(random, 30)), 1 + static_cast<int>(below(random, 40)), 1 + static_cast<int>(below(random, 30))};
-      const std::uint8_t texel[4] = {static_cast<std::uint8_t>(random.next()), static_cast<std::uint8_t>(random.next()), static_cast<std::uint8_t>(random.next()), static_cast<std::uint8_t>(random.next())};
+      const Rect place = random_place(random);
+      std::uint8_t texel[4];
+      for (std::uint8_t& level : texel) level = static_cast<std::uint8_t>(random.next());
       const double depth = static_cast<double>(below(random, 257)) / 256;
       const FragmentState state = random_fragment_state(random, format, turn);
       FrameBuffer by_image(format), by_triangles(format);
       Frame image(by_image), triangles(by_triangles);
       draw_background(image, format);
       draw_background(triangles, format);
-      image.draw_image({.pixels = texel, .width = 1, .height = 1, .x = static_cast<double>(place.x), .y = static_cast<double>(place.y), .zoom_x = static_cast<double>(place.width), .zoom_y = static_cast<double>(place.height), .depth = depth}, state);
+      PixelImage pixel{.pixels = texel, .width = 1, .height = 1, .depth = depth};
+      pixel.x = place.x, pixel.y = place.y, pixel.zoom_x = place.width, pixel.zoom_y = place.height;
+      image.draw_image(pixel, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
       DrawState same = draw_state_of(state);
       same.lighting = false;
-      same.material.diffuse = {static_cast<float>(texel[0]) / 255.0f, static_cast<float>(texel[1]) / 255.0f, static_cast<float>(texel[2]) / 255.0f, static_cast<float>(texel[3]) / 255.0f};
+      const auto component = [&](int c) { return static_cast<float>(texel[c]) / 255.0f; };
+      same.material.diffuse = {component(0), component(1), component(2), component(3)};
       same.scissor = state.scissor ? intersection(*state.scissor, place) : place;
       triangles.draw(whole.view(), same);
       Renderer renderer({.threads = 1, .tile_size = 32});
@@ -253,9 +257,9 @@ TEST(Image, MayBeAnywhereAndOfAnySize) {
     double x, y, zoom_x, zoom_y;
     bool everywhere;
   };
-  const Case cases[] = {{-1e6, -1e6, 1e7, 1e7, true},    {most, 0, -most, 50, true},       {-most, 0, most, 50, false},        {-1e9, -1e9, most, most, true}, {0, 0, 0, 50, false},
-                        {0, 0, 50, -0.0, false},         {0, 0, least, least, false},      {0, 0, -most, 50, false},           {50, 50, -most, -most, true},   {1e300, 1e300, 1e300, 1e300, false},
-                        {-1e300, -1e300, 1e305, 1e305, true}};
+  const Case cases[] = {{-1e6, -1e6, 1e7, 1e7, true}, {most, 0, -most, 50, true},  {-most, 0, most, 50, false},         {-1e9, -1e9, most, most, true},
+                        {0, 0, 0, 50, false},         {0, 0, 50, -0.0, false},     {0, 0, least, least, false},         {0, 0, -most, 50, false},
+                        {50, 50, -most, -most, true}, {1e300, 1e300, 9, 9, false}, {-1e300, -1e300, 1e305, 1e305, true}};
   for (const Case& c : cases) {
     FrameBuffer buffer({.width = 33, .height = 20});
     Frame frame(buffer);

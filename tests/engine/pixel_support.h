@@ -14,6 +14,11 @@ inline Color color_of(std::uint32_t word) {
   return {static_cast<float>(word >> 16 & 255) / 255.0f, static_cast<float>(word >> 8 & 255) / 255.0f, static_cast<float>(word & 255) / 255.0f, 1};
 }
 
+inline Rect random_place(Random& random) {
+  const auto upto = [&](int n) { return static_cast<int>(below(random, n)); };
+  const int x = upto(50), y = upto(30);
+  return {x, y, 1 + upto(40), 1 + upto(30)};
+}
 inline Rect intersection(const Rect& a, const Rect& b) {
   const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
   return {x, y, std::max(0, std::min(a.x + a.width, b.x + b.width) - x), std::max(0, std::min(a.y + a.height, b.y + b.height) - y)};
@@ -33,7 +38,8 @@ inline std::vector<FrameBufferFormat> operation_formats() {
   return formats;
 }
 inline std::string describe(const FrameBufferFormat& f) {
-  return std::to_string(f.color_bits) + (f.color_mode == ColorMode::index ? " index bits, depth " : " bits, depth ") + std::to_string(static_cast<int>(f.depth)) + ", " + std::to_string(f.samples) + " samples";
+  return std::to_string(f.color_bits) + (f.color_mode == ColorMode::index ? " index bits, depth " : " bits, depth ") +
+         std::to_string(static_cast<int>(f.depth)) + ", " + std::to_string(f.samples) + " samples";
 }
 
 /// Each operation has its turn.
@@ -52,7 +58,10 @@ inline FragmentState random_fragment_state(Random& random, const FrameBufferForm
                                        .zpass = static_cast<StencilOp>((turn + 5) % 8),
                                        .write_mask = coin() ? 255 : random.next() % 256}};
   if (turn % 2 == 0 && !is_index)
-    s.blend = BlendState{.src = static_cast<BlendFactor>(turn / 2 % 15), .dst = static_cast<BlendFactor>((turn + 7) % 15), .equation = static_cast<BlendEquation>(turn % 5), .color = {0.2f, 0.4f, 0.6f, 0.8f}};
+    s.blend = BlendState{.src = static_cast<BlendFactor>(turn / 2 % 15),
+                         .dst = static_cast<BlendFactor>((turn + 7) % 15),
+                         .equation = static_cast<BlendEquation>(turn % 5),
+                         .color = {0.2f, 0.4f, 0.6f, 0.8f}};
   else if (turn % 4 == 3)
     s.logic_op = static_cast<LogicOp>(turn / 4 % 16);
   if (turn % 5 == 4) s.plane_mask = random.next();
@@ -61,10 +70,20 @@ inline FragmentState random_fragment_state(Random& random, const FrameBufferForm
     const bool red = coin();
     s.color_mask = {red, all ? red : coin(), all ? red : coin(), coin()};
   }
-  if (turn % 5 == 1) s.scissor = Rect{static_cast<int>(below(random, 40)), static_cast<int>(below(random, 30)), 1 + static_cast<int>(below(random, 50)), 1 + static_cast<int>(below(random, 40))};
+  if (turn % 5 == 1) s.scissor = random_place(random);
   return s;
 }
 
+inline FragmentState fragment_state_of(const DrawState& s) {
+  return {.depth = s.depth,
+          .alpha_test = s.alpha_test,
+          .stencil = s.stencil,
+          .blend = s.blend,
+          .logic_op = s.logic_op,
+          .color_mask = s.color_mask,
+          .plane_mask = s.plane_mask,
+          .scissor = s.scissor};
+}
 inline DrawState draw_state_of(const FragmentState& s) {
   DrawState d;
   d.depth = s.depth;
@@ -93,7 +112,8 @@ inline void draw_background(Frame& frame, const FrameBufferFormat& format) {
   DrawState state;
   state.lighting = false;
   frame.draw(slope.view(), state);
-  for (int x = 0; x < format.width && format.stencil_bits > 0; x += 9) frame.clear({.stencil = static_cast<std::uint32_t>(37 * x) & 255u, .scissor = Rect{x, 0, 5, format.height}});
+  for (int x = 0; x < format.width && format.stencil_bits > 0; x += 9)
+    frame.clear({.stencil = static_cast<std::uint32_t>(37 * x) & 255u, .scissor = Rect{x, 0, 5, format.height}});
 }
 
 }  // namespace tessera::test

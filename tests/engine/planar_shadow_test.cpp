@@ -82,7 +82,10 @@ TEST(PlanarShadow, DoesNotDependOnWhichWayTheNormalPoints) {
 // The page's matrix for a direction of travel (dx, dy, dz), which is away from the light.
 TEST(PlanarShadow, IsThePagesMatrixForADirection) {
   const double a = 0.5, b = 2, c = -1, d = 3, dx = -1, dy = -4, dz = 0.5, weight = a * dx + b * dy + c * dz;
-  const double rows[16] = {b * dy + c * dz, -b * dx, -c * dx, -d * dx, -a * dy, a * dx + c * dz, -c * dy, -d * dy, -a * dz, -b * dz, a * dx + b * dy, -d * dz, 0, 0, 0, weight};
+  const double rows[16] = {b * dy + c * dz, -b * dx, -c * dx, -d * dx,  //
+                           -a * dy, a * dx + c * dz, -c * dy, -d * dy,  //
+                           -a * dz, -b * dz, a * dx + b * dy, -d * dz,  //
+                           0, 0, 0, weight};
   const Matrix m = planar_shadow({a, b, c, d}, light_at(1, 4, -0.5f, 0));
   for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(m.m[i], rows[i] / weight, 1e-15) << i;
 }
@@ -109,7 +112,10 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
       const float slant = turn % 2 == 0 ? 0.0f : 0.5f;
       const std::vector<Light> lights{light_at(1, 0, 0, 0), light_at(-2 * slant, 2, 0, 0), light_at(0, 0, 1, 0)};
       MeshData flat;
-      for (std::size_t v = 0; v < caster.positions.size(); v += 3) flat.positions.insert(flat.positions.end(), {caster.positions[v] + slant * caster.positions[v + 1], 0, caster.positions[v + 2]});
+      for (std::size_t v = 0; v < caster.positions.size(); v += 3) {
+        const float* const p = &caster.positions[v];
+        flat.positions.insert(flat.positions.end(), {p[0] + slant * p[1], 0, p[2]});
+      }
       const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)};
       DrawState state = draw_state_of(random_fragment_state(random, format, turn));
       state.cull = static_cast<Cull>(turn % 3);
@@ -199,7 +205,8 @@ TEST(PlanarShadow, IsRefusedWhereThereIsNone) {
   EXPECT_EQ(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-9}}), "(no error)");
   EXPECT_THAT(of({light_at(0, 0, 0, 0)}, {.plane = {0, 1, 0, 0}}), HasSubstr("parallel"));
   EXPECT_THAT(error_of([&] { planar_shadow({0, 0, 0, 0}, Light{}); }).value_or(""), HasSubstr("planar_shadow: the plane is 0 0 0 0"));
-  EXPECT_THAT(error_of([&] { planar_shadow({0, 0, 1, 0}, light_at(static_cast<float>(nan), 0, 0, 1)); }).value_or(""), HasSubstr("planar_shadow's light's position holds nan"));
+  const Light nowhere = light_at(static_cast<float>(nan), 0, 0, 1);
+  EXPECT_THAT(error_of([&] { planar_shadow({0, 0, 1, 0}, nowhere); }).value_or(""), HasSubstr("planar_shadow's light's position holds nan"));
   const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   EXPECT_FALSE(error_of([&] { planar_shadow({0, 0, huge, -huge}, light_at(0, 0, 3e38f, 1)); }));
   EXPECT_FALSE(error_of([&] { planar_shadow({0, tiny, 0, 0}, light_at(0, 1, 0, 0)); }));
