@@ -48,7 +48,7 @@ void check_color_mask(const char* function, const std::array<bool, 4>& mask, con
   if (held) throw Error(std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
 }
 
-void check_state(const DrawState& s, const FrameBufferState& target) {
+void check_state(const DrawState& s) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
   require_finite({"Frame::draw: transform"}, s.transform);
@@ -61,6 +61,17 @@ void check_state(const DrawState& s, const FrameBufferState& target) {
     require_range({"Frame::draw: viewport x"}, s.viewport->x, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
     require_range({"Frame::draw: viewport y"}, s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
   }
+}
+
+void check_size(const char* name, float size) {
+  if (std::isfinite(size) && size > 0) return;
+  throw Error("Frame::draw: " + std::string(name) + " is " + text(size) + ", must be a finite number above 0");
+}
+
+// Of points, lines and outlines, and where polygons lie in depth.
+void check_shape(const DrawState& s, const FrameBufferState& target) {
+  check_size("point_size", s.point_size);
+  check_size("line_width", s.line_width);
   require_finite({"Frame::draw: polygon_offset"}, {s.polygon_offset.factor, s.polygon_offset.units});
   if ((s.polygon_offset.factor != 0 || s.polygon_offset.units != 0) && target.depth_kind == DepthKind::none)
     throw Error("Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
@@ -161,7 +172,8 @@ void Frame::accumulate(const Accum& accum) {
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
   with_memory("Frame::draw", [&] {
     RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = recording_->surroundings};
-    check_state(state, *recording_->target);
+    check_state(state);
+    check_shape(state, *recording_->target);
     check_fragment_state("Frame::draw", state, *recording_->target);
     if (state.shadow_on) turn_into_shadow(draw);
     recording_->draws.push_back(std::move(draw));
