@@ -49,6 +49,8 @@ Bytes decode(const std::string& ending, const unsigned char* file, std::size_t c
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
   OIIO::ImageSpec asked;
   asked.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
+  OIIO::Filesystem::IOProxy* const proxy = &memory;
+  asked.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);  // open() forgets its own one where something is asked for
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, &asked, &memory);
   if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
   const OIIO::ImageSpec& spec = input->spec();
