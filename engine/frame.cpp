@@ -42,12 +42,6 @@ void check_light(std::size_t number, const Light& l) {
   }
 }
 
-void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
-  if (mask[0] == mask[1] && mask[1] == mask[2]) return;
-  const char* const held = target.layout.index ? "an index buffer has one" : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone" : nullptr;
-  if (held) throw Error(std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
-}
-
 void check_state(const DrawState& s) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
@@ -88,24 +82,6 @@ void change(FrameRecording& recording, const char* function, const Change& edit)
 }
 
 }  // namespace
-
-void check_fragment_state(const char* function, const DrawState& s, const FrameBufferState& target) {
-  const auto refuse = [&](const char* reason) { throw Error(std::string(function) + ": " + reason); };
-  if (s.scissor) check_rect({function, ": scissor"}, *s.scissor);
-  check_color_mask(function, s.color_mask, target);
-  const bool is_index = target.layout.index;
-  if (s.alpha_test) {
-    if (is_index) refuse("an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
-    require_range({function, ": alpha_test.ref"}, s.alpha_test->ref, 0, 1);
-  }
-  if (s.blend) {
-    if (is_index) refuse("blending is asked for, but the frame buffer holds indices, which do not blend");
-    if (s.logic_op != LogicOp::copy) refuse("blending and a logic operation are asked for; a draw has one of them");
-    const Color& constant = s.blend->color;
-    for (const float c : {constant.r, constant.g, constant.b, constant.a}) require_range({function, ": a component of blend.color"}, c, 0, 1);
-  }
-  if (s.stencil && target.format.stencil_bits == 0) refuse("a stencil test is asked for, but the frame buffer has no stencil buffer");
-}
 
 Frame::Frame(FrameBuffer& target) : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) {
   if (!target.state_) throw Error("Frame: the frame buffer was moved from");

@@ -1,5 +1,7 @@
 #include "engine/pixel_plan.h"
 
+#include <cstdio>
+
 #include "shading/fragment_word.h"
 
 namespace tessera {
@@ -17,9 +19,13 @@ void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, std::string
   plan.constant_color = {clamp_unit(pixels.color.r), clamp_unit(pixels.color.g), clamp_unit(pixels.color.b)};
   plan.alpha[0] = plan.alpha[1] = clamp_unit(pixels.color.a);
   if (!reasons) return;
-  *reasons += (is_bitmap ? "  a bitmap of " : "  an image of ") + std::to_string(texels.width) + " x " + std::to_string(texels.height);
-  if (!is_bitmap) *reasons += ", " + std::to_string(texels.channels) + (texels.channels == 1 ? " channel" : " channels");
-  *reasons += plan.source == ColorSource::none ? ": no colour plane changes\n" : is_bitmap ? ": one colour\n" : ": each pixel has the colour of its texel\n";
+  const char* const colors = plan.source == ColorSource::none ? "no colour plane changes" : is_bitmap ? "one colour" : "each pixel has the colour of its texel";
+  char line[128];
+  if (is_bitmap)
+    std::snprintf(line, sizeof line, "  a bitmap of %d x %d: %s\n", texels.width, texels.height, colors);
+  else
+    std::snprintf(line, sizeof line, "  an image of %d x %d, %d channel%s: %s\n", texels.width, texels.height, texels.channels, texels.channels == 1 ? "" : "s", colors);
+  *reasons += line;
 }
 
 }  // namespace tessera

@@ -11,7 +11,7 @@ namespace {
 
 std::string list_of(const std::array<double, 4>& v, int count) {
   std::string list;
-  for (int i = 0; i < count; ++i) list += (i == 0 ? "" : " ") + text(v[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count; ++i) list.append(i == 0 ? "" : " ").append(text(v[static_cast<std::size_t>(i)]));
   return list;
 }
 
@@ -38,8 +38,12 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
     const bool directional = l[3] == 0;
     if (!directional)
       for (std::size_t i = 0; i < 3; ++i) l[i] /= l[3];
-    const std::string place = directional ? "the light's direction " + list_of(l, 3) + " is parallel to" : "the light at " + list_of(l, 3) + " lies in";
-    throw Error(std::string(owner) + ": " + place + " the plane " + list_of(plane, 4) + ", it has no shadow there");
+    throw Error(std::string(owner)
+                    .append(directional ? ": the light's direction " : ": the light at ")
+                    .append(list_of(l, 3))
+                    .append(directional ? " is parallel to the plane " : " lies in the plane ")
+                    .append(list_of(plane, 4))
+                    .append(", it has no shadow there"));
   }
   Matrix m;
   for (std::size_t row = 0; row < 4; ++row)

@@ -14,11 +14,24 @@ double window_y(int y, int frame_height, SamplePosition sample) { return frame_h
 
 int clamped(double pixel, int most) { return static_cast<int>(std::clamp(pixel, 0.0, static_cast<double>(most))); }
 
-/// Pixels [first, last) of a row or column between two places, without those at its ends that see(pixel) nothing.
-template <class Sees>
-void tighten(int& first, int& last, const Sees& sees) {
-  while (first < last && !sees(first)) ++first;
-  while (first < last && !sees(last - 1)) --last;
+/// The texels' rows or columns, and where the samples of a pixel stand beside its centre.
+struct Axis {
+  double start, zoom;
+  int count, samples;
+  double offset[kMaxSamples];
+
+  [[gnu::noinline]] bool sees(double center) const {  // twice in each of two loops
+    for (int s = 0; s < samples; ++s)
+      if (texel_at(start, zoom, count, center + offset[s]) != kNoTexel) return true;
+    return false;
+  }
+};
+
+/// Pixels [first, last) of a row or column, without those at its ends that see nothing.
+template <class Center>
+void tighten(int& first, int& last, const Axis& axis, const Center& center) {
+  while (first < last && !axis.sees(center(first))) ++first;
+  while (first < last && !axis.sees(center(last - 1))) --last;
 }
 
 }  // namespace
@@ -41,16 +54,16 @@ std::int32_t texel_at(double start, double zoom, int count, double place) {
 PixelRect covered_pixels(const PixelRectangle& texels, int frame_width, int frame_height, int samples) {
   const auto [left, right] = std::minmax({texels.x, texels.x + texels.zoom_x * texels.width});
   const auto [low, high] = std::minmax({texels.y, texels.y + texels.zoom_y * texels.height});
-  const SamplePosition* const positions = sample_positions(samples);
-  const auto any_sample = [&](const auto& sees) { return std::any_of(positions, positions + samples, sees); };
   PixelRect rect{clamped(std::floor(left), frame_width), frame_height - clamped(std::ceil(high), frame_height), clamped(std::ceil(right), frame_width),
                  frame_height - clamped(std::floor(low), frame_height)};
-  tighten(rect.x0, rect.x1, [&](int x) {
-    return any_sample([&](SamplePosition s) { return texel_at(texels.x, texels.zoom_x, texels.width, window_x(x, s)) != kNoTexel; });
-  });
-  tighten(rect.y0, rect.y1, [&](int y) {
-    return any_sample([&](SamplePosition s) { return texel_at(texels.y, texels.zoom_y, texels.height, window_y(y, frame_height, s)) != kNoTexel; });
-  });
+  Axis x{texels.x, texels.zoom_x, texels.width, samples, {}}, y{texels.y, texels.zoom_y, texels.height, samples, {}};
+  for (int s = 0; s < samples; ++s) {
+    const SamplePosition position = sample_positions(samples)[s];
+    x.offset[s] = window_x(0, position) - 0.5;
+    y.offset[s] = window_y(0, 0, position) + 0.5;
+  }
+  tighten(rect.x0, rect.x1, x, [](int pixel) { return pixel + 0.5; });
+  tighten(rect.y0, rect.y1, y, [&](int pixel) { return frame_height - pixel - 0.5; });
   return rect;
 }
 
