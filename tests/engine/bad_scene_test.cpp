@@ -269,6 +269,7 @@ const BadScene kBadScenes[] = {
     {command(R"("image": {"at": [0, 0], "file": "no such file.ppm"})"), "/frame/0/image/file", "cannot read \"no such file.ppm\": No such file or directory"},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": 2})"), "/frame/0/image/zoom", "found 2, expected [x, y]"},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [2, null]})"), "/frame/0/image/zoom/1", "found null, expected a number"},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [1e999, 1]})"), "/frame/0/image/zoom", "1e999"},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "color": [1, 1, 1, 1]})"), "/frame/0/image/color", "unknown key \"color\""},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "depth": -1})"), "/frame/0/image/depth", "found -1, expected a number from 0 to 1"},
 
