@@ -54,7 +54,12 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       draw.deferred = false;
       draw.number = what == What::primitives ? TileDraw::Number::primitive : TileDraw::Number::draw;
     }
-    if (what == What::primitives) {
+    if (what == What::normals && draw.texels != nullptr) {
+      // As if nothing had been drawn: they have none.
+      draw.deferred = false;
+      draw.number = TileDraw::Number::draw;
+      draw.word = Capture::kNothing;
+    } else if (what == What::primitives) {
       draw.source = ColorSource::triangle_word;
       draw.words[0] = draw.words[1] = (polygon_numbers_[plan].empty() ? numbers_ : polygon_numbers_[plan]).data();
     } else if (what == What::normals) {

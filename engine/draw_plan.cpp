@@ -7,6 +7,7 @@
 
 #include "engine/fragment_plan.h"
 #include "engine/matrix.h"
+#include "engine/pixel_plan.h"
 #include "raster/fixed_point.h"
 #include "shading/fragment_word.h"
 
@@ -87,7 +88,6 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   t.depth = target.depth_kind;
 
   plan.rect = intersect({0, 0, format.width, format.height}, raster_rect(viewport, format.height));
-  if (draw.state.scissor) plan.rect = intersect(plan.rect, raster_rect(*draw.state.scissor, format.height));
 }
 
 const Material& back_material(const DrawState& state) { return state.back_material ? *state.back_material : state.material; }
@@ -246,6 +246,25 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   if (generate && plan.smooth_normals && has_faces) note("the mesh has no normals: area-weighted means over the faces at each position");
 }
 
+// Points, lines or polygons, which sides of these are seen, and in which style.
+void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
+  const DrawState& state = draw.state;
+  plan.topology = draw.mesh.topology();
+  const bool has_faces = plan.topology == Topology::triangles;
+  plan.point_size = state.point_size;
+  plan.line_width = state.line_width;
+  plan.keep_front = state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
+  plan.keep_back = state.cull != Cull::back && has_faces;
+  static_assert(static_cast<int>(PolygonMode::point) == static_cast<int>(PolygonStyle::point));
+  const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode, plan.keep_back ? state.back_mode : state.front_mode};
+  for (int face = 0; face < 2 && has_faces; ++face) {
+    plan.style[face] = static_cast<PolygonStyle>(modes[face]);
+    plan.outlines |= modes[face] != PolygonMode::fill;
+  }
+  plan.front_is_clockwise = state.front_face == FrontFace::cw;
+  plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
+}
+
 }  // namespace
 
 PixelRect raster_rect(const Rect& rect, int frame_height) {
@@ -271,23 +290,16 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
 DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
   const DrawState& state = draw.state;
   DrawPlan plan;
-  plan_transform(plan, draw, target);
-  plan.topology = draw.mesh.topology();
-  const bool has_faces = plan.topology == Topology::triangles;
-  plan.point_size = state.point_size;
-  plan.line_width = state.line_width;
-  plan.keep_front = state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
-  plan.keep_back = state.cull != Cull::back && has_faces;
-  static_assert(static_cast<int>(PolygonMode::point) == static_cast<int>(PolygonStyle::point));
-  const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode, plan.keep_back ? state.back_mode : state.front_mode};
-  for (int face = 0; face < 2 && has_faces; ++face) {
-    plan.style[face] = static_cast<PolygonStyle>(modes[face]);
-    plan.outlines |= modes[face] != PolygonMode::fill;
-  }
-  plan.front_is_clockwise = state.front_face == FrontFace::cw;
-  plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
-  plan_faces(plan, draw, target.layout);
+  if (draw.pixels) {
+    plan_pixel_places(plan, *draw.pixels, target);
+  } else {
+    plan_transform(plan, draw, target);
+    plan_elements(plan, draw);
+    plan_faces(plan, draw, target.layout);
+    if (reasons && state.shadow_on) *reasons += "  a planar shadow: unlit, in one colour\n";
+  }
+  if (state.scissor) plan.rect = intersect(plan.rect, raster_rect(*state.scissor, target.format.height));
 
   static_assert(static_cast<int>(CompareOp::gequal) == static_cast<int>(Compare::gequal) && static_cast<int>(CompareOp::less) == static_cast<int>(Compare::less));
   const bool has_depth = state.depth.enabled && target.depth_kind != DepthKind::none;
@@ -304,7 +316,7 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   const FragmentPlan fragments = plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), reasons);
   plan.ops = fragments.ops;
   plan.uses_stencil = fragments.uses_stencil;
-  if (plan.uses_depth && has_faces) {
+  if (plan.uses_depth && plan.topology == Topology::triangles) {
     plan.offset_factor = state.polygon_offset.factor;
     plan.offset_units = state.polygon_offset.units;
   }
@@ -312,8 +324,11 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   if (reasons && plan.outlines) *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
-  plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
-  if (capture_normals && plan.write_mask != 0) {
+  if (draw.pixels)
+    plan_pixel_colors(plan, *draw.pixels, reasons);
+  else
+    plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
+  if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
     plan.captured_normal = plan.attribute_count;
     plan.attribute_count += 3;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "engine/recording.h"
@@ -21,6 +22,9 @@ struct DrawPlan {
   PixelRect rect;                 ///< where pixels may change, raster space
   bool keep_front = true, keep_back = true, front_is_clockwise = false;
   bool invisible = false;         ///< no buffer can change
+
+  std::optional<PixelRectangle> texels;  ///< a bitmap or an image, in place of a mesh
+  std::int32_t depth_key = 0;     ///< of all its pixels
 
   ColorSource source = ColorSource::constant;
   bool deferred = false;

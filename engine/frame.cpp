@@ -3,40 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/out_of_memory.h"
+#include "engine/planar_shadow.h"
 #include "engine/recording.h"
 #include "raster/fixed_point.h"
 
 namespace tessera {
 namespace {
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.9g", value);
-  return buffer;
-}
-
-// Names are put together where something is wrong only: a frame has thousands of draws.
-struct Name {
-  const char* owner;
-  const char* field = "";
-  std::string text() const { return std::string(owner) + field; }
-};
-void require_finite(const Name& name, std::initializer_list<double> values) {
-  for (const double v : values)
-    if (!std::isfinite(v)) throw Error(name.text() + " holds " + text(v) + ", must be finite");
-}
-void require_finite(const Name& name, const Color& c) { require_finite(name, {c.r, c.g, c.b, c.a}); }
-void require_finite(const Name& name, const Matrix& matrix) {
-  for (const double v : matrix.m) require_finite(name, {v});
-}
-void require_range(const Name& name, double value, double low, double high) {
-  if (!(value >= low && value <= high)) throw Error(name.text() + " is " + text(value) + ", must be " + text(low) + " to " + text(high));
-}
 
 void check_material(const char* what, const Material& m) {
   require_finite({what, ".ambient"}, m.ambient);
@@ -65,32 +42,19 @@ void check_light(std::size_t number, const Light& l) {
   }
 }
 
-void check_rect(const char* what, const Rect& rect) {
-  if (rect.width < 0 || rect.height < 0)
-    throw Error(std::string(what) + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) + " pixels, must not be negative");
-}
-
-void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
-  if (mask[0] == mask[1] && mask[1] == mask[2]) return;
-  const char* const held = target.layout.index ? "an index buffer has one" : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone" : nullptr;
-  if (held) throw Error(std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
-}
-
-void check_state(const DrawState& s, const FrameBufferState& target) {
+void check_state(const DrawState& s) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
   require_finite({"Frame::draw: transform"}, s.transform);
   require_range({"Frame::draw: depth_near"}, s.depth_near, 0, 1);
   require_range({"Frame::draw: depth_far"}, s.depth_far, 0, 1);
   if (s.viewport) {
-    check_rect("Frame::draw: viewport", *s.viewport);
+    check_rect({"Frame::draw: viewport"}, *s.viewport);
     require_range({"Frame::draw: viewport width"}, s.viewport->width, 1, kMaxFrameBufferSize);
     require_range({"Frame::draw: viewport height"}, s.viewport->height, 1, kMaxFrameBufferSize);
     require_range({"Frame::draw: viewport x"}, s.viewport->x, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
     require_range({"Frame::draw: viewport y"}, s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
   }
-  if (s.scissor) check_rect("Frame::draw: scissor", *s.scissor);
-  check_color_mask("Frame::draw", s.color_mask, target);
 }
 
 void check_size(const char* name, float size) {
@@ -98,25 +62,13 @@ void check_size(const char* name, float size) {
   throw Error("Frame::draw: " + std::string(name) + " is " + text(size) + ", must be a finite number above 0");
 }
 
-void check_operations(const DrawState& s, const FrameBufferState& target) {
+// Of points, lines and outlines, and where polygons lie in depth.
+void check_shape(const DrawState& s, const FrameBufferState& target) {
   check_size("point_size", s.point_size);
   check_size("line_width", s.line_width);
   require_finite({"Frame::draw: polygon_offset"}, {s.polygon_offset.factor, s.polygon_offset.units});
   if ((s.polygon_offset.factor != 0 || s.polygon_offset.units != 0) && target.depth_kind == DepthKind::none)
     throw Error("Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
-  const bool is_index = target.layout.index;
-  if (s.alpha_test) {
-    if (is_index) throw Error("Frame::draw: an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
-    require_range({"Frame::draw: alpha_test.ref"}, s.alpha_test->ref, 0, 1);
-  }
-  if (s.blend) {
-    if (is_index) throw Error("Frame::draw: blending is asked for, but the frame buffer holds indices, which do not blend");
-    if (s.logic_op != LogicOp::copy) throw Error("Frame::draw: blending and a logic operation are asked for; a draw has one of them");
-    for (const float c : {s.blend->color.r, s.blend->color.g, s.blend->color.b, s.blend->color.a}) require_range({"Frame::draw: a component of blend.color"}, c, 0, 1);
-  }
-  if (s.stencil) {
-    if (target.format.stencil_bits == 0) throw Error("Frame::draw: a stencil test is asked for, but the frame buffer has no stencil buffer");
-  }
 }
 
 // What is recorded already keeps its surroundings.
@@ -179,7 +131,7 @@ void Frame::clear(const Clear& clear) {
     const Color& c = *clear.accumulation;
     for (const float component : {c.r, c.g, c.b, c.a}) require_range({"Frame::clear: a component of accumulation"}, component, -1, 1);
   }
-  if (clear.scissor) check_rect("Frame::clear: scissor", *clear.scissor);
+  if (clear.scissor) check_rect({"Frame::clear: scissor"}, *clear.scissor);
   with_memory("Frame::clear", [&] { recording_->clears.push_back({clear, recording_->draws.size()}); });
 }
 
@@ -188,17 +140,19 @@ void Frame::accumulate(const Accum& accum) {
   if (target.layout.index) throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0) throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
   require_finite({"Frame::accumulate: value"}, {accum.value});
-  if (accum.scissor) check_rect("Frame::accumulate: scissor", *accum.scissor);
+  if (accum.scissor) check_rect({"Frame::accumulate: scissor"}, *accum.scissor);
   check_color_mask("Frame::accumulate", accum.color_mask, target);
   with_memory("Frame::accumulate", [&] { recording_->accums.push_back({accum, recording_->draws.size(), recording_->clears.size()}); });
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
   with_memory("Frame::draw", [&] {
-    const MeshArrays arrays = check_mesh(mesh);
-    check_state(state, *recording_->target);
-    check_operations(state, *recording_->target);
-    recording_->draws.push_back({arrays, state, recording_->surroundings});
+    RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = recording_->surroundings};
+    check_state(state);
+    check_shape(state, *recording_->target);
+    check_fragment_state("Frame::draw", state, *recording_->target);
+    if (state.shadow_on) turn_into_shadow(draw);
+    recording_->draws.push_back(std::move(draw));
   });
 }
 

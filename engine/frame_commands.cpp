@@ -157,7 +157,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   for (std::size_t i = 0; i < recording.draws.size(); ++i) {
     first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
     DrawPlan plan = plan_draw(recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
-    if (plan.invisible || recording.draws[i].mesh.elements == 0) continue;
+    if (plan.invisible || (!plan.texels && recording.draws[i].mesh.elements == 0)) continue;
     commands.plans.push_back(std::move(plan));
     commands.plan_draw.push_back(i);
   }
@@ -281,6 +281,8 @@ void connect_draws(FrameCommands& commands) {
     draw.uses_depth = plan.uses_depth;
     draw.depth_write = plan.depth_write;
     draw.depth_test = plan.depth_test;
+    if (plan.texels) draw.texels = &*plan.texels;
+    draw.depth_key = plan.depth_key;
     draw.source = plan.source;
     draw.write_mask = plan.write_mask;
     draw.deferred = plan.deferred;

@@ -163,8 +163,8 @@ std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, 
 }
 
 std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch) {
-  std::vector<std::size_t> first_element{0};  // of each draw, counted through the frame
-  for (const GeometryDraw& draw : commands.geometry) first_element.push_back(first_element.back() + draw.mesh->elements);
+  std::vector<std::size_t> first_element{0};  // of each draw, counted through the frame; a bitmap or an image counts as one
+  for (const GeometryDraw& draw : commands.geometry) first_element.push_back(first_element.back() + (draw.plan->texels ? 1 : draw.mesh->elements));
   const std::size_t total = first_element.back();
   const std::size_t batches = std::clamp<std::size_t>(total / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
   if (bins.size() < batches) bins.resize(batches);
@@ -175,7 +175,11 @@ std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGr
     const std::size_t begin = total * b / batches, end = total * (b + 1) / batches;
     for (std::size_t d = 0; d < draws.size(); ++d) {
       const std::size_t low = std::max(begin, first_element[d]), high = std::min(end, first_element[d + 1]);
-      if (low < high) bin_elements(bins[b], grid, draws[d], static_cast<std::uint32_t>(low - first_element[d]), static_cast<std::uint32_t>(high - first_element[d]), isa);
+      if (low >= high) continue;
+      if (commands.plans[d].texels)
+        bin_pixels(bins[b], grid, draws[d].draw, draws[d].rect);
+      else
+        bin_elements(bins[b], grid, draws[d], static_cast<std::uint32_t>(low - first_element[d]), static_cast<std::uint32_t>(high - first_element[d]), isa);
     }
     watch.task_done();
   });

@@ -8,6 +8,7 @@
 
 #include "engine/frame_buffer_state.h"
 #include "engine/mesh_arrays.h"
+#include "raster/pixel_rectangle.h"
 
 namespace tessera {
 
@@ -18,10 +19,18 @@ struct Surroundings {
   LightModel light_model;
 };
 
+/// A bitmap or an image.
+struct RecordedPixels {
+  PixelRectangle texels;
+  double depth = 0;
+  Color color;                             ///< of a bitmap
+};
+
 struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
   std::shared_ptr<const Surroundings> surroundings;
+  std::optional<RecordedPixels> pixels{};  ///< in place of the mesh, which is empty then
 };
 struct RecordedClear {
   Clear clear;

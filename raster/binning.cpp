@@ -175,6 +175,11 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
   }
 }
 
+void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect) {
+  for (int ty = rect.y0 / grid.tile_size; ty <= (rect.y1 - 1) / grid.tile_size; ++ty)
+    for (int tx = rect.x0 / grid.tile_size; tx <= (rect.x1 - 1) / grid.tile_size; ++tx) bins.push_draw(ty * grid.columns() + tx, draw);
+}
+
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count) {
   ClipVertex v;
   const float* p = draw.positions.at(vertex);

@@ -17,7 +17,7 @@
 
 namespace tessera {
 
-// A bin entry is a triangle of the current draw, or a marker that makes another draw current.
+// A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an image is a marker alone.
 inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
 inline constexpr std::uint32_t kPiece = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
 inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
@@ -54,9 +54,17 @@ class Bins {
     ++tail.triangles;
     ++counts.entries;
   }
+  /// A draw that is a bitmap or an image.
+  void push_draw(int tile, std::uint32_t draw) {
+    Tail& tail = tails_[static_cast<std::size_t>(tile)];
+    tail.draw = draw;
+    append(tail, kDrawMarker | draw);
+    ++tail.triangles;
+    ++counts.entries;
+  }
   /// The first block of a tile, or kNone.
   std::uint32_t first(int tile) const { return tails_[static_cast<std::size_t>(tile)].first; }
-  /// How many triangles a tile's bin holds.
+  /// How many triangles a tile's bin holds, bitmaps and images counted as one each.
   std::uint32_t triangles(int tile) const { return tails_[static_cast<std::size_t>(tile)].triangles; }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
 
@@ -159,6 +167,9 @@ WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::u
 constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
   return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
 }
+
+/// Bins a bitmap or an image that changes pixels of a rectangle, not empty.
+void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect);
 
 /// Points whose centres are outside of the view volume are not drawn [GL 2.1, 2.12]; lines are clipped to its near and far planes and to
 /// the guard band.

@@ -35,6 +35,7 @@ struct FragmentTriangle {
   bool has_word = false;          // there is no colour to be made: it is a word already
   std::uint32_t word = 0;
   const float* flat = nullptr;    // r g b a, or an index
+  const float* colors_given = nullptr;  // of a block's pixels, in place of the triangle's: r of all of them, then g, b and a
   PixelBatch pixels;              // of this surface, for lighting
   bool seen = false;
 
@@ -43,6 +44,7 @@ struct FragmentTriangle {
   HWY_INLINE Barycentric at(int bx, int by, int chunk) const { return barycentric(triangle, run.memory.wide.data(), bx, by, chunk); }
 
   HWY_INLINE Float alpha(int bx, int by, int chunk) const {
+    if (colors_given != nullptr) return hn::Load(kFloat, colors_given + 3 * kBlockPixels + chunk * kLanes);
     if (flat != nullptr) return splat(flat[3]);
     const int attribute = draw.alpha_attribute[face()];
     return attribute < 0 ? splat(draw.alpha[face()]) : clamped_unit(interpolate(at(bx, by, chunk), corners(triangle, attribute)));
@@ -84,7 +86,9 @@ struct FragmentTriangle {
     if (draw.source == ColorSource::constant) return splats(draw.color[face()].data());
     if (flat != nullptr) return splats(flat);
     Colors out;
-    if (draw.source == ColorSource::per_pixel) {
+    if (colors_given != nullptr) {
+      for (int c = 0; c < 3; ++c) out.c[c] = hn::Load(kFloat, colors_given + c * kBlockPixels + chunk * kLanes);
+    } else if (draw.source == ColorSource::per_pixel) {
       for (int c = 0; c < 3; ++c) out.c[c] = hn::Load(kFloat, run.memory.batch.field[kColorR + c] + chunk * kLanes);
     } else {
       const Barycentric weights = at(bx, by, chunk);

@@ -9,6 +9,7 @@
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
 #include "shading/draw_samples-inl.h"
+#include "shading/pixel_rectangles-inl.h"
 #include "shading/points_lines-inl.h"
 #include "shading/resolve-inl.h"
 
@@ -168,12 +169,13 @@ struct GroupBuilder {
     if (draw != nullptr && !run.memory.triangles.empty() && (next.write_mask != draw->write_mask || !next.deferred)) shade_whole_tile(run);
     draw_number = number;
     draw = &next;
-    draw_group_function = pick_draw_group(frame, next);
+    if (next.texels == nullptr) draw_group_function = pick_draw_group(frame, next);
     if (run.samples > 1 && next.depth_write && may_raise_depth(next.depth_test)) set_farthest(run, kFarthestKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
     run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x, next.rect.y1 - run.tile_y},
                          {0, 0, run.tile_size, run.tile_size});
     run.cut = ((run.rect.x0 | run.rect.y0 | run.rect.x1 | run.rect.y1) & 3) != 0;
+    if (next.texels != nullptr) draw_pixel_rectangle(run, number);
   }
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
     if (draw->topology != Topology::triangles) return add_small(bins, id);

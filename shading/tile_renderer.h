@@ -11,6 +11,7 @@
 #include "framebuffer/palette_search.h"
 #include "framebuffer/tile_grid.h"
 #include "raster/binning.h"
+#include "raster/pixel_rectangle.h"
 #include "raster/triangle_setup.h"
 #include "shading/fragment_ops.h"
 #include "shading/lighting.h"
@@ -25,7 +26,8 @@ enum class ColorSource : std::uint8_t {
   vertex_word,   ///< a word for each vertex; a triangle has its provoking vertex's (flat)
   triangle_word, ///< a word for each triangle (flat, by face normals)
   interpolated,  ///< colours interpolated from the vertices (Gouraud)
-  per_pixel      ///< lit at each pixel (Phong)
+  per_pixel,     ///< lit at each pixel (Phong)
+  texels         ///< an image's own
 };
 
 /// What the tiles need of a draw. Pointers are the frame's.
@@ -72,6 +74,10 @@ struct TileDraw {
   float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
   const double* depth_offsets = nullptr;      ///< what they come to of each triangle's polygon (raster/polygon_offset.h); null: a triangle has its own
   enum class Number : std::uint8_t { none, draw, primitive } number = Number::none;  ///< colour words are `word`, or the primitive's number
+
+  /// A bitmap or an image, in place of triangles: constant, texels, none, or a number's words. @pre not deferred, without offset
+  const PixelRectangle* texels = nullptr;
+  std::int32_t depth_key = 0;              ///< of all its pixels
 };
 
 /// A clear inside a frame, in words; before draw `before_draw`.

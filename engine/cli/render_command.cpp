@@ -64,12 +64,16 @@ std::string output_path(const RenderRequest& request) {
 
 void print_explanations(const Scene& scene, const Frame& frame) {
   std::size_t index = 0;
-  for (const SceneCommand& command : scene.frame)
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) {
-      std::string text = frame.explain(index);
-      while (!text.empty() && text.back() == '\n') text.pop_back();
-      std::cout << "draw " << index++ << ", \"" << scene.meshes[draw->mesh].name << "\":\n" << text << "\n";
-    }
+  const auto print = [&](const std::string& name) {
+    std::string text = frame.explain(index);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::cout << "draw " << index++ << ", " << name << ":\n" << text << "\n";
+  };
+  for (const SceneCommand& command : scene.frame) {
+    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) print("\"" + scene.meshes[draw->mesh].name + "\"");
+    if (std::holds_alternative<BitmapCommand>(command.what)) print("a bitmap");
+    if (std::holds_alternative<ImageCommand>(command.what)) print("an image");
+  }
 }
 
 // Buffers that the format has but the frame never touched hold what new buffers hold.

@@ -47,7 +47,11 @@ Bytes encode(const std::string& ending, const unsigned char* rgba, int width, in
 /// Width and height, then RGBA.
 Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count, int most_pixels_a_side) {
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, nullptr, &memory);
+  OIIO::ImageSpec asked;
+  asked.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
+  OIIO::Filesystem::IOProxy* const proxy = &memory;
+  asked.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);  // open() forgets its own one where something is asked for
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, &asked, &memory);
   if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels_a_side || spec.height > most_pixels_a_side)
@@ -58,9 +62,13 @@ Bytes decode(const std::string& ending, const unsigned char* file, std::size_t c
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data())) throw Failure{"OpenImageIO: " + input->geterror()};
   const int size[2] = {spec.width, spec.height};
   std::memcpy(bytes.data(), size, sizeof size);
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (int c = 0; c < 3; ++c)
-      bytes[sizeof size + 4 * i + static_cast<std::size_t>(c)] = raw[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channels >= 3 ? c : 0)];
+  const int alpha = channels == 2 ? 1 : channels >= 4 ? 3 : -1;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const unsigned char* const from = &raw[i * static_cast<std::size_t>(channels)];
+    unsigned char* const to = &bytes[sizeof size + 4 * i];
+    for (int c = 0; c < 3; ++c) to[c] = from[channels >= 3 ? c : 0];
+    if (alpha >= 0) to[3] = from[alpha];
+  }
   return bytes;
 }
 

@@ -20,6 +20,7 @@ struct Names {
   std::vector<std::string_view> meshes, materials;
   const Materials& material_of;
   const Scene& scene;
+  LightList lights;  // those in force
 };
 
 std::size_t read_name(const Value& value, std::string_view kind, const std::vector<std::string_view>& names) {
@@ -95,21 +96,29 @@ void read_shading(const Object& object, const Names& names, DrawState& state) {
 }
 
 // Where it goes and what it may touch.
-void read_target(const Object& object, const Scene& scene, DrawState& state) {
+void read_target(const Object& object, DrawState& state) {
   if (const auto transform = object.find("transform")) state.transform = read_transform(*transform);
   if (const auto cull = object.find("cull")) state.cull = cull->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
   if (const auto front = object.find("front_face")) state.front_face = front->choice<FrontFace>({{"ccw", FrontFace::ccw}, {"cw", FrontFace::cw}});
-  state.depth.enabled = scene.framebuffer.depth != DepthFormat::none;
-  if (const auto depth = object.find("depth")) state.depth = read_depth(*depth, scene);
   if (const auto range = object.find("depth_range")) {
     if (!range->json().is_array() || range->size() != 2) range->fail("[near, far]");
     state.depth_near = range->element(0).number(0, 1);
     state.depth_far = range->element(1).number(0, 1);
   }
-  if (const auto mask = object.find("color_mask")) state.color_mask = read_color_mask(*mask, scene.framebuffer);
-  if (const auto mask = object.find("plane_mask")) state.plane_mask = static_cast<std::uint32_t>(mask->integer(0, kMost32Bits));
   if (const auto viewport = object.find("viewport")) state.viewport = viewport->rect();
-  if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
+}
+
+ShadowOn read_shadow_on(const Value& value, const LightList& lights) {
+  const Object object(value, {"plane", "light", "color"});
+  if (lights.empty()) value.refuse("needs a light, and there are none");
+  ShadowOn shadow{.plane = object.require("plane").numbers<4>()};
+  if (const auto light = object.find("light")) {
+    const auto most = static_cast<std::int64_t>(lights.size()) - 1;
+    shadow.light = static_cast<std::size_t>(light->integer(0, most));
+  }
+  if (const auto color = object.find("color")) shadow.color = color->color();
+  value.checked([&] { return planar_shadow(shadow.plane, lights[shadow.light]); });
+  return shadow;
 }
 
 // Of points and lines, in pixels.
@@ -136,13 +145,15 @@ DrawCommand read_draw(const Value& value, const Names& names) {
                       {"draw", "material", "back_material", "transform", "shading", "lighting", "color_material", "provoking_vertex", "normalize",
                        "cull", "front_face", "depth", "depth_range", "color_mask", "plane_mask", "viewport", "scissor",
                        "polygon_offset", "alpha_test", "stencil", "blend", "logic_op",
-                       "polygon_mode", "point_size", "line_width", "texture_env", "texture_env_color", "stages"},
-                      {"texture", "shadow_on"});
+                       "polygon_mode", "point_size", "line_width", "texture_env", "texture_env_color", "shadow_on", "stages"},
+                      {"texture"});
   DrawCommand draw;
   draw.mesh = read_name(object.require("draw"), "mesh", names.meshes);
   read_shading(object, names, draw.state);
-  read_target(object, names.scene, draw.state);
-  read_operations(object, names.scene.framebuffer, draw.state);
+  read_target(object, draw.state);
+  if (const auto depth = object.find("depth"); depth && depth->json().is_number()) depth->fail("false or an object");
+  read_fragment_state(object, names.scene, draw.state);
+  if (const auto shadow = object.find("shadow_on")) draw.state.shadow_on = read_shadow_on(*shadow, names.lights);
   if (const auto mode = object.find("polygon_mode")) read_polygon_mode(*mode, draw.state);
   if (const auto size = object.find("point_size")) draw.state.point_size = read_size(*size);
   if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
@@ -190,16 +201,16 @@ Accum read_accum(const Value& value, const FrameBufferFormat& format) {
   return accum;
 }
 
-Command read_command(const Value& value, const Names& names) {
-  static constexpr std::array<std::string_view, 5> kCommands{"clear", "draw", "camera", "lights", "accum"};
+Command read_command(const Value& value, const Names& names, const std::string& base_folder, ModelCache& cache) {
+  static constexpr std::array<std::string_view, 7> kCommands{"clear", "draw", "bitmap", "image", "camera", "lights", "accum"};
   if (!value.json().is_object()) value.fail("an object with one of " + json::quoted_list(kCommands));
   if (value.json().contains("draw")) return read_draw(value, names);
-  for (const char* unsupported : {"bitmap", "image"})
-    if (value.json().contains(unsupported)) value.member(unsupported).refuse_unsupported();
   if (value.json().empty()) value.fail("one of " + json::quoted_list(kCommands));
-  const Object object(value, {"clear", "draw", "camera", "lights", "accum"});
+  const Object object(value, {"clear", "draw", "bitmap", "image", "camera", "lights", "accum"});
   if (value.json().size() != 1) value.refuse("found several commands in one object, expected one of " + json::quoted_list(kCommands));
   if (const auto clear = object.find("clear")) return read_clear(*clear, names.scene.framebuffer);
+  if (const auto bitmap = object.find("bitmap")) return read_bitmap(*bitmap, names.scene);
+  if (const auto image = object.find("image")) return read_image(*image, names.scene, base_folder, cache);
   if (const auto accum = object.find("accum")) return read_accum(*accum, names.scene.framebuffer);
   if (const auto camera = object.find("camera")) return read_camera(*camera);
   return read_lights(object.require("lights"));
@@ -207,14 +218,24 @@ Command read_command(const Value& value, const Names& names) {
 
 }  // namespace
 
-std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials) {
-  Names names{.material_of = materials, .scene = scene};
+void read_fragment_state(const Object& object, const Scene& scene, DrawState& state) {
+  state.depth.enabled = scene.framebuffer.depth != DepthFormat::none;
+  if (const auto depth = object.find("depth"); depth && !depth->json().is_number()) state.depth = read_depth(*depth, scene);
+  if (const auto mask = object.find("color_mask")) state.color_mask = read_color_mask(*mask, scene.framebuffer);
+  if (const auto mask = object.find("plane_mask")) state.plane_mask = static_cast<std::uint32_t>(mask->integer(0, kMost32Bits));
+  if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
+  read_operations(object, scene.framebuffer, state);
+}
+
+std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials, const std::string& base_folder, ModelCache& cache) {
+  Names names{.material_of = materials, .scene = scene, .lights = scene.lights};
   for (const MeshData& mesh : scene.meshes) names.meshes.push_back(mesh.name);
   for (const auto& [name, material] : materials) names.materials.push_back(name);
   std::vector<SceneCommand> frame;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value element = value.element(i);
-    frame.push_back({read_command(element, names), element.pointer()});
+    frame.push_back({read_command(element, names, base_folder, cache), element.pointer()});
+    if (const auto* lights = std::get_if<LightList>(&frame.back().what)) names.lights = *lights;
   }
   return frame;
 }

@@ -166,7 +166,7 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
   top.only_default("textures", Json::object());
   if (const auto meshes = top.find("meshes")) read_meshes(*meshes, base_folder, models, scene);
   const auto frame = top.find("frame");
-  scene.frame = frame ? read_frame(*frame, scene, named) : default_frame(scene);
+  scene.frame = frame ? read_frame(*frame, scene, named, base_folder, models) : default_frame(scene);
   return scene;
 }
 

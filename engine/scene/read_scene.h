@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "engine/import/model.h"
@@ -17,9 +18,10 @@ SceneCamera default_camera();
 
 LightList read_lights(const json::Value& value);
 
-/// Models that were read, by their paths.
+/// Models and images that were read, by their paths.
 struct ModelCache {
   std::map<std::string, Model> models;
+  std::map<std::string, std::shared_ptr<const Picture>> pictures;
   std::function<bool()> go_on;  ///< of reading one
 };
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
@@ -31,9 +33,14 @@ Materials read_materials(const json::Value& value);
 Compare read_compare(const json::Value& value);
 /// What the fragments of a draw go through: polygon offset, alpha test, stencil, blending, logic operation.
 void read_operations(const json::Object& object, const FrameBufferFormat& format, DrawState& state);
+/// The same with scissor, depth test and masks; a number for `depth` is no depth test.
+void read_fragment_state(const json::Object& object, const Scene& scene, DrawState& state);
+
+BitmapCommand read_bitmap(const json::Value& value, const Scene& scene);
+ImageCommand read_image(const json::Value& value, const Scene& scene, const std::string& base_folder, ModelCache& cache);
 
 /// @param scene  all but the frame has been read.
-std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials);
+std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials, const std::string& base_folder, ModelCache& cache);
 /// One clear of what there is and one draw of every mesh.
 std::vector<SceneCommand> default_frame(const Scene& scene);
 

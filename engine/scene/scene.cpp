@@ -81,6 +81,8 @@ void record(const Scene& scene, Frame& frame) {
     at_command(scene, command, [&] {
       std::visit(Overloaded{[&](const Clear& clear) { frame.clear(masked(clear, scene.framebuffer)); },
                             [&](const DrawCommand& draw) { frame.draw(scene.meshes[draw.mesh].view(), draw.state); },
+                            [&](const BitmapCommand& bitmap) { frame.draw_bitmap(bitmap.view(), bitmap.state); },
+                            [&](const ImageCommand& image) { frame.draw_image(image.view(), image.state); },
                             [&](const Accum& accum) { frame.accumulate(accum); },
                             [&](const SceneCamera& camera) { frame.set_camera(camera.at_aspect(aspect)); },
                             [&](const LightList& lights) { frame.set_lights(lights); }},

@@ -3,7 +3,7 @@
 //   Scene scene = load_scene("pot.json");
 //   FrameBuffer buffer(scene.framebuffer);
 //   Frame frame(buffer);
-//   record(scene, frame);                    // the meshes stay the scene's: it must outlive the frame
+//   record(scene, frame);                    // meshes, bitmaps and images stay the scene's: it must outlive the frame
 #pragma once
 
 #include <functional>
@@ -18,6 +18,8 @@
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera {
+
+struct Picture;
 
 /// A perspective whose aspect is the picture's.
 struct Lens {
@@ -38,8 +40,20 @@ struct DrawCommand {
   std::size_t mesh = 0;                  ///< index into Scene::meshes
   DrawState state;
 };
+struct BitmapCommand {
+  Bitmap bitmap;                         ///< all but its bits
+  std::vector<std::uint8_t> bits;
+  FragmentState state;
+  Bitmap view() const;
+};
+struct ImageCommand {
+  PixelImage image;                      ///< all but its pixels
+  std::shared_ptr<const Picture> picture;
+  FragmentState state;
+  PixelImage view() const;
+};
 using LightList = std::vector<Light>;
-using Command = std::variant<Clear, DrawCommand, Accum, SceneCamera, LightList>;
+using Command = std::variant<Clear, DrawCommand, BitmapCommand, ImageCommand, Accum, SceneCamera, LightList>;
 
 struct SceneCommand {
   Command what;
@@ -59,7 +73,7 @@ struct Scene {
   std::vector<std::string> warnings;     ///< what was odd, but no error
 };
 
-/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models are read once.
+/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models and images are read once.
 class SceneFile {
  public:
   /// @param go_on  asked while models are read; false ends it with Cancelled
@@ -101,7 +115,7 @@ void apply(const SceneOverrides& overrides, Scene& scene);
 /// The fewest colour bits that hold a palette known by name; 8 for one that fills any number of bits, or is unknown.
 int palette_bits(std::string_view name);
 
-/// Replays the scene's commands. The frame borrows the scene's meshes until it is finished.
+/// Replays the scene's commands. The frame borrows the scene's meshes, bitmaps and images until it is finished.
 /// @throws Error, naming the command.
 void record(const Scene& scene, Frame& frame);
 

@@ -18,7 +18,7 @@
 // Threads. Distinct objects may be used on distinct threads at the same time; one object by one thread at a time. There is
 // no global state. The same frame gives the same bits for any number of threads, tile size and instruction set.
 //
-// Lifetimes. Meshes are borrowed: what a draw points to has to stay as it is until Renderer::finish returns; indices are checked
+// Lifetimes. Meshes, bitmaps and images are borrowed: what a draw points to has to stay as it is until Renderer::finish returns; indices are checked
 // in Frame::draw, and trusted then. An object that was moved from may be assigned to or destroyed, and nothing else.
 #pragma once
 
@@ -305,6 +305,9 @@ struct Camera {
 TESSERA_API Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed = false);
 TESSERA_API Matrix frustum(double left, double right, double bottom, double top, double near, double far, bool reversed = false);
 TESSERA_API Matrix orthographic(double left, double right, double bottom, double top, double near, double far, bool reversed = false);
+/// World to world: flattens what lies between a light and the plane a x + b y + c z + d = 0 onto that plane, away from the light. Throws
+/// Error for a plane without normal, and where the light lies in the plane or shines along it.
+TESSERA_API Matrix planar_shadow(const std::array<double, 4>& plane, const Light& light);
 
 /// Where a camera's own axes point: opencv x right, y down, z forwards; opengl x right, y up, z backwards.
 enum class CameraAxes : std::uint8_t { opencv, opengl };
@@ -372,6 +375,12 @@ enum class LogicOp : std::uint8_t { clear, and_, and_reverse, copy, and_inverted
 struct PolygonOffset {
   float factor = 0, units = 0;
 };
+/// In place of the object its planar_shadow(): unlit and untextured, in one colour. What else a draw has stays as it is.
+struct ShadowOn {
+  std::array<double, 4> plane{};            ///< a b c d, world space
+  std::size_t light = 0;                    ///< of the frame's lights, counted from 0
+  Color color{0, 0, 0, 1};
+};
 
 /// What a fragment goes through, in order: scissor, alpha test, stencil, depth, blending, dither, logic operation, masks.
 struct DrawState {
@@ -400,6 +409,42 @@ struct DrawState {
   std::uint32_t plane_mask = 0xffffffffu;   ///< bit k: colour (then alpha) plane k may change
   std::optional<Rect> viewport{};           ///< absent: the whole buffer
   std::optional<Rect> scissor{};
+  std::optional<ShadowOn> shadow_on{};
+};
+
+/// What the pixels of bitmaps and images go through: that part of a DrawState. To the stencil test they are front faces.
+struct FragmentState {
+  DepthState depth{};
+  std::optional<AlphaTest> alpha_test{};
+  std::optional<StencilState> stencil{};
+  std::optional<BlendState> blend{};
+  LogicOp logic_op = LogicOp::copy;
+  std::array<bool, 4> color_mask{true, true, true, true};
+  std::uint32_t plane_mask = 0xffffffffu;
+  std::optional<Rect> scissor{};
+};
+
+/// A bit pattern in one colour; bits that are 0 leave what is there. Rows from the top, bit 7 of a byte is the leftmost pixel, as in a
+/// PlaneView. Borrowed until the frame is finished.
+struct Bitmap {
+  const std::uint8_t* bits = nullptr;
+  int width = 0, height = 0;                ///< 1 .. kMaxFrameBufferSize
+  std::ptrdiff_t stride_bytes = 0;          ///< from a row to the one below it; 0: (width + 7) / 8
+  double x = 0, y = 0;                      ///< of the lower left corner, window coordinates; rounded down
+  double depth = 0;                         ///< window depth, 0 .. 1
+  Color color{1, 1, 1, 1};
+};
+
+/// Pixels of 8 bits a component, rows from the top. Texel (i, j), counted from the lower left, covers what lies from (x + i zoom_x,
+/// y + j zoom_y), included, to where the next one begins. Borrowed until the frame is finished.
+struct PixelImage {
+  const std::uint8_t* pixels = nullptr;
+  int width = 0, height = 0;                ///< 1 .. kMaxFrameBufferSize
+  int channels = 4;                         ///< 1: grey, 2: grey and alpha, 3: r g b, 4: r g b a
+  std::ptrdiff_t stride_bytes = 0;          ///< from a row to the one below it; 0: width * channels
+  double x = 0, y = 0;                      ///< of the lower left corner, window coordinates
+  double zoom_x = 1, zoom_y = 1;            ///< pixels a texel; below 0 the image goes to the left or downwards from there, at 0 there is nothing of it
+  double depth = 0;                         ///< window depth, 0 .. 1
 };
 
 /// Only the buffers named are cleared, through full masks; colours with the buffer's dither.
@@ -436,10 +481,10 @@ struct Accum {
 struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 
-  std::span<std::uint32_t> objects{};       ///< which draw of the frame, counted from 0
-  std::span<std::uint32_t> primitives{};    ///< which triangle, quad or polygon of that draw's mesh
+  std::span<std::uint32_t> objects{};       ///< which draw of the frame, counted from 0; bitmaps and images are draws, too
+  std::span<std::uint32_t> primitives{};    ///< which triangle, quad or polygon of that draw's mesh; 0 of bitmaps and images
   /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated, in eye space, of
-  /// length 1; 0 0 0 where nothing was drawn and where they cancel out.
+  /// length 1; 0 0 0 where nothing was drawn, of bitmaps and images, and where they cancel out.
   std::span<float> normals{};
 };
 
@@ -452,10 +497,10 @@ struct FrameStats {
   std::uint64_t zero_area = 0;              ///< no area after snapping to 1/256 pixel
   std::uint64_t clipped = 0;                ///< cut by the near or far plane or the guard band
   std::uint64_t binned = 0;                 ///< triangles that reached a bin, clipped pieces counted singly
-  std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles in them
+  std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles, bitmaps and images in them
   std::uint64_t tiles = 0, tiles_touched = 0;
   int tile_size = 0;                        ///< pixels, as chosen for the frame
-  std::uint64_t fragments = 0;              ///< pixels covered by triangles, before any test, in draws that can change one; if RendererOptions asks for it
+  std::uint64_t fragments = 0;              ///< pixels covered by draws that can change one, before any test; if RendererOptions asks for it
   std::uint64_t shaded_pixels = 0;          ///< evaluations of a colour
   double plan_seconds = 0, vertex_seconds = 0, binning_seconds = 0, tile_seconds = 0;  ///< of each stage; tiles with scan-out and store
 };
@@ -480,6 +525,10 @@ class TESSERA_API Frame {
   void accumulate(const Accum& accum);
   /// Throws Error for spans that do not fit together, indices out of bounds and values out of range.
   void draw(const Mesh& mesh, const DrawState& state = {});
+  /// Throw Error without bits or pixels and for sizes and values out of range. They know no camera and no viewport; what reaches beyond the
+  /// buffer is left out.
+  void draw_bitmap(const Bitmap& bitmap, const FragmentState& state = {});
+  void draw_image(const PixelImage& image, const FragmentState& state = {});
 
   /// Which buffers the frame buffer holds afterwards; of the others those that the frame touches are not stored, and reading
   /// them is an error until they are cleared whole. Default: with an ImageTarget none, without one every buffer.
@@ -488,7 +537,8 @@ class TESSERA_API Frame {
   /// What finish() also writes, once. The spans are borrowed until then. Throws Error for a span of another size.
   void capture(const Capture& capture);
 
-  /// What the code that runs for draw i contains, and why: one line for each effect. For people who want to know what they pay for.
+  /// What the code that runs for draw i, bitmaps and images counted, contains, and why: one line for each effect. For people who want to
+  /// know what they pay for.
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
   /// Forgets the clears, accumulations and draws, and what to keep. Camera, lights and light model stay.

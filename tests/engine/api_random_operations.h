@@ -1,10 +1,10 @@
-// A frame in which every operation on fragments happens: triangles of all sizes in draws that each switch on another part of the
-// operations, with clears of parts and accumulation in between. Each operation, factor and function has its turn.
+// A frame in which every operation on fragments happens: triangles of all sizes, bitmaps and images in draws that each switch on another
+// part of the operations, with clears of parts and accumulation in between. Each operation, factor and function has its turn.
 #pragma once
 
 #include <vector>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/pixel_support.h"
 
 namespace tessera::test {
 
@@ -12,11 +12,13 @@ struct RandomOperations {
   FrameBufferFormat format;
   int draws;
   MeshData small, mixed;
+  std::vector<std::uint8_t> texels;
   std::vector<Light> lights;
   Camera camera;
 
   explicit RandomOperations(FrameBufferFormat f, int draw_count = 48) : format(std::move(f)), draws(draw_count) {
-    Random random(7);
+    Random random(7), of_texels(8);
+    for (int i = 0; i < 40 * 40 * 4; ++i) texels.push_back(static_cast<std::uint8_t>(of_texels.next()));
     small = triangles(random, 60, 0.12f);
     mixed = triangles(random, 24, 0);
     Light point;
@@ -26,9 +28,9 @@ struct RandomOperations {
     camera.projection = perspective(60, static_cast<double>(format.width) / format.height, 0.5, 7);
   }
 
-  /// Records it; the frame borrows the meshes.
+  /// Records it; the frame borrows the meshes and the texels.
   void record(Frame& frame) const {
-    Random random(11);
+    Random random(11), of_pixels(12);
     frame.clear(whole_clear());
     frame.set_camera(camera);
     frame.set_lights(lights);
@@ -37,6 +39,7 @@ struct RandomOperations {
       if (i % 4 == 3 && format.accumulation_bits > 0) frame.accumulate(accum(random, i / 4));
       frame.set_light_model({.local_viewer = i % 3 == 0, .two_sided = i % 2 == 0});
       frame.draw((i % 3 == 0 ? mixed : small).view(), state(random, i));
+      if (i % 3 == 1) draw_pixels(frame, of_pixels, i);
     }
   }
 
@@ -58,6 +61,20 @@ struct RandomOperations {
       }
     }
     return mesh;
+  }
+
+  // A bitmap, or an image of 1 to 4 channels and any zoom.
+  void draw_pixels(Frame& frame, Random& random, int i) const {
+    const DrawState s = state(random, i);
+    const double x = random.between(-20, static_cast<float>(format.width)), y = random.between(-20, static_cast<float>(format.height));
+    const double depth = random.between(0, 1), zoom_x = random.between(-4, 6), zoom_y = random.between(-4, 6);
+    const int width = 1 + below(random, 40), height = 1 + below(random, 40), channels = 1 + i / 2 % 4;
+    if (i % 2 == 0)
+      frame.draw_bitmap({.bits = texels.data(), .width = 8 * width, .height = height, .x = x, .y = y, .depth = depth, .color = color(random)},
+                        fragment_state_of(s));
+    else
+      frame.draw_image({.pixels = texels.data(), .width = width, .height = height, .channels = channels, .x = x, .y = y, .zoom_x = zoom_x, .zoom_y = zoom_y, .depth = depth},
+                       fragment_state_of(s));
   }
 
   static bool coin(Random& random) { return random.next() % 2 == 0; }

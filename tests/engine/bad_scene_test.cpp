@@ -36,6 +36,9 @@ std::string command(const std::string& text, const std::string& buffer = R"("acc
   return R"("framebuffer": {)" + buffer + R"(}, "frame": [{)" + text + "}]";
 }
 const std::string kIndex = R"("color": {"mode": "index", "bits": 8})";
+std::string shadow(const std::string& keys) { return draw(R"("shadow_on": {)" + keys + "}"); }
+std::string bitmap(const std::string& keys, const std::string& buffer = "") { return command(R"("bitmap": {"at": [0, 0], )" + keys + "}", buffer); }
+std::string good_bitmap(const std::string& keys, const std::string& buffer = "") { return bitmap(R"("width": 8, "height": 1, "rows": ["fF"], )" + keys, buffer); }
 std::string projection(const std::string& keys) { return R"("camera": {"projection": {)" + keys + "}}"; }
 
 const BadScene kBadScenes[] = {
@@ -179,8 +182,8 @@ const BadScene kBadScenes[] = {
     {R"("frame": [5])", "/frame/0", "expected an object with one of \"clear\", \"draw\""},
     {R"("frame": [{}])", "/frame/0", "expected one of \"clear\", \"draw\""},
     {R"("frame": [{"claer": {}}])", "/frame/0/claer", "did you mean \"clear\"?"},
-    {R"("frame": [{"bitmap": {"at": [0,0]}, "blend": {}}])", "/frame/0/bitmap", "not supported"},
-    {R"("frame": [{"image": {"at": [0,0]}}])", "/frame/0/image", "not supported"},
+    {R"("frame": [{"bitmap": {"at": [0,0]}, "blend": {}}])", "/frame/0/blend", "unknown key \"blend\", expected one of \"clear\", \"draw\", \"bitmap\", \"image\""},
+    {R"("frame": [{"bitmap": {"at": [0,0]}, "image": {}}])", "/frame/0", "found several commands in one object"},
     {R"("frame": [{"draw": "pot"}])", "/frame/0/draw", "found \"pot\", expected the name of a mesh (the scene has none)"},
     {kPot + R"("frame": [{"draw": "pott"}])", "/frame/0/draw", "did you mean \"pot\"?"},
     {kPot + R"("frame": [{"draw": 0}])", "/frame/0/draw", "expected a string"},
@@ -196,6 +199,7 @@ const BadScene kBadScenes[] = {
     {draw(R"("transform": [{"rotate": [30, 0, 0, 0]}])"), "/frame/0/transform/0/rotate", "axis"},
     {draw(R"("transform": [{"scale": [1,1,1]}, {"matrix": [1]}])"), "/frame/0/transform/1/matrix", "expected an array of 16 numbers"},
     {draw(R"("depth": true)"), "/frame/0/depth", "expected false or an object"},
+    {draw(R"("depth": 0.5)"), "/frame/0/depth", "found 0.5, expected false or an object"},
     {draw(R"("depth": {"test": "lower"})"), "/frame/0/depth/test", "expected one of \"never\""},
     {R"("framebuffer": {"depth": "none"}, )" + draw(R"("depth": {"test": "less"})"), "/frame/0/depth", "needs a depth buffer"},
     {draw(R"("depth_range": [0, 1.01])"), "/frame/0/depth_range/1", "expected a number from 0 to 1"},
@@ -205,7 +209,6 @@ const BadScene kBadScenes[] = {
     {draw(R"("viewport": [0, 0, -1, 10])"), "/frame/0/viewport/2", "found -1"},
     {draw(R"("scissor": [0, 0, 10])"), "/frame/0/scissor", "expected [x, y, width, height]"},
     {draw(R"("texture": "brick")"), "/frame/0/texture", "is part of the format but not supported"},
-    {draw(R"("shadow_on": {})"), "/frame/0/shadow_on", "is part of the format but not supported"},
     {draw(R"("polygon_mode": "lines")"), "/frame/0/polygon_mode", "found \"lines\""},
     {draw(R"("polygon_mode": ["line"])"), "/frame/0/polygon_mode", "[front, back]"},
     {draw(R"("polygon_mode": ["line", 1])"), "/frame/0/polygon_mode/1", "found 1"},
@@ -214,6 +217,61 @@ const BadScene kBadScenes[] = {
     {draw(R"("line_width": -1.5)"), "/frame/0/line_width", "found -1.5, expected a number above 0"},
     {draw(R"("line_width": "wide")"), "/frame/0/line_width", "found \"wide\""},
     {draw(R"("stages": [{"name": "zoom"}])"), "/frame/0/stages", "not supported"},
+
+    // Shadows
+    {draw(R"("shadow_on": true)"), "/frame/0/shadow_on", "found true, expected an object"},
+    {draw(R"("shadow_on": {})"), "/frame/0/shadow_on", "key \"plane\" is missing"},
+    {shadow(R"("plane": [0, 1, 0])"), "/frame/0/shadow_on/plane", "found an array of 3, expected an array of 4 numbers"},
+    {shadow(R"("plane": [0, 1, 0, "1"])"), "/frame/0/shadow_on/plane/3", "found \"1\", expected a number"},
+    {shadow(R"("plane": [0, 0, 0, 1])"), "/frame/0/shadow_on", "the plane is 0 0 0 1, its normal must not be 0 0 0"},
+    {shadow(R"("plane": [0, 1, 0, 1])"), "/frame/0/shadow_on", "the light's direction 0 0 1 is parallel to the plane 0 1 0 1"},
+    {R"("lights": [{"position": [1, 2, 3, 1]}], )" + shadow(R"("plane": [1, 0, 0, -1])"), "/frame/0/shadow_on", "the light at 1 2 3 lies in the plane 1 0 0 -1"},
+    {shadow(R"("plane": [0, 0, 1, 0], "light": 1)"), "/frame/0/shadow_on/light", "found 1, expected an integer from 0 to 0"},
+    {shadow(R"("plane": [0, 0, 1, 0], "light": -1)"), "/frame/0/shadow_on/light", "found -1, expected an integer from 0 to 0"},
+    {shadow(R"("plane": [0, 0, 1, 0], "light": 0.5)"), "/frame/0/shadow_on/light", "found 0.5, expected an integer"},
+    {R"("lights": [], )" + shadow(R"("plane": [0, 0, 1, 0])"), "/frame/0/shadow_on", "needs a light, and there are none"},
+    {shadow(R"("plane": [0, 0, 1, 0], "color": [0, 0, 0])"), "/frame/0/shadow_on/color", "expected an array of 4 numbers"},
+    {shadow(R"("plane": [0, 0, 1, 0], "colour": [0, 0, 0, 1])"), "/frame/0/shadow_on/colour", "did you mean \"color\"?"},
+    {kPot + R"("frame": [{"lights": [{}, {}]}, {"draw": "pot", "shadow_on": {"plane": [0, 0, 1, 0], "light": 2}}])", "/frame/1/shadow_on/light", "found 2, expected an integer from 0 to 1"},
+
+    // Bitmaps and images
+    {command(R"("bitmap": [])"), "/frame/0/bitmap", "found an empty array, expected an object"},
+    {command(R"("bitmap": {"width": 8, "height": 1, "rows": ["ff"]})"), "/frame/0/bitmap", "key \"at\" is missing"},
+    {bitmap(R"("height": 1, "rows": ["ff"])"), "/frame/0/bitmap", "key \"width\" is missing"},
+    {bitmap(R"("width": 8, "rows": ["ff"])"), "/frame/0/bitmap", "key \"height\" is missing"},
+    {bitmap(R"("width": 8, "height": 1)"), "/frame/0/bitmap", "key \"rows\" is missing"},
+    {command(R"("bitmap": {"at": [0], "width": 8, "height": 1, "rows": ["ff"]})"), "/frame/0/bitmap/at", "found an array of 1, expected [x, y]"},
+    {command(R"("bitmap": {"at": [0, "0"], "width": 8, "height": 1, "rows": ["ff"]})"), "/frame/0/bitmap/at/1", "found \"0\", expected a number"},
+    {bitmap(R"("width": 0, "height": 1, "rows": ["ff"])"), "/frame/0/bitmap/width", "found 0, expected an integer from 1 to 16384"},
+    {bitmap(R"("width": 8, "height": 16385, "rows": ["ff"])"), "/frame/0/bitmap/height", "found 16385, expected an integer from 1 to 16384"},
+    {bitmap(R"("width": 8, "height": 2, "rows": ["ff"])"), "/frame/0/bitmap/rows", "found an array of 1, expected one row for each of the bitmap's 2"},
+    {bitmap(R"("width": 8, "height": 1, "rows": "ff")"), "/frame/0/bitmap/rows", "expected one row for each of the bitmap's 1"},
+    {bitmap(R"("width": 9, "height": 1, "rows": ["ff"])"), "/frame/0/bitmap/rows/0", "found \"ff\", expected 4 hexadecimal digits"},
+    {bitmap(R"("width": 8, "height": 2, "rows": ["ff", "0g"])"), "/frame/0/bitmap/rows/1", "found \"0g\", expected 2 hexadecimal digits"},
+    {bitmap(R"("width": 8, "height": 1, "rows": [255])"), "/frame/0/bitmap/rows/0", "found 255, expected 2 hexadecimal digits"},
+    {good_bitmap(R"("depth": 1.5)"), "/frame/0/bitmap/depth", "found 1.5, expected a number from 0 to 1"},
+    {good_bitmap(R"("depth": true)"), "/frame/0/bitmap/depth", "found true, expected a number from 0 to 1, false or an object"},
+    {good_bitmap(R"("depth": {"test": "lower"})"), "/frame/0/bitmap/depth/test", "expected one of \"never\""},
+    {good_bitmap(R"("color": [1, 1, 1])"), "/frame/0/bitmap/color", "expected an array of 4 numbers"},
+    {good_bitmap(R"("polygon_offset": [0, 0])"), "/frame/0/bitmap/polygon_offset", "unknown key \"polygon_offset\""},
+    {good_bitmap(R"("depth_range": [0, 1])"), "/frame/0/bitmap/depth_range", "unknown key \"depth_range\""},
+    {good_bitmap(R"("viewport": [0, 0, 1, 1])"), "/frame/0/bitmap/viewport", "unknown key \"viewport\""},
+    {good_bitmap(R"("file": "x.png")"), "/frame/0/bitmap/file", "unknown key \"file\""},
+    {good_bitmap(R"("blend": {"src": "alpha"})"), "/frame/0/bitmap/blend/src", "found \"alpha\", expected one of \"zero\", \"one\""},
+    {good_bitmap(R"("blend": {}, "logic_op": "xor")"), "/frame/0/bitmap/blend", "a draw blends or has a logic operation, not both"},
+    {good_bitmap(R"("stencil": {})", R"("stencil": 0)"), "/frame/0/bitmap/stencil", "needs a stencil buffer, and the frame buffer's \"stencil\" is 0"},
+    {good_bitmap(R"("depth": {})", R"("depth": "none")"), "/frame/0/bitmap/depth", "needs a depth buffer, and the frame buffer's \"depth\" is \"none\""},
+    {good_bitmap(R"("alpha_test": {})", kIndex), "/frame/0/bitmap/alpha_test", "an index buffer has no alpha to test"},
+    {good_bitmap(R"("color_mask": [true, false, true, true])", kIndex), "/frame/0/bitmap/color_mask", "must be all true or all false"},
+    {command(R"("image": {"at": [0, 0]})"), "/frame/0/image", "key \"file\" is missing"},
+    {command(R"("image": {"file": "x.png"})"), "/frame/0/image", "key \"at\" is missing"},
+    {command(R"("image": {"at": [0, 0], "file": 3})"), "/frame/0/image/file", "found 3, expected a string"},
+    {command(R"("image": {"at": [0, 0], "file": "no such file.ppm"})"), "/frame/0/image/file", "cannot read \"no such file.ppm\": No such file or directory"},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": 2})"), "/frame/0/image/zoom", "found 2, expected [x, y]"},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [2, null]})"), "/frame/0/image/zoom/1", "found null, expected a number"},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [1e999, 1]})"), "/frame/0/image/zoom", "1e999"},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "color": [1, 1, 1, 1]})"), "/frame/0/image/color", "unknown key \"color\""},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "depth": -1})"), "/frame/0/image/depth", "found -1, expected a number from 0 to 1"},
 
     // Clears
     {command(R"("clear": {"color": [0, 0, 0, 1.5]})"), "/frame/0/clear/color/3", "found 1.5, expected a number from 0 to 1"},
@@ -301,6 +359,10 @@ const std::string kGoodScenes[] = {
     draw_into(R"("stencil": 0, "alpha": 8, "accumulation": 32, "samples": 8, "dither": "bayer8")", R"("blend": {})"),
     index_buffer(R"("alpha": 0, "accumulation": 0, "samples": 1, "dither": "bayer2")"),
     command(R"("clear": {"index": 255, "color": [1, 1, 1, 1]})", kIndex),
+    good_bitmap(R"("depth": 0.5, "stencil": {"back": null}, "logic_op": "xor", "scissor": [0, 0, 1, 1])", kIndex),
+    good_bitmap(R"("depth": 0.5, "blend": {}, "alpha_test": {})", R"("depth": "none")"),
+    good_bitmap(R"("depth": {"test": "always", "write": false}, "color": [2, -1, 0, 0.5], "plane_mask": 0)"),
+    R"("lights": [], )" + kPot + R"("frame": [{"lights": [{}]}, {"draw": "pot", "shadow_on": {"plane": [0, 0, -2, 1], "color": [0, 0, 0, 0.5]}, "lighting": true}])",
 };
 
 TEST(BadScene, EachMistakeNamesFilePointerAndExpectation) {

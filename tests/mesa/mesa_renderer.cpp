@@ -4,6 +4,7 @@
 
 #include "buffers.h"
 #include "context.h"
+#include "cut_quads.h"
 #include "fixed_function.h"
 #include "fragment_functions.h"
 #include "limits.h"
@@ -119,14 +120,15 @@ class Renderer {
   void execute(const Draw& command) {
     const Draw draw = as_drawn(command, lights_);
     const reference::Mesh& mesh = scene_.meshes.at(draw.mesh);
-    const std::vector<Vertex> vertices = vertex_list(mesh, draw);
+    std::vector<Vertex> vertices = vertex_list(mesh, draw);
+    const reference::PrimitiveType primitive = split_cut_quads(mesh, draw, camera_, vertices);
     if (vertices.empty()) return;
     set_fragment_functions(gl_, draw, format_);
     set_window_depths(draw, format_.depth);
     set_window(draw, mesh.primitive);
     set_primitive_state(gl_, draw);
     set_colors(draw, mesh, vertices);
-    draw_vertices(mesh.primitive, vertices);
+    draw_vertices(primitive, vertices);
     check_errors("drawing " + mesh.name);
   }
 

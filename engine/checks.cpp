@@ -1,0 +1,61 @@
+#include "engine/checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tessera {
+namespace {
+
+template <class Values>
+void require_all_finite(const Name& name, const Values& values) {
+  const auto odd = std::find_if(std::begin(values), std::end(values), [](double v) { return !std::isfinite(v); });
+  if (odd != std::end(values)) throw Error(name.text() + " holds " + text(*odd) + ", must be finite");
+}
+
+}  // namespace
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
+void require_finite(const Name& name, std::initializer_list<double> values) { require_all_finite(name, values); }
+void require_finite(const Name& name, const Color& c) { require_finite(name, {c.r, c.g, c.b, c.a}); }
+void require_finite(const Name& name, const Matrix& matrix) { require_all_finite(name, matrix.m); }
+
+void require_range(const Name& name, double value, double low, double high) {
+  if (!(value >= low && value <= high)) throw Error(name.text() + " is " + text(value) + ", must be " + text(low) + " to " + text(high));
+}
+
+void check_rect(const Name& name, const Rect& rect) {
+  if (rect.width < 0 || rect.height < 0)
+    throw Error(name.text() + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) + " pixels, must not be negative");
+}
+
+void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
+  if (mask[0] == mask[1] && mask[1] == mask[2]) return;
+  const char* const held = target.layout.index ? "an index buffer has one" : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone" : nullptr;
+  if (held) throw Error(std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
+}
+
+void check_fragment_state(const char* function, const DrawState& s, const FrameBufferState& target) {
+  const auto refuse = [&](const char* reason) { throw Error(std::string(function) + ": " + reason); };
+  if (s.scissor) check_rect({function, ": scissor"}, *s.scissor);
+  check_color_mask(function, s.color_mask, target);
+  const bool is_index = target.layout.index;
+  if (s.alpha_test) {
+    if (is_index) refuse("an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
+    require_range({function, ": alpha_test.ref"}, s.alpha_test->ref, 0, 1);
+  }
+  if (s.blend) {
+    if (is_index) refuse("blending is asked for, but the frame buffer holds indices, which do not blend");
+    if (s.logic_op != LogicOp::copy) refuse("blending and a logic operation are asked for; a draw has one of them");
+    const Color& constant = s.blend->color;
+    for (const float c : {constant.r, constant.g, constant.b, constant.a}) require_range({function, ": a component of blend.color"}, c, 0, 1);
+  }
+  if (s.stencil && target.format.stencil_bits == 0) refuse("a stencil test is asked for, but the frame buffer has no stencil buffer");
+}
+
+}  // namespace tessera

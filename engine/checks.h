@@ -1,0 +1,30 @@
+// Checks of what callers hand over, and the words for what is wrong with it.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "engine/frame_buffer_state.h"
+
+namespace tessera {
+
+std::string text(double value);
+
+// Names are put together where something is wrong only: a frame has thousands of draws.
+struct Name {
+  const char* owner;
+  const char* field = "";
+  std::string text() const { return std::string(owner) + field; }
+};
+void require_finite(const Name& name, std::initializer_list<double> values);
+void require_finite(const Name& name, const Color& c);
+void require_finite(const Name& name, const Matrix& matrix);
+void require_range(const Name& name, double value, double low, double high);
+void check_rect(const Name& name, const Rect& rect);
+
+/// What the fragments of a draw go through, in a buffer that can have it. @param function  whose it is, for messages
+void check_fragment_state(const char* function, const DrawState& state, const FrameBufferState& target);
+/// Components that a buffer cannot tell apart.
+void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target);
+
+}  // namespace tessera

@@ -1,0 +1,65 @@
+// Bitmaps and images in a tile: blocks of fragments, one depth for all. What happens to the fragments is what happens
+// to those of triangles.
+#if defined(TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
+#undef TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
+#else
+#define TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
+#endif
+
+#include "shading/fragments-inl.h"
+#include "shading/texel_blocks.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// A draw that is a bitmap or an image, in one tile.
+inline HWY_NOINLINE void draw_pixel_rectangle(TileRun& run, std::uint32_t draw_number) {
+  const TileDraw& draw = run.frame.draws[draw_number];
+  const PixelRectangle& texels = *draw.texels;
+  const PixelRect& rect = run.rect;
+  ShadedTriangle face{};  // its front; nothing else is looked at
+  FragmentTriangle fragments{.run = run,
+                             .draw = draw,
+                             .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
+                             .triangle = face,
+                             .has_depth = draw.uses_depth && run.frame.depth_kind != DepthKind::none,
+                             .pixels = {}};
+  fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
+  const bool is_first_primitive = draw.number == TileDraw::Number::primitive || draw.source == ColorSource::triangle_word;
+  fragments.word = is_first_primitive ? 0 : draw.word;
+  alignas(64) float colors[4 * kBlockPixels];
+  const bool has_colors = texels.channels != 0 && ((!fragments.has_word && draw.source == ColorSource::texels) || fragments.ops.alpha_test);
+  if (has_colors) fragments.colors_given = colors;
+
+  TexelPlaces places[kMaxSamples];
+  const int apart = texels.channels != 0 ? run.samples : 1;  // bits cover whole pixels
+  for (int s = 0; s < apart; ++s) places[s].set_up({texels, run.frame.grid, run.tile_x, run.tile_y, rect}, run.samples, s);
+  BlockFragments blocks[kMaxSamples];
+  const auto cover = [&](int s, std::uint32_t bits) HWY_ATTR {
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      blocks[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(bits >> (chunk * kLanes)));
+      blocks[s].keys[chunk] = splat(draw.depth_key);
+    }
+  };
+  for (int by = rect.y0 & ~3; by < rect.y1; by += kBlockSize)
+    for (int bx = rect.x0 & ~3; bx < rect.x1; bx += kBlockSize) {
+      bool alike = true;
+      for (int s = 1; s < apart; ++s) alike &= places[s].same_in_block(places[0], bx, by);
+      // Where samples of a pixel see different texels, each is a fragment of its own.
+      for (int turn = 0; turn < (alike ? 1 : run.samples); ++turn) {
+        const std::uint32_t bits = places[turn].covered(texels, bx, by);
+        if (bits == 0) continue;
+        for (int s = 0; s < run.samples; ++s) cover(s, alike || s == turn ? bits : 0);
+        if (has_colors) places[turn].fetch(texels, bx, by, bits, colors);
+        fragments(bx, by, blocks);
+      }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif
