@@ -112,6 +112,12 @@ void check_operations(const DrawState& s, const FrameBufferState& target) {
   }
 }
 
+const TextureState* check_texture(const DrawState& s, const TextureState* state) {
+  require_finite({"Frame::draw: texture_env_color"}, s.texture_env_color);
+  if (s.texture != nullptr && state == nullptr) throw Error("Frame::draw: the texture was moved from");
+  return state;
+}
+
 // What is recorded already keeps its surroundings.
 template <class Change>
 void change(FrameRecording& recording, const char* function, const Change& edit) {
@@ -191,7 +197,8 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
     const MeshArrays arrays = check_mesh(mesh);
     check_state(state, *recording_->target);
     check_operations(state, *recording_->target);
-    recording_->draws.push_back({arrays, state, recording_->surroundings});
+    const TextureState* const texture = check_texture(state, state.texture != nullptr ? state.texture->state_.get() : nullptr);
+    recording_->draws.push_back({arrays, state, recording_->surroundings, texture});
   });
 }
 

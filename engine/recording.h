@@ -8,6 +8,7 @@
 
 #include "engine/frame_buffer_state.h"
 #include "engine/mesh_arrays.h"
+#include "engine/texture_state.h"
 
 namespace tessera {
 
@@ -22,6 +23,7 @@ struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
   std::shared_ptr<const Surroundings> surroundings;
+  const TextureState* texture = nullptr;  ///< of the state's, wherever that moves
 };
 struct RecordedClear {
   Clear clear;
