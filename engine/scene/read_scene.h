@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/import/model.h"
 #include "engine/scene/json_value.h"
@@ -17,13 +19,17 @@ SceneCamera default_camera();
 
 LightList read_lights(const json::Value& value);
 
-/// Models that were read, by their paths.
+/// Models that were read, by their paths, and textures, by their paths and samplers.
 struct ModelCache {
   std::map<std::string, Model> models;
+  std::map<std::string, std::shared_ptr<const Texture>> textures;
   std::function<bool()> go_on;  ///< of reading one
 };
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
 void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);
+
+/// Appends every texture of the file's `textures`. Returns their names.
+std::vector<std::string> read_textures(const json::Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene);
 
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
@@ -33,7 +39,8 @@ Compare read_compare(const json::Value& value);
 void read_operations(const json::Object& object, const FrameBufferFormat& format, DrawState& state);
 
 /// @param scene  all but the frame has been read.
-std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials);
+/// @param textures  their names
+std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials, const std::vector<std::string>& textures);
 /// One clear of what there is and one draw of every mesh.
 std::vector<SceneCommand> default_frame(const Scene& scene);
 
