@@ -1,5 +1,4 @@
-// Texture coordinates of a triangle's pixels, and how many texels one goes by from pixel to pixel, from exact derivatives. Twin:
-// texture_coordinates_reference.h.
+// Texture coordinates of a triangle's pixels, and how many texels one goes by from pixel to pixel, from exact derivatives.
 //
 // With weights w_k linear in the window, W their sum and N = w_1 (s_1 - s_0) + w_2 (s_2 - s_0), s = s_0 + N / W, hence
 //   ds/dx = (dN/dx - (s - s_0) dW/dx) / W.

@@ -1,5 +1,5 @@
 // Texels of a batch of points by their texture's filters. Coordinates become fixed point with 16 fraction bits, components are
-// levels with 8: the same bits on every instruction set. Twin: texture_sampling_reference.h.
+// levels with 8: the same bits on every instruction set.
 #if defined(TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
 #undef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_

@@ -141,7 +141,15 @@ const BadScene kBadScenes[] = {
     {R"("materials": {"red": {"preset": "goldd"}})", "/materials/red/preset", "expected one of \"emerald\""},
     {R"("materials": {"red": {"color_indexes": [0, 1]}})", "/materials/red/color_indexes", "expected an array of 3 numbers"},
     {R"("materials": {"red": {"color_indexes": [0, 1, "x"]}})", "/materials/red/color_indexes/2", "expected a number"},
-    {R"("textures": {"t": {"file": "x.png"}})", "/textures", "not supported"},
+    {R"("textures": {"t": {"file": "x.png"}})", "/textures/t/file", "cannot read \"x.png\": No such file or directory"},
+    {R"("textures": {"t": {"file": "x.ppm"}})", "/textures/t/file", "cannot read \"x.ppm\""},
+    {R"("textures": {"t": {}})", "/textures/t", "key \"file\" is missing"},
+    {R"("textures": {"t": {"file": "x.png", "filter": "linear"}})", "/textures/t/filter", "unknown key"},
+    {R"("textures": {"t": {"file": "x.png", "mag": "linear_mipmap_linear"}})", "/textures/t/mag", "expected one of \"nearest\", \"linear\""},
+    {R"("textures": {"t": {"file": "x.png", "min": "trilinear"}})", "/textures/t/min", "expected one of \"nearest\""},
+    {R"("textures": {"t": {"file": "x.png", "wrap_s": "clamp"}})", "/textures/t/wrap_s", "expected one of \"repeat\""},
+    {R"("textures": {"t": {"file": "x.png", "wrap_t": 1}})", "/textures/t/wrap_t", "expected one of \"repeat\""},
+    {R"("textures": [])", "/textures", "expected an object"},
 
     // Meshes
     {mesh(R"("builtin": "teapott")"), "/meshes/m/builtin", "did you mean \"teapot\"?"},
@@ -165,7 +173,8 @@ const BadScene kBadScenes[] = {
     {with_positions(R"("indices": [0, -1, 2])"), "/meshes/m/indices/1", "found -1, expected an integer from 0 to 2"},
     {with_positions(R"("primitive": "quads")"), "/meshes/m/primitive", "\"quads\" is part of the format but not supported"},
     {with_positions(R"("primitive": "triangle")"), "/meshes/m/primitive", "did you mean \"triangles\"?"},
-    {with_positions(R"("texcoords": [[0,0],[1,0],[0,1]])"), "/meshes/m/texcoords", "not supported"},
+    {with_positions(R"("texcoords": [[0,0],[1,0]])"), "/meshes/m/texcoords", "expected one for each of the 3 positions"},
+    {with_positions(R"("texcoords": [[0,0],[1,0],[0,1,0]])"), "/meshes/m/texcoords/2", "expected an array of 2 numbers"},
     {with_positions(R"("color_indices": [0,1])"), "/meshes/m/color_indices", "expected one for each of the 3 positions"},
     {with_positions(R"("color_indices": [0,1,1e39])"), "/meshes/m/color_indices/2", "32-bit float"},
 
