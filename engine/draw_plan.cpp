@@ -177,6 +177,7 @@ void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& lay
   if (plan.index[0] || plan.texture.use == TexturePlan::Use::none) return;
   if (plan.texture.use == TexturePlan::Use::texels) {
     plan.textures_pixels = true;
+    plan.scaled_colors = false;
     plan.deferred = !needs_order(plan, layout);
     return;
   }

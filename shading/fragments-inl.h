@@ -299,7 +299,8 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, triangle);
   fragments.pixels.texture = nullptr;  // its texels come about block by block
   fragments.texture = texture_of(draw, triangle.back);
-  if (fragments.texture != nullptr && fragments.texture->levels != nullptr) fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture);
+  if (fragments.texture != nullptr && fragments.texture->levels != nullptr && (!draw.deferred || fragments.tests_texels()))
+    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture);
   blocks(fragments);
   if (draw.deferred && fragments.seen) {
     memory.triangles.push_back(triangle);
