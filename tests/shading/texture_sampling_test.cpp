@@ -154,6 +154,21 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
   std::printf("[  figure  ] texels are off by at most %.3g levels\n", worst);
 }
 
+// GL 2.1, 3.8.8: d = ceil(lambda + 1/2) - 1, so half-way between two levels the larger one is the nearest.
+TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
+  std::mt19937 random(6);
+  const TestTexture texture(random, 64, 64, false, Min::nearest_nearest, Wrap::repeat, Wrap::repeat);
+  ShadingBatch batch{};
+  for (int i = 0; i < kBatchPoints; ++i) {
+    batch.field[kTextureS][i] = batch.field[kTextureT][i] = 0.3f;
+    batch.field[kTexelsSquared][i] = std::exp2(static_cast<float>(2 * (i % 6) + 1));
+  }
+  for (const Isa isa : available_isas()) {
+    sample_texture(isa)(texture.levels, batch, kBatchPoints);
+    for (int i = 0; i < kBatchPoints; ++i) EXPECT_NEAR(255 * batch.field[kTexelR][i], level_component(texture, i % 6, false, 0.3f, 0.3f, 0), 1e-4) << i % 6 << " and a half, " << name_of(isa);
+  }
+}
+
 // Whatever stands in lanes that nobody looks at: texels of the texture, the same on every instruction set, and none from elsewhere.
 TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
   for_each_filter([&](const TestTexture& texture, std::mt19937& random) {
