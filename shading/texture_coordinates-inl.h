@@ -37,7 +37,7 @@ struct TextureCoordinates {
   TextureAxis s, t;
   bool has_slopes = false;
 
-  HWY_INLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture) {
+  HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture) {
     triangle = &of;
     float weight_dx[3], weight_dy[3];
     for (int k = 0; k < 3; ++k) {

@@ -7,6 +7,7 @@
 #define TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
 #endif
 
+#include <algorithm>
 #include <bit>
 
 #include "shading/fragment_ops-inl.h"
@@ -128,34 +129,36 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
 }
 
 /// Points of one chunk at whatever levels they have: one pass for each of those, nearly always one or two.
-HWY_INLINE Texels minified_texels(const TextureLevels& texture, Int level_of, Float s, Float t) {
+HWY_INLINE Texels filtered_texels(const TextureLevels& texture, const ShadingBatch& batch, int point, Float s, Float t) {
+  Texels all{hn::Zero(kInt), hn::Zero(kInt)};
+  const Float footprint = texture.needs_footprint() ? hn::Load(kFloat, batch.field[kTexelsSquared] + point) : hn::Zero(kFloat);
+  const auto minified = hn::Gt(footprint, splat(texture.most_magnified));
+  const bool any_minified = !hn::AllFalse(kFloat, minified);
+  // Magnified points are points of level 0 like others, unless they have a filter of their own.
+  const bool apart = texture.mag_linear != texture.min_linear;
+  if (!any_minified || (apart && !hn::AllTrue(kFloat, minified))) all = texels_in(texture, 0, texture.mag_linear, s, t);
+  if (!any_minified) return all;
+
+  // Whatever stands in lanes that nobody looks at: a number.
+  const Float most = splat(0x1p60f), sound = hn::IfThenElse(minified, hn::IfThenElse(hn::Lt(footprint, most), footprint, most), splat(1.0f));
+  const auto minified_lanes = hn::RebindMask(kInt, minified);
+  const Int level_of = hn::IfThenElseZero(minified_lanes, level_of_detail(texture, sound));
   const Int whole = hn::ShiftRight<16>(level_of), fraction = twice(hn::And(level_of, splat(0xffff)));
   alignas(64) std::int32_t levels[kLanes];
   hn::Store(whole, kInt, levels);
-  Texels all{hn::Zero(kInt), hn::Zero(kInt)};
-  for (std::uint32_t left = (1u << kLanes) - 1; left != 0;) {
-    const int level = levels[std::countr_zero(left)];
-    Texels here = texels_in(texture, level, texture.min_linear, s, t);
-    if (texture.blends_levels && level < texture.last) here = mixed(here, texels_in(texture, level + 1, texture.min_linear, s, t), fraction);
-    const auto same = hn::Eq(whole, splat(level));
+  for (std::uint32_t left = apart ? mask_bits(kInt, minified_lanes) : (1u << kLanes) - 1; left != 0;) {
+    const int level = levels[std::countr_zero(left)], last = texture.blends_levels ? std::min(level + 1, texture.last) : level;
+    Texels here;
+    for (int k = level; k <= last; ++k) {
+      const Texels texels = texels_in(texture, k, texture.min_linear, s, t);
+      here = k == level ? texels : mixed(here, texels, fraction);
+    }
+    auto same = hn::Eq(whole, splat(level));
+    if (apart) same = hn::And(same, minified_lanes);
     all = {hn::IfThenElse(same, here.rb, all.rb), hn::IfThenElse(same, here.ga, all.ga)};
     left &= ~mask_bits(kInt, same);
   }
   return all;
-}
-
-HWY_INLINE Texels filtered_texels(const TextureLevels& texture, const ShadingBatch& batch, int point, Float s, Float t) {
-  if (!texture.needs_footprint()) return texels_in(texture, 0, texture.mag_linear, s, t);
-  const Float footprint = hn::Load(kFloat, batch.field[kTexelsSquared] + point);
-  const auto minified = hn::Gt(footprint, splat(texture.most_magnified));
-  if (hn::AllFalse(kFloat, minified)) return texels_in(texture, 0, texture.mag_linear, s, t);
-  // Whatever stands in lanes that nobody looks at: a number.
-  const Float most = splat(0x1p60f), sound = hn::IfThenElse(minified, hn::IfThenElse(hn::Lt(footprint, most), footprint, most), splat(1.0f));
-  const Texels small = minified_texels(texture, hn::IfThenElseZero(hn::RebindMask(kInt, minified), level_of_detail(texture, sound)), s, t);
-  if (texture.mag_linear == texture.min_linear || hn::AllTrue(kFloat, minified)) return small;
-  const Texels large = texels_in(texture, 0, texture.mag_linear, s, t);
-  const auto choose = hn::RebindMask(kInt, minified);
-  return {hn::IfThenElse(choose, small.rb, large.rb), hn::IfThenElse(choose, small.ga, large.ga)};
 }
 
 /// Texels of the first `count` points, whole vectors of lanes.
