@@ -1,11 +1,10 @@
 // What a draw's texture comes to: nothing, a colour that is worked into the vertices' colours, or texels at each pixel.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "engine/recording.h"
-#include "framebuffer/format.h"
-#include "shading/fragment_ops.h"
 #include "shading/texture.h"
 
 namespace tessera {
