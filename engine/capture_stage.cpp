@@ -12,14 +12,14 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
   normal_program_.needs_normal = normal_program_.renormalize = true;
   if (!capture.primitives.empty()) {
     std::size_t most = 0;
-    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->triangles);
+    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->elements);
     numbers_.resize(most);
     std::iota(numbers_.begin(), numbers_.end(), 0u);
     for (const GeometryDraw& geometry : commands.geometry) {
       std::vector<std::uint32_t>& numbers = polygon_numbers_.emplace_back();
       const std::size_t each = geometry.mesh->polygon_triangles();
       if (each < 2) continue;
-      numbers.resize(geometry.mesh->triangles);
+      numbers.resize(geometry.mesh->elements);
       for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
     }
   }
@@ -35,6 +35,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
   pass.ops.reserve(pass.draws.size());  // draws point into it
   for (std::size_t i = 0; i < pass.draws.size(); ++i) {
     TileDraw& draw = pass.draws[i];
+    const std::size_t plan = commands.tile_draw_plan[i];
     if (what == What::fragments) {
       draw.uses_depth = false;
       draw.ops = nullptr;
@@ -44,7 +45,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
     draw.write_mask = 0xffffffffu;
     draw.deferred = what == What::normals;
     draw.source = ColorSource::constant;
-    draw.word = static_cast<std::uint32_t>(commands.plan_draw[i]);
+    draw.word = static_cast<std::uint32_t>(commands.plan_draw[plan]);
     if (draw.ops != nullptr) {
       // The tests are what decides who is seen; what becomes of the colour does not.
       FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
@@ -56,11 +57,11 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
     }
     if (what == What::primitives) {
       draw.source = ColorSource::triangle_word;
-      draw.words[0] = draw.words[1] = (polygon_numbers_[i].empty() ? numbers_ : polygon_numbers_[i]).data();
+      draw.words[0] = draw.words[1] = (polygon_numbers_[plan].empty() ? numbers_ : polygon_numbers_[plan]).data();
     } else if (what == What::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;
-      draw.first_attribute = commands.plans[i].captured_normal;
+      draw.first_attribute = commands.plans[plan].captured_normal;
       draw.attribute_count = 3;
       for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
       draw.programs[0] = draw.programs[1] = &normal_program_;

@@ -166,7 +166,7 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.source = ColorSource::constant;
   if (!plan.vertex_alpha) return;
   plan.source = ColorSource::interpolated;
-  plan.flat = state.shading == Shading::flat;
+  plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
   plan.scaled_colors = false;
   plan.attribute_count = plan.colors_triangles() ? 0 : 4;
 }
@@ -227,21 +227,24 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.lit = true;
   }
   const bool needs_normal = plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
-  const bool generate = needs_normal && !draw.mesh.normals;
-  if (state.shading == Shading::phong && plan.lit) {
+  const bool generate = needs_normal && !draw.mesh.normals, has_faces = plan.topology == Topology::triangles;
+  const bool phong = state.shading == Shading::phong && plan.lit;
+  if (phong)
+    for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
+  if (phong && plan.topology != Topology::points) {
     plan.source = ColorSource::per_pixel;
     plan.deferred = !needs_order(plan, layout);
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
-    for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
     plan.attribute_count = (needs_normal ? 3 : 0) + (plan.front.needs_position || plan.back.needs_position ? 3 : 0) + (plan.uses_vertex_colors ? 3 : 0);
     if (plan.has_ops && plan.vertex_alpha) ++plan.attribute_count;
     note(plan.deferred ? "lit at each visible pixel, once" : "lit at each pixel of each triangle: its operations depend on the order");
-  } else if (state.shading == Shading::flat) {
-    plan.face_normals = generate;
+  } else if (state.shading == Shading::flat || plan.topology == Topology::points) {  // a point has one colour in any case
+    plan.face_normals = generate && has_faces;
+    plan.smooth_normals = generate && !has_faces;
     // Words have no room for texels: as floats, like colours that have operations to go through.
     if (plan.texture.use == TexturePlan::Use::texels) plan.has_ops = plan.textures_pixels = true;
-    const bool by_triangle = generate || plan.provoking_apart;
+    const bool by_triangle = plan.face_normals || plan.provoking_apart;
     plan.source = by_triangle ? ColorSource::triangle_word : ColorSource::vertex_word;
     if (plan.has_ops) {
       plan.source = ColorSource::interpolated;
@@ -249,19 +252,23 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
       plan.scaled_colors = false;
       plan.attribute_count = by_triangle ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
     }
-    note(generate ? "flat, lit once a triangle with its face's normal" : by_triangle ? "flat, one colour a triangle: that of its quad's vertex" : "flat, lit at the vertices");
+    note(plan.topology == Topology::points ? "points have one colour each"
+         : plan.face_normals               ? "flat, lit once a triangle with its face's normal"
+         : by_triangle                      ? "flat, one colour a triangle: that of its quad's vertex"
+                                           : "flat, lit at the vertices");
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
     plan_texturing(plan, true);
-    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled && !plan.textures_pixels;
+    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled && has_faces && !plan.textures_pixels;
     // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a colour that is not just stored.
     const bool shades_seen = layout.index || layout.luminance || plan.textures_pixels || (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_seen && !needs_order(plan, layout);
     plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }
-  if (generate && plan.smooth_normals) note("the mesh has no normals: area-weighted means over the faces at each position");
+  if (generate && !has_faces) note("the mesh has neither normals nor faces: light of no direction alone");
+  if (generate && plan.smooth_normals && has_faces) note("the mesh has no normals: area-weighted means over the faces at each position");
 }
 
 }  // namespace
@@ -290,8 +297,18 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   const DrawState& state = draw.state;
   DrawPlan plan;
   plan_transform(plan, draw, target);
-  plan.keep_front = state.cull != Cull::front;
-  plan.keep_back = state.cull != Cull::back;
+  plan.topology = draw.mesh.topology();
+  const bool has_faces = plan.topology == Topology::triangles;
+  plan.point_size = state.point_size;
+  plan.line_width = state.line_width;
+  plan.keep_front = state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
+  plan.keep_back = state.cull != Cull::back && has_faces;
+  static_assert(static_cast<int>(PolygonMode::point) == static_cast<int>(PolygonStyle::point));
+  const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode, plan.keep_back ? state.back_mode : state.front_mode};
+  for (int face = 0; face < 2 && has_faces; ++face) {
+    plan.style[face] = static_cast<PolygonStyle>(modes[face]);
+    plan.outlines |= modes[face] != PolygonMode::fill;
+  }
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
   plan.provoking_apart = state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
@@ -312,13 +329,13 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   const FragmentPlan fragments = plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), reasons);
   plan.ops = fragments.ops;
   plan.uses_stencil = fragments.uses_stencil;
-  if (plan.uses_depth) {
+  if (plan.uses_depth && has_faces) {
     plan.offset_factor = state.polygon_offset.factor;
     plan.offset_units = state.polygon_offset.units;
   }
-  const bool has_offset = plan.offset_factor != 0 || plan.offset_units != 0;
-  if (reasons && has_offset) *reasons += "  polygon offset\n";
-  plan.has_ops = fragments.needed || has_offset;
+  if (reasons && plan.has_offset()) *reasons += "  polygon offset\n";
+  if (reasons && plan.outlines) *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
+  plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
   const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
   plan.texture = plan_texture(draw, {stores_colors, plan.ops.alpha_test || (stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0))}, reasons);

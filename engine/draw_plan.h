@@ -15,6 +15,10 @@ namespace tessera {
 struct DrawPlan {
   VertexTransform transform;
   EyeTransform eye;
+  Topology topology = Topology::triangles;
+  float point_size = 1, line_width = 1;  ///< pixels
+  bool outlines = false;          ///< some faces are drawn as lines or points
+  PolygonStyle style[2] = {};     ///< of fronts and backs
   PixelRect rect;                 ///< where pixels may change, raster space
   bool keep_front = true, keep_back = true, front_is_clockwise = false;
   bool invisible = false;         ///< no buffer can change
@@ -56,6 +60,7 @@ struct DrawPlan {
   int texcoords = -1;             ///< where they begin; -1: none are wanted
   int captured_normal = -1;       ///< where it begins; -1: none is wanted
 
+  bool has_offset() const { return offset_factor != 0 || offset_units != 0; }
   bool only_indices() const { return index[0] && index[1]; }
   bool looks_up_colors() const { return write_mask != 0 && !only_indices(); }  ///< in the palette, if the buffer has one
   /// Floats that a vertex's colour of one face takes: with operations it has alpha; an index has no more than itself, but

@@ -93,7 +93,14 @@ void check_state(const DrawState& s, const FrameBufferState& target) {
   check_color_mask("Frame::draw", s.color_mask, target);
 }
 
+void check_size(const char* name, float size) {
+  if (std::isfinite(size) && size > 0) return;
+  throw Error("Frame::draw: " + std::string(name) + " is " + text(size) + ", must be a finite number above 0");
+}
+
 void check_operations(const DrawState& s, const FrameBufferState& target) {
+  check_size("point_size", s.point_size);
+  check_size("line_width", s.line_width);
   require_finite({"Frame::draw: polygon_offset"}, {s.polygon_offset.factor, s.polygon_offset.units});
   if ((s.polygon_offset.factor != 0 || s.polygon_offset.units != 0) && target.depth_kind == DepthKind::none)
     throw Error("Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");

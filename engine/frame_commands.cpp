@@ -157,7 +157,7 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   for (std::size_t i = 0; i < recording.draws.size(); ++i) {
     first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
     DrawPlan plan = plan_draw(recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
-    if (plan.invisible || recording.draws[i].mesh.triangles == 0) continue;
+    if (plan.invisible || recording.draws[i].mesh.elements == 0) continue;
     commands.plans.push_back(std::move(plan));
     commands.plan_draw.push_back(i);
   }
@@ -227,6 +227,16 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
     clear.accumulation &= commands.accumulation.used;
   }
 
+  // From here on draws are counted as the tiles do.
+  std::uint32_t tile_draws = 0;
+  for (const DrawPlan& plan : commands.plans) {
+    commands.first_tile_draw.push_back(tile_draws);
+    tile_draws += static_cast<std::uint32_t>(std::max<std::size_t>(styles_of(plan).size(), 1));
+  }
+  commands.first_tile_draw.push_back(tile_draws);
+  for (TileClear& clear : commands.clears) clear.before_draw = commands.first_tile_draw[clear.before_draw];
+  for (TileAccumulation& accumulation : commands.accumulations) accumulation.before_draw = commands.first_tile_draw[accumulation.before_draw];
+
   while (buffers.size() < commands.plans.size()) buffers.emplace_back();
   for (std::size_t i = 0; i < commands.plans.size(); ++i) {
     const RecordedDraw& draw = recording.draws[commands.plan_draw[i]];
@@ -242,11 +252,21 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
   return commands;
 }
 
+std::vector<PolygonStyle> styles_of(const DrawPlan& plan) {
+  std::vector<PolygonStyle> styles;
+  for (const PolygonStyle style : {PolygonStyle::fill, PolygonStyle::line, PolygonStyle::point})
+    if (plan.outlines && (plan.style[0] == style || plan.style[1] == style)) styles.push_back(style);
+  return styles;
+}
+
 void connect_draws(FrameCommands& commands) {
   for (const GeometryDraw& geometry : commands.geometry) {
     const DrawPlan& plan = *geometry.plan;
     DrawBuffers& buffers = *geometry.buffers;
     TileDraw draw;
+    draw.topology = plan.topology;
+    draw.element_corners = corners_of(plan.topology);
+    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
     draw.vertices = buffers.vertices.data();
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
@@ -256,6 +276,7 @@ void connect_draws(FrameCommands& commands) {
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
     draw.facing = geometry.facing();
+    draw.depth_offsets = geometry.depth_offsets();
     draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->polygon_triangles());
     draw.uses_depth = plan.uses_depth;
     draw.depth_write = plan.depth_write;
@@ -292,7 +313,20 @@ void connect_draws(FrameCommands& commands) {
         --draw.attribute_count;  // it is no input of lighting
       }
     }
-    commands.tile_draws.push_back(draw);
+    const std::size_t plan_number = static_cast<std::size_t>(&geometry - commands.geometry.data());
+    const auto add = [&] {
+      commands.tile_draws.push_back(draw);
+      commands.tile_draw_plan.push_back(plan_number);
+    };
+    const std::vector<PolygonStyle> styles = styles_of(plan);
+    if (styles.empty()) add();
+    for (const PolygonStyle style : styles) {
+      if (style != PolygonStyle::fill) {
+        draw.topology = style == PolygonStyle::line ? Topology::lines : Topology::points;
+        draw.size = style == PolygonStyle::line ? plan.line_width : plan.point_size;
+      }
+      add();
+    }
   }
 }
 

@@ -27,8 +27,11 @@ struct BufferTraffic {
 struct FrameCommands {
   std::vector<DrawPlan> plans;
   std::vector<std::size_t> plan_draw;       ///< the recorded draw of each plan
+  /// The tiles' first draw of each plan, and one past the last: polygons that are not all filled are several.
+  std::vector<std::uint32_t> first_tile_draw;
   std::vector<GeometryDraw> geometry;
   std::vector<TileDraw> tile_draws;
+  std::vector<std::size_t> tile_draw_plan;  ///< of each
   std::vector<TileClear> clears;
   std::vector<TileAccumulation> accumulations;
   BufferTraffic color, depth, stencil, accumulation;
@@ -47,6 +50,9 @@ struct FrameCommands {
 /// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.
 /// Throws Error where a buffer that the frame needs was not kept by the frame before.
 FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers);
+
+/// The styles in which a plan's elements are drawn, in the order of its tile draws; none: as they are.
+std::vector<PolygonStyle> styles_of(const DrawPlan& plan);
 
 /// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
 void connect_draws(FrameCommands& commands);

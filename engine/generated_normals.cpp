@@ -17,7 +17,7 @@ glm::dvec3 position(const MeshArrays& mesh, std::size_t vertex) {
 }
 
 std::array<std::size_t, 3> vertices_of(const MeshArrays& mesh, std::size_t triangle) {
-  const auto corners = triangle_corners(mesh.primitive, ProvokingVertex::last, triangle);
+  const auto corners = element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, triangle);
   return {mesh.vertex_at(corners[0]), mesh.vertex_at(corners[1]), mesh.vertex_at(corners[2])};
 }
 
@@ -70,10 +70,11 @@ std::vector<std::uint32_t> first_at_position(const MeshArrays& mesh) {
 }  // namespace
 
 std::vector<float> smooth_normals(const MeshArrays& mesh) {
+  if (mesh.topology() != Topology::triangles) return std::vector<float>(3 * mesh.vertices);  // no faces
   const std::vector<std::uint32_t> first = first_at_position(mesh);
   std::vector<glm::dvec3> sums(first.size(), glm::dvec3(0));
   const std::size_t each = mesh.polygon_triangles();
-  for (std::size_t begin = 0; begin < mesh.triangles; begin += each) {
+  for (std::size_t begin = 0; begin < mesh.elements; begin += each) {
     const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
     if (!std::isfinite(normal.x + normal.y + normal.z)) continue;  // this polygon will be dropped; its neighbours keep theirs
     // A polygon's first triangle has three of its vertices, each further one another: the one that those before it have not.
@@ -86,9 +87,9 @@ std::vector<float> smooth_normals(const MeshArrays& mesh) {
 }
 
 std::vector<float> face_normals(const MeshArrays& mesh) {
-  std::vector<float> normals(3 * mesh.triangles);
+  std::vector<float> normals(3 * mesh.elements);
   const std::size_t each = mesh.polygon_triangles();
-  for (std::size_t begin = 0; begin < mesh.triangles; begin += each) {
+  for (std::size_t begin = 0; begin < mesh.elements; begin += each) {
     const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
     for (std::size_t t = begin; t < begin + each; ++t) store_unit(normal, &normals[3 * t]);
   }

@@ -176,12 +176,26 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
     for (std::size_t c = 0; c < 3; ++c) out[c] = eye[c][i];
 }
 
-// Three indices for each triangle, its provoking vertex where provoking_place() says.
-void assemble_triangles(const GeometryDraw& draw) {
+// The corners of each element, its provoking vertex where provoking_place() says.
+void assemble_elements(const GeometryDraw& draw) {
   const MeshArrays& mesh = *draw.mesh;
-  std::uint32_t* out = draw.buffers->indices.resize(3 * mesh.triangles);
-  for (std::size_t t = 0; t < mesh.triangles; ++t)
-    for (const std::size_t corner : triangle_corners(mesh.primitive, draw.provoking_vertex, t)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+  const auto each = static_cast<std::size_t>(mesh.topology());
+  std::uint32_t* out = draw.buffers->indices.resize(each * mesh.elements);
+  for (std::size_t e = 0; e < mesh.elements; ++e) {
+    const auto corners = element_corners(mesh.primitive, draw.provoking_vertex, mesh.corners, e);
+    for (std::size_t k = 0; k < each; ++k) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corners[k]));
+  }
+}
+
+// Around the first triangle, with what each further one adds before its end. From the same vertex on under both conventions.
+void list_boundaries(const GeometryDraw& draw) {
+  const MeshArrays& mesh = *draw.mesh;
+  const std::size_t each = mesh.polygon_triangles(), polygons = mesh.elements / each;
+  std::uint32_t* out = draw.buffers->boundary.resize(polygons * (each + 2));
+  for (std::size_t first = 0; first < mesh.elements; first += each) {
+    for (const std::size_t corner : element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, first)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+    for (std::size_t t = first + 1; t < first + each; ++t) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
+  }
 }
 
 void clear_batch(ShadingBatch& batch) {
@@ -193,7 +207,7 @@ void clear_batch(ShadingBatch& batch) {
 void prepare_geometry(const GeometryDraw& draw) {
   const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
-  const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->triangles;
+  const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->elements;
   buffers.vertices.resize(vertices);
   buffers.codes.resize(vertices);
   buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) + 2 * kAttributePadding);  // read in whole vectors
@@ -201,8 +215,10 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
-  if (draw.makes_indices()) assemble_triangles(draw);
-  buffers.facing.resize(draw.mesh->polygon_triangles() > 1 ? triangles : 0);
+  if (draw.makes_indices()) assemble_elements(draw);
+  buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
+  buffers.depth_offsets.resize(draw.faces_polygons() && plan.has_offset() ? triangles : 0);
+  if (plan.outlines) list_boundaries(draw);
   buffers.normals.clear();
   if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
   if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);
@@ -251,7 +267,7 @@ void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t 
   const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
   const auto components = static_cast<std::size_t>(mesh.components);
-  const auto vertex_of = [&](std::size_t triangle) { return mesh.vertex_at(provoking_corner(mesh.primitive, draw.provoking_vertex, triangle)); };
+  const auto vertex_of = [&](std::size_t triangle) { return mesh.vertex_at(provoking_corner(mesh.primitive, draw.provoking_vertex, mesh.corners, triangle)); };
   ShadingBatch batch;
   clear_batch(batch);
   float positions[4 * kVertexBatch], normals[3 * kVertexBatch];

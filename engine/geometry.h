@@ -19,8 +19,11 @@ struct DrawBuffers {
   Scratch<float> attributes;
   Scratch<std::uint32_t> words[2];
   Scratch<float> face_colors[2];         ///< r g b a for each triangle, of flat draws with operations
-  Scratch<std::uint32_t> indices;        ///< three a triangle: widened from 16 bits, or made of other primitives
-  Scratch<Facing> facing;                ///< of each triangle, where several make a polygon
+  Scratch<std::uint32_t> indices;        ///< of elements: widened from 16 bits, or made of other primitives
+  Scratch<Facing> facing;                ///< of each triangle, where several make a polygon or outlines are drawn
+  Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
+  Scratch<double> depth_offsets;         ///< of each triangle's polygon, likewise
+  PolygonModes modes;
   std::vector<float> normals;            ///< generated
   std::vector<float> captured_normals;   ///< generated, where a capture wants normals
   std::atomic<bool> any_code = false;    ///< some vertex has a clip code
@@ -35,11 +38,17 @@ struct GeometryDraw {
   const PaletteSearch* search = nullptr;
   ProvokingVertex provoking_vertex = ProvokingVertex::last;
 
-  bool makes_indices() const { return mesh->short_indices != nullptr || mesh->primitive != Primitive::triangles; }
-  /// Three a triangle, of 32 bits, or null: vertices in order. @pre prepare_geometry
+  bool makes_indices() const {
+    const Primitive p = mesh->primitive;
+    return mesh->short_indices != nullptr || (p != Primitive::points && p != Primitive::lines && p != Primitive::triangles);
+  }
+  /// As many for each element as it has corners, of 32 bits, or null: vertices in order. @pre prepare_geometry
   const std::uint32_t* indices() const { return makes_indices() ? buffers->indices.data() : mesh->indices; }
   /// Of each triangle, or null: its own area decides. @pre face_polygons
-  const Facing* facing() const { return mesh->polygon_triangles() > 1 ? buffers->facing.data() : nullptr; }
+  const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
+  /// Of each triangle's polygon, or null: each has its own, or there are none. @pre offset_polygons
+  const double* depth_offsets() const { return faces_polygons() && plan->has_offset() ? buffers->depth_offsets.data() : nullptr; }
+  bool faces_polygons() const { return plan->outlines || mesh->polygon_triangles() > 1; }
 };
 
 /// Takes the memory and makes normals where the mesh has none. Throws std::bad_alloc.

@@ -105,10 +105,11 @@ MeshArrays check_mesh(const Mesh& mesh) {
   arrays.primitive = mesh.primitive;
   if (!makes_whole_primitives(mesh.primitive, corners))
     fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", " + std::string(name_of_mesh(mesh.primitive)) +
-         (mesh.primitive == Primitive::triangles || mesh.primitive == Primitive::quads ? " need " : " needs ") + std::string(corners_needed(mesh.primitive)));
-  arrays.triangles = triangle_count(mesh.primitive, corners);
-  if (arrays.triangles > kMaxTriangles)
-    fail("has " + std::to_string(arrays.triangles) + " triangles, at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
+         (name_of_mesh(mesh.primitive).starts_with("a ") ? " needs " : " need ") + std::string(corners_needed(mesh.primitive)));
+  arrays.corners = corners;
+  arrays.elements = element_count(mesh.primitive, corners);
+  if (arrays.elements > kMaxTriangles)
+    fail("has " + std::to_string(arrays.elements) + (arrays.topology() == Topology::points ? " points" : arrays.topology() == Topology::lines ? " lines" : " triangles") + ", at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
   add_indices(mesh.indices, arrays);
   return arrays;
 }

@@ -12,7 +12,9 @@ namespace tessera {
 
 struct MeshArrays {
   Primitive primitive = Primitive::triangles;
-  std::size_t vertices = 0, triangles = 0;     ///< those that polygons are split into
+  std::size_t vertices = 0;
+  std::size_t corners = 0;                     ///< indices, or vertices where there are none
+  std::size_t elements = 0;                    ///< points, lines or triangles: what primitives are split into
   StridedFloats positions;
   int components = 3;                          ///< of a position
   StridedFloats normals;                       ///< or none
@@ -25,7 +27,8 @@ struct MeshArrays {
   const std::uint16_t* short_indices = nullptr;
 
   bool indexed() const { return indices != nullptr || short_indices != nullptr; }
-  std::size_t polygon_triangles() const { return triangles_of_polygon(primitive, triangles); }
+  std::size_t polygon_triangles() const { return triangles_of_polygon(primitive, elements); }
+  Topology topology() const { return topology_of(primitive); }
   bool has_colors() const { return colors || color_bytes != nullptr; }
   /// The vertex at a corner, counted along the indices.
   std::size_t vertex_at(std::size_t corner) const { return indices ? indices[corner] : short_indices ? short_indices[corner] : corner; }

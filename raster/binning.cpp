@@ -61,7 +61,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
     int n = 0;
     while (n < kGroup && next < last) {
       const std::uint32_t triangle = next++;
-      const std::uint32_t i0 = vertex_index(draw, triangle, 0), i1 = vertex_index(draw, triangle, 1), i2 = vertex_index(draw, triangle, 2);
+      const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1), i2 = vertex_index<3>(draw, triangle, 2);
       if (draw.any_code) {
         const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
         if (((c0 | c1 | c2) & kNonFinite) != 0 || (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped)) {
@@ -111,8 +111,8 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
       if (tx0 == tx1 && ty0 == ty1) {
         bins.push(ty0 * columns + tx0, draw.draw, ids[k]);
       } else {
-        const WindowVertex* const v[3] = {&draw.vertices[vertex_index(draw, ids[k], 0)], &draw.vertices[vertex_index(draw, ids[k], 1)],
-                                          &draw.vertices[vertex_index(draw, ids[k], 2)]};
+        const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, ids[k], 0)], &draw.vertices[vertex_index<3>(draw, ids[k], 1)],
+                                          &draw.vertices[vertex_index<3>(draw, ids[k], 2)]};
         bin_large_triangle(bins, grid, v, b.area[k], draw, ids[k], tx0, ty0, tx1, ty1);
       }
     }
@@ -133,7 +133,8 @@ void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::u
 void Bins::reset(int tile_count) {
   tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone, 0});
   used_ = 0;
-  clipped.clear();
+  pieces.clear();
+  attributes_.assign(kAttributePadding, 0.0f);
   counts = {};
 }
 
@@ -174,15 +175,18 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
   }
 }
 
+ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count) {
+  ClipVertex v;
+  const float* p = draw.positions.at(vertex);
+  v.position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
+  const float* a = draw.attributes + std::size_t{vertex} * static_cast<std::size_t>(draw.attribute_stride);
+  for (int j = 0; j < attribute_count; ++j) v.attributes[j] = a[j];
+  return v;
+}
+
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count) {
-  ClipVertex corners[3];
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t i = vertex_index(draw, triangle, k);
-    const float* p = draw.positions.at(i);
-    corners[k].position = clip_position(*draw.transform, p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f);
-    const float* a = draw.attributes + std::size_t{i} * static_cast<std::size_t>(draw.attribute_stride);
-    for (int j = 0; j < attribute_count; ++j) corners[k].attributes[j] = a[j];
-  }
+  const ClipVertex corners[3] = {clip_vertex(draw, vertex_index<3>(draw, triangle, 0), attribute_count), clip_vertex(draw, vertex_index<3>(draw, triangle, 1), attribute_count),
+                                 clip_vertex(draw, vertex_index<3>(draw, triangle, 2), attribute_count)};
   WindowPolygon polygon;
   polygon.clipped = clip_triangle(*draw.transform, corners, codes, attribute_count);
   for (int i = 0; i < polygon.clipped.count; ++i) polygon.window[i] = project(*draw.transform, polygon.clipped.vertices[i].position);
@@ -215,17 +219,14 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0), px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
     const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0), py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
     if (px0 > px1 || py0 > py1) continue;
-    ClippedTriangle piece;
-    piece.source = triangle;
+    Piece& piece = bins.add_piece(triangle, 3, draw.attribute_count);
     for (int k = 0; k < 3; ++k) {
       piece.vertices[k] = window[corner[k]];
-      std::copy_n(polygon.clipped.vertices[corner[k]].attributes, kMaxAttributes, piece.attributes[k]);
+      std::copy_n(polygon.clipped.vertices[corner[k]].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
     }
-    const std::uint32_t id = kClippedTriangle | static_cast<std::uint32_t>(bins.clipped.size());
-    bins.clipped.push_back(piece);
     ++bins.counts.binned;
     const WindowVertex* const v[3] = {&piece.vertices[0], &piece.vertices[1], &piece.vertices[2]};
-    bin_large_triangle(bins, grid, v, area, draw, id, px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
+    bin_large_triangle(bins, grid, v, area, draw, bins.id_of_last_piece(), px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
   }
 }
 

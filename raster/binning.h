@@ -12,20 +12,21 @@
 #include "framebuffer/tile_grid.h"
 #include "raster/clip.h"
 #include "raster/polygon_facing.h"
+#include "raster/topology.h"
 #include "raster/vertex_transform.h"
 
 namespace tessera {
 
 // A bin entry is a triangle of the current draw, or a marker that makes another draw current.
 inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
-inline constexpr std::uint32_t kClippedTriangle = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
-inline constexpr std::uint32_t kMaxTriangles = kClippedTriangle - 1;
+inline constexpr std::uint32_t kPiece = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
+inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
 
-/// A piece of a triangle that clipping cut, with its own vertices.
-struct ClippedTriangle {
+/// A part of an element that has vertices of its own: what clipping left, or an edge or corner of a polygon.
+struct Piece {
   WindowVertex vertices[3];
-  float attributes[3][kMaxAttributes + kAttributePadding] = {};
-  std::uint32_t source;  ///< the triangle that it was cut from
+  std::size_t first_attribute = 0;  ///< see Bins::attributes()
+  std::uint32_t source = 0;         ///< the element that it is a part of
 };
 
 struct BinCounts {
@@ -59,7 +60,25 @@ class Bins {
   std::uint32_t triangles(int tile) const { return tails_[static_cast<std::size_t>(tile)].triangles; }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
 
-  std::vector<ClippedTriangle> clipped;
+  /// A new piece at the end of the list, with room for the attributes of its corners. Throws std::bad_alloc.
+  Piece& add_piece(std::uint32_t source, int corners, int attribute_count) {
+    const std::size_t first = attributes_.size() - kAttributePadding;
+    attributes_.resize(attributes_.size() + static_cast<std::size_t>(corners * attribute_count));
+    Piece& piece = pieces.emplace_back();
+    piece.source = source;
+    piece.first_attribute = first;
+    return piece;
+  }
+  void drop_last_piece() {
+    attributes_.resize(pieces.back().first_attribute + kAttributePadding);
+    pieces.pop_back();
+  }
+  std::uint32_t id_of_last_piece() const { return kPiece | static_cast<std::uint32_t>(pieces.size() - 1); }
+  /// Attributes of a piece, corner by corner; kAttributePadding floats may be read from each.
+  float* attributes(const Piece& piece) { return attributes_.data() + piece.first_attribute; }
+  const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
+
+  std::vector<Piece> pieces;
   BinCounts counts;
 
  private:
@@ -73,14 +92,28 @@ class Bins {
   }
   void add_block(Tail& tail);
 
+  std::vector<float> attributes_;  // of the pieces, and padding
   std::vector<Tail> tails_;
   std::vector<Block> blocks_;
   std::size_t used_ = 0;
 };
 
+/// How polygons are drawn: filled, as their boundary's lines, or as points at their corners.
+enum class PolygonStyle : std::uint8_t { fill, line, point };
+
+/// What binning needs besides of a draw whose polygons are not all filled.
+struct PolygonModes {
+  PolygonStyle style[2] = {};                ///< of fronts and backs
+  std::uint32_t draw[3] = {};                ///< the numbers in the frame of what is filled, of lines, of points
+  float line_width = 1, point_size = 1;
+  std::size_t triangles = 1;                 ///< that each polygon was split into
+  const std::uint32_t* boundary = nullptr;   ///< the vertices of each polygon, two more than triangles
+};
+
 /// What binning needs of a draw.
 struct BinDraw {
   std::uint32_t draw = 0;                    ///< its number in the frame
+  Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;    ///< null: vertices in order
   const std::uint8_t* codes = nullptr;
@@ -96,15 +129,23 @@ struct BinDraw {
   int components = 3;
   const float* attributes = nullptr;
   int attribute_count = 0, attribute_stride = 0;
+  // Points and lines.
+  float size = 1;                            ///< of points, or the lines' width
+  int samples = 1;
+  const PolygonModes* modes = nullptr;       ///< null: polygons are filled
 };
 
 /// True for a triangle whose snapped area faces the viewer; `area` is its doubled area in raster space (y down).
 constexpr bool is_front(double area, bool front_is_clockwise) { return (area < 0) != front_is_clockwise; }
 
-inline std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t triangle, int corner) {
-  const std::uint32_t i = triangle * 3 + static_cast<std::uint32_t>(corner);
+/// Of an element of so many corners.
+template <std::uint32_t kCorners>
+std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint32_t corner) {
+  const std::uint32_t i = element * kCorners + corner;
   return draw.indices ? draw.indices[i] : i;
 }
+/// A vertex with its attributes, before clipping.
+ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
 
 /// A triangle after clipping, in the window.
 struct WindowPolygon {
@@ -118,6 +159,18 @@ WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::u
 constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
   return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
 }
+
+/// Points whose centres are outside of the view volume are not drawn [GL 2.1, 2.12]; lines are clipped to its near and far planes and to
+/// the guard band.
+void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last);
+void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last);
+
+/// Polygons that begin in triangles [first, last), each in the style of the face that is seen. Of what clipping leaves of a polygon the edges
+/// that clipping made are lines, too. Throws std::bad_alloc. @pre draw.modes and draw.facing
+void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa);
+/// Pieces of points and lines that stand last in the list of clipped ones. False if they are outside.
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw);
+bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 
 /// Culls and bins triangles [first, last) of a draw.
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa);

@@ -1,9 +1,16 @@
 #include "raster/clip.h"
 
 #include <cmath>
+#include <utility>
 
 namespace tessera {
 namespace {
+
+// Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
+constexpr ClipCode kPlanes[] = {kBeforeNear, kBehindFar, kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand};
+// A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the first cut every plane is
+// looked at.
+bool is_looked_at(ClipCode plane, std::uint8_t codes) { return (codes & (plane | kBeforeNear | kBehindFar)) != 0; }
 
 // How far inside a plane a position lies; negative outside.
 double distance(const VertexTransform& t, ClipCode plane, const ClipPosition& p) {
@@ -28,34 +35,65 @@ ClipVertex cut(const ClipVertex& inner, const ClipVertex& outer, double inner_di
   return v;
 }
 
+// What of a polygon is inside of one plane, vertex by vertex.
+template <class Keep>
+void keep_inside(const VertexTransform& transform, ClipCode plane, const ClipVertex* vertices, int count, int attribute_count, const Keep& keep) {
+  for (int i = 0; i < count; ++i) {
+    const ClipVertex &a = vertices[i], &b = vertices[i + 1 == count ? 0 : i + 1];
+    const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
+    if (da >= 0) keep(a);
+    if (da >= 0 && db < 0) keep(cut(a, b, da, db, attribute_count));
+    if (da < 0 && db >= 0) keep(cut(b, a, db, da, attribute_count));
+  }
+}
+
 }  // namespace
 
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count) {
   ClippedPolygon polygon;
   for (const ClipVertex& v : triangle) polygon.vertices[polygon.count++] = v;
-  // Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
-  for (const ClipCode plane : {kBeforeNear, kBehindFar, kNoPositiveW, kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand}) {
-    // A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the first cut
-    // every plane is looked at.
-    if (plane == kNoPositiveW || ((codes & plane) == 0 && (codes & (kBeforeNear | kBehindFar)) == 0)) continue;
+  for (const ClipCode plane : kPlanes) {
+    if (!is_looked_at(plane, codes)) continue;
     ClippedPolygon kept;
-    const auto keep = [&kept](const ClipVertex& v) {  // a convex polygon gains one vertex a plane; only rounding could make more
-      if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;
-    };
-    for (int i = 0; i < polygon.count; ++i) {
-      const ClipVertex& a = polygon.vertices[i];
-      const ClipVertex& b = polygon.vertices[(i + 1) % polygon.count];
-      const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
-      if (da >= 0) keep(a);
-      if (da >= 0 && db < 0) keep(cut(a, b, da, db, attribute_count));
-      if (da < 0 && db >= 0) keep(cut(b, a, db, da, attribute_count));
-    }
+    keep_inside(transform, plane, polygon.vertices, polygon.count, attribute_count, [&kept](const ClipVertex& v) {
+      if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;  // a convex polygon gains one vertex a plane; only rounding could make more
+    });
     polygon = kept;
     if (polygon.count < 3) return {};
   }
   for (int i = 0; i < polygon.count; ++i)
     if (!(polygon.vertices[i].position.w > 0)) return {};  // touches the eye's plane in a single point: no pixel
   return polygon;
+}
+
+std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vector<ClipVertex> polygon, std::uint8_t codes, int attribute_count) {
+  for (const ClipCode plane : kPlanes) {
+    if (!is_looked_at(plane, codes)) continue;
+    std::vector<ClipVertex> kept;
+    keep_inside(transform, plane, polygon.data(), static_cast<int>(polygon.size()), attribute_count, [&kept](const ClipVertex& v) { kept.push_back(v); });
+    polygon = std::move(kept);
+    if (polygon.size() < 3) return {};
+  }
+  for (const ClipVertex& v : polygon)
+    if (!(v.position.w > 0)) return {};
+  return polygon;
+}
+
+bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t codes, int attribute_count) {
+  for (const ClipCode plane : kPlanes) {
+    if (!is_looked_at(plane, codes)) continue;
+    const double d0 = distance(transform, plane, line[0].position), d1 = distance(transform, plane, line[1].position);
+    if (!(d0 >= 0 || d1 >= 0)) return false;
+    if (d0 < 0) line[0] = cut(line[1], line[0], d1, d0, attribute_count);
+    if (d1 < 0) line[1] = cut(line[0], line[1], d0, d1, attribute_count);
+  }
+  return line[0].position.w > 0 && line[1].position.w > 0;
+}
+
+bool is_between_sides(const ClipPosition& p) { return std::abs(p.x) <= p.w && std::abs(p.y) <= p.w; }
+
+bool is_in_view(const VertexTransform& transform, const ClipPosition& p) {
+  return p.w > 0 && is_between_sides(p) && distance(transform, kBeforeNear, p) >= 0 && distance(transform, kBehindFar, p) >= 0;
 }
 
 }  // namespace tessera

@@ -30,4 +30,13 @@ struct ClippedPolygon {
 };
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count);
 
+/// The same of a convex polygon of any number of vertices. Throws std::bad_alloc.
+std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vector<ClipVertex> polygon, std::uint8_t codes, int attribute_count);
+/// Shortens a line to its part inside every plane in `codes`, with the same points where an edge of a triangle is cut. False if nothing is left.
+bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t codes, int attribute_count);
+/// Whether a point is inside the view volume, its border included. Infinite far planes have no outside.
+bool is_in_view(const VertexTransform& transform, const ClipPosition& position);
+/// The same without a look at the near and far planes.
+bool is_between_sides(const ClipPosition& position);
+
 }  // namespace tessera

@@ -35,9 +35,9 @@ struct OffsetUnormDepth : UnormDepth {
     dx = g.fixed_dx[i];
     dy = g.fixed_dy[i];
   }
-  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
+  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) { move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift)); }
+  HWY_INLINE void move_by(double words) {
     constexpr double kWhole = 0x1p32;  // nothing is further away
-    const double words = double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift);
     moved = static_cast<std::int64_t>(std::floor(std::clamp(words, -kWhole, kWhole) + 0.5));
   }
   HWY_INLINE std::int32_t key_of(std::uint64_t value) const {
@@ -60,8 +60,9 @@ struct OffsetFloat32Depth : Float32Depth {
   float moved = 0;
   HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
     const int exponent = std::max(high > 0 ? std::ilogb(high) : -126, -126);  // of the largest depth; the smallest normal float's
-    moved = static_cast<float>(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
+    move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
   }
+  HWY_INLINE void move_by(double depth) { moved = static_cast<float>(depth); }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     const Float z = hn::Add(hn::BitCast(kFloat, Float32Depth::keys(block, chunk)), splat(moved));
     const Float above = hn::IfThenElseZero(hn::Gt(z, hn::Zero(kFloat)), z);

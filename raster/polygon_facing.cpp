@@ -6,7 +6,7 @@ namespace tessera {
 namespace {
 
 std::uint8_t codes_of(const BinDraw& draw, std::uint32_t triangle, bool of_all) {
-  const std::uint8_t c[3] = {draw.codes[vertex_index(draw, triangle, 0)], draw.codes[vertex_index(draw, triangle, 1)], draw.codes[vertex_index(draw, triangle, 2)]};
+  const std::uint8_t c[3] = {draw.codes[vertex_index<3>(draw, triangle, 0)], draw.codes[vertex_index<3>(draw, triangle, 1)], draw.codes[vertex_index<3>(draw, triangle, 2)]};
   return of_all ? c[0] & c[1] & c[2] : c[0] | c[1] | c[2];
 }
 
@@ -16,7 +16,7 @@ double visible_area(const BinDraw& draw, std::uint32_t triangle) {
     if (codes_of(draw, triangle, true) != 0) return 0;
     if (const std::uint8_t codes = codes_of(draw, triangle, false); codes != 0) return clip_to_window(draw, triangle, codes, 0).area;
   }
-  return doubled_area(draw.vertices[vertex_index(draw, triangle, 0)], draw.vertices[vertex_index(draw, triangle, 1)], draw.vertices[vertex_index(draw, triangle, 2)]);
+  return doubled_area(draw.vertices[vertex_index<3>(draw, triangle, 0)], draw.vertices[vertex_index<3>(draw, triangle, 1)], draw.vertices[vertex_index<3>(draw, triangle, 2)]);
 }
 
 Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {

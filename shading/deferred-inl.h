@@ -70,8 +70,13 @@ HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch,
                 level(b, layout.b_bits));
 }
 
-/// Words of masked indices, step by step index_word().
-HWY_INLINE Int index_words(const ColorLayout& layout, Float index) {
+/// Words of masked indices, step by step index_word(). Beyond the ends of a line, and where a sample alone is covered, an index may have
+/// left its range: it comes back at the other end.
+HWY_INLINE Int index_words(const ColorLayout& layout, Float interpolated) {
+  const float modulus = layout.index_modulus();
+  const Float turns = hn::Floor(hn::Mul(interpolated, splat(1 / modulus)));
+  const Float within = neg_mul_add(turns, splat(modulus), interpolated);  // exact, but for what is rounded up to the modulus
+  const Float index = hn::IfThenElseZero(hn::Eq(within, within), within);  // a NaN is 0
   const Int whole = truncate(hn::Max(index, hn::Zero(kFloat)));
   const auto up = hn::RebindMask(kInt, hn::Ge(hn::Sub(index, hn::ConvertTo(kFloat, whole)), splat(0.5f)));
   return hn::And(hn::Sub(whole, hn::VecFromMask(kInt, up)), splat(static_cast<std::int32_t>(layout.word_mask())));

@@ -135,12 +135,16 @@ struct TrianglePixels {
   }
 };
 
+HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t element) {
+  const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.element_corners) + static_cast<std::size_t>(draw.provoking);
+  return draw.indices ? draw.indices[corner] : corner;
+}
+
 /// The word of triangle i of the group, where it has one.
 HWY_INLINE std::uint32_t triangle_word(const TileRun& run, const TileDraw& draw, int i, bool back) {
   if (draw.source == ColorSource::triangle_word) return draw.words[back ? 1 : 0][run.memory.source[i]];
   if (draw.source != ColorSource::vertex_word) return draw.word;
-  const std::size_t corner = std::size_t{run.memory.source[i]} * 3 + static_cast<std::size_t>(draw.provoking);
-  return draw.words[back ? 1 : 0][draw.indices ? draw.indices[corner] : corner];
+  return draw.words[back ? 1 : 0][provoking_vertex(draw, run.memory.source[i])];
 }
 
 /// Whether triangle i of the group shows its back: by its own area, or as its polygon does.

@@ -265,9 +265,7 @@ struct SampledBlocks {
 HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
   const int face = back ? 1 : 0;
   if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;
-  const std::size_t corner = std::size_t{source} * 3 + static_cast<std::size_t>(draw.provoking);
-  const std::size_t vertex = draw.indices ? draw.indices[corner] : corner;
-  return draw.attributes + vertex * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
+  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
 }
 
 template <class Depth>
@@ -276,7 +274,12 @@ inline constexpr bool kHasOffset = std::is_same_v<Depth, OffsetUnormDepth> || st
 template <class Depth>
 HWY_INLINE void set_up_fragment_depth(Depth& depth, const TileRun& run, const TileDraw& draw, const TriangleGroup& g, int i) {
   depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-  if constexpr (kHasOffset<Depth>) depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+  if constexpr (kHasOffset<Depth>) {
+    if (draw.depth_offsets != nullptr)
+      depth.move_by(draw.depth_offsets[run.memory.source[i]]);
+    else
+      depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+  }
   depth.prepare_blocks();
 }
 

@@ -9,6 +9,7 @@
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
 #include "shading/draw_samples-inl.h"
+#include "shading/points_lines-inl.h"
 #include "shading/resolve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -49,6 +50,8 @@ DrawGroup pick_fragments(const TileFrame& frame, const TileDraw& draw) {
 
 /// The code that runs for a draw: none of it holds a step that the draw does not have.
 DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
+  if (draw.topology == Topology::points) return draw_points;
+  if (draw.topology == Topology::lines) return draw_lines;
   if (draw.ops != nullptr) return pick_fragments(frame, draw);
   const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
                     : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect
@@ -186,22 +189,12 @@ struct GroupBuilder {
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
     TriangleGroup& g = run.memory.group;
     const int i = g.count++;
-    if ((id & kClippedTriangle) != 0) {
-      const ClippedTriangle& piece = bins.clipped[id & ~kClippedTriangle];
-      for (int k = 0; k < 3; ++k) {
-        load_vertex(i, k, piece.vertices[k]);
-        run.memory.attributes[k][i] = piece.attributes[k];
-      }
-      run.memory.source[i] = piece.source;
-    } else {
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t corner = std::size_t{id} * 3 + static_cast<std::size_t>(k);
-        const std::size_t vertex = draw->indices ? draw->indices[corner] : corner;
-        load_vertex(i, k, draw->vertices[vertex]);
-        run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
-      }
-      run.memory.source[i] = id;
-    }
+    if (draw->topology == Topology::triangles)
+      load<3>(bins, id, i);
+    else if (draw->topology == Topology::lines)
+      load<2>(bins, id, i);
+    else
+      load<1>(bins, id, i);
     if (g.count == kGroupSize) flush();
   }
   HWY_INLINE void flush() {
@@ -216,6 +209,26 @@ struct GroupBuilder {
   }
 
  private:
+  template <int kCorners>
+  HWY_INLINE void load(const Bins& bins, std::uint32_t id, int i) {
+    if ((id & kPiece) != 0) {
+      const Piece& piece = bins.pieces[id & ~kPiece];
+      const float* const attributes = bins.attributes(piece);
+      for (int k = 0; k < kCorners; ++k) {
+        load_vertex(i, k, piece.vertices[k]);
+        run.memory.attributes[k][i] = attributes + k * draw->attribute_stride;
+      }
+      run.memory.source[i] = piece.source;
+      return;
+    }
+    for (int k = 0; k < kCorners; ++k) {
+      const std::size_t corner = std::size_t{id} * kCorners + static_cast<std::size_t>(k);
+      const std::size_t vertex = draw->indices ? draw->indices[corner] : corner;
+      load_vertex(i, k, draw->vertices[vertex]);
+      run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
+    }
+    run.memory.source[i] = id;
+  }
   HWY_INLINE void load_vertex(int i, int k, const WindowVertex& v) {
     TriangleGroup& g = run.memory.group;
     g.x[k][i] = v.x;

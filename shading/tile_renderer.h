@@ -31,11 +31,14 @@ enum class ColorSource : std::uint8_t {
 
 /// What the tiles need of a draw. Pointers are the frame's.
 struct TileDraw {
+  Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
   const float* attributes = nullptr;       ///< attribute_stride floats for each vertex
   int attribute_stride = 0, attribute_count = 0;
-  int provoking = 2;                       ///< corner of the triangle
+  int provoking = 2;                       ///< corner of each element: point, line or triangle
+  int element_corners = 3;                 ///< edges and corners of polygons are parts of triangles
+  float size = 1;                          ///< of points in pixels, or the lines' width
   PixelRect rect;                          ///< scissor, viewport and frame buffer, raster space
   bool front_is_clockwise = false;
   const Facing* facing = nullptr;          ///< of each triangle, where it is its polygon's; null: its own area decides
@@ -69,6 +72,7 @@ struct TileDraw {
   int alpha_attribute[2] = {-1, -1};       ///< interpolated alpha for front and back faces; -1: `alpha`
   float alpha[2] = {1, 1};
   float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
+  const double* depth_offsets = nullptr;      ///< what they come to of each triangle's polygon (raster/polygon_offset.h); null: a triangle has its own
   enum class Number : std::uint8_t { none, draw, primitive } number = Number::none;  ///< colour words are `word`, or the primitive's number
 };
 

@@ -55,6 +55,15 @@ struct alignas(64) TileLevels {
   std::int32_t component[4][kMaxTileSize * kMaxTileSize];
 };
 
+/// The blocks that a point or line touches. Between two of them all is zero.
+struct TouchedBlocks {
+  static constexpr int kBlocks = kMaxTileSize * kMaxTileSize / kBlockPixels;
+  int count = 0;
+  std::uint16_t list[kBlocks];
+  std::uint32_t samples[kBlocks] = {};           ///< that have bits
+  std::uint16_t bits[kMaxSamples][kBlocks] = {};  ///< of the pixels
+};
+
 struct alignas(64) TileWorkspace::Memory {
   alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
   alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
@@ -67,6 +76,7 @@ struct alignas(64) TileWorkspace::Memory {
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
+  TouchedBlocks touched;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
   std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
   std::unique_ptr<TileSamples> samples;  ///< only where a frame has several for each pixel

@@ -23,8 +23,8 @@ struct MeshData {
   std::vector<float> texcoords;         ///< s t for each vertex, or empty
 
   std::size_t vertex_count() const { return positions.size() / static_cast<std::size_t>(position_components); }
-  /// Those that its primitives are split into.
-  std::size_t triangle_count() const { return tessera::triangle_count(primitive, indices.empty() ? vertex_count() : indices.size()); }
+  /// Those that its primitives are split into; of meshes of points and lines those.
+  std::size_t triangle_count() const { return element_count(primitive, indices.empty() ? vertex_count() : indices.size()); }
   /// Valid while this object lives and is not changed.
   Mesh view() const {
     return {.primitive = primitive, .positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices, .color_indices = color_indices, .texcoords = texcoords};

@@ -117,6 +117,25 @@ void read_target(const Object& object, const Scene& scene, DrawState& state) {
   if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
 }
 
+// Of points and lines, in pixels.
+float read_size(const Value& value) {
+  const float size = value.real();
+  if (!(size > 0)) value.fail("a number above 0");
+  return size;
+}
+
+// One for both faces, or [front, back].
+void read_polygon_mode(const Value& value, DrawState& state) {
+  const auto mode = [](const Value& v) { return v.choice<PolygonMode>({{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}}); };
+  if (!value.json().is_array()) {
+    state.front_mode = state.back_mode = mode(value);
+    return;
+  }
+  if (value.size() != 2) value.fail("\"fill\", \"line\", \"point\", or [front, back]");
+  state.front_mode = mode(value.element(0));
+  state.back_mode = mode(value.element(1));
+}
+
 DrawCommand read_draw(const Value& value, const Names& names) {
   const Object object(value,
                       {"draw", "material", "back_material", "transform", "shading", "lighting", "color_material", "provoking_vertex", "normalize",
@@ -129,14 +148,9 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   read_shading(object, names, draw.state);
   read_target(object, names.scene, draw.state);
   read_operations(object, names.scene.framebuffer, draw.state);
-  if (const auto mode = object.find("polygon_mode"); !mode || mode->json() != Json{"fill", "fill"}) {
-    Json others{"line", "point"};
-    for (const char* front : {"fill", "line", "point"})
-      for (const char* back : {"fill", "line", "point"}) others.push_back(Json{front, back});
-    object.only_default("polygon_mode", "fill", others);
-  }
-  object.only_default("point_size", 1);
-  object.only_default("line_width", 1);
+  if (const auto mode = object.find("polygon_mode")) read_polygon_mode(*mode, draw.state);
+  if (const auto size = object.find("point_size")) draw.state.point_size = read_size(*size);
+  if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
   object.only_default("stages", Json::array());
   return draw;
 }

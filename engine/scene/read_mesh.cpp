@@ -89,10 +89,11 @@ MeshData read_inline(const Value& value) {
   const std::size_t vertices = positions.size();
   MeshData mesh;
   if (const auto primitive = object.find("primitive"))
-    mesh.primitive = primitive->choice<Primitive>({{"triangles", Primitive::triangles}, {"triangle_strip", Primitive::triangle_strip}, {"triangle_fan", Primitive::triangle_fan},
-                                                   {"quads", Primitive::quads}, {"quad_strip", Primitive::quad_strip}, {"polygon", Primitive::polygon}},
-                                                  {"points", "lines", "line_strip", "line_loop"});
-  if (vertices == 0) positions.fail("at least 3 positions");
+    mesh.primitive = primitive->choice<Primitive>({{"points", Primitive::points}, {"lines", Primitive::lines}, {"line_strip", Primitive::line_strip}, {"line_loop", Primitive::line_loop},
+                                                   {"triangles", Primitive::triangles}, {"triangle_strip", Primitive::triangle_strip}, {"triangle_fan", Primitive::triangle_fan},
+                                                   {"quads", Primitive::quads}, {"quad_strip", Primitive::quad_strip}, {"polygon", Primitive::polygon}});
+  const int least = mesh.primitive == Primitive::points ? 1 : topology_of(mesh.primitive) == Topology::lines ? 2 : 3;
+  if (vertices == 0) positions.fail("at least " + std::to_string(least) + (least == 1 ? " position" : " positions"));
   mesh.position_components = positions.json()[0].is_array() && positions.json()[0].size() == 4 ? 4 : 3;
   mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
   mesh.normals = read_per_vertex(object, "normals", 3, vertices);

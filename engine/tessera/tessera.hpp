@@ -250,17 +250,19 @@ struct IndexArray {
   constexpr bool empty() const { return count == 0; }
 };
 
-/// What the vertices of a mesh make, in their order [GL 2.1, 2.6.1]. Quads are split from their first to their third vertex, those of
+/// What the vertices of a mesh make, in their order [GL 2.1, 2.6.1]. Lines cover pixels by the diamond-exit rule; a loop goes back to its
+/// first vertex. Quads are split from their first to their third vertex, those of
 /// a strip from the first to the last of its four, polygons, which are convex, from their first vertex to all others. Which side of a
 /// quad or polygon is seen is a matter of the whole of it; so are its generated normals.
-enum class Primitive : std::uint8_t { triangles, triangle_strip, triangle_fan, quads, quad_strip, polygon };
+enum class Primitive : std::uint8_t { points, lines, line_strip, line_loop, triangles, triangle_strip, triangle_fan, quads, quad_strip, polygon };
 
 /// Primitives, borrowed from the caller until the frame is finished. Arrays other than positions may be empty.
 struct Mesh {
   Primitive primitive = Primitive::triangles;
   FloatArray positions{};                   ///< x y z, or x y z w with position_components 4
   int position_components = 3;
-  FloatArray normals{};                     ///< x y z for each vertex; empty: face normals (flat) or area-weighted means
+  /// x y z for each vertex; empty: face normals (flat) or area-weighted means, of points and lines 0 0 0
+  FloatArray normals{};
   ColorArray colors{};                      ///< r g b a for each vertex
   IndexArray indices{};                     ///< of vertices, in the primitives' order; empty: vertices in order
   FloatArray color_indices{};               ///< one for each vertex, continuous: what unlit draws into index buffers show in place of colours
@@ -376,6 +378,8 @@ enum class Shading : std::uint8_t { flat, gouraud, phong };
 enum class ColorMaterial : std::uint8_t { none, ambient_and_diffuse, diffuse, ambient, emission, specular };
 enum class ProvokingVertex : std::uint8_t { last, first };
 enum class Cull : std::uint8_t { none, back, front };
+/// Line: the boundary of each polygon, and of what clipping leaves of it. Point: its corners.
+enum class PolygonMode : std::uint8_t { fill, line, point };
 enum class FrontFace : std::uint8_t { ccw, cw };
 enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
 
@@ -439,6 +443,10 @@ struct DrawState {
   Color texture_env_color{0, 0, 0, 0};      ///< of TextureEnv::blend; counts as 0 where it is less, as 1 where it is more
   Cull cull = Cull::none;
   FrontFace front_face = FrontFace::ccw;
+  PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;
+  /// In pixels, above 0. With one sample a pixel it is rounded, and points are squares, lines rows of pixels along x or y; with several
+  /// samples points are discs, lines rectangles.
+  float point_size = 1, line_width = 1;
   DepthState depth{};
   double depth_near = 0, depth_far = 1;     ///< depth range, each 0 .. 1
   PolygonOffset polygon_offset{};

@@ -1,23 +1,15 @@
 #include "perf/rivals/mesa_teapot.h"
 
-#include <GL/glext.h>
-
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "perf/rivals/osmesa.h"
+
 namespace tessera::rivals {
 namespace {
-
-template <class Function>
-Function load(const char* name) {
-  const auto function = reinterpret_cast<Function>(OSMesaGetProcAddress(name));
-  if (function == nullptr) throw std::runtime_error(std::string("OSMesa has no ") + name);
-  return function;
-}
 
 std::string number(double value) {
   char text[40];
@@ -79,28 +71,6 @@ Sources shader_sources(const Scene& scene, const DrawCommand& draw, Shading shad
           head + how + "in vec3 c_;\nout vec4 color;\nvoid main() { color = vec4(c_, 1.0); }\n"};
 }
 
-void use_program(const Sources& sources) {
-  const auto program = load<PFNGLCREATEPROGRAMPROC>("glCreateProgram")();
-  const auto attach = [&](GLenum kind, const std::string& source) {
-    const GLuint shader = load<PFNGLCREATESHADERPROC>("glCreateShader")(kind);
-    const char* text = source.c_str();
-    load<PFNGLSHADERSOURCEPROC>("glShaderSource")(shader, 1, &text, nullptr);
-    load<PFNGLCOMPILESHADERPROC>("glCompileShader")(shader);
-    GLint good = 0;
-    load<PFNGLGETSHADERIVPROC>("glGetShaderiv")(shader, GL_COMPILE_STATUS, &good);
-    if (!good) {
-      char log[2000];
-      load<PFNGLGETSHADERINFOLOGPROC>("glGetShaderInfoLog")(shader, sizeof log, nullptr, log);
-      throw std::runtime_error(std::string("a shader of the rival does not compile: ") + log);
-    }
-    load<PFNGLATTACHSHADERPROC>("glAttachShader")(program, shader);
-  };
-  attach(GL_VERTEX_SHADER, sources.vertex);
-  attach(GL_FRAGMENT_SHADER, sources.fragment);
-  load<PFNGLLINKPROGRAMPROC>("glLinkProgram")(program);
-  load<PFNGLUSEPROGRAMPROC>("glUseProgram")(program);
-}
-
 const DrawCommand& only_draw(const Scene& scene) {
   for (const SceneCommand& command : scene.frame)
     if (const auto* draw = std::get_if<DrawCommand>(&command.what)) return *draw;
@@ -110,28 +80,20 @@ const DrawCommand& only_draw(const Scene& scene) {
 }  // namespace
 
 MesaTeapot::MesaTeapot(const Scene& scene, Shading shading, int width, int height, int threads) : width_(width), height_(height) {
-  setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  constexpr int kAttributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
-  context_ = OSMesaCreateContextAttribs(kAttributes, nullptr);
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  if (context_ == nullptr || !OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width, height)) throw std::runtime_error("OSMesa makes no context");
+  context_ = make_context(pixels_.data(), width, height, threads);
   const DrawCommand& draw = only_draw(scene);
   const MeshData& mesh = scene.meshes[draw.mesh];
-  use_program(shader_sources(scene, draw, shading, static_cast<double>(width) / height));
-  const auto buffer = [&](GLenum target, const void* data, std::size_t bytes) {
-    GLuint name = 0;
-    load<PFNGLGENBUFFERSPROC>("glGenBuffers")(1, &name);
-    load<PFNGLBINDBUFFERPROC>("glBindBuffer")(target, name);
-    load<PFNGLBUFFERDATAPROC>("glBufferData")(target, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-  };
+  const Sources sources = shader_sources(scene, draw, shading, static_cast<double>(width) / height);
+  use_program(sources.vertex, sources.fragment);
   const auto attribute = [&](GLuint location, const std::vector<float>& values) {
-    buffer(GL_ARRAY_BUFFER, values.data(), values.size() * sizeof(float));
+    make_buffer(GL_ARRAY_BUFFER, values.data(), values.size() * sizeof(float));
     load<PFNGLENABLEVERTEXATTRIBARRAYPROC>("glEnableVertexAttribArray")(location);
     load<PFNGLVERTEXATTRIBPOINTERPROC>("glVertexAttribPointer")(location, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   };
   attribute(0, mesh.positions);
   attribute(1, mesh.normals);
-  buffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
+  make_buffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
   index_count_ = static_cast<int>(mesh.indices.size());
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_DITHER);

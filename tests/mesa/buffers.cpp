@@ -6,14 +6,20 @@ namespace tessera::mesa {
 namespace {
 
 using reference::ColorMode;
-using reference::Draw;
+using reference::FragmentState;
 using reference::FrameBufferFormat;
 
 bool has_components(const FrameBufferFormat& format) { return format.color_mode == ColorMode::kRgb && format.color_bits >= 3; }
 
 }  // namespace
 
-bool reads_colors(const Draw& draw) { return draw.blend || draw.logic_op != reference::LogicOp::kCopy; }
+const FragmentState* fragment_state(const reference::Command& command) {
+  if (const auto* draw = std::get_if<reference::Draw>(&command)) return draw;
+  if (const auto* bitmap = std::get_if<reference::Bitmap>(&command)) return bitmap;
+  return std::get_if<reference::ImageDrawing>(&command);
+}
+
+bool reads_colors(const FragmentState& state) { return state.blend || state.logic_op != reference::LogicOp::kCopy; }
 
 Buffers buffers_for(const reference::Scene& scene) {
   bool reads = false, accumulates = false;
@@ -21,9 +27,9 @@ Buffers buffers_for(const reference::Scene& scene) {
   buffers.depth = scene.framebuffer.depth;
   for (const reference::Command& command : scene.frame) {
     if (std::holds_alternative<reference::Accum>(command)) accumulates = true;
-    if (const auto* draw = std::get_if<Draw>(&command)) {
-      reads = reads || reads_colors(*draw);
-      buffers.stencil = buffers.stencil || draw->stencil;
+    if (const FragmentState* state = fragment_state(command)) {
+      reads = reads || reads_colors(*state);
+      buffers.stencil = buffers.stencil || state->stencil;
     }
   }
   if (accumulates) buffers.color = ColorStore::kWindow;

@@ -21,8 +21,11 @@ struct Buffers {
   bool stencil = false;
 };
 
-/// Whether what a draw writes depends on the colours that are there. Masks of whole components do not count.
-bool reads_colors(const reference::Draw& draw);
+/// What the fragments of a draw, a bitmap or an image obey; null for a command that makes none.
+const reference::FragmentState* fragment_state(const reference::Command& command);
+
+/// Whether what fragments write depends on the colours that are there. Masks of whole components do not count.
+bool reads_colors(const reference::FragmentState& state);
 
 Buffers buffers_for(const reference::Scene& scene);
 

@@ -1,5 +1,6 @@
 #include "context.h"
 
+#include <cstdlib>
 #include <stdexcept>
 
 namespace tessera::mesa {
@@ -27,6 +28,10 @@ void load(F& function, const char* name) {
   if (function == nullptr) throw std::runtime_error(std::string("OSMesa has no ") + name);
 }
 
+// By default Mesa filters with weights of 8 bits and takes one level of detail for each four pixels. It reads this when the
+// process makes its first context.
+void ask_for_exact_filters() { setenv("GALLIVM_PERF", "no_aos_sampling,no_quad_lod", 0); }
+
 }  // namespace
 
 Context::Context(int width_px, int height_px, const Buffers& buffers) : width_(width_px), height_(height_px) {
@@ -35,6 +40,7 @@ Context::Context(int width_px, int height_px, const Buffers& buffers) : width_(w
   const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, in_window ? 24 : 0, OSMESA_STENCIL_BITS, in_window ? 8 : 0, OSMESA_ACCUM_BITS,
                             in_window ? 16 : 0, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
   window_.resize(static_cast<std::size_t>(window_width) * static_cast<std::size_t>(window_height));
+  ask_for_exact_filters();
   context_ = OSMesaCreateContextAttribs(attributes, nullptr);
   if (context_ == nullptr) throw std::runtime_error("OSMesa cannot make a context");
   try {
@@ -60,6 +66,8 @@ void Context::load_functions() {
   Functions& f = functions_;
   load(f.provoking_vertex, "glProvokingVertex");
   load(f.clip_control, "glClipControl");
+  load(f.active_texture, "glActiveTexture");
+  load(f.window_pos_3d, "glWindowPos3d");
   load(f.blend_color, "glBlendColor");
   load(f.blend_equation, "glBlendEquation");
   load(f.blend_func_separate, "glBlendFuncSeparate");

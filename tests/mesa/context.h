@@ -18,6 +18,8 @@ namespace tessera::mesa {
 struct Functions {
   PFNGLPROVOKINGVERTEXPROC provoking_vertex;
   PFNGLCLIPCONTROLPROC clip_control;
+  PFNGLACTIVETEXTUREPROC active_texture;
+  PFNGLWINDOWPOS3DPROC window_pos_3d;
 
   PFNGLBLENDCOLORPROC blend_color;
   PFNGLBLENDEQUATIONPROC blend_equation;

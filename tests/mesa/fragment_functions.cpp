@@ -1,5 +1,7 @@
 #include "fragment_functions.h"
 
+#include "buffers.h"
+
 namespace tessera::mesa {
 namespace {
 
@@ -89,13 +91,6 @@ void set_blend(const Functions& gl, const reference::Blend& blend) {
   gl.blend_color(static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z), static_cast<GLfloat>(c.w));
 }
 
-// A unit of Mesa's llvmpipe is two levels of a unorm format (measured; OpenGL lets it choose) and one step of float.
-void set_polygon_offset(reference::PolygonOffset offset, reference::DepthFormat depth) {
-  set_enabled(GL_POLYGON_OFFSET_FILL, offset.factor != 0 || offset.units != 0);
-  const double units = depth == reference::DepthFormat::kFloat32 ? offset.units : offset.units / 2;
-  glPolygonOffset(static_cast<GLfloat>(offset.factor), static_cast<GLfloat>(units));
-}
-
 }  // namespace
 
 GLenum compare_function(reference::Compare test) {
@@ -119,26 +114,37 @@ void set_scissor(const std::optional<reference::Rect>& scissor) {
   if (scissor) glScissor(scissor->x, scissor->y, scissor->width, scissor->height);
 }
 
-void set_fragment_functions(const Functions& gl, const reference::Draw& draw, reference::DepthFormat depth) {
-  set_scissor(draw.scissor);
-  set_enabled(GL_ALPHA_TEST, draw.alpha_test.has_value());
-  if (draw.alpha_test) glAlphaFunc(compare_function(draw.alpha_test->func), static_cast<GLclampf>(draw.alpha_test->ref));
-  set_enabled(GL_STENCIL_TEST, draw.stencil.has_value());
-  if (draw.stencil) {
-    set_stencil_face(gl, GL_FRONT, draw.stencil->front);
-    set_stencil_face(gl, GL_BACK, draw.stencil->back);
+void set_color_mask(const std::array<bool, 4>& mask) { glColorMask(mask[0], mask[1], mask[2], mask[3]); }
+
+void set_fragment_functions(const Functions& gl, const reference::FragmentState& state, const reference::FrameBufferFormat& format) {
+  set_scissor(state.scissor);
+  set_enabled(GL_ALPHA_TEST, state.alpha_test.has_value());
+  if (state.alpha_test) glAlphaFunc(compare_function(state.alpha_test->func), static_cast<GLclampf>(state.alpha_test->ref));
+  set_enabled(GL_STENCIL_TEST, state.stencil.has_value());
+  if (state.stencil) {
+    set_stencil_face(gl, GL_FRONT, state.stencil->front);
+    set_stencil_face(gl, GL_BACK, state.stencil->back);
   }
-  set_enabled(GL_DEPTH_TEST, draw.depth.has_value());
-  if (draw.depth) {
-    glDepthFunc(compare_function(draw.depth->test));
-    glDepthMask(draw.depth->write ? GL_TRUE : GL_FALSE);
+  set_enabled(GL_DEPTH_TEST, state.depth.has_value());
+  if (state.depth) {
+    glDepthFunc(compare_function(state.depth->test));
+    glDepthMask(state.depth->write ? GL_TRUE : GL_FALSE);
   }
+  set_enabled(GL_BLEND, state.blend.has_value());
+  if (state.blend) set_blend(gl, *state.blend);
+  set_enabled(GL_COLOR_LOGIC_OP, state.logic_op != LogicOp::kCopy);
+  glLogicOp(logic_operation(state.logic_op));
+  set_color_mask(component_mask(state.color_mask, state.plane_mask, format).value());
+}
+
+// A unit of Mesa's llvmpipe is two levels of a unorm format (measured; OpenGL lets it choose) and one step of float.
+void set_window_depths(const reference::Draw& draw, reference::DepthFormat depth) {
+  const reference::PolygonOffset offset = draw.polygon_offset;
   glDepthRange(draw.depth_range[0], draw.depth_range[1]);
-  set_polygon_offset(draw.polygon_offset, depth);
-  set_enabled(GL_BLEND, draw.blend.has_value());
-  if (draw.blend) set_blend(gl, *draw.blend);
-  set_enabled(GL_COLOR_LOGIC_OP, draw.logic_op != LogicOp::kCopy);
-  glLogicOp(logic_operation(draw.logic_op));
+  for (const GLenum mode : {GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT})
+    set_enabled(mode, offset.factor != 0 || offset.units != 0);
+  const double units = depth == reference::DepthFormat::kFloat32 ? offset.units : offset.units / 2;
+  glPolygonOffset(static_cast<GLfloat>(offset.factor), static_cast<GLfloat>(units));
 }
 
 }  // namespace tessera::mesa

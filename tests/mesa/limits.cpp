@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "buffers.h"
-#include "lighting_programs.h"
+#include "primitive_limits.h"
+#include "program_lighting.h"
+#include "shadow.h"
+#include "texture_limits.h"
 
 namespace tessera::mesa {
 namespace {
@@ -33,32 +36,80 @@ Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
 }
 
 Reason index_limit(const Draw& draw, const reference::Scene& scene) {
-  if (scene.framebuffer.color_mode != ColorMode::kIndex) return std::nullopt;
-  const bool lit_by_index = draw.lighting && (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
+  if (scene.framebuffer.color_mode != ColorMode::kIndex || draw.shadow_on) return std::nullopt;
+  const bool lit_by_index =
+      draw.lighting && (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
   const bool drawn_by_index = !draw.lighting && !scene.meshes.at(draw.mesh).color_indices.empty();
   if (lit_by_index || drawn_by_index) return "OSMesa has no colour-index mode";
   return std::nullopt;
 }
 
-Reason draw_limit(const Draw& draw, const reference::Scene& scene, std::size_t lights) {
-  const FrameBufferFormat& format = scene.framebuffer;
-  if (!component_mask(draw.color_mask, draw.plane_mask, format)) return "a plane mask splits a colour component";
-  if (draw.lighting && lights > kMaxProgramLights) return "more lights than the programs take";
-  if (draw.viewport && (draw.viewport->width > kLargestViewport || draw.viewport->height > kLargestViewport)) return "a viewport beyond Mesa's";
-  if (format.depth == DepthFormat::kUnorm32 && draw.polygon_offset.units != 0) return "Mesa's float depth is too coarse for a unit of 32 bits";
-  return index_limit(draw, scene);
+// What the frame has been told so far.
+struct FrameState {
+  reference::Camera camera;
+  std::vector<reference::Light> lights;
+  std::vector<double> cleared_depths;
+
+  void take(const reference::CameraChange& change) { camera = change.camera; }
+  void take(const reference::LightsChange& change) { lights = change.lights; }
+  void take(const Clear& clear) {
+    if (clear.depth) cleared_depths.push_back(*clear.depth);
+  }
+  void take(const auto&) {}  // others leave nothing that limits ask for
+};
+
+// Mesa carries depths in float and clears in double: what is put at exactly the depth of a clear may lie a step beside it.
+bool meets_a_clear(double depth, const std::vector<double>& cleared) {
+  return std::floor(depth) != depth && std::ranges::find(cleared, depth) != cleared.end();
 }
 
-// Mesa carries depths in float and clears in double: a polygon put at exactly the depth of a clear may lie a step beside it.
-bool meets_a_clear(const Draw& draw, const std::vector<double>& cleared) {
+Reason draw_limit(const Draw& draw, const reference::Scene& scene, const FrameState& frame) {
+  const FrameBufferFormat& format = scene.framebuffer;
+  if (draw.lighting && frame.lights.size() > kMaxProgramLights) return "more lights than the programs take";
+  if (draw.viewport && (draw.viewport->width > kLargestViewport || draw.viewport->height > kLargestViewport))
+    return "a viewport beyond Mesa's";
+  if (format.depth == DepthFormat::kUnorm32 && draw.polygon_offset.units != 0)
+    return "Mesa's float depth is too coarse for a unit of 32 bits";
   const auto [near, far] = draw.depth_range;
-  const auto is_met = [&](double depth) { return depth == near && std::floor(depth) != depth; };
-  return draw.depth && near == far && std::ranges::any_of(cleared, is_met);
+  if (draw.depth && near == far && meets_a_clear(near, frame.cleared_depths))
+    return "a polygon at exactly a cleared depth: Mesa's float depth may lie a step beside it";
+  if (const Reason reason = index_limit(draw, scene)) return reason;
+  if (const Reason reason = texture_limit(draw, scene)) return reason;
+  return primitive_limit(draw, scene, frame.camera);
 }
+
+// What can be said of each command in turn.
+struct CommandLimit {
+  const reference::Scene& scene;
+  const FrameState& frame;
+
+  Reason operator()(const Clear& clear) const {
+    if (clear.index && !cleared_entry(*clear.index, scene.framebuffer)) return "a clear to a palette entry that is not set";
+    return std::nullopt;
+  }
+  Reason operator()(const Draw& draw) const { return draw_limit(as_drawn(draw, frame.lights), scene, frame); }
+  Reason operator()(const reference::Bitmap& bitmap) const {
+    if (const Reason reason = bitmap_limit(bitmap)) return reason;
+    return raster_limit(bitmap, bitmap.raster_depth);
+  }
+  Reason operator()(const reference::ImageDrawing& drawing) const {
+    if (const Reason reason = image_limit(drawing)) return reason;
+    return raster_limit(drawing, drawing.raster_depth);
+  }
+  Reason operator()(const auto&) const { return std::nullopt; }
+
+  Reason raster_limit(const reference::FragmentState& state, double depth) const {
+    if (state.depth && meets_a_clear(depth, frame.cleared_depths))
+      return "pixels at exactly a cleared depth: Mesa's float depth may lie a step beside it";
+    return std::nullopt;
+  }
+};
 
 // Mesa's accumulation buffer wraps where ours saturates. This bounds its values as if no scissor kept commands apart.
 class AccumulationBound {
  public:
+  void take(const auto&) {}  // other commands leave the accumulation buffer alone
+
   void take(const Clear& clear) {
     if (!clear.accumulation) return;
     const reference::Vec4 a = *clear.accumulation;
@@ -92,22 +143,15 @@ std::optional<reference::Rgb8> cleared_entry(std::uint32_t index, const FrameBuf
 
 Reason first_limit(const reference::Scene& scene) {
   if (const Reason reason = format_limit(scene.framebuffer, buffers_for(scene))) return reason;
-  std::size_t lights = scene.lights.size();
-  std::vector<double> cleared_depths;
+  FrameState frame{scene.camera, scene.lights, {}};
   AccumulationBound accumulation;
   for (const reference::Command& command : scene.frame) {
-    if (const auto* change = std::get_if<reference::LightsChange>(&command)) lights = change->lights.size();
-    if (const auto* clear = std::get_if<Clear>(&command)) {
-      if (clear->index && !cleared_entry(*clear->index, scene.framebuffer)) return "a clear to a palette entry that is not set";
-      accumulation.take(*clear);
-      if (clear->depth) cleared_depths.push_back(*clear->depth);
-    }
-    if (const auto* accum = std::get_if<reference::Accum>(&command)) accumulation.take(*accum);
+    std::visit([&](const auto& c) { frame.take(c), accumulation.take(c); }, command);
     if (accumulation.may_wrap()) return "Mesa's accumulation buffer wraps where it ought to saturate";
-    if (const auto* draw = std::get_if<Draw>(&command)) {
-      if (const Reason reason = draw_limit(*draw, scene, lights)) return reason;
-      if (meets_a_clear(*draw, cleared_depths)) return "a polygon at exactly a cleared depth: Mesa's float depth may lie a step beside it";
-    }
+    if (const reference::FragmentState* state = fragment_state(command);
+        state && !component_mask(state->color_mask, state->plane_mask, scene.framebuffer))
+      return "a plane mask splits a colour component";
+    if (const Reason reason = std::visit(CommandLimit{scene, frame}, command)) return reason;
   }
   return std::nullopt;
 }

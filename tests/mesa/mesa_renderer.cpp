@@ -6,9 +6,14 @@
 #include "context.h"
 #include "fixed_function.h"
 #include "fragment_functions.h"
-#include "lighting_programs.h"
 #include "limits.h"
+#include "pixel_rectangles.h"
+#include "primitives.h"
+#include "program_lighting.h"
+#include "program_texturing.h"
+#include "shadow.h"
 #include "stored_colors.h"
+#include "textures.h"
 #include "vertex_list.h"
 
 namespace tessera::mesa {
@@ -31,12 +36,17 @@ GLenum accum_operation(reference::AccumOp op) {
   return GL_RETURN;
 }
 
-void set_color_mask(const std::array<bool, 4>& mask) { glColorMask(mask[0], mask[1], mask[2], mask[3]); }
-
 class Renderer {
  public:
   explicit Renderer(const reference::Scene& scene)
-      : scene_(scene), format_(scene.framebuffer), context_(format_.width_px, format_.height_px, buffers_for(scene)), gl_(context_.functions()), programs_(gl_), camera_(scene.camera), lights_(scene.lights) {}
+      : scene_(scene),
+        format_(scene.framebuffer),
+        context_(format_.width_px, format_.height_px, buffers_for(scene)),
+        gl_(context_.functions()),
+        programs_(gl_),
+        textures_(gl_, scene),
+        camera_(scene.camera),
+        lights_(scene.lights) {}
 
   std::vector<std::uint8_t> run() {
     for (const reference::Command& command : scene_.frame) std::visit([this](const auto& c) { execute(c); }, command);
@@ -85,54 +95,70 @@ class Renderer {
     check_errors("accumulating");
   }
 
-  void execute(const Draw& draw) {
+  // OpenGL's bitmaps and images are front; Mesa's are made of polygons that may be back.
+  void set_raster_state(reference::FragmentState state) {
+    if (state.stencil) state.stencil->back = state.stencil->front;
+    set_fragment_functions(gl_, state, format_);
+    programs_.use(LightingBy::kFixedFunctions, false);
+    textures_.use_none();
+  }
+
+  void execute(const reference::Bitmap& bitmap) {
+    set_raster_state(bitmap);
+    draw_bitmap(gl_, bitmap);
+    check_errors("drawing a bitmap");
+  }
+
+  void execute(const reference::ImageDrawing& drawing) {
+    set_raster_state(drawing);
+    draw_image(gl_, drawing);
+    check_errors("drawing an image");
+  }
+
+  void execute(const Draw& command) {
+    const Draw draw = as_drawn(command, lights_);
     const reference::Mesh& mesh = scene_.meshes.at(draw.mesh);
     const std::vector<Vertex> vertices = vertex_list(mesh, draw);
     if (vertices.empty()) return;
-    set_color_mask(component_mask(draw.color_mask, draw.plane_mask, format_).value());
-    set_fragment_functions(gl_, draw, format_.depth);
-    set_geometry_state(draw);
-    set_colors(draw, !mesh.colors.empty(), vertices);
-    draw_vertices(vertices);
+    set_fragment_functions(gl_, draw, format_);
+    set_window_depths(draw, format_.depth);
+    set_window(draw);
+    set_primitive_state(gl_, draw);
+    set_colors(draw, mesh, vertices);
+    draw_vertices(mesh.primitive, vertices);
     check_errors("drawing " + mesh.name);
   }
 
-  void set_geometry_state(const Draw& draw) {
+  void set_window(const Draw& draw) {
     const Rect viewport = draw.viewport.value_or(Rect{0, 0, format_.width_px, format_.height_px});
     glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-    glFrontFace(draw.front_face == reference::FrontFace::kCcw ? GL_CCW : GL_CW);
-    set_enabled(GL_CULL_FACE, draw.cull != reference::Cull::kNone);
-    glCullFace(draw.cull == reference::Cull::kFront ? GL_FRONT : GL_BACK);
     gl_.clip_control(GL_LOWER_LEFT, camera_.reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glMatrixMode(GL_PROJECTION);
     load_matrix(camera_.clip_from_view);
     glMatrixMode(GL_MODELVIEW);
   }
 
-  // Leaves the matrix that takes objects into eye space.
-  void set_colors(const Draw& draw, bool has_vertex_colors, const std::vector<Vertex>& vertices) {
-    glShadeModel(draw.shading == reference::Shading::kFlat ? GL_FLAT : GL_SMOOTH);
-    gl_.provoking_vertex(draw.provoking_vertex == reference::ProvokingVertex::kFirst ? GL_FIRST_VERTEX_CONVENTION : GL_LAST_VERTEX_CONVENTION);
-    set_enabled(GL_NORMALIZE, draw.normalize);
-    if (fixed_functions_can(draw, scene_.light_model, lights_, vertices)) {
-      gl_.use_program(0);
-      load_matrix(camera_.view_from_world);
-      set_fixed_function_lighting(draw, scene_.light_model, lights_, has_vertex_colors);
-    } else {
-      programs_.use(draw, scene_.light_model, lights_, camera_, has_vertex_colors);
-    }
-    load_matrix(reference::multiply(camera_.view_from_world, draw.world_from_object));
+  LightingBy lighting_by(const Draw& draw, const std::vector<Vertex>& vertices) const {
+    if (fixed_functions_can(draw, scene_.light_model, lights_, vertices)) return LightingBy::kFixedFunctions;
+    return draw.shading == reference::Shading::kPhong ? LightingBy::kFragmentProgram : LightingBy::kVertexProgram;
   }
 
-  static void draw_vertices(const std::vector<Vertex>& vertices) {
-    constexpr GLsizei kStride = sizeof(Vertex);
-    glEnableClientState(GL_VERTEX_ARRAY);
-    glEnableClientState(GL_NORMAL_ARRAY);
-    glEnableClientState(GL_COLOR_ARRAY);
-    glVertexPointer(4, GL_DOUBLE, kStride, vertices.front().position.data());
-    glNormalPointer(GL_FLOAT, kStride, vertices.front().normal.data());
-    glColorPointer(4, GL_FLOAT, kStride, vertices.front().color.data());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+  // Leaves the matrix that takes objects into eye space.
+  void set_colors(const Draw& draw, const reference::Mesh& mesh, const std::vector<Vertex>& vertices) {
+    const reference::Texture* const texture = draw.texture ? &scene_.textures.at(*draw.texture) : nullptr;
+    const LightingBy lighting = lighting_by(draw, vertices);
+    glShadeModel(draw.shading == reference::Shading::kFlat ? GL_FLAT : GL_SMOOTH);
+    set_enabled(GL_NORMALIZE, draw.normalize);
+    textures_.use(draw);
+    programs_.use(lighting, texture != nullptr && asks_for_level(*texture));
+    set_program_texture(programs_, draw, mesh, texture);
+    if (lighting == LightingBy::kFixedFunctions) {
+      load_matrix(camera_.view_from_world);
+      set_fixed_function_lighting(draw, scene_.light_model, lights_, has_vertex_colors(draw, mesh));
+    } else {
+      set_program_lighting(programs_, draw, scene_.light_model, lights_, camera_, has_vertex_colors(draw, mesh));
+    }
+    load_matrix(reference::multiply(camera_.view_from_world, draw.world_from_object));
   }
 
   static void load_matrix(const Mat4& m) { glLoadTransposeMatrixd(m.rows[0].data()); }  // the rows lie one after the other
@@ -141,7 +167,8 @@ class Renderer {
   const FrameBufferFormat& format_;
   Context context_;
   const Functions& gl_;
-  LightingPrograms programs_;
+  Programs programs_;
+  Textures textures_;
   reference::Camera camera_;
   std::vector<reference::Light> lights_;
 };

@@ -1,5 +1,6 @@
 // A second opinion on every picture: Mesa's llvmpipe, driven through OSMesa. It shares no code with the engine, and with
-// the reference renderer only the parsed scene.
+// the reference renderer only the parsed scene, the table of which vertices make up a face, a shadow's projection, and the
+// mipmaps, so that what is compared is how they are filtered.
 //
 // Flat and Gouraud draws go through OpenGL's fixed functions wherever those can do them; Phong shading and what fixed
 // functions cannot do (Phong highlights, more than 8 lights, ...) go through GLSL programs. The depth buffer has the

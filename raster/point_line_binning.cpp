@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include "raster/binning.h"
+#include "raster/point_line_coverage.h"
+
+namespace tessera {
+namespace {
+
+LinePoint point_of(const WindowVertex& v) { return {v.x, v.y}; }
+
+// Window coordinates are off by half of 1/256 pixel: only within a whole one of the viewport's border are they not enough to tell.
+bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v) {
+  const VertexTransform& t = *draw.transform;
+  const double x = std::abs(static_cast<double>(v.x) - t.center_x) - kSubpixelScale * t.half_width;
+  const double y = std::abs(static_cast<double>(v.y) - t.center_y) - kSubpixelScale * t.half_height;
+  if (x < -1 && y < -1) return true;
+  if (x > 1 || y > 1) return false;
+  return is_in_view(t, clip_vertex(draw, vertex, 0).position);
+}
+
+PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
+  if (draw.samples == 1) return intersect(point_square(at, whole_size(draw.size)), draw.rect);
+  const std::int32_t reach = (whole_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
+  return intersect({first_pixel(at.x - reach), first_pixel(at.y - reach), last_pixel(at.x + reach) + 1, last_pixel(at.y + reach) + 1}, draw.rect);
+}
+
+/// What a line's pixels are looked at for: everything within `reach` of it, in 1/256 pixel along each axis.
+struct LineBand {
+  LinePoint a, b;
+  std::int32_t reach;
+
+  LineBand(const BinDraw& draw, LinePoint from, LinePoint to) : a(from), b(to) {
+    reach = (draw.samples == 1 ? whole_size(draw.size) * kSubpixelScale : snapped_size(draw.size)) / 2 + 2 * kSubpixelScale;
+  }
+  PixelRect bounds() const {
+    const auto [low_x, high_x] = std::minmax({a.x, b.x});
+    const auto [low_y, high_y] = std::minmax({a.y, b.y});
+    return {(low_x - reach) >> kSubpixelBits, (low_y - reach) >> kSubpixelBits, ((high_x + reach) >> kSubpixelBits) + 1, ((high_y + reach) >> kSubpixelBits) + 1};
+  }
+};
+
+// Into the tiles that its band may touch. Returns whether there are any.
+bool bin_band(Bins& bins, const TileGrid& grid, const BinDraw& draw, const LineBand& band, std::uint32_t id) {
+  const PixelRect pixels = intersect(band.bounds(), draw.rect);
+  if (pixels.empty()) return false;
+  const int size = grid.tile_size, x0 = pixels.x0 / size, y0 = pixels.y0 / size, x1 = (pixels.x1 - 1) / size, y1 = (pixels.y1 - 1) / size;
+  const std::int64_t dx = std::int64_t{band.b.x} - band.a.x, dy = std::int64_t{band.b.y} - band.a.y, half = std::int64_t{size} * kHalfPixel;
+  const std::int64_t most = (std::abs(dx) + std::abs(dy)) * (half + band.reach);
+  for (int ty = y0; ty <= y1; ++ty)
+    for (int tx = x0; tx <= x1; ++tx) {
+      const std::int64_t across = dx * ((2 * ty + 1) * half - band.a.y) - dy * ((2 * tx + 1) * half - band.a.x);
+      if ((x0 == x1 && y0 == y1) || std::abs(across) <= most) bins.push(ty * grid.columns() + tx, draw.draw, id);
+    }
+  return true;
+}
+
+bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint at, std::uint32_t id) {
+  const PixelRect pixels = bounds_of_point(draw, at);
+  if (pixels.empty()) return false;
+  const int size = grid.tile_size;
+  for (int ty = pixels.y0 / size; ty <= (pixels.y1 - 1) / size; ++ty)
+    for (int tx = pixels.x0 / size; tx <= (pixels.x1 - 1) / size; ++tx) bins.push(ty * grid.columns() + tx, draw.draw, id);
+  return true;
+}
+
+// Clips a line that has codes. False if nothing is left, else its piece stands last.
+bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t codes) {
+  ClipVertex ends[2] = {clip_vertex(draw, vertex_index<2>(draw, line, 0), draw.attribute_count), clip_vertex(draw, vertex_index<2>(draw, line, 1), draw.attribute_count)};
+  if (!clip_line(*draw.transform, ends, codes, draw.attribute_count)) return false;
+  Piece& piece = bins.add_piece(line, 2, draw.attribute_count);
+  for (int k = 0; k < 2; ++k) {
+    piece.vertices[k] = project(*draw.transform, ends[k].position);
+    std::copy_n(ends[k].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.pieces.back().vertices[0]), bins.id_of_last_piece()); }
+bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
+  const Piece& piece = bins.pieces.back();
+  return bin_band(bins, grid, draw, LineBand(draw, point_of(piece.vertices[0]), point_of(piece.vertices[1])), bins.id_of_last_piece());
+}
+
+void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
+  BinCounts& counts = bins.counts;
+  counts.triangles_in += last - first;
+  for (std::uint32_t point = first; point < last; ++point) {
+    const std::uint32_t vertex = vertex_index<1>(draw, point, 0);
+    const std::uint8_t codes = draw.any_code ? draw.codes[vertex] : 0;
+    if ((codes & kNonFinite) != 0) {
+      ++counts.non_finite;
+      continue;
+    }
+    const WindowVertex& v = draw.vertices[vertex];
+    ++(codes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point) ? counts.binned : counts.outside);
+  }
+}
+
+void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
+  BinCounts& counts = bins.counts;
+  counts.triangles_in += last - first;
+  for (std::uint32_t line = first; line < last; ++line) {
+    const std::uint32_t i0 = vertex_index<2>(draw, line, 0), i1 = vertex_index<2>(draw, line, 1);
+    const std::uint8_t c0 = draw.any_code ? draw.codes[i0] : 0, c1 = draw.any_code ? draw.codes[i1] : 0;
+    if (((c0 | c1) & kNonFinite) != 0) {
+      ++counts.non_finite;
+      continue;
+    }
+    bool is_left = (c0 & c1) == 0;
+    if (is_left && (c0 | c1) != 0) {
+      ++counts.clipped;
+      is_left = clip_to_window(bins, draw, line, c0 | c1) && bin_line_piece(bins, grid, draw);
+    } else if (is_left) {
+      is_left = bin_band(bins, grid, draw, LineBand(draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1])), line);
+    }
+    ++(is_left ? counts.binned : counts.outside);
+  }
+}
+
+}  // namespace tessera

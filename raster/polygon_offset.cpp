@@ -1,0 +1,72 @@
+#include "raster/polygon_offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "raster/binning.h"
+
+namespace tessera {
+namespace {
+
+double depth_of(DepthKind kind, std::uint32_t z) {
+  if (kind != DepthKind::float32) return z;
+  float depth;
+  std::memcpy(&depth, &z, sizeof depth);
+  return depth;
+}
+
+// max(|dz/dx|, |dz/dy|), for each pixel. `area` is doubled.
+double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c, double area) {
+  const double z = depth_of(kind, a.z), to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
+  const double by_x = to_b * (c.y - a.y) - to_c * (b.y - a.y), by_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
+  return std::max(std::abs(by_x), std::abs(by_y)) * kSubpixelScale / area;
+}
+
+WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
+  std::uint8_t codes = 0;
+  for (std::uint32_t k = 0; draw.any_code && k < 3; ++k) codes |= draw.codes[vertex_index<3>(draw, triangle, k)];
+  if (codes != 0) return clip_to_window(draw, triangle, codes, 0);
+  WindowPolygon polygon;
+  polygon.clipped.count = 3;
+  for (std::uint32_t k = 0; k < 3; ++k) polygon.window[k] = draw.vertices[vertex_index<3>(draw, triangle, k)];
+  polygon.area = doubled_area(polygon.window[0], polygon.window[1], polygon.window[2]);
+  return polygon;
+}
+
+double slope_of(DepthKind kind, const WindowPolygon& triangle) {
+  double slope = 0, largest = 0;
+  for (int i = 2; i < triangle.clipped.count; ++i) {
+    const WindowVertex &a = triangle.window[0], &b = triangle.window[i - 1], &c = triangle.window[i];
+    const double area = std::abs(doubled_area(a, b, c));
+    if (area <= largest) continue;
+    largest = area;
+    slope = slope_of(kind, a, b, c, area);
+  }
+  return slope;
+}
+
+double offset_of(const BinDraw& draw, float factor, float units, std::size_t first, std::size_t last) {
+  const DepthKind kind = draw.transform->depth;
+  double slope = 0, largest_area = 0, largest_depth = 0;
+  for (std::size_t t = first; t < last; ++t) {
+    const WindowPolygon triangle = in_window(draw, static_cast<std::uint32_t>(t));
+    for (int i = 0; i < triangle.clipped.count; ++i) largest_depth = std::max(largest_depth, depth_of(kind, triangle.window[i].z));
+    if (std::abs(triangle.area) <= largest_area) continue;
+    largest_area = std::abs(triangle.area);
+    slope = slope_of(kind, triangle);
+  }
+  const int exponent = kind != DepthKind::float32 ? 32 - depth_bits(kind) : std::max(largest_depth > 0 ? std::ilogb(largest_depth) : -126, -126) - 23;
+  return double{factor} * slope + std::ldexp(double{units}, exponent);
+}
+
+}  // namespace
+
+void offset_polygons(const BinDraw& draw, std::size_t each, float factor, float units, std::size_t first, std::size_t last, double* offsets) {
+  for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
+    const bool is_seen = draw.facing == nullptr || draw.facing[begin] != Facing::dropped;
+    std::fill_n(offsets + begin, each, is_seen ? offset_of(draw, factor, units, begin, begin + each) : 0.0);
+  }
+}
+
+}  // namespace tessera

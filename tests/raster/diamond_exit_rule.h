@@ -1,0 +1,85 @@
+// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the moved segment meets its open diamond and its end
+// lies outside of it, in exact fractions whose numerators carry the move's e and e^2.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "raster/line_walk.h"
+
+namespace tessera::test {
+
+__extension__ using Wide = __int128;
+
+// v[0] + v[1] e + v[2] e^2: e is smaller than every fraction.
+struct Moved {
+  std::array<Wide, 3> v{};
+  Moved operator-(const Moved& o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
+  Moved operator+(const Moved& o) const { return {{v[0] + o.v[0], v[1] + o.v[1], v[2] + o.v[2]}}; }
+  Moved times(Wide k) const { return {{v[0] * k, v[1] * k, v[2] * k}}; }
+  bool negative() const { return v[0] != 0 ? v[0] < 0 : v[1] != 0 ? v[1] < 0 : v[2] < 0; }
+  friend bool operator<(const Moved& a, const Moved& b) { return (a - b).negative(); }
+};
+inline Moved whole(Wide n) { return {{n, 0, 0}}; }
+
+struct MovedPoint {
+  Moved x, y;
+};
+inline MovedPoint moved(LinePoint p) { return {{{p.x, -1, 0}}, {{p.y, 0, 1}}}; }  // (-e, -e^2) with y up
+
+inline constexpr int kSigns[4][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+
+// How far a point lies from a pixel's centre in one of the four directions that bound a diamond.
+inline Moved towards(const MovedPoint& p, int x, int y, const int (&sign)[2]) {
+  return (p.x - whole(256 * x + 128)).times(sign[0]) + (p.y - whole(256 * y + 128)).times(sign[1]);
+}
+inline bool inside(const MovedPoint& p, int x, int y) {
+  for (const auto& sign : kSigns)
+    if (!(towards(p, x, y, sign) < whole(128))) return false;
+  return true;
+}
+
+// Whether a + t (b - a) is inside for some t in 0..1.
+inline bool meets(const LinePoint& a, const LinePoint& b, int x, int y) {
+  const MovedPoint from = moved(a);
+  // t is above each of `above` and below each of `below`: numerators over positive denominators.
+  struct Fraction {
+    Moved numerator;
+    Wide denominator;
+  };
+  std::vector<Fraction> above, below;
+  for (const auto& sign : kSigns) {
+    const Moved room = whole(128) - towards(from, x, y, sign);  // at t = 0
+    const Wide speed = Wide{sign[0]} * (b.x - a.x) + Wide{sign[1]} * (b.y - a.y);
+    if (speed == 0) {
+      if (!(whole(0) < room)) return false;
+    } else if (speed > 0) {
+      below.push_back({room, speed});
+    } else {
+      above.push_back({room.times(-1), -speed});
+    }
+  }
+  for (const Fraction& low : above) {
+    if (!(low.numerator < whole(low.denominator))) return false;  // below 1
+    for (const Fraction& high : below)
+      if (!(low.numerator.times(high.denominator) < high.numerator.times(low.denominator))) return false;
+  }
+  for (const Fraction& high : below)
+    if (!(whole(0) < high.numerator)) return false;
+  return true;
+}
+
+/// Pixels in raster space, y down.
+inline std::set<std::pair<int, int>> by_the_rule(const LinePoint& a, const LinePoint& b) {
+  std::set<std::pair<int, int>> pixels;
+  for (int y = (std::min(a.y, b.y) >> 8) - 1; y <= (std::max(a.y, b.y) >> 8) + 1; ++y)
+    for (int x = (std::min(a.x, b.x) >> 8) - 1; x <= (std::max(a.x, b.x) >> 8) + 1; ++x)
+      if (meets(a, b, x, y) && !inside(moved(b), x, y)) pixels.insert({x, y});
+  return pixels;
+}
+
+}  // namespace tessera::test
