@@ -47,7 +47,9 @@ Bytes encode(const std::string& ending, const unsigned char* rgba, int width, in
 /// Width, height and channels, then RGBA.
 Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count, int most_pixels_a_side) {
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
+  OIIO::Filesystem::IOProxy* proxy = &memory;
   OIIO::ImageSpec asked;
+  asked.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);  // with a configuration open() looks for it here
   asked.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, &asked, &memory);
   if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
