@@ -55,7 +55,8 @@ TEST_F(ObjImport, NormalsSplitVerticesOnlyWhereTheyDiffer) {
 }
 
 TEST_F(ObjImport, TextureCoordinatesArriveAndSplitVerticesOnlyWhereTheyDiffer) {
-  const Model model = import_model(write("t.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt -3 2 0\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/2 4/-1\n"));
+  write("t.mtl", "newmtl a\nnewmtl b\n");
+  const Model model = import_model(write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt -3 2 0\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/2 4/-1\n"));
   EXPECT_EQ(model.mesh.vertex_count(), 5u) << "the third position has two";
   EXPECT_EQ(model.mesh.texcoords, (std::vector<float>{0, 0, 1, 0.25f, -3, 2, 1, 0.25f, -3, 2}));
   EXPECT_TRUE(model.mesh.normals.empty());

@@ -30,7 +30,8 @@ struct Pixels {
     for (int i = 0; i < w * h * c; ++i) bytes.push_back(static_cast<std::uint8_t>(random.next()));
   }
   Pixels(int w, int h, std::initializer_list<std::uint8_t> pixel) : width(w), height(h), channels(static_cast<int>(pixel.size())) {
-    for (int i = 0; i < w * h; ++i) bytes.insert(bytes.end(), pixel);
+    for (int i = 0; i < w * h; ++i)
+      for (const std::uint8_t component : pixel) bytes.push_back(component);
   }
   TextureImage image() const { return {.pixels = bytes.data(), .width = width, .height = height, .channels = channels}; }
   std::uint8_t at(int x, int y_from_top, int c) const { return bytes[static_cast<std::size_t>((y_from_top * width + x) * channels + c)]; }
