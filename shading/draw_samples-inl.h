@@ -181,7 +181,7 @@ void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
   if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
   bool any_wide = false;
   for (int i = 0; i < g.count; ++i) any_wide |= g.wide[i] != 0;
-  if (any_wide) return draw_fragments_samples<Depth>(run, draw_number);
+  if (any_wide) return draw_fragments_samples(run, draw_number);
   const std::size_t first_id = memory.triangles.size();
   if constexpr (kSeen == Seen::collect) {
     set_up_weights(g);

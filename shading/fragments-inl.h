@@ -7,13 +7,12 @@
 #endif
 
 #include <bit>
-#include <type_traits>
 
 #include "raster/coverage-inl.h"
-#include "raster/depth_offset-inl.h"
 #include "raster/triangle_setup-inl.h"
 #include "shading/deferred_samples-inl.h"
 #include "shading/draw_group-inl.h"
+#include "shading/fragment_depth-inl.h"
 #include "shading/fragment_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -214,47 +213,46 @@ struct FragmentTriangle {
 };
 
 /// Coverage and depth of a triangle's blocks.
-template <class Depth>
 struct FragmentBlocks {
   FragmentTriangle& fragments;
-  Depth depth;
+  FragmentDepth depth;
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
     const TileRun& run = fragments.run;
     BlockFragments block;
-    const auto block_depth = depth.block(bx, by);
+    depth.block_keys(bx, by, block.keys);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : edges.covered(chunk);
       if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
       block.covered[chunk] = hn::VecFromMask(kInt, mask);
-      if constexpr (kHasDepth<Depth>) block.keys[chunk] = depth.keys(block_depth, chunk);
     }
     fragments(bx, by, &block);
   }
 };
 
 /// The same where pixels have several samples, each with edges and depth of its own.
-template <class Depth>
 struct SampledBlocks {
   FragmentTriangle& fragments;
   TileEdges edges[kMaxSamples];
-  Depth depth[kMaxSamples];
+  FragmentDepth depth[kMaxSamples];
 
   template <bool>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges&) {
+    draw(bx, by);
+  }
+  HWY_NOINLINE void draw(int bx, int by) {
     const TileRun& run = fragments.run;
     BlockFragments blocks[kMaxSamples];
     for (int s = 0; s < run.samples; ++s) {
       const TileEdges& t = edges[s];
       const BlockOffsets offsets(t);
       const BlockEdges at{{splat(t.e[0] + t.a[0] * bx + t.b[0] * by), splat(t.e[1] + t.a[1] * bx + t.b[1] * by), splat(t.e[2] + t.a[2] * bx + t.b[2] * by)}, offsets};
-      const auto block_depth = depth[s].block(bx, by);
+      depth[s].block_keys(bx, by, blocks[s].keys);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
         auto mask = at.covered(chunk);
         if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
         blocks[s].covered[chunk] = hn::VecFromMask(kInt, mask);
-        if constexpr (kHasDepth<Depth>) blocks[s].keys[chunk] = depth[s].keys(block_depth, chunk);
       }
     }
     fragments(bx, by, blocks);
@@ -268,21 +266,6 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
   return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
 }
 
-template <class Depth>
-inline constexpr bool kHasOffset = std::is_same_v<Depth, OffsetUnormDepth> || std::is_same_v<Depth, OffsetFloat32Depth>;
-
-template <class Depth>
-HWY_INLINE void set_up_fragment_depth(Depth& depth, const TileRun& run, const TileDraw& draw, const TriangleGroup& g, int i) {
-  depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-  if constexpr (kHasOffset<Depth>) {
-    if (draw.depth_offsets != nullptr)
-      depth.move_by(draw.depth_offsets[run.memory.source[i]]);
-    else
-      depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
-  }
-  depth.prepare_blocks();
-}
-
 /// Of draws that have no operations and come here all the same.
 inline constexpr FragmentOps kNoOperations{};
 HWY_INLINE bool has_words(const TileDraw& draw) {
@@ -291,10 +274,10 @@ HWY_INLINE bool has_words(const TileDraw& draw) {
 
 /// Runs blocks(fragments) for one triangle of the group, whose pixels' centres stand in `triangle`.
 template <class Blocks>
-HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i, const ShadedTriangle& triangle, bool has_depth, const Blocks& blocks) {
+HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i, const ShadedTriangle& triangle, const Blocks& blocks) {
   TileWorkspace::Memory& memory = run.memory;
   const TileDraw& draw = run.frame.draws[draw_number];
-  FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth, .pixels = {}};
+  FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth(run.frame, draw), .pixels = {}};
   fragments.id = static_cast<std::int32_t>(memory.triangles.size());
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
   if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles : triangle_word(run, draw, i, triangle.back);
@@ -313,13 +296,12 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   }
 }
 
-template <class Depth>
-void draw_fragments(TileRun& run, std::uint32_t draw_number) {
+inline void draw_fragments(TileRun& run, std::uint32_t draw_number) {
   TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_edges(g, run.tile_x, run.tile_y, run.rect);
   if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
+  if (has_depth(run.frame, draw)) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
   set_up_weights(g);
   for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
@@ -329,9 +311,9 @@ void draw_fragments(TileRun& run, std::uint32_t draw_number) {
     ShadedTriangle triangle;
     fill_shaded_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
     if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
-    draw_fragments_of(run, draw_number, i, triangle, kHasDepth<Depth>, [&](FragmentTriangle& fragments) HWY_ATTR {
-      FragmentBlocks<Depth> blocks{fragments, {}};
-      set_up_fragment_depth(blocks.depth, run, draw, g, i);
+    draw_fragments_of(run, draw_number, i, triangle, [&](FragmentTriangle& fragments) HWY_ATTR {
+      FragmentBlocks blocks{fragments, {}};
+      blocks.depth.set_up(run.frame, draw, g, i, run.memory.source[i], run.tile_x, run.tile_y);
       const BlockOffsets offsets(edges);
       for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
     });
@@ -379,8 +361,7 @@ struct SampledBounds {
   }
 };
 
-template <class Depth>
-void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
+inline void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
   TriangleGroup& center = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
   set_up_edges(center, run.tile_x, run.tile_y, run.rect);
@@ -391,21 +372,21 @@ void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
     g = center;
     move_group(g, -sample_positions(run.samples)[s].x, -sample_positions(run.samples)[s].y);
     set_up_edges(g, run.tile_x, run.tile_y, run.rect);
-    if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
+    if (has_depth(run.frame, draw)) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
     visible |= g.mask;
   }
   for (std::uint32_t left = visible; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     ShadedTriangle triangle;
     fill_centered_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
-    draw_fragments_of(run, draw_number, i, triangle, kHasDepth<Depth>, [&](FragmentTriangle& fragments) HWY_ATTR {
-      SampledBlocks<Depth> blocks{fragments, {}, {}};
+    draw_fragments_of(run, draw_number, i, triangle, [&](FragmentTriangle& fragments) HWY_ATTR {
+      SampledBlocks blocks{fragments, {}, {}};
       SampledBounds bounds{};
       for (int s = 0; s < run.samples; ++s) {
         const TriangleGroup& g = run.memory.samples->group[s];
         blocks.edges[s] = tile_edges(g, i);
         WideEdges wide;
-        set_up_fragment_depth(blocks.depth[s], run, draw, g, i);
+        blocks.depth[s].set_up(run.frame, draw, g, i, run.memory.source[i], run.tile_x, run.tile_y);
         if (g.wide[i] == 0 || tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, blocks.edges[s], wide))
           bounds.include(blocks.edges[s], g, i);
         else

@@ -34,38 +34,26 @@ HWY_INLINE double depth_offset_of(const TileRun& run, const TileDraw& draw, int 
   return draw.depth_offsets != nullptr ? draw.depth_offsets[run.memory.source[i]] : 0.0;
 }
 
-/// A point: the same everywhere.
-struct PointValues {
-  std::int32_t depth_key;
-
-  HWY_INLINE PointValues(const TileRun& run, const TileDraw& draw, int i)
-      : depth_key(PointLineDepth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[0][i], depth_offset_of(run, draw, i)).key()) {}
-  HWY_INLINE std::int32_t key(LinePoint) const { return depth_key; }
-};
-
-/// A line: linear along it. What lies aside has the values of where it is projected onto the line, beyond the ends, too [GL 2.1, 3.4.1].
+/// What is linear along a line. What lies aside has the values of where it is projected onto the line, beyond the ends, too [GL 2.1, 3.4.1].
+/// Of a point: the same everywhere.
 struct LineValues {
   LinePoint a;
-  double dx, dy, per_squared_length;
+  double dx = 0, dy = 0, per_squared_length = 0;
   PointLineDepth depth;
 
-  HWY_INLINE LineValues(const TileRun& run, const TileDraw& draw, int i)
-      : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[1][i], depth_offset_of(run, draw, i)) {
+  /// @param second  of the element's vertices: 1 of a line, 0 of a point
+  HWY_INLINE LineValues(const TileRun& run, const TileDraw& draw, int i, int second)
+      : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[second][i], depth_offset_of(run, draw, i)) {
     const TriangleGroup& g = run.memory.group;
-    dx = g.x[1][i] - g.x[0][i];
-    dy = g.y[1][i] - g.y[0][i];
+    dx = g.x[second][i] - g.x[0][i];
+    dy = g.y[second][i] - g.y[0][i];
     const double squared_length = dx * dx + dy * dy;
-    per_squared_length = squared_length > 0 ? 1 / squared_length : 0;
+    if (squared_length > 0) per_squared_length = 1 / squared_length;
   }
   /// Equation 3.5
   HWY_INLINE double t(LinePoint p) const { return (dx * (p.x - a.x) + dy * (p.y - a.y)) * per_squared_length; }
   HWY_INLINE std::int32_t key(LinePoint p) const { return depth.key(t(p)); }
 };
-
-template <class Values>
-inline constexpr bool kIsLine = false;
-template <>
-inline constexpr bool kIsLine<LineValues> = true;
 
 /// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
 HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i, bool back) {
@@ -109,8 +97,7 @@ struct BlockBits {
   }
 
   /// Runs them through `fragments`, and forgets them.
-  template <class Values>
-  HWY_INLINE void draw(FragmentTriangle& fragments, const Values& values) {
+  HWY_INLINE void draw(FragmentTriangle& fragments, const LineValues& values) {
     const int columns = run.tile_size >> 2;
     for (int n = 0; n < blocks.count; ++n) {
       const int block = blocks.list[n], bx = block % columns * 4, by = block / columns * 4;
@@ -197,8 +184,7 @@ struct LineShape {
 /// One word for all pixels.
 struct OneWord {
   std::uint32_t value;
-  template <class Values>
-  HWY_INLINE std::uint32_t word(LinePoint, const Values&) const { return value; }
+  HWY_INLINE std::uint32_t word(LinePoint, const LineValues&) const { return value; }
 };
 
 /// Colours of an RGB buffer, interpolated along a line.
@@ -219,8 +205,7 @@ struct LineColors {
     for (int k = 0; k < 2; ++k) rw[k] = run.memory.group.rw[k][i];
   }
   /// Equation 3.6
-  template <class Values>
-  HWY_INLINE std::uint32_t word(LinePoint p, const Values& values) const {
+  HWY_INLINE std::uint32_t word(LinePoint p, const LineValues& values) const {
     float t = static_cast<float>(values.t(p));
     const float sum = (1 - t) * rw[0] + t * rw[1];
     if (rw[0] != rw[1] && sum != 0) t = t * rw[1] / sum;
@@ -241,8 +226,7 @@ struct PlainPixels {
   bool has_depth;
   Colors colors;
 
-  template <class Values>
-  HWY_INLINE void store(int x, int y, const Values& values) const {
+  HWY_INLINE void store(int x, int y, const LineValues& values) const {
     const int index = run.pixel_index(x, y);
     const LinePoint center = center_of(run, x, y);
     if (has_depth) {
@@ -255,48 +239,51 @@ struct PlainPixels {
   }
 };
 
+/// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles go through.
+inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw_number, int i, const LineValues& values, bool back) {
+  TileRun& run = bits.run;
+  if (bits.blocks.count == 0) return;
+  ShadedTriangle shaded;
+  fill_shaded_point_or_line(shaded, run, draw_number, i, back);
+  draw_fragments_of(run, draw_number, i, shaded, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
+}
+
 /// All of a group, which needs no set-up.
-template <class Values, class Shape>
-HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, const Shape& shape_of) {
+/// @param second  see LineValues
+template <class Shape>
+HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  const bool has_depth = draw.uses_depth && run.frame.depth_kind != DepthKind::none;
-  const bool plain = draw.ops == nullptr && run.samples == 1, interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
+  const bool uses_depth = has_depth(run.frame, draw), plain = draw.ops == nullptr && run.samples == 1, has_word = plain && has_words(draw);
+  const bool interpolated = plain && second != 0 && draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
-    const Values values(run, draw, i);
+    const LineValues values(run, draw, i, second);
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
-    if (plain && has_words(draw)) {
-      const PlainPixels<OneWord> pixels{run, draw, has_depth, {triangle_word(run, draw, i, back)}};
+    if (has_word) {
+      const PlainPixels<OneWord> pixels{run, draw, uses_depth, {triangle_word(run, draw, i, back)}};
       shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
-      continue;
+    } else if (interpolated) {
+      const PlainPixels<LineColors> pixels{run, draw, uses_depth, LineColors(run, draw, i, back)};
+      shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
+    } else {
+      BlockBits bits{run, run.memory.touched};
+      if (run.samples == 1)
+        shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
+      else
+        shape.cover(bits);
+      draw_covered_blocks(bits, draw_number, i, values, back);
     }
-    if constexpr (kIsLine<Values>) {
-      if (plain && interpolated) {
-        const PlainPixels<LineColors> pixels{run, draw, has_depth, LineColors(run, draw, i, back)};
-        shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
-        continue;
-      }
-    }
-    BlockBits bits{run, run.memory.touched};
-    if (run.samples == 1)
-      shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
-    else
-      shape.cover(bits);
-    if (bits.blocks.count == 0) continue;
-    ShadedTriangle values_at;
-    fill_shaded_point_or_line(values_at, run, draw_number, i, back);
-    draw_fragments_of(run, draw_number, i, values_at, has_depth, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
   }
 }
 
 inline void draw_points(TileRun& run, std::uint32_t draw_number) {
   const float size = run.frame.draws[draw_number].size;
-  draw_points_or_lines<PointValues>(run, draw_number, [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; });
+  draw_points_or_lines(run, draw_number, 0, [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; });
 }
 inline void draw_lines(TileRun& run, std::uint32_t draw_number) {
   const float width = run.frame.draws[draw_number].size;
-  draw_points_or_lines<LineValues>(run, draw_number, [&](int i) { return LineShape{run, vertex_of(run.memory.group, i, 0), vertex_of(run.memory.group, i, 1), width}; });
+  draw_points_or_lines(run, draw_number, 1, [&](int i) { return LineShape{run, vertex_of(run.memory.group, i, 0), vertex_of(run.memory.group, i, 1), width}; });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "hwy/cache_control.h"
+
 #include "framebuffer/check.h"
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
@@ -35,24 +37,11 @@ DrawGroup pick_by_color(Seen seen, bool sampled) {
   }
 }
 
-template <class Depth>
-DrawGroup fragments_by_samples(bool sampled) {
-  return sampled ? &draw_fragments_samples<Depth> : &draw_fragments<Depth>;
-}
-
-DrawGroup pick_fragments(const TileFrame& frame, const TileDraw& draw) {
-  const bool offset = draw.offset_factor != 0 || draw.offset_units != 0, sampled = frame.samples > 1;
-  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return fragments_by_samples<NoDepth>(sampled);
-  if (frame.depth_kind == DepthKind::float32) return offset ? fragments_by_samples<OffsetFloat32Depth>(sampled) : fragments_by_samples<Float32Depth>(sampled);
-  if (offset) return fragments_by_samples<OffsetUnormDepth>(sampled);
-  return frame.depth_kind == DepthKind::unorm32 ? fragments_by_samples<Unorm32Depth>(sampled) : fragments_by_samples<UnormDepth>(sampled);
-}
-
 /// The code that runs for a draw: none of it holds a step that the draw does not have.
 DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
   if (draw.topology == Topology::points) return draw_points;
   if (draw.topology == Topology::lines) return draw_lines;
-  if (draw.ops != nullptr) return pick_fragments(frame, draw);
+  if (draw.ops != nullptr) return frame.samples > 1 ? &draw_fragments_samples : &draw_fragments;
   const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
                     : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect
                     : draw.source == ColorSource::interpolated                           ? Seen::interpolate
@@ -61,7 +50,7 @@ DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::per_pixel);
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::interpolated ||
                  (draw.write_mask == 0xffffffffu && !draw.scaled_colors && !frame.layout.index && !frame.layout.luminance));
-  if (!draw.uses_depth || frame.depth_kind == DepthKind::none) return pick_by_color<NoDepth, Test::any>(seen, sampled);
+  if (!has_depth(frame, draw)) return pick_by_color<NoDepth, Test::any>(seen, sampled);
   switch (frame.depth_kind) {
     case DepthKind::float32: return less ? pick_by_color<Float32Depth, Test::less>(seen, sampled) : pick_by_color<Float32Depth, Test::any>(seen, sampled);
     case DepthKind::unorm32: return pick_by_color<Unorm32Depth, Test::any>(seen, sampled);
@@ -197,6 +186,12 @@ struct GroupBuilder {
       load<1>(bins, id, i);
     if (g.count == kGroupSize) flush();
   }
+  /// Points and lines are so small that waiting for their vertices would be most of the work: those of the current draw are fetched ahead.
+  HWY_INLINE void fetch(const Bins::Block& block, std::uint32_t first) const {
+    if (draw == nullptr || draw->topology == Topology::triangles) return;
+    for (std::uint32_t e = first; e < block.count && (block.entries[e] & kDrawMarker) == 0; ++e)
+      if ((block.entries[e] & kPiece) == 0) fetch_vertices(block.entries[e]);
+  }
   HWY_INLINE void flush() {
     TriangleGroup& g = run.memory.group;
     if (g.count == 0) return;
@@ -209,6 +204,18 @@ struct GroupBuilder {
   }
 
  private:
+  HWY_INLINE std::size_t vertex_of_corner(std::size_t corner) const { return draw->indices ? draw->indices[corner] : corner; }
+  HWY_INLINE void fetch_vertices(std::uint32_t element) const {
+    const std::size_t corners = draw->topology == Topology::lines ? 2 : 1;
+    for (std::size_t k = 0; k < corners; ++k) {
+      const std::size_t vertex = vertex_of_corner(element * corners + k);
+      hwy::Prefetch(draw->vertices + vertex);
+      if (draw->words[0] != nullptr)
+        hwy::Prefetch(draw->words[0] + vertex);
+      else
+        hwy::Prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
+    }
+  }
   template <int kCorners>
   HWY_INLINE void load(const Bins& bins, std::uint32_t id, int i) {
     if ((id & kPiece) != 0) {
@@ -222,8 +229,7 @@ struct GroupBuilder {
       return;
     }
     for (int k = 0; k < kCorners; ++k) {
-      const std::size_t corner = std::size_t{id} * kCorners + static_cast<std::size_t>(k);
-      const std::size_t vertex = draw->indices ? draw->indices[corner] : corner;
+      const std::size_t vertex = vertex_of_corner(std::size_t{id} * kCorners + static_cast<std::size_t>(k));
       load_vertex(i, k, draw->vertices[vertex]);
       run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
     }
@@ -279,12 +285,14 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
       run.counts.touched = true;
       const Bins::Block& block = bins.block(index);
+      builder.fetch(block, 0);
       for (std::uint32_t e = 0; e < block.count; ++e) {
         const std::uint32_t entry = block.entries[e];
         if ((entry & kDrawMarker) != 0) {
           const std::uint32_t draw = entry & ~kDrawMarker;
           commands_before(draw);
           builder.begin_draw(draw);
+          builder.fetch(block, e + 1);
         } else {
           builder.add(bins, entry);
         }

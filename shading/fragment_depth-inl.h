@@ -1,0 +1,72 @@
+// Depth keys for draws with operations: of any format, with an offset or without. What they are is asked once a block, so that the long
+// code of fragments is there once for all of them.
+#if defined(TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
+#undef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
+#else
+#define TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
+#endif
+
+#include "raster/depth_offset-inl.h"
+#include "shading/tile_renderer.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE bool has_depth(const TileFrame& frame, const TileDraw& draw) { return draw.uses_depth && frame.depth_kind != DepthKind::none; }
+
+class FragmentDepth {
+ public:
+  /// Of triangle i of a group whose depth is set up.
+  HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i, std::uint32_t source, int tile_x, int tile_y) {
+    if (!has_depth(frame, draw)) return;
+    const bool moved = draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
+    const auto move = [&](auto& depth) HWY_ATTR {
+      if (draw.depth_offsets != nullptr)
+        depth.move_by(draw.depth_offsets[source]);
+      else if (moved)
+        depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+    };
+    if (frame.depth_kind == DepthKind::float32) {
+      format_ = moved ? Format::moved_float32 : Format::float32;
+      float32_.set_up(g, i, tile_x, tile_y, frame.depth_kind);
+      move(float32_);
+    } else {
+      format_ = moved || frame.depth_kind == DepthKind::unorm32 ? Format::moved_unorm : Format::unorm;
+      unorm_.set_up(g, i, tile_x, tile_y, frame.depth_kind);
+      move(unorm_);
+      unorm_.prepare_blocks();
+    }
+  }
+  /// Those of the block's pixels; nothing without depth.
+  HWY_NOINLINE void block_keys(int bx, int by, Int* keys) const {
+    switch (format_) {
+      case Format::none: return;
+      case Format::unorm: return fill(static_cast<const UnormDepth&>(unorm_), bx, by, keys);
+      case Format::moved_unorm: return fill(unorm_, bx, by, keys);
+      case Format::float32: return fill(static_cast<const Float32Depth&>(float32_), bx, by, keys);
+      case Format::moved_float32: return fill(float32_, bx, by, keys);
+    }
+  }
+
+ private:
+  // moved_unorm: 32 bits always, whose keys are found in the same way, by an offset of 0.
+  enum class Format : std::uint8_t { none, unorm, moved_unorm, float32, moved_float32 };
+
+  template <class Depth>
+  static HWY_INLINE void fill(const Depth& depth, int bx, int by, Int* keys) {
+    const auto block = depth.block(bx, by);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) keys[chunk] = depth.keys(block, chunk);
+  }
+
+  Format format_ = Format::none;
+  OffsetUnormDepth unorm_;
+  OffsetFloat32Depth float32_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif
