@@ -269,6 +269,7 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
 /// Of draws that have no operations and come here all the same.
 inline constexpr FragmentOps kNoOperations{};
 HWY_INLINE bool has_words(const TileDraw& draw) {
+  if (draw.texture != nullptr) return false;
   return draw.source == ColorSource::constant || draw.source == ColorSource::vertex_word || draw.source == ColorSource::triangle_word;
 }
 
@@ -286,7 +287,7 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   fragments.pixels.texture = nullptr;  // its texels come about block by block
   fragments.texture = texture_of(draw, triangle.back);
   if (fragments.texture != nullptr && fragments.texture->levels != nullptr && (!draw.deferred || fragments.tests_texels()))
-    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture);
+    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture, draw.topology == Topology::lines);
   blocks(fragments);
   if (draw.deferred && fragments.seen) {
     memory.triangles.push_back(triangle);

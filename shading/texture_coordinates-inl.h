@@ -2,6 +2,7 @@
 //
 // With weights w_k linear in the window, W their sum and N = w_1 (s_1 - s_0) + w_2 (s_2 - s_0), s = s_0 + N / W, hence
 //   ds/dx = (dN/dx - (s - s_0) dW/dx) / W.
+// Along a line that is (x, y) times the slope along its length, with x^2 + y^2 = 1 [GL 2.1, equation 3.15]; points have no slopes.
 #if defined(TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
 #undef TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
@@ -35,10 +36,11 @@ struct TextureAxis {
 struct TextureCoordinates {
   const ShadedTriangle* triangle = nullptr;
   TextureAxis s, t;
-  bool has_slopes = false;
+  bool has_slopes = false, is_line = false;
 
-  HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture) {
+  HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture, bool of_line) {
     triangle = &of;
+    is_line = of_line;
     float weight_dx[3], weight_dy[3];
     for (int k = 0; k < 3; ++k) {
       weight_dx[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.a[k]) : static_cast<float>(wide[of.wide].a[k]));
@@ -63,8 +65,8 @@ struct TextureCoordinates {
       return mul_add(along_s, along_s, hn::Mul(along_t, along_t));
     };
     const Float x = squared(s.dx, s.sum_dx, t.dx, t.sum_dx), y = squared(s.dy, s.sum_dy, t.dy, t.sum_dy);
-    const Float larger = hn::IfThenElse(hn::Lt(x, y), y, x);
-    store(kTexelsSquared, hn::Mul(hn::Mul(larger, where.inverse), where.inverse));
+    const Float longest = is_line ? hn::Add(x, y) : hn::IfThenElse(hn::Lt(x, y), y, x);
+    store(kTexelsSquared, hn::Mul(hn::Mul(longest, where.inverse), where.inverse));
   }
 };
 
