@@ -170,9 +170,18 @@ HWY_INLINE Barycentric barycentric_of(const TileRun& run, const NarrowEdges& edg
   return t.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(t, run.memory.wide[static_cast<std::size_t>(t.wide)], bx, by, chunk);
 }
 
+/// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
+inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, const Barycentric& at, LaneMask mask, int point) {
+  const auto lanes = hn::RebindMask(kFloat, mask);
+  coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR {
+    float* const to = run.memory.batch.field[field] + point;
+    hn::Store(hn::IfThenElse(lanes, value, hn::Load(kFloat, to)), kFloat, to);
+  });
+}
+
 /// Adds the pixels of one triangle in one block to the batch's next slot; `taken`: those that triangles before it have there. Lanes
-/// that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0. kTextured: texture coordinates, too.
-template <int kCount, bool kTextured = false>
+/// that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0, and there may be texture coordinates.
+template <int kCount>
 HWY_INLINE void gather_counted(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
@@ -184,18 +193,17 @@ HWY_INLINE void gather_counted(const TileRun& run, PixelBatch& pixels, const Sha
     const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
     if (chunk_bits(taken, chunk) == 0) {  // the first triangle of a chunk may fill all of it
       for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
-      if constexpr (kTextured) coordinates_in(run, pixels, triangle).at(at, [&](int field, Float value) HWY_ATTR { hn::Store(value, kFloat, run.memory.batch.field[field] + point); });
     } else {
       const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
       const auto store = [&](Float value, float* to) HWY_ATTR { hn::Store(hn::IfThenElse(mask, value, hn::Load(kFloat, to)), kFloat, to); };
       for (int j = 0; j < count; ++j) store(interpolate(at, values[j]), target(j));
-      if constexpr (kTextured) coordinates_in(run, pixels, triangle).at(at, [&](int field, Float value) HWY_ATTR { store(value, run.memory.batch.field[field] + point); });
     }
+    if (kCount == 0 && has_coordinates(pixels))
+      gather_coordinates(run, pixels, triangle, at, chunk_bits(taken, chunk) == 0 ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : mask_from_bits(chunk_bits(covered, chunk)), point);
   }
 }
 HWY_INLINE void gather_attributes(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
-  if (has_coordinates(pixels)) return gather_counted<0, true>(run, pixels, triangle, bx, by, covered, taken);
-  switch (pixels.adjacent ? pixels.attribute_count : 0) {
+  switch (pixels.adjacent && !has_coordinates(pixels) ? pixels.attribute_count : 0) {
     case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
     case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
     case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
+inline HWY_NOINLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   Colors c = f;
   for (int k = 0; k < 3; ++k) {
     switch (texture.function) {
