@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/generated_normals.h"
+#include "shading/vertex_words.h"
 
 namespace tessera {
 namespace {
@@ -93,7 +94,7 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
 }
 
 // The colour of a batch goes where the draw's triangles will look for it.
-void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face) {
+void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
   const DrawPlan& plan = *draw.plan;
   if (plan.folds_texture() && !plan.index[face]) fold_texture(plan.texture.texture, batch, points.count);
   const bool as_floats = plan.source == ColorSource::interpolated;
@@ -103,10 +104,14 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
     const int bits[3] = {draw.layout->r_bits, draw.layout->g_bits, draw.layout->b_bits};
     const auto [out, stride] = float_colors(draw, points, face);
     for (int c = 0; c < 3; ++c) {
-      const float levels = plan.scaled_colors ? static_cast<float>((1 << bits[c]) - 1) : 1.0f, half = plan.scaled_colors ? 0.5f : 0.0f;
-      for (std::size_t i = 0; i < points.count; ++i)
-        out[i * stride + static_cast<std::size_t>(c)] = std::fma(batch.field[kColorR + c][i], levels, half);
+      const float levels = static_cast<float>((1 << bits[c]) - 1), half = 0.5f;
+      for (std::size_t i = 0; i < points.count; ++i) {
+        const float color = batch.field[kColorR + c][i];
+        out[i * stride + static_cast<std::size_t>(c)] = plan.scaled_colors ? std::fma(color, levels, half) : color;
+      }
     }
+  } else if (!plan.index[face] && !draw.layout->index) {
+    vertex_words(isa)(*draw.layout, batch, static_cast<int>(points.count), draw.buffers->words[face].data() + points.first);
   } else {
     for (std::size_t i = 0; i < points.count; ++i) draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i, face);
   }
@@ -114,7 +119,7 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
 
 void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
   light_points(isa)(program, batch, static_cast<int>((points.count + 15) / 16 * 16));
-  store_colors(draw, batch, points, face);
+  store_colors(draw, batch, points, face, isa);
 }
 
 // Everything about the colour of one batch of vertices or faces whose inputs stand in the batch.
@@ -122,7 +127,7 @@ void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& poi
   const DrawPlan& plan = *draw.plan;
   if (!plan.lit) {
     if (!plan.uses_color_indices) copy_vertex_colors(batch, points.count);
-    store_colors(draw, batch, points, 0);
+    store_colors(draw, batch, points, 0, isa);
     return;
   }
   if (plan.two_sided) {

@@ -13,7 +13,7 @@
 
 #include "raster/point_line_coverage.h"
 #include "shading/fragments-inl.h"
-#include "shading/point_line_depth.h"
+#include "shading/point_line_values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -33,27 +33,6 @@ HWY_INLINE PixelRect in_tile(const TileRun& run, const PixelRect& rect) {
 HWY_INLINE double depth_offset_of(const TileRun& run, const TileDraw& draw, int i) {
   return draw.depth_offsets != nullptr ? draw.depth_offsets[run.memory.source[i]] : 0.0;
 }
-
-/// What is linear along a line. What lies aside has the values of where it is projected onto the line, beyond the ends, too [GL 2.1, 3.4.1].
-/// Of a point: the same everywhere.
-struct LineValues {
-  LinePoint a;
-  double dx = 0, dy = 0, per_squared_length = 0;
-  PointLineDepth depth;
-
-  /// @param second  of the element's vertices: 1 of a line, 0 of a point
-  HWY_INLINE LineValues(const TileRun& run, const TileDraw& draw, int i, int second)
-      : a(vertex_of(run.memory.group, i, 0)), depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[second][i], depth_offset_of(run, draw, i)) {
-    const TriangleGroup& g = run.memory.group;
-    dx = g.x[second][i] - g.x[0][i];
-    dy = g.y[second][i] - g.y[0][i];
-    const double squared_length = dx * dx + dy * dy;
-    if (squared_length > 0) per_squared_length = 1 / squared_length;
-  }
-  /// Equation 3.5
-  HWY_INLINE double t(LinePoint p) const { return (dx * (p.x - a.x) + dy * (p.y - a.y)) * per_squared_length; }
-  HWY_INLINE std::int32_t key(LinePoint p) const { return depth.key(t(p)); }
-};
 
 /// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
 HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i, bool back) {
@@ -105,12 +84,7 @@ struct BlockBits {
       for (int s = 0; s < run.samples; ++s) {
         alignas(64) std::int32_t keys[kBlockPixels] = {};
         const std::uint32_t bits = blocks.bits[s][block];
-        const SamplePosition position = run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{};
-        if (fragments.has_depth)
-          for (std::uint32_t left = bits; left != 0; left &= left - 1) {
-            const int p = std::countr_zero(left);
-            keys[p] = values.key(moved(center_of(run, bx + (p & 3), by + (p >> 2)), position));
-          }
+        if (fragments.has_depth) block_keys(bx, by, run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{}, values, keys);
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
           covered[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
           covered[s].keys[chunk] = hn::Load(kInt, keys + chunk * kLanes);
@@ -121,6 +95,16 @@ struct BlockBits {
       fragments(bx, by, covered);
     }
     blocks.count = 0;
+  }
+
+ private:
+  HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values, std::int32_t* keys) const {
+    LinePixels pixels;
+    pixels.count = kBlockPixels;
+    alignas(64) double t[kBlockPixels];
+    for (int p = 0; p < kBlockPixels; ++p) pixels.x[p] = bx + (p & 3), pixels.y[p] = by + (p >> 2);
+    values.parameters(pixels, t, position);
+    values.depth.keys(kBlockPixels, t, keys);
   }
 };
 
@@ -181,63 +165,97 @@ struct LineShape {
   }
 };
 
-/// One word for all pixels.
-struct OneWord {
-  std::uint32_t value;
-  HWY_INLINE std::uint32_t word(LinePoint, const LineValues&) const { return value; }
+/// Words that are just stored, where that is all there is to do.
+class PlainPixels {
+ public:
+  HWY_INLINE PlainPixels(TileRun& run, const TileDraw& draw)
+      : run_(run), draw_(draw), uses_depth_(has_depth(run.frame, draw)), less_(passes(-1)), equal_(passes(0)), greater_(passes(1)) {}
+
+  HWY_INLINE bool uses_depth() const { return uses_depth_; }
+  HWY_INLINE void store_one(int x, int y, std::int32_t key, std::uint32_t word) const {
+    const int index = run_.pixel_index(x, y);
+    if (uses_depth_) {
+      std::int32_t& stored = run_.memory.depth[index];
+      if ((key < stored ? less_ : key > stored ? greater_ : equal_) == 0) return;
+      if (draw_.depth_write) stored = key;
+    }
+    std::uint32_t& color = run_.memory.color[index];
+    color ^= (color ^ word) & draw_.write_mask;
+    ++run_.counts.shaded_pixels;
+  }
+  /// Pixels of a line, none of them twice. Whether a depth passes could not be foretold: nothing branches on it.
+  HWY_INLINE void store(const LinePixels& pixels, const std::int32_t* keys, const std::uint32_t* words) const {
+    alignas(64) std::int32_t index[kLinePixels], stored[kLinePixels], passed[kLinePixels];
+    const int columns = run_.tile_size >> 2;
+    for_pixels(pixels.count, [&](int l) HWY_ATTR {
+      const std::int32_t x = pixels.x[l], y = pixels.y[l];
+      index[l] = ((y >> 2) * columns + (x >> 2)) * kBlockPixels + (y & 3) * 4 + (x & 3);
+      passed[l] = -1;
+    });
+    if (uses_depth_) {
+      for (int l = 0; l < pixels.count; ++l) stored[l] = run_.memory.depth[index[l]];
+      const std::int32_t less = less_, equal = equal_, greater = greater_;
+      for_pixels(pixels.count, [&](int l) HWY_ATTR { passed[l] = keys[l] < stored[l] ? less : keys[l] > stored[l] ? greater : equal; });
+      if (draw_.depth_write)
+        for (int l = 0; l < pixels.count; ++l) run_.memory.depth[index[l]] = (keys[l] & passed[l]) | (stored[l] & ~passed[l]);
+    }
+    std::int64_t seen = 0;
+    for (int l = 0; l < pixels.count; ++l) {
+      std::uint32_t& color = run_.memory.color[index[l]];
+      color ^= (color ^ words[l]) & draw_.write_mask & static_cast<std::uint32_t>(passed[l]);
+      seen -= passed[l];
+    }
+    run_.counts.shaded_pixels += static_cast<std::uint64_t>(seen);
+  }
+
+ private:
+  /// As a mask: what the test says of a key that is less, equal or greater.
+  HWY_INLINE std::int32_t passes(int order) const { return compares(order, draw_.depth_test, 0) ? -1 : 0; }
+
+  TileRun& run_;
+  const TileDraw& draw_;
+  bool uses_depth_;
+  std::int32_t less_, equal_, greater_;
 };
 
-/// Colours of an RGB buffer, interpolated along a line.
-struct LineColors {
-  float first[3], change[3], most[3], rw[2];
-  int shift[3];
+HWY_INLINE void store_plain(const PlainPixels& pixels, const PointShape& point, LinePixels&, const LineValues& values, const LineColors*, std::uint32_t word) {
+  const std::int32_t key = pixels.uses_depth() ? values.depth.first_key() : 0;
+  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, word); });
+}
 
-  HWY_INLINE LineColors(const TileRun& run, const TileDraw& draw, int i, bool back) {
-    const ColorLayout& layout = run.frame.layout;
-    const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits}, shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
-    for (int c = 0; c < 3; ++c) {
-      const int attribute = draw.color_attribute[back ? 1 : 0] + c;
-      first[c] = run.memory.attributes[0][i][attribute];
-      change[c] = run.memory.attributes[1][i][attribute] - first[c];
-      most[c] = static_cast<float>((1 << bits[c]) - 1);
-      shift[c] = shifts[c];
-    }
-    for (int k = 0; k < 2; ++k) rw[k] = run.memory.group.rw[k][i];
+/// The pixels of a line, which wait until there are some.
+struct PlainLine {
+  const PlainPixels& pixels;
+  const LineValues& values;
+  const LineColors* colors;  // null: one word
+  std::uint32_t word;
+  LinePixels& waiting;
+
+  HWY_INLINE void add(int x, int y) {
+    waiting.x[waiting.count] = x;
+    waiting.y[waiting.count] = y;
+    if (++waiting.count == kLinePixels) flush();
   }
-  /// Equation 3.6
-  HWY_INLINE std::uint32_t word(LinePoint p, const LineValues& values) const {
-    float t = static_cast<float>(values.t(p));
-    const float sum = (1 - t) * rw[0] + t * rw[1];
-    if (rw[0] != rw[1] && sum != 0) t = t * rw[1] / sum;
-    std::uint32_t word = 0;
-    for (int c = 0; c < 3; ++c) {
-      const float x = std::fma(t, change[c], first[c]), above = x > 0 ? x : 0.0f;  // a NaN is 0
-      word |= static_cast<std::uint32_t>(std::fma(above < 1 ? above : 1.0f, most[c], 0.5f)) << shift[c];
-    }
-    return word;
-  }
-};
-
-/// Colours that are just stored, pixel by pixel, where that is all there is to do.
-template <class Colors>
-struct PlainPixels {
-  TileRun& run;
-  const TileDraw& draw;
-  bool has_depth;
-  Colors colors;
-
-  HWY_INLINE void store(int x, int y, const LineValues& values) const {
-    const int index = run.pixel_index(x, y);
-    const LinePoint center = center_of(run, x, y);
-    if (has_depth) {
-      const std::int32_t key = values.key(center), stored = run.memory.depth[index];
-      if (!compares(key, draw.depth_test, stored)) return;
-      if (draw.depth_write) run.memory.depth[index] = key;
-    }
-    ++run.counts.shaded_pixels;
-    run.memory.color[index] = (colors.word(center, values) & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
+  HWY_NOINLINE void flush() {
+    if (waiting.count == 0) return;
+    alignas(64) double t[kLinePixels];
+    alignas(64) std::int32_t keys[kLinePixels];
+    alignas(64) std::uint32_t words[kLinePixels];
+    if (pixels.uses_depth() || colors != nullptr) values.parameters(waiting, t);
+    if (pixels.uses_depth()) values.depth.keys(waiting.count, t, keys);
+    if (colors != nullptr)
+      colors->words(waiting.count, t, words);
+    else
+      for_pixels(waiting.count, [&](int l) HWY_ATTR { words[l] = word; });
+    pixels.store(waiting, keys, words);
+    waiting.count = 0;
   }
 };
+HWY_INLINE void store_plain(const PlainPixels& pixels, const LineShape& shape, LinePixels& waiting, const LineValues& values, const LineColors* colors, std::uint32_t word) {
+  PlainLine line{pixels, values, colors, word, waiting};
+  shape.for_each([&](int x, int y) HWY_ATTR { line.add(x, y); });
+  line.flush();
+}
 
 /// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles go through.
 inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw_number, int i, const LineValues& values, bool back) {
@@ -254,26 +272,26 @@ template <class Shape>
 HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  const bool uses_depth = has_depth(run.frame, draw), plain = draw.ops == nullptr && run.samples == 1, has_word = plain && has_words(draw);
-  const bool interpolated = plain && second != 0 && draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
+  const bool one_word = has_words(draw), interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
+  const bool plain = draw.ops == nullptr && run.samples == 1 && (interpolated || one_word);
+  const PlainPixels pixels(run, draw);
+  LinePixels waiting;
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
-    const LineValues values(run, draw, i, second);
+    const LineValues values(run, i, second, depth_offset_of(run, draw, i));
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
-    if (has_word) {
-      const PlainPixels<OneWord> pixels{run, draw, uses_depth, {triangle_word(run, draw, i, back)}};
-      shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
-    } else if (interpolated) {
-      const PlainPixels<LineColors> pixels{run, draw, uses_depth, LineColors(run, draw, i, back)};
-      shape.for_each([&](int x, int y) HWY_ATTR { pixels.store(x, y, values); });
-    } else {
-      BlockBits bits{run, run.memory.touched};
-      if (run.samples == 1)
-        shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
-      else
-        shape.cover(bits);
-      draw_covered_blocks(bits, draw_number, i, values, back);
+    if (plain) {
+      LineColors colors;
+      if (!one_word) colors.set_up(run, draw, i, back);
+      store_plain(pixels, shape, waiting, values, one_word ? nullptr : &colors, one_word ? triangle_word(run, draw, i, back) : 0);
+      continue;
     }
+    BlockBits bits{run, run.memory.touched};
+    if (run.samples == 1)
+      shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
+    else
+      shape.cover(bits);
+    draw_covered_blocks(bits, draw_number, i, values, back);
   }
 }
 

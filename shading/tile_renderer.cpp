@@ -153,15 +153,17 @@ void begin_samples(TileRun& run, int tile) {
   samples.clean_pixels = pixels;
 }
 
-/// Collects triangles of one draw until a group is full.
+/// Collects elements of one draw until a group is full.
 struct GroupBuilder {
   TileRun& run;
   std::uint32_t draw_number = 0;
   const TileDraw* draw = nullptr;
   DrawGroup draw_group_function = nullptr;
+  // Points and lines are so small that waiting for their vertices would be most of the work: while a group is drawn, those of the next come.
+  std::uint32_t fetched[2 * kGroupSize];
+  int fetched_count = 0;
 
   HWY_INLINE void begin_draw(std::uint32_t number) {
-    flush();
     const TileFrame& frame = run.frame;
     const TileDraw& next = frame.draws[number];
     // Pixels that wait for their colour keep it only from draws that write the same planes.
@@ -176,23 +178,46 @@ struct GroupBuilder {
     run.cut = ((run.rect.x0 | run.rect.y0 | run.rect.x1 | run.rect.y1) & 3) != 0;
   }
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
-    TriangleGroup& g = run.memory.group;
-    const int i = g.count++;
-    if (draw->topology == Topology::triangles)
-      load<3>(bins, id, i);
-    else if (draw->topology == Topology::lines)
-      load<2>(bins, id, i);
+    if (draw->topology != Topology::triangles) return add_small(bins, id);
+    load<3>(bins, id);
+    if (run.memory.group.count == kGroupSize) draw_all();
+  }
+  /// Draws what was added; `bins` held it.
+  HWY_INLINE void flush(const Bins& bins) {
+    draw_fetched(bins, 0);
+    draw_all();
+  }
+
+ private:
+  HWY_INLINE std::size_t vertex_of(std::size_t corner) const { return draw->indices ? draw->indices[corner] : corner; }
+
+  HWY_NOINLINE void add_small(const Bins& bins, std::uint32_t id) {
+    if ((id & kPiece) == 0) {
+      const std::size_t corners = draw->topology == Topology::lines ? 2 : 1;
+      for (std::size_t k = 0; k < corners; ++k) fetch(vertex_of(id * corners + k));
+    }
+    fetched[fetched_count++] = id;
+    if (fetched_count == 2 * kGroupSize) draw_fetched(bins, kGroupSize);
+  }
+  HWY_INLINE void fetch(std::size_t vertex) const {
+    hwy::Prefetch(draw->vertices + vertex);
+    if (draw->words[0] != nullptr)
+      hwy::Prefetch(draw->words[0] + vertex);
     else
-      load<1>(bins, id, i);
-    if (g.count == kGroupSize) flush();
+      hwy::Prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
   }
-  /// Points and lines are so small that waiting for their vertices would be most of the work: those of the current draw are fetched ahead.
-  HWY_INLINE void fetch(const Bins::Block& block, std::uint32_t first) const {
-    if (draw == nullptr || draw->topology == Topology::triangles) return;
-    for (std::uint32_t e = first; e < block.count && (block.entries[e] & kDrawMarker) == 0; ++e)
-      if ((block.entries[e] & kPiece) == 0) fetch_vertices(block.entries[e]);
+  /// All but the last `kept` of them.
+  HWY_NOINLINE void draw_fetched(const Bins& bins, int kept) {
+    const int drawn = fetched_count - kept;
+    if (drawn <= 0) return;
+    for (int i = 0; i < drawn; ++i) {
+      draw->topology == Topology::lines ? load<2>(bins, fetched[i]) : load<1>(bins, fetched[i]);
+      if (run.memory.group.count == kGroupSize) draw_all();
+    }
+    std::copy_n(fetched + drawn, kept, fetched);
+    fetched_count = kept;
   }
-  HWY_INLINE void flush() {
+  HWY_INLINE void draw_all() {
     TriangleGroup& g = run.memory.group;
     if (g.count == 0) return;
     // Lanes without a triangle repeat the first one and have no bit in the mask.
@@ -202,22 +227,9 @@ struct GroupBuilder {
     g.count = 0;
     if (run.memory.triangles.size() >= kMaxCollected) shade_whole_tile(run);
   }
-
- private:
-  HWY_INLINE std::size_t vertex_of_corner(std::size_t corner) const { return draw->indices ? draw->indices[corner] : corner; }
-  HWY_INLINE void fetch_vertices(std::uint32_t element) const {
-    const std::size_t corners = draw->topology == Topology::lines ? 2 : 1;
-    for (std::size_t k = 0; k < corners; ++k) {
-      const std::size_t vertex = vertex_of_corner(element * corners + k);
-      hwy::Prefetch(draw->vertices + vertex);
-      if (draw->words[0] != nullptr)
-        hwy::Prefetch(draw->words[0] + vertex);
-      else
-        hwy::Prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
-    }
-  }
   template <int kCorners>
-  HWY_INLINE void load(const Bins& bins, std::uint32_t id, int i) {
+  HWY_INLINE void load(const Bins& bins, std::uint32_t id) {
+    const int i = run.memory.group.count++;
     if ((id & kPiece) != 0) {
       const Piece& piece = bins.pieces[id & ~kPiece];
       const float* const attributes = bins.attributes(piece);
@@ -229,7 +241,7 @@ struct GroupBuilder {
       return;
     }
     for (int k = 0; k < kCorners; ++k) {
-      const std::size_t vertex = vertex_of_corner(std::size_t{id} * kCorners + static_cast<std::size_t>(k));
+      const std::size_t vertex = vertex_of(std::size_t{id} * kCorners + static_cast<std::size_t>(k));
       load_vertex(i, k, draw->vertices[vertex]);
       run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
     }
@@ -266,16 +278,13 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   std::uint32_t next_clear = 0, next_accumulation = 0;
   GroupBuilder builder{run};
   const auto clears_before = [&](std::uint32_t draw, std::uint32_t end) {
-    while (next_clear < end && frame.clears[next_clear].before_draw <= draw) {
-      builder.flush();
-      run_clear(run, frame.clears[next_clear++]);
-    }
+    while (next_clear < end && frame.clears[next_clear].before_draw <= draw) run_clear(run, frame.clears[next_clear++]);
   };
+  // All that was drawn before has been flushed.
   const auto commands_before = [&](std::uint32_t draw) {
     while (next_accumulation < frame.accumulation_count && frame.accumulations[next_accumulation].before_draw <= draw) {
       const TileAccumulation& command = frame.accumulations[next_accumulation++];
       clears_before(draw, command.after_clears);
-      builder.flush();
       run_accumulation(run, command);
     }
     clears_before(draw, frame.clear_count);
@@ -285,21 +294,20 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
       run.counts.touched = true;
       const Bins::Block& block = bins.block(index);
-      builder.fetch(block, 0);
       for (std::uint32_t e = 0; e < block.count; ++e) {
         const std::uint32_t entry = block.entries[e];
         if ((entry & kDrawMarker) != 0) {
           const std::uint32_t draw = entry & ~kDrawMarker;
+          builder.flush(bins);
           commands_before(draw);
           builder.begin_draw(draw);
-          builder.fetch(block, e + 1);
         } else {
           builder.add(bins, entry);
         }
       }
     }
-    // Clipped triangles of the next batch are another list.
-    builder.flush();
+    // Clipped elements of the next batch are another list.
+    builder.flush(bins);
   }
   commands_before(frame.draw_count);
   shade_whole_tile(run);

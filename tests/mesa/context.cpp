@@ -66,6 +66,7 @@ void Context::load_functions() {
   Functions& f = functions_;
   load(f.provoking_vertex, "glProvokingVertex");
   load(f.clip_control, "glClipControl");
+  load(f.viewport_indexed, "glViewportIndexedf");
   load(f.active_texture, "glActiveTexture");
   load(f.window_pos_3d, "glWindowPos3d");
   load(f.blend_color, "glBlendColor");

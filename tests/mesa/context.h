@@ -18,6 +18,7 @@ namespace tessera::mesa {
 struct Functions {
   PFNGLPROVOKINGVERTEXPROC provoking_vertex;
   PFNGLCLIPCONTROLPROC clip_control;
+  PFNGLVIEWPORTINDEXEDFPROC viewport_indexed;
   PFNGLACTIVETEXTUREPROC active_texture;
   PFNGLWINDOWPOS3DPROC window_pos_3d;
 

@@ -13,6 +13,7 @@
 #include "program_texturing.h"
 #include "shadow.h"
 #include "stored_colors.h"
+#include "tests/reference/window.h"
 #include "textures.h"
 #include "vertex_list.h"
 
@@ -122,19 +123,21 @@ class Renderer {
     if (vertices.empty()) return;
     set_fragment_functions(gl_, draw, format_);
     set_window_depths(draw, format_.depth);
-    set_window(draw);
+    set_window(draw, mesh.primitive);
     set_primitive_state(gl_, draw);
     set_colors(draw, mesh, vertices);
     draw_vertices(mesh.primitive, vertices);
     check_errors("drawing " + mesh.name);
   }
 
-  void set_window(const Draw& draw) {
-    const Rect viewport = draw.viewport.value_or(Rect{0, 0, format_.width_px, format_.height_px});
-    glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  void set_window(const Draw& draw, reference::PrimitiveType type) {
+    const Rect viewport = viewport_of(draw, format_);
+    const Growth growth = viewport_growth(type, draw, viewport);
+    set_viewport(gl_, viewport, growth);
+    set_scissor(draw.scissor ? reference::intersection(*draw.scissor, viewport) : viewport);  // Mesa's points and lines reach over it
     gl_.clip_control(GL_LOWER_LEFT, camera_.reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glMatrixMode(GL_PROJECTION);
-    load_matrix(camera_.clip_from_view);
+    load_matrix(reference::multiply(shrinking(growth), camera_.clip_from_view));
     glMatrixMode(GL_MODELVIEW);
   }
 

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <vector>
 
+#include "primitives.h"
 #include "program_texturing.h"
-#include "textures.h"
+#include "shadow.h"
+#include "tests/reference/compare.h"
 #include "tests/reference/primitives.h"
+#include "textures.h"
 
 namespace tessera::mesa {
 namespace {
@@ -38,19 +42,17 @@ bool is_same(const StencilFace& a, const StencilFace& b) {
 
 bool stencils_each_side(const Draw& draw) { return draw.stencil && !is_same(draw.stencil->front, draw.stencil->back); }
 
+using Vertices = std::vector<std::uint32_t>;
+
 /// The corners of a point, line or polygon in clip space.
 using Corners = std::vector<Vec4>;
 
-std::vector<Corners> primitives_in_clip_space(const Draw& draw, const Mesh& mesh, const reference::Camera& camera) {
+Corners in_clip_space(const Vertices& vertices, const Draw& draw, const Mesh& mesh, const reference::Camera& camera) {
   const reference::Mat4 eye_from_object = reference::multiply(camera.view_from_world, draw.world_from_object);
-  std::vector<Corners> primitives;
-  for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {
-    Corners corners;
-    for (const std::uint32_t vertex : reference::primitive(mesh, i, ProvokingVertex::kLast).vertices)
-      corners.push_back(reference::transform(camera.clip_from_view, reference::transform(eye_from_object, mesh.positions[vertex])));
-    primitives.push_back(corners);
-  }
-  return primitives;
+  Corners corners;
+  for (const std::uint32_t vertex : vertices)
+    corners.push_back(reference::transform(camera.clip_from_view, reference::transform(eye_from_object, mesh.positions[vertex])));
+  return corners;
 }
 
 /// Whether a plane, where `inside` is 0, has corners on both sides.
@@ -94,6 +96,46 @@ Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera
   if (draw.shading == reference::Shading::kFlat && is_cut_in_depth(line, camera))
     return "a flat line cut by the near or far plane: Mesa takes its other end's colour";
   return std::nullopt;
+}
+
+// By what part of a line's length the middles of its pixels at the side lie before or behind the line in their column or row.
+double lean(Vec4 a, Vec4 b, double width_px, const reference::Rect& viewport) {
+  if (!(a.w > 0 && b.w > 0)) return std::numeric_limits<double>::infinity();  // what is left of it may be short
+  const double dx = std::abs(b.x / b.w - a.x / a.w) * viewport.width / 2, dy = std::abs(b.y / b.w - a.y / a.w) * viewport.height / 2;
+  return std::min(dx, dy) == 0 ? 0 : width_px / 2 * std::min(dx, dy) / (dx * dx + dy * dy);
+}
+
+// In levels, from one end of a line to the other: as much as it may be where lights have a say. Textures have a limit of their own.
+double color_change(std::uint32_t a, std::uint32_t b, const Draw& draw, const Mesh& mesh) {
+  if (draw.shading == reference::Shading::kFlat) return 0;
+  if (draw.lighting) return 255;
+  if (!has_vertex_colors(draw, mesh)) return 0;
+  const Vec4 p = mesh.colors[a], q = mesh.colors[b];
+  return 255 * std::max({std::abs(q.x - p.x), std::abs(q.y - p.y), std::abs(q.z - p.z), std::abs(q.w - p.w)});
+}
+
+Reason wide_line_limit(const Vertices& vertices, const Corners& corners, const Draw& draw, const Mesh& mesh,
+                       const reference::Rect& viewport) {
+  if (draw.line_width < 1.5) return std::nullopt;  // rounded: 1 pixel
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t next = (i + 1) % corners.size();
+    const double change = color_change(vertices[i], vertices[next], draw, mesh);
+    if (change > 0 && change * lean(corners[i], corners[next], draw.line_width, viewport) > reference::kTolerance)
+      return "a wide line that slants and changes its colour: Mesa has one for each column or row, not for each pixel's projection";
+  }
+  return std::nullopt;
+}
+
+// The fourth is where the others put it: then it does not show along which diagonal a quad is split.
+bool is_even(const Vertices& quad, const std::vector<Vec4>& values) {
+  const Vec4 rest = values[quad[0]] + values[quad[2]] - (values[quad[1]] + values[quad[3]]);
+  return std::max({std::abs(rest.x), std::abs(rest.y), std::abs(rest.z), std::abs(rest.w)}) < 1e-9;
+}
+
+bool split_shows(const Vertices& quad, const Draw& draw, const Mesh& mesh) {
+  if (draw.texture || !is_even(quad, mesh.positions)) return true;
+  if (draw.shading == reference::Shading::kFlat) return false;
+  return draw.lighting || (has_vertex_colors(draw, mesh) && !is_even(quad, mesh.colors));
 }
 
 Reason polygon_limit(const Corners& polygon, const Draw& draw, bool two_sided_lighting, const reference::Camera& camera) {
@@ -149,18 +191,15 @@ class TexturedLine {
 };
 
 // Cut quads are split along the diagonal from the second to the fourth vertex; that shows unless the halves continue each other.
-bool halves_differ(const Mesh& mesh, const std::vector<std::uint32_t>& quad) {
-  const auto rest = [&](const auto& of) { return std::abs(of(quad[0]) - of(quad[1]) + of(quad[2]) - of(quad[3])) > 1e-6; };
-  const auto& p = mesh.positions;
-  return rest([&](std::uint32_t v) { return p[v].x; }) || rest([&](std::uint32_t v) { return p[v].y; }) || rest([&](std::uint32_t v) { return p[v].z; }) ||
-         rest([&](std::uint32_t v) { return p[v].w; }) || rest([&](std::uint32_t v) { return mesh.texcoords[v][0]; }) ||
-         rest([&](std::uint32_t v) { return mesh.texcoords[v][1]; });
+bool cut_shows(const Vertices& quad, const Mesh& mesh) {
+  const auto rest = [&](std::size_t i) { return mesh.texcoords[quad[0]][i] - mesh.texcoords[quad[1]][i] + mesh.texcoords[quad[2]][i] - mesh.texcoords[quad[3]][i]; };
+  return !is_even(quad, mesh.positions) || std::abs(rest(0)) > 1e-6 || std::abs(rest(1)) > 1e-6;
 }
 
-Reason textured_limit(const Corners& corners, const std::vector<std::uint32_t>& vertices, const Draw& draw, const Mesh& mesh,
-                      const reference::Scene& scene, const reference::Camera& camera) {
+Reason textured_limit(const Vertices& vertices, const Corners& corners, const Draw& draw, const Mesh& mesh, const reference::Scene& scene,
+                      const reference::Camera& camera) {
   if (!draw.texture || mesh.texcoords.empty() || corners.size() < 2) return std::nullopt;
-  const reference::Rect viewport = draw.viewport.value_or(reference::Rect{0, 0, scene.framebuffer.width_px, scene.framebuffer.height_px});
+  const reference::Rect viewport = viewport_of(draw, scene.framebuffer);
   const bool is_line = corners.size() == 2;
   if (is_line || has_mode(draw, PolygonMode::kLine))
     for (std::size_t i = 0, j = 1; i < (is_line ? 1 : corners.size()); ++i, j = (i + 1) % corners.size())
@@ -168,7 +207,7 @@ Reason textured_limit(const Corners& corners, const std::vector<std::uint32_t>& 
               .is_beyond_mesa(scene.textures.at(*draw.texture), draw.line_width))
         return "a textured line that leans: Mesa interpolates along its major axis alone";
   if (mesh.primitive == PrimitiveType::kQuads && has_mode(draw, PolygonMode::kFill) && (is_cut_in_depth(corners, camera) || is_cut_by_sides(corners)) &&
-      halves_differ(mesh, vertices))
+      cut_shows(vertices, mesh))
     return "a textured quad that is cut: Mesa splits it along its other diagonal";
   return std::nullopt;
 }
@@ -182,14 +221,21 @@ Reason primitive_limit(const Draw& draw, const reference::Scene& scene, const re
   if (std::max(draw.point_size, draw.line_width) > kLargestSize) return "a point or line of more pixels than Mesa's";
   if (stencils_each_side(draw) && !has_one_mode(draw, PolygonMode::kFill))
     return "a stencil for each side: to Mesa lines and points of polygons are front";
-  const std::vector<Corners> primitives = primitives_in_clip_space(draw, mesh, camera);
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    const Corners& corners = primitives[i];
-    Reason reason = textured_limit(corners, reference::primitive(mesh, i, ProvokingVertex::kLast).vertices, draw, mesh, scene, camera);
-    if (reason) return reason;
+  const reference::Rect viewport = viewport_of(draw, scene.framebuffer);
+  const bool fills_one_side =
+      draw.cull == reference::Cull::kNone && has_mode(draw, PolygonMode::kFill) && !has_one_mode(draw, PolygonMode::kFill);
+  for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {
+    const Vertices vertices = reference::primitive(mesh, i, ProvokingVertex::kLast).vertices;
+    const Corners corners = in_clip_space(vertices, draw, mesh, camera);
+    if (const Reason textured = textured_limit(vertices, corners, draw, mesh, scene, camera)) return textured;
+    Reason reason;
     if (corners.size() == 2) reason = line_limit(corners, draw, camera);
     if (corners.size() > 2) reason = polygon_limit(corners, draw, scene.light_model.two_sided, camera);
     if (reason) return reason;
+    if (mesh.primitive == PrimitiveType::kQuads && fills_one_side && split_shows(vertices, draw, mesh))
+      return "quads that are filled on one side alone: Mesa splits them along the other diagonal";
+    if (corners.size() == 2 || (corners.size() > 2 && has_mode(draw, PolygonMode::kLine)))
+      if (const Reason wide = wide_line_limit(vertices, corners, draw, mesh, viewport)) return wide;
   }
   return std::nullopt;
 }

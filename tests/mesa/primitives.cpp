@@ -36,6 +36,21 @@ GLenum polygon_mode(reference::PolygonMode mode) {
 // OpenGL lets an implementation round a size that lies halfway between two either way: it is rounded here.
 GLfloat whole_size(double size) { return static_cast<GLfloat>(std::max(1.0, std::floor(size + 0.5))); }
 
+bool has_lines_alone(reference::PrimitiveType type, const reference::Draw& draw) {
+  using enum reference::PrimitiveType;
+  using enum reference::PolygonMode;
+  if (type == kLines || type == kLineStrip || type == kLineLoop) return true;
+  const auto [front, back] = draw.polygon_mode;
+  return type != kPoints && (front == kLine || back == kLine) && front != kPoint && back != kPoint;
+}
+
+// Beyond each side there is room for a line's whole width.
+double growth(int size, double line_width) {
+  double times = 2;
+  while ((times - 1) * std::max(size, 1) < 2 * line_width) times *= 2;
+  return times;
+}
+
 }  // namespace
 
 void set_primitive_state(const Functions& gl, const reference::Draw& draw) {
@@ -47,6 +62,29 @@ void set_primitive_state(const Functions& gl, const reference::Draw& draw) {
   glPointSize(whole_size(draw.point_size));
   glLineWidth(whole_size(draw.line_width));
   gl.provoking_vertex(draw.provoking_vertex == reference::ProvokingVertex::kFirst ? GL_FIRST_VERTEX_CONVENTION : GL_LAST_VERTEX_CONVENTION);
+}
+
+reference::Rect viewport_of(const reference::Draw& draw, const reference::FrameBufferFormat& format) {
+  return draw.viewport.value_or(reference::Rect{0, 0, format.width_px, format.height_px});
+}
+
+Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& draw, const reference::Rect& viewport) {
+  if (!has_lines_alone(type, draw)) return {};
+  return {growth(viewport.width, draw.line_width), growth(viewport.height, draw.line_width)};
+}
+
+void set_viewport(const Functions& gl, const reference::Rect& viewport, Growth growth) {
+  const double width = growth.x * viewport.width, height = growth.y * viewport.height;
+  const double left = viewport.x - (width - viewport.width) / 2, bottom = viewport.y - (height - viewport.height) / 2;
+  gl.viewport_indexed(0, static_cast<GLfloat>(left), static_cast<GLfloat>(bottom), static_cast<GLfloat>(width),
+                      static_cast<GLfloat>(height));
+}
+
+reference::Mat4 shrinking(Growth growth) {
+  reference::Mat4 matrix;
+  matrix.rows[0][0] = 1 / growth.x;
+  matrix.rows[1][1] = 1 / growth.y;
+  return matrix;
 }
 
 void draw_vertices(reference::PrimitiveType type, const std::vector<Vertex>& vertices) {
