@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "hwy/cache_control.h"
-
 #include "framebuffer/check.h"
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
