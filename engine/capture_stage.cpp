@@ -40,6 +40,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       draw.uses_depth = false;
       draw.ops = nullptr;
     }
+    if (draw.ops == nullptr) draw.texture = nullptr;  // else its alpha may be tested
     if (draw.write_mask == 0 && what != What::fragments) continue;  // depth alone
     draw.write_mask = 0xffffffffu;
     draw.deferred = what == What::normals;

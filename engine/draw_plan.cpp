@@ -171,6 +171,26 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.attribute_count = plan.colors_triangles() ? 0 : 4;
 }
 
+/// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one colour itself.
+void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
+  plan.constant_color = color;
+  if (plan.index[0] || plan.texture.use == TexturePlan::Use::none) return;
+  if (plan.texture.use == TexturePlan::Use::texels) {
+    plan.textures_pixels = true;
+    plan.scaled_colors = false;
+    plan.deferred = !needs_order(plan, layout);
+    return;
+  }
+  const auto [r, g, b, a] = textured_color(plan.texture.texture, {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2]), plan.alpha[0]}, plan.texture.texture.texel);
+  plan.constant_color = {r, g, b};
+  plan.alpha[0] = plan.alpha[1] = a;
+}
+
+/// Whether the texture has to wait for the pixels, with colours that are made at the vertices, or at the pixels themselves.
+void plan_texturing(DrawPlan& plan, bool at_vertices) {
+  plan.textures_pixels = plan.texture.use != TexturePlan::Use::none && !(at_vertices && plan.texture.is_affine());
+}
+
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled, std::string* reasons) {
   const DrawState& state = draw.state;
   const auto note = [&](const std::string& line) {
@@ -179,6 +199,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   if (plan.write_mask == 0) {
     plan.source = ColorSource::none;
     if (plan.ops.alpha_test) plan_alpha(plan, draw);
+    plan_texturing(plan, false);
     note(plan.ops.alpha_test ? "no colour plane changes: tests alone, no lighting" : "no colour plane changes: depth alone, no lighting");
     return;
   }
@@ -189,8 +210,8 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
     plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
     if (!plan.uses_vertex_colors) {
-      plan.constant_color = rgb(state.material.diffuse);
       note("unlit, no vertex colours: one colour for the draw");
+      set_constant_color(plan, rgb(state.material.diffuse), layout);
       return;
     }
     note("unlit vertex colours");
@@ -198,9 +219,9 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan_lights(plan, draw, layout, reasons);
     if (has_constant_color(plan)) {
       plan.two_sided = false;
-      plan.constant_color = plan.front.base;
       if (plan.index[0]) plan.constant_index = unlit_index(plan.front);
       note("no light depends on the surface: one colour for the draw");
+      set_constant_color(plan, plan.front.base, layout);
       return;
     }
     plan.lit = true;
@@ -213,6 +234,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   if (phong && plan.topology != Topology::points) {
     plan.source = ColorSource::per_pixel;
     plan.deferred = !needs_order(plan, layout);
+    plan_texturing(plan, false);
     plan.smooth_normals = generate;
     plan.attribute_count = (needs_normal ? 3 : 0) + (plan.front.needs_position || plan.back.needs_position ? 3 : 0) + (plan.uses_vertex_colors ? 3 : 0);
     if (plan.has_ops && plan.vertex_alpha) ++plan.attribute_count;
@@ -220,6 +242,8 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   } else if (state.shading == Shading::flat || plan.topology == Topology::points) {  // a point has one colour in any case
     plan.face_normals = generate && has_faces;
     plan.smooth_normals = generate && !has_faces;
+    // Words have no room for texels: as floats, like colours that have operations to go through.
+    if (plan.texture.use == TexturePlan::Use::texels) plan.has_ops = plan.textures_pixels = true;
     const bool by_triangle = plan.face_normals || plan.provoking_apart;
     plan.source = by_triangle ? ColorSource::triangle_word : ColorSource::vertex_word;
     if (plan.has_ops) {
@@ -235,9 +259,10 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
-    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled && has_faces;
+    plan_texturing(plan, true);
+    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled && has_faces && !plan.textures_pixels;
     // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a colour that is not just stored.
-    const bool shades_seen = layout.index || layout.luminance || (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
+    const bool shades_seen = layout.index || layout.luminance || plan.textures_pixels || (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_seen && !needs_order(plan, layout);
     plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
@@ -324,10 +349,19 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   if (reasons && plan.outlines) *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
-  if (draw.pixels)
+  if (draw.pixels) {
     plan_pixel_colors(plan, *draw.pixels, reasons);
-  else
+  } else {
+    const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
+    plan.texture = plan_texture(draw, {stores_colors, plan.ops.alpha_test || (stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0))}, reasons);
     plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
+  }
+  if (reasons && plan.texture.use == TexturePlan::Use::one_color)
+    *reasons += plan.textures_pixels ? "  texture: one colour, worked into each pixel's\n" : "  texture: one colour, folded into the colours of vertices, faces or the draw\n";
+  if (plan.textures_pixels && plan.texture.use == TexturePlan::Use::texels) {
+    plan.texcoords = plan.texture.texture.attribute = plan.attribute_count;
+    plan.attribute_count += 2;
+  }
   if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
     plan.captured_normal = plan.attribute_count;
     plan.attribute_count += 3;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/recording.h"
+#include "engine/texture_plan.h"
 #include "raster/vertex_transform.h"
 #include "shading/lighting.h"
 #include "shading/tile_renderer.h"
@@ -53,9 +54,14 @@ struct DrawPlan {
   bool provoking_apart = false;   ///< flat, and the provoking vertex is not one of each triangle's
   bool scaled_colors = true;      ///< interpolated colours are carried in levels
 
-  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back]; then the normal
-  /// that a capture wants.
+  TexturePlan texture;
+  bool textures_pixels = false;   ///< at each of them
+  bool folds_texture() const { return !textures_pixels && texture.use != TexturePlan::Use::none; }  ///< its one colour into the colours of vertices, triangles or the draw
+
+  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and back]; then texture
+  /// coordinates, then the normal that a capture wants.
   int attribute_count = 0;
+  int texcoords = -1;             ///< where they begin; -1: none are wanted
   int captured_normal = -1;       ///< where it begins; -1: none is wanted
 
   bool has_offset() const { return offset_factor != 0 || offset_units != 0; }

@@ -71,6 +71,12 @@ void check_shape(const DrawState& s, const FrameBufferState& target) {
     throw Error("Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
 }
 
+const TextureState* check_texture(const DrawState& s, const TextureState* state) {
+  require_finite({"Frame::draw: texture_env_color"}, s.texture_env_color);
+  if (s.texture != nullptr && state == nullptr) throw Error("Frame::draw: the texture was moved from");
+  return state;
+}
+
 // What is recorded already keeps its surroundings.
 template <class Change>
 void change(FrameRecording& recording, const char* function, const Change& edit) {
@@ -151,6 +157,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
     check_state(state);
     check_shape(state, *recording_->target);
     check_fragment_state("Frame::draw", state, *recording_->target);
+    draw.texture = check_texture(state, state.texture != nullptr ? state.texture->state_.get() : nullptr);
     if (state.shadow_on) turn_into_shadow(draw);
     recording_->draws.push_back(std::move(draw));
   });

@@ -271,7 +271,7 @@ void connect_draws(FrameCommands& commands) {
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
     draw.attribute_stride = plan.attribute_count;
-    draw.attribute_count = plan.captured_normal >= 0 ? plan.captured_normal : plan.attribute_count;
+    draw.attribute_count = plan.texcoords >= 0 ? plan.texcoords : plan.captured_normal >= 0 ? plan.captured_normal : plan.attribute_count;
     draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
@@ -296,6 +296,10 @@ void connect_draws(FrameCommands& commands) {
     if (plan.source == ColorSource::constant)
       draw.word = plan.index[0] ? index_word(*geometry.layout, plan.constant_index)
                                 : color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
+    if (plan.textures_pixels) {
+      draw.texture = &plan.texture.texture;
+      for (int face = 0; face < 2; ++face) draw.color[face] = {clamp_unit(plan.constant_color[0]), clamp_unit(plan.constant_color[1]), clamp_unit(plan.constant_color[2]), plan.alpha[face]};
+    }
     if (plan.has_ops) connect_operations(draw, plan, buffers);
     if (plan.source == ColorSource::per_pixel) {
       // The order in which the vertex stage stores them.

@@ -22,7 +22,7 @@ void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t
     for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.color(vertex(i), c);
 }
 
-// A vertex whose normal, colour or index is not finite is dropped like one whose position is not.
+// A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position is not.
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count, std::uint8_t* codes) {
   std::uint8_t any = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -81,12 +81,22 @@ void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch
   for (std::size_t i = 0; i < points.count; ++i, out += stride) {
     for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
     out[3] = plan.vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f) : plan.alpha[face];
+    if (plan.folds_texture()) out[3] = textured_color(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
+  }
+}
+
+// A texture of one colour over colours that are clamped.
+void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto color = textured_color(texture, {batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i], 1}, texture.texel);
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kColorR + c][i] = color[c];
   }
 }
 
 // The colour of a batch goes where the draw's triangles will look for it.
-void store_colors(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face, Isa isa) {
+void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
   const DrawPlan& plan = *draw.plan;
+  if (plan.folds_texture() && !plan.index[face]) fold_texture(plan.texture.texture, batch, points.count);
   const bool as_floats = plan.source == ColorSource::interpolated;
   if (as_floats && plan.index[face]) return store_indices(draw, batch, points, face);
   if (plan.has_ops) return store_rgba(draw, batch, points, face);
@@ -152,6 +162,12 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
   if (plan.uses_vertex_colors) store(kVertexField);
   if (plan.has_ops && plan.vertex_alpha)
     for (std::size_t i = 0; i < count; ++i) out[i * stride] = std::min(std::max(draw.mesh->color(first + i, 3), 0.0f), 1.0f);
+}
+
+void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
+  const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
+  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->texcoords;
+  for (std::size_t i = 0; i < count; ++i, out += stride) std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
 }
 
 // What a capture wants: eye-space normals, whatever the shading does with them.
@@ -232,6 +248,10 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
     codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
     if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
     if (plan.uses_color_indices) codes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.codes.data() + at);
+    if (plan.texcoords >= 0) {
+      codes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.codes.data() + at);
+      store_texcoords(draw, at, count);
+    }
     if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
     if (needs_normal(plan) && !plan.face_normals) codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
     if (!colors_matter || plan.colors_triangles()) continue;

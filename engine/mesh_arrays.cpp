@@ -100,6 +100,7 @@ MeshArrays check_mesh(const Mesh& mesh) {
   arrays.normals = strided(mesh.normals, "normals", 3, arrays.vertices);
   add_colors(mesh.colors, arrays);
   arrays.color_indices = strided(mesh.color_indices, "color_indices", 1, arrays.vertices);
+  arrays.texcoords = strided(mesh.texcoords, "texcoords", 2, arrays.vertices);
   const std::size_t corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
   arrays.primitive = mesh.primitive;
   if (!makes_whole_primitives(mesh.primitive, corners))

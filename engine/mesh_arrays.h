@@ -22,6 +22,7 @@ struct MeshArrays {
   const std::uint8_t* color_bytes = nullptr;   ///< or none
   std::size_t color_stride = 0;                ///< bytes
   StridedFloats color_indices;                 ///< or none
+  StridedFloats texcoords;                     ///< or none
   const std::uint32_t* indices = nullptr;      ///< null: 16 bits, or vertices in order
   const std::uint16_t* short_indices = nullptr;
 

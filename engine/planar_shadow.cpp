@@ -67,6 +67,8 @@ void turn_into_shadow(RecordedDraw& draw) {
   draw.state.material.diffuse = shadow.color;
   draw.mesh.colors = draw.mesh.color_indices = {};
   draw.mesh.color_bytes = nullptr;
+  draw.state.texture = nullptr;
+  draw.texture = nullptr;
 }
 
 }  // namespace tessera

@@ -8,6 +8,7 @@
 
 #include "engine/frame_buffer_state.h"
 #include "engine/mesh_arrays.h"
+#include "engine/texture_state.h"
 #include "raster/pixel_rectangle.h"
 
 namespace tessera {
@@ -30,6 +31,7 @@ struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
   std::shared_ptr<const Surroundings> surroundings;
+  const TextureState* texture = nullptr;  ///< of the state's, wherever that moves
   std::optional<RecordedPixels> pixels{};  ///< in place of the mesh, which is empty then
 };
 struct RecordedClear {

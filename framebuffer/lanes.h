@@ -31,6 +31,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 // highway.h must follow foreach_target.h
 #include "hwy/highway.h"
+#include "hwy/cache_control.h"
 
 #if HWY_TARGETS & HWY_AVX3
 #define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::Isa::avx512 ? &N_AVX3::fn :

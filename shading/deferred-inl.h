@@ -10,6 +10,9 @@
 
 #include <bit>
 
+#include "shading/texture_coordinates-inl.h"
+#include "shading/texture_env-inl.h"
+#include "shading/texture_sampling-inl.h"
 #include "shading/tile_run-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,6 +31,8 @@ struct BatchSurface {
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
   bool adjacent = false;  // the arrays follow each other
+  const DrawTexture* texture = nullptr;  // or none
+  TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
 
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const { return draw == triangle.draw && back == triangle.back; }
 };
@@ -90,6 +95,23 @@ inline HWY_NOINLINE void store_normals(TileRun& run, const PixelBatch& pixels) {
     }
 }
 
+/// The colours of a draw that has one, for a texture to work on.
+HWY_INLINE void fill_colors(const TileDraw& draw, bool back, ShadingBatch& batch) {
+  for (int c = 0; c < 3; ++c)
+    for (int point = 0; point < kBatchPoints; point += kLanes) hn::Store(splat(draw.color[back ? 1 : 0][static_cast<std::size_t>(c)]), kFloat, batch.field[kColorR + c] + point);
+}
+
+/// The colours of the first `count` points, whole vectors of lanes, under the texture.
+inline HWY_NOINLINE void texture_points(const DrawTexture& texture, ShadingBatch& batch, int count) {
+  if (texture.levels != nullptr) sample_texture_lanes(*texture.levels, batch, count);
+  for (int point = 0; point < count; point += kLanes) {
+    Colors colors{{hn::Zero(kFloat), hn::Zero(kFloat), hn::Zero(kFloat), splat(1.0f)}};
+    for (int c = 0; c < 3; ++c) colors.c[c] = hn::Load(kFloat, batch.field[kColorR + c] + point);
+    colors = textured_lanes(texture, colors, texels_at(texture, batch, point));
+    for (int c = 0; c < 3; ++c) hn::Store(colors.c[c], kFloat, batch.field[kColorR + c] + point);
+  }
+}
+
 inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   if (pixels.blocks == 0) return;
   const TileDraw& draw = run.frame.draws[pixels.draw];
@@ -97,6 +119,10 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
   if (draw.captures_normals) store_normals(run, pixels);
+  if (pixels.texture != nullptr) {
+    if (draw.source == ColorSource::constant) fill_colors(draw, pixels.back, batch);
+    texture_points(*pixels.texture, batch, pixels.blocks * kBlockPixels);
+  }
   for (int slot = 0; slot < pixels.blocks; ++slot) {
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
@@ -112,6 +138,9 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   pixels.blocks = 0;
 }
 
+/// The texture of a draw's faces: where indices are drawn, none has a say.
+HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) { return draw.index[back ? 1 : 0] ? nullptr : draw.texture; }
+
 /// Makes the batch one of another surface. @pre it is empty
 HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
   const TileDraw& draw = run.frame.draws[triangle.draw];
@@ -119,23 +148,41 @@ HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const S
   surface.draw = triangle.draw;
   surface.back = back;
   surface.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
-  surface.attribute_count = per_pixel ? draw.attribute_count : draw.index[back ? 1 : 0] ? 1 : 3;
+  surface.attribute_count = per_pixel ? draw.attribute_count : draw.source == ColorSource::constant ? 0 : draw.index[back ? 1 : 0] ? 1 : 3;
   surface.adjacent = true;
   for (int j = 0; j < surface.attribute_count; ++j) {
     surface.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
     surface.adjacent &= surface.target[j] == surface.target[0] + j * kBatchPoints;
   }
+  surface.texture = texture_of(draw, back);
+  surface.coordinates.triangle = nullptr;
 }
+
+/// Of a texture with levels: what its coordinates in a triangle are made of.
+HWY_INLINE const TextureCoordinates& coordinates_in(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
+  if (surface.coordinates.triangle != &triangle) surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture, run.frame.draws[surface.draw].topology == Topology::lines);
+  return surface.coordinates;
+}
+HWY_INLINE bool has_coordinates(const BatchSurface& surface) { return surface.texture != nullptr && surface.texture->levels != nullptr; }
 
 HWY_INLINE Barycentric barycentric_of(const TileRun& run, const NarrowEdges& edges, int bx, int by, int chunk) {
   const ShadedTriangle& t = edges.triangle;
   return t.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(t, run.memory.wide[static_cast<std::size_t>(t.wide)], bx, by, chunk);
 }
 
+/// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
+inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, const Barycentric& at, LaneMask mask, int point) {
+  const auto lanes = hn::RebindMask(kFloat, mask);
+  coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR {
+    float* const to = run.memory.batch.field[field] + point;
+    hn::Store(hn::IfThenElse(lanes, value, hn::Load(kFloat, to)), kFloat, to);
+  });
+}
+
 /// Adds the pixels of one triangle in one block to the batch's next slot; `taken`: those that triangles before it have there. Lanes
-/// that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0.
+/// that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0, and there may be texture coordinates.
 template <int kCount>
-HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
+HWY_INLINE void gather_counted(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
   const NarrowEdges edges(triangle, bx, by);
@@ -148,12 +195,15 @@ HWY_INLINE void gather_counted(const TileRun& run, const PixelBatch& pixels, con
       for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
     } else {
       const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
-      for (int j = 0; j < count; ++j) hn::Store(hn::IfThenElse(mask, interpolate(at, values[j]), hn::Load(kFloat, target(j))), kFloat, target(j));
+      const auto store = [&](Float value, float* to) HWY_ATTR { hn::Store(hn::IfThenElse(mask, value, hn::Load(kFloat, to)), kFloat, to); };
+      for (int j = 0; j < count; ++j) store(interpolate(at, values[j]), target(j));
     }
+    if (kCount == 0 && has_coordinates(pixels))
+      gather_coordinates(run, pixels, triangle, at, chunk_bits(taken, chunk) == 0 ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : mask_from_bits(chunk_bits(covered, chunk)), point);
   }
 }
-HWY_INLINE void gather_attributes(const TileRun& run, const PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
-  switch (pixels.adjacent ? pixels.attribute_count : 0) {
+HWY_INLINE void gather_attributes(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
+  switch (pixels.adjacent && !has_coordinates(pixels) ? pixels.attribute_count : 0) {
     case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
     case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
     case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);

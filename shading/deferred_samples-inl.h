@@ -59,9 +59,13 @@ HWY_INLINE void shade_points(TileRun& run, const SampledBatch& points, std::int3
   const TileDraw& draw = run.frame.draws[points.draw];
   ShadingBatch& batch = run.memory.batch;
   const bool per_pixel = draw.source == ColorSource::per_pixel;
-  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, (points.count + kLanes - 1) / kLanes * kLanes);
+  const int whole = (points.count + kLanes - 1) / kLanes * kLanes;
+  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, whole);
+  if (draw.source == ColorSource::constant) fill_colors(draw, points.back, batch);
+  if (draw.source == ColorSource::interpolated)
+    for (int point = 0; point < points.count; point += kLanes) clamp_colors(batch, point);
+  if (points.texture != nullptr) texture_points(*points.texture, batch, whole);
   for (int point = 0; point < points.count; point += kLanes) {
-    if (!per_pixel) clamp_colors(batch, point);
     const int count = std::min(points.count - point, kLanes);
     hn::Store(quantize_chunk(run.frame, batch, point, (1u << count) - 1), kInt, words + point);
   }
@@ -83,6 +87,12 @@ inline HWY_NOINLINE void shade_sampled_batch(TileRun& run, SampledBatch& points)
   points.count = points.pieces = 0;
 }
 
+/// Texture coordinates of the points of one chunk.
+inline HWY_NOINLINE void add_coordinates(const TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, const Barycentric& at, std::uint32_t bits) {
+  const auto packing = packing_of(kFloat, bits);
+  coordinates_in(run, points, triangle).at(at, [&](int field, Float value) HWY_ATTR { hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, run.memory.batch.field[field] + points.count); });
+}
+
 /// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: as in gather_counted.
 template <int kCount>
 HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, int index, const SampleBits& seen) {
@@ -100,6 +110,7 @@ HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const Sha
       float* const target = kCount > 0 ? points.target[0] + j * kBatchPoints : points.target[j];
       hn::StoreU(hn::TableLookupLanes(interpolate(at, values[j]), packing), kFloat, target + points.count);
     }
+    if (kCount == 0 && has_coordinates(points)) add_coordinates(run, points, triangle, at, bits);
     SampledPixels& pixels = points.piece[points.pieces++];
     pixels.point = points.count;
     pixels.index = index + chunk * kLanes;
@@ -109,7 +120,7 @@ HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const Sha
   }
 }
 inline HWY_NOINLINE void add_points(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, int index, const SampleBits& seen) {
-  switch (points.adjacent ? points.attribute_count : 0) {
+  switch (points.adjacent && !has_coordinates(points) ? points.attribute_count : 0) {
     case 3: return add_points_counted<3>(run, points, triangle, bx, by, index, seen);
     case 6: return add_points_counted<6>(run, points, triangle, bx, by, index, seen);
     default: return add_points_counted<0>(run, points, triangle, bx, by, index, seen);

@@ -38,6 +38,8 @@ struct FragmentTriangle {
   const float* colors_given = nullptr;  // of a block's pixels, in place of the triangle's: r of all of them, then g, b and a
   PixelBatch pixels;              // of this surface, for lighting
   bool seen = false;
+  const DrawTexture* texture = nullptr;  // or none
+  TextureCoordinates coordinates{};      // of a texture with levels
 
   HWY_INLINE int face() const { return triangle.back ? 1 : 0; }
 
@@ -50,6 +52,23 @@ struct FragmentTriangle {
     return attribute < 0 ? splat(draw.alpha[face()]) : clamped_unit(interpolate(at(bx, by, chunk), corners(triangle, attribute)));
   }
 
+  /// Alpha under the texture.
+  HWY_INLINE Float textured_alpha(int bx, int by, int chunk) const {
+    const Float own = alpha(bx, by, chunk);
+    if (texture == nullptr || !texture->changes_alpha()) return own;
+    return textured_lanes(*texture, {{own, own, own, own}}, texels_at(*texture, run.memory.batch, chunk * kLanes)).c[3];
+  }
+  HWY_INLINE bool tests_texels() const { return ops.alpha_test && texture != nullptr && texture->changes_alpha(); }
+
+  /// Texels of the block's pixels into the batch.
+  HWY_NOINLINE void sample_block(int bx, int by, std::uint32_t bits) {
+    if (texture->levels == nullptr) return;
+    ShadingBatch& batch = run.memory.batch;
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      if (chunk_bits(bits, chunk) != 0) coordinates.at(at(bx, by, chunk), [&](int field, Float value) HWY_ATTR { hn::Store(value, kFloat, batch.field[field] + chunk * kLanes); });
+    sample_texture_lanes(*texture->levels, batch, kBlockPixels);
+  }
+
   /// Tests of one sample, and what they change. Returns the pixels that are seen, 16 bits.
   HWY_INLINE std::uint32_t test(const TilePixels& sample, int bx, int by, const BlockFragments& block) {
     const int index = run.block_index(bx, by);
@@ -58,7 +77,7 @@ struct FragmentTriangle {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       LaneMask mask = hn::MaskFromVec(block.covered[chunk]);
       if (hn::AllFalse(kInt, mask)) continue;
-      if (ops.alpha_test) mask = hn::And(mask, hn::RebindMask(kInt, comparing(alpha(bx, by, chunk), ops.alpha_func, splat(ops.alpha_reference))));
+      if (ops.alpha_test) mask = hn::And(mask, hn::RebindMask(kInt, comparing(textured_alpha(bx, by, chunk), ops.alpha_func, splat(ops.alpha_reference))));
       LaneMask failed = no_lanes(), passed = mask;
       Int stored = hn::Zero(kInt);
       if (ops.stencil) {
@@ -80,8 +99,13 @@ struct FragmentTriangle {
     return bits;
   }
 
-  /// Colours 0..1 of a chunk; of lit pixels they stand in the batch.
+  /// Colours 0..1 of a chunk, under the texture whose texels stand in the batch.
   HWY_INLINE Colors colors(int bx, int by, int chunk) const {
+    const Colors own = own_colors(bx, by, chunk);
+    return texture == nullptr ? own : textured_lanes(*texture, own, texels_at(*texture, run.memory.batch, chunk * kLanes));
+  }
+  /// Without the texture; of lit pixels they stand in the batch.
+  HWY_INLINE Colors own_colors(int bx, int by, int chunk) const {
     const auto splats = [](const float* c) HWY_ATTR { return Colors{{splat(c[0]), splat(c[1]), splat(c[2]), splat(c[3])}}; };
     if (draw.source == ColorSource::constant) return splats(draw.color[face()].data());
     if (flat != nullptr) return splats(flat);
@@ -145,6 +169,13 @@ struct FragmentTriangle {
   /// A block of fragments in each sample.
   HWY_NOINLINE void operator()(int bx, int by, const BlockFragments* blocks) {
     std::uint32_t passed[kMaxSamples], bits = 0;
+    if (tests_texels()) {
+      for (int s = 0; s < run.samples; ++s)
+        for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) bits |= mask_bits(kInt, hn::MaskFromVec(blocks[s].covered[chunk])) << (chunk * kLanes);
+      if (bits == 0) return;
+      sample_block(bx, by, bits);
+      bits = 0;
+    }
     for (int s = 0; s < run.samples; ++s) bits |= passed[s] = test(run.sample[s], bx, by, blocks[s]);
     if (bits == 0 || draw.write_mask == 0 || draw.source == ColorSource::none) return;
     seen = true;
@@ -169,6 +200,7 @@ struct FragmentTriangle {
         pixels.blocks = 0;
       }
     }
+    if (texture != nullptr && !has_word && !tests_texels()) sample_block(bx, by, bits);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       if (chunk_bits(bits, chunk) == 0) continue;
       const Colors source = has_word ? Colors{} : draw.index[face()] ? Colors{{indices(bx, by, chunk)}} : colors(bx, by, chunk);
@@ -241,6 +273,7 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
 /// Of draws that have no operations and come here all the same.
 inline constexpr FragmentOps kNoOperations{};
 HWY_INLINE bool has_words(const TileDraw& draw) {
+  if (draw.texture != nullptr) return false;
   return draw.source == ColorSource::constant || draw.source == ColorSource::vertex_word || draw.source == ColorSource::triangle_word;
 }
 
@@ -255,6 +288,10 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles : triangle_word(run, draw, i, triangle.back);
   if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
   if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, triangle);
+  fragments.pixels.texture = nullptr;  // its texels come about block by block
+  fragments.texture = texture_of(draw, triangle.back);
+  if (fragments.texture != nullptr && fragments.texture->levels != nullptr && (!draw.deferred || fragments.tests_texels()))
+    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture, draw.topology == Topology::lines);
   blocks(fragments);
   if (draw.deferred && fragments.seen) {
     memory.triangles.push_back(triangle);

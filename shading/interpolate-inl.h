@@ -19,12 +19,13 @@ namespace HWY_NAMESPACE {
 /// that is the same at all three stays exactly that.
 struct Barycentric {
   Float b1, b2;
+  Float inverse;  // of the weights' sum
 };
 
 HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
-  if (affine) return {w1, w2};
+  if (affine) return {w1, w2, splat(1.0f)};
   const Float inverse = hn::Div(splat(1.0f), hn::Add(hn::Add(w0, w1), w2));
-  return {hn::Mul(w1, inverse), hn::Mul(w2, inverse)};
+  return {hn::Mul(w1, inverse), hn::Mul(w2, inverse), inverse};
 }
 
 /// From the edges' values at the pixels.

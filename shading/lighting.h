@@ -28,6 +28,9 @@ enum BatchField : std::uint8_t {
   kNormalDotView,
   kColorR, kColorG, kColorB,                 // the sum; the result, clamped to 0..1, or a masked index in the first
   kTrackedR, kTrackedG, kTrackedB,           // the sum of what the vertex colour multiplies
+  kTextureS, kTextureT,                      // texture coordinates
+  kTexelsSquared,                            // the larger square of how many texels of level 0 one goes by, by pixels to the right and up
+  kTexelR, kTexelG, kTexelB, kTexelA,        // of the texture there
   kBatchFields
 };
 struct alignas(64) ShadingBatch {

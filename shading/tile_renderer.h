@@ -15,6 +15,7 @@
 #include "raster/triangle_setup.h"
 #include "shading/fragment_ops.h"
 #include "shading/lighting.h"
+#include "shading/texture.h"
 #include "shading/tile_accumulation.h"
 
 namespace tessera {
@@ -62,13 +63,14 @@ struct TileDraw {
   const LightingProgram* programs[2] = {};
   int first_attribute = 0;
   std::uint8_t fields[kMaxAttributes] = {};
+  const DrawTexture* texture = nullptr;    ///< or none. @pre with one, set `deferred` or `ops`; the colours are neither scaled nor words
   bool captures_normals = false;           ///< per_pixel: the normals go to the workspace's normals(), too
 
   /// What its fragments go through besides the depth test; null: nothing, and what follows is not looked at.
   const FragmentOps* ops = nullptr;
   bool flat = false;                       ///< interpolated: a triangle has the colour of its provoking vertex, or its own
   const float* face_colors[2] = {};        ///< flat: r g b a, or an index, for each triangle, front and back; null: the vertex's
-  std::array<float, 4> color[2] = {};      ///< constant: front, back
+  std::array<float, 4> color[2] = {};      ///< constant, also of a texture: front, back
   int alpha_attribute[2] = {-1, -1};       ///< interpolated alpha for front and back faces; -1: `alpha`
   float alpha[2] = {1, 1};
   float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences

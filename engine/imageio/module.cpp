@@ -44,7 +44,7 @@ Bytes encode(const std::string& ending, const unsigned char* rgba, int width, in
   return bytes;
 }
 
-/// Width and height, then RGBA.
+/// Width, height and channels, then RGBA.
 Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count, int most_pixels_a_side) {
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
   OIIO::ImageSpec asked;
@@ -58,9 +58,9 @@ Bytes decode(const std::string& ending, const unsigned char* file, std::size_t c
     throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + ", at most " + std::to_string(most_pixels_a_side) + " a side are read"};
   const int channels = spec.nchannels;
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  Bytes raw(pixels * static_cast<std::size_t>(channels)), bytes(2 * sizeof(int) + 4 * pixels, 255);
+  const int size[3] = {spec.width, spec.height, channels < 4 ? channels : 4};
+  Bytes raw(pixels * static_cast<std::size_t>(channels)), bytes(sizeof size + 4 * pixels, 255);
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data())) throw Failure{"OpenImageIO: " + input->geterror()};
-  const int size[2] = {spec.width, spec.height};
   std::memcpy(bytes.data(), size, sizeof size);
   const int alpha = channels == 2 ? 1 : channels >= 4 ? 3 : -1;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -129,7 +129,7 @@ extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char*
   });
 }
 
-extern "C" TESSERA_API int tessera_imageio_decode_1(const char* ending, const unsigned char* bytes, std::size_t count, int most_pixels_a_side,
+extern "C" TESSERA_API int tessera_imageio_decode_2(const char* ending, const unsigned char* bytes, std::size_t count, int most_pixels_a_side,
                                                     tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size) {
   return handed_over(take, user, message, message_size, [&] { return decode(ending, bytes, count, most_pixels_a_side); });
 }

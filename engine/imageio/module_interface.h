@@ -24,7 +24,8 @@ typedef int tessera_imageio_encode_indexed_function(const unsigned char* indices
                                                     int palette_entries, int compression, tessera_imageio_take_function* take, void* user,
                                                     char* message, size_t message_size);
 
-/* Decodes the bytes of an image file; `take` receives width and height as two ints, then RGBA pixels, rows from the top. */
+/* Decodes the bytes of an image file; `take` receives width, height and the file's number of channels, 1 to 4 (of more the first), as
+   three ints, then RGBA pixels, rows from the top: of one and two channels red = green = blue, alpha 255 where there is none. */
 typedef int tessera_imageio_decode_function(const char* ending, const unsigned char* bytes, size_t count, int most_pixels_a_side,
                                             tessera_imageio_take_function* take, void* user, char* message, size_t message_size);
 
@@ -34,7 +35,7 @@ typedef int tessera_imageio_formats_function(tessera_imageio_take_function* take
 /* The numbers change with the signatures. */
 #define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_2"
 #define TESSERA_IMAGEIO_ENCODE_INDEXED_NAME "tessera_imageio_encode_indexed_1"
-#define TESSERA_IMAGEIO_DECODE_NAME "tessera_imageio_decode_1"
+#define TESSERA_IMAGEIO_DECODE_NAME "tessera_imageio_decode_2"
 #define TESSERA_IMAGEIO_FORMATS_NAME "tessera_imageio_formats_1"
 #define TESSERA_IMAGEIO_FILE_NAME "libtessera_imageio.so." TESSERA_SOVERSION
 

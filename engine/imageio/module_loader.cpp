@@ -40,9 +40,10 @@ Picture decode_by_module(const std::string& file, const std::string& ending) {
   const std::string decoded = taken([&](auto* take, void* user, char* message, std::size_t size) {
     return decode(ending.c_str(), bytes_of(file), file.size(), kMaxFrameBufferSize, take, user, message, size);
   });
-  int size[2];
+  int size[3];
   std::memcpy(size, decoded.data(), sizeof size);
   Picture picture(size[0], size[1]);
+  picture.channels = size[2];
   std::copy(decoded.begin() + sizeof size, decoded.end(), picture.rgba.begin());
   return picture;
 }

@@ -88,6 +88,7 @@ Picture decode_ppm(const std::string& file) {
   const std::size_t needed = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (file.size() - std::min(at, file.size()) < needed) throw Error("it ends before its last pixel");
   Picture picture(width, height);
+  picture.channels = 3;
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4, at += 3) {
     std::copy_n(file.begin() + static_cast<std::ptrdiff_t>(at), 3, picture.rgba.begin() + static_cast<std::ptrdiff_t>(i));
     picture.rgba[i + 3] = 255;

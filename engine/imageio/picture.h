@@ -15,6 +15,7 @@ struct Picture {
   Picture(int width, int height);
 
   int width, height;
+  int channels = 4;                          ///< that its file has: 1 is luminance, 2 luminance and alpha, 3 red green blue
   std::vector<std::uint8_t> rgba;
 
   /// For Renderer::finish and FrameBuffer::read_color.

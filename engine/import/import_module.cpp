@@ -48,6 +48,7 @@ class Converter {
       : scene_(scene), with_view_(with_view), is_collada_(is_collada), camera_used_(scene.mNumCameras), light_used_(scene.mNumLights) {
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) gives_colors_.push_back(gives_colors(*scene_.mMeshes[m]));
     has_colors_ = std::find(gives_colors_.begin(), gives_colors_.end(), true) != gives_colors_.end();
+    for (unsigned m = 0; m < scene_.mNumMeshes; ++m) has_texcoords_ |= scene_.mMeshes[m]->HasTextureCoords(0);
     for (unsigned m = 0; m < scene_.mNumMaterials; ++m) materials_.push_back(material_of(*scene_.mMaterials[m]));
   }
 
@@ -62,7 +63,7 @@ class Converter {
       transparent += wants_transparency(*scene_.mMaterials[material]) ? 1 : 0;
     }
     if (model_.parts.empty()) throw Error(kNoTriangle);
-    if (textures > 0) model_.warnings.push_back("textures are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
+    if (textures > 0) model_.warnings.push_back("textures of models are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
     if (transparent > 0) model_.warnings.push_back("transparency is not supported: materials with it, " + std::to_string(transparent) + " here, are drawn opaque");
     return std::move(model_);
   }
@@ -109,6 +110,7 @@ class Converter {
       n.NormalizeSafe();
       model_.mesh.normals.insert(model_.mesh.normals.end(), {n.x, n.y, n.z});
       if (has_colors_) add_color(mesh, gives_colors_[number], v);
+      if (has_texcoords_) add_texcoords(mesh, v);
     }
     add_triangles(mesh, first, mirrors);
   }
@@ -118,6 +120,12 @@ class Converter {
     const Color base = mesh.mMaterialIndex < materials_.size() ? materials_[mesh.mMaterialIndex].diffuse : Material{}.diffuse;
     const aiColor4D c = gives ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
     model_.mesh.colors.insert(model_.mesh.colors.end(), {c.r * base.r, c.g * base.g, c.b * base.b, c.a * base.a});
+  }
+
+  // t grows upwards whatever the format has: assimp turns v over where that is needed.
+  void add_texcoords(const aiMesh& mesh, unsigned vertex) {
+    const aiVector3D at = mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][vertex] : aiVector3D();
+    model_.mesh.texcoords.insert(model_.mesh.texcoords.end(), {at.x, at.y});
   }
 
   void add_triangles(const aiMesh& mesh, std::uint32_t first, bool mirrors) {
@@ -143,7 +151,7 @@ class Converter {
   }
 
   const aiScene& scene_;
-  bool with_view_, is_collada_, has_colors_ = false;
+  bool with_view_, is_collada_, has_colors_ = false, has_texcoords_ = false;
   std::vector<bool> gives_colors_, camera_used_, light_used_;  // of each mesh, camera, light
   std::vector<Material> materials_;
   std::map<unsigned, std::vector<std::uint32_t>> by_material_;

@@ -28,6 +28,7 @@ std::vector<MeshData> split_into_parts(Model model) {
         copy(model.mesh.positions, mesh.positions, vertex, 3);
         copy(model.mesh.normals, mesh.normals, vertex, 3);
         copy(model.mesh.colors, mesh.colors, vertex, 4);
+        copy(model.mesh.texcoords, mesh.texcoords, vertex, 2);
       }
       mesh.indices.push_back(new_index[vertex]);
     }

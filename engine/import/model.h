@@ -28,7 +28,7 @@ struct ModelCamera {
 };
 
 struct Model {
-  MeshData mesh;                         ///< all parts, indexed; colours if the file has some
+  MeshData mesh;                         ///< all parts, indexed; colours and texture coordinates if the file has some
   std::vector<ModelPart> parts;          ///< in the order of first use; never empty
   std::vector<std::string> warnings;     ///< a material file that is missing, ...; one line each
   std::vector<ModelCamera> cameras;

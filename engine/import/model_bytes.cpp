@@ -158,6 +158,7 @@ void members(Stream& stream, Either<Model> auto& model) {
   stream(model.mesh.positions);
   stream(model.mesh.normals);
   stream(model.mesh.colors);
+  stream(model.mesh.texcoords);
   stream(model.mesh.indices);
   stream(model.parts);
   stream(model.warnings);
@@ -170,7 +171,7 @@ bool is_sound(const Model& model) {
   const MeshData& mesh = model.mesh;
   const std::size_t vertices = mesh.positions.size() / 3;
   const auto fits = [&](const std::vector<float>& list, std::size_t components) { return list.empty() || list.size() == components * vertices; };
-  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) || !fits(mesh.colors, 4)) return false;
+  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) || !fits(mesh.colors, 4) || !fits(mesh.texcoords, 2)) return false;
   for (const std::uint32_t index : mesh.indices)
     if (index >= vertices) return false;
   std::size_t next = 0;

@@ -83,6 +83,7 @@ class VertexSplitter {
       mesh_.positions.insert(mesh_.positions.end(), p.begin(), p.end());
       mesh_.normals.insert(mesh_.normals.end(), normal.begin(), normal.end());
       for (std::size_t k = 0; k < 4 && !mesh_.colors.empty(); ++k) mesh_.colors.push_back(mesh_.colors[4 * std::size_t{vertex} + k]);
+      for (std::size_t k = 0; k < 2 && !mesh_.texcoords.empty(); ++k) mesh_.texcoords.push_back(mesh_.texcoords[2 * std::size_t{vertex} + k]);
     }
     return entry->second;
   }

@@ -1,4 +1,4 @@
-// Wavefront OBJ and MTL by tinyobjloader. Corners that share position and normal become one vertex.
+// Wavefront OBJ and MTL by tinyobjloader. Corners that share position, normal and texture coordinates become one vertex.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -72,7 +72,7 @@ void fill_in(tinyobj::material_t& material, const MtlGiven& given, std::string& 
   if (!given.ambient) std::copy_n(material.diffuse, 3, material.ambient);
   if (given.illum && material.illum < 2) std::fill_n(material.specular, 3, 0.0f);
   material.name = with_spaces(material.name);
-  if (given.texture) warning += "map_Kd of material \"" + material.name + "\" is left out: textures are not supported\n";
+  if (given.texture) warning += "map_Kd of material \"" + material.name + "\" is left out: textures of models are not supported\n";
   if (given.dissolve && material.dissolve < 1) warning += "d of material \"" + material.name + "\" is left out: transparency is not supported\n";
 }
 
@@ -112,17 +112,25 @@ Obj load(const std::string& path) {
   return obj;
 }
 
-// Turns corners (position, normal) into vertices of one mesh.
+// What every corner of a file has.
+struct Given {
+  bool normals = false, texcoords = false;
+};
+
+// Turns corners (position, normal, texture coordinates) into vertices of one mesh.
 class VertexPool {
  public:
-  VertexPool(const tinyobj::attrib_t& attributes, bool has_normals, MeshData& mesh)
-      : attributes_(attributes), has_normals_(has_normals), has_colors_(attributes.colors.size() == attributes.vertices.size()), mesh_(mesh) {}
+  VertexPool(const tinyobj::attrib_t& attributes, Given given, MeshData& mesh)
+      : attributes_(attributes), has_normals_(given.normals), has_texcoords_(given.texcoords), has_colors_(attributes.colors.size() == attributes.vertices.size()), mesh_(mesh) {}
 
   std::uint32_t vertex(tinyobj::index_t corner) {
     const auto position = static_cast<std::uint32_t>(corner.vertex_index);
     const auto normal = static_cast<std::uint32_t>(has_normals_ ? corner.normal_index : 0);
-    const auto [entry, is_new] = vertices_.try_emplace(std::uint64_t{position} << 32 | normal, static_cast<std::uint32_t>(vertices_.size()));
+    const auto texcoord = static_cast<std::uint32_t>(has_texcoords_ ? corner.texcoord_index : 0);
+    const auto [entry, is_new] = vertices_.try_emplace({std::uint64_t{position} << 32 | normal, texcoord}, static_cast<std::uint32_t>(vertices_.size()));
     if (is_new) {
+      if (has_texcoords_)
+        for (std::size_t k = 0; k < 2; ++k) mesh_.texcoords.push_back(attributes_.texcoords.at(2 * std::size_t{texcoord} + k));
       append(attributes_.vertices, position, mesh_.positions);
       if (has_normals_) append(attributes_.normals, normal, mesh_.normals);
       if (has_colors_) {
@@ -139,9 +147,12 @@ class VertexPool {
   }
 
   const tinyobj::attrib_t& attributes_;
-  bool has_normals_, has_colors_;
+  struct Hash {
+    std::size_t operator()(const std::pair<std::uint64_t, std::uint32_t>& key) const { return static_cast<std::size_t>((key.first ^ key.second * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu >> 16); }
+  };
+  bool has_normals_, has_texcoords_, has_colors_;
   MeshData& mesh_;
-  std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
+  std::unordered_map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t, Hash> vertices_;
 };
 
 Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::string>& warnings, const std::string& path) {
@@ -162,18 +173,22 @@ Model import_obj(const std::string& path) {
   Obj obj = load(path);
   Model model{.warnings = std::move(obj.warnings)};
 
-  std::size_t corners = 0, corners_with_normal = 0;
+  std::size_t corners = 0, corners_with_normal = 0, corners_with_texcoord = 0;
+  const auto texcoords = static_cast<std::int64_t>(obj.attributes.texcoords.size() / 2);
   for (const tinyobj::shape_t& shape : obj.shapes)
     for (const tinyobj::index_t& corner : shape.mesh.indices) {
       ++corners;
       corners_with_normal += corner.normal_index >= 0 ? 1 : 0;
+      corners_with_texcoord += corner.texcoord_index >= 0 && corner.texcoord_index < texcoords ? 1 : 0;
     }
   if (corners == 0) throw Error(path + ": holds no triangle");
   const bool has_normals = corners_with_normal == corners;
   if (!has_normals && corners_with_normal > 0) model.warnings.push_back(path + ": only some corners have normals; all are computed");
+  const bool has_texcoords = corners_with_texcoord == corners;
+  if (!has_texcoords && corners_with_texcoord > 0) model.warnings.push_back(path + ": only some corners have texture coordinates; none are used");
 
   // Triangles by material; -1: none.
-  VertexPool pool(obj.attributes, has_normals, model.mesh);
+  VertexPool pool(obj.attributes, {has_normals, has_texcoords}, model.mesh);
   std::vector<int> order;
   std::map<int, std::vector<std::uint32_t>> triangles;
   for (const tinyobj::shape_t& shape : obj.shapes)

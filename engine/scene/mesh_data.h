@@ -20,13 +20,14 @@ struct MeshData {
   std::vector<float> colors;            ///< r g b a for each vertex, or empty
   std::vector<std::uint32_t> indices;   ///< of vertices, in the primitives' order; empty: vertices in order
   std::vector<float> color_indices;     ///< one for each vertex, or empty
+  std::vector<float> texcoords;         ///< s t for each vertex, or empty
 
   std::size_t vertex_count() const { return positions.size() / static_cast<std::size_t>(position_components); }
   /// Those that its primitives are split into; of meshes of points and lines those.
   std::size_t triangle_count() const { return element_count(primitive, indices.empty() ? vertex_count() : indices.size()); }
   /// Valid while this object lives and is not changed.
   Mesh view() const {
-    return {.primitive = primitive, .positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices, .color_indices = color_indices};
+    return {.primitive = primitive, .positions = positions, .position_components = position_components, .normals = normals, .colors = colors, .indices = indices, .color_indices = color_indices, .texcoords = texcoords};
   }
 };
 

@@ -17,7 +17,7 @@ constexpr std::int64_t kMost32Bits = std::numeric_limits<std::uint32_t>::max();
 
 // What the commands of a frame refer to.
 struct Names {
-  std::vector<std::string_view> meshes, materials;
+  std::vector<std::string_view> meshes, materials, textures;
   const Materials& material_of;
   const Scene& scene;
   LightList lights;  // those in force
@@ -93,6 +93,11 @@ void read_shading(const Object& object, const Names& names, DrawState& state) {
   if (const auto vertex = object.find("provoking_vertex"))
     state.provoking_vertex = vertex->choice<ProvokingVertex>({{"last", ProvokingVertex::last}, {"first", ProvokingVertex::first}});
   if (const auto normalize = object.find("normalize")) state.normalize = normalize->boolean();
+  if (const auto texture = object.find("texture")) state.texture = names.scene.textures[read_name(*texture, "texture", names.textures)].get();
+  if (const auto env = object.find("texture_env"))
+    state.texture_env = env->choice<TextureEnv>({{"modulate", TextureEnv::modulate}, {"replace", TextureEnv::replace}, {"decal", TextureEnv::decal},
+                                                 {"blend", TextureEnv::blend}, {"add", TextureEnv::add}});
+  if (const auto color = object.find("texture_env_color")) state.texture_env_color = color->color();
 }
 
 // Where it goes and what it may touch.
@@ -145,8 +150,7 @@ DrawCommand read_draw(const Value& value, const Names& names) {
                       {"draw", "material", "back_material", "transform", "shading", "lighting", "color_material", "provoking_vertex", "normalize",
                        "cull", "front_face", "depth", "depth_range", "color_mask", "plane_mask", "viewport", "scissor",
                        "polygon_offset", "alpha_test", "stencil", "blend", "logic_op",
-                       "polygon_mode", "point_size", "line_width", "texture_env", "texture_env_color", "shadow_on", "stages"},
-                      {"texture"});
+                       "polygon_mode", "point_size", "line_width", "texture", "texture_env", "texture_env_color", "shadow_on", "stages"});
   DrawCommand draw;
   draw.mesh = read_name(object.require("draw"), "mesh", names.meshes);
   read_shading(object, names, draw.state);
@@ -157,8 +161,6 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   if (const auto mode = object.find("polygon_mode")) read_polygon_mode(*mode, draw.state);
   if (const auto size = object.find("point_size")) draw.state.point_size = read_size(*size);
   if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
-  object.only_default("texture_env", "modulate", {"replace", "decal", "blend", "add"});
-  object.only_default("texture_env_color", {0, 0, 0, 0});
   object.only_default("stages", Json::array());
   return draw;
 }
@@ -227,10 +229,12 @@ void read_fragment_state(const Object& object, const Scene& scene, DrawState& st
   read_operations(object, scene.framebuffer, state);
 }
 
-std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials, const std::string& base_folder, ModelCache& cache) {
+std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials, const std::vector<std::string>& textures,
+                                     const std::string& base_folder, ModelCache& cache) {
   Names names{.material_of = materials, .scene = scene, .lights = scene.lights};
   for (const MeshData& mesh : scene.meshes) names.meshes.push_back(mesh.name);
   for (const auto& [name, material] : materials) names.materials.push_back(name);
+  names.textures.assign(textures.begin(), textures.end());
   std::vector<SceneCommand> frame;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value element = value.element(i);

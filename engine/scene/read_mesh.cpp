@@ -84,7 +84,7 @@ std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices,
 }
 
 MeshData read_inline(const Value& value) {
-  const Object object(value, {"primitive", "positions", "normals", "colors", "color_indices", "indices"}, {"texcoords"});
+  const Object object(value, {"primitive", "positions", "normals", "colors", "color_indices", "texcoords", "indices"});
   const Value positions = object.require("positions");
   const std::size_t vertices = positions.size();
   MeshData mesh;
@@ -98,6 +98,7 @@ MeshData read_inline(const Value& value) {
   mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
   mesh.normals = read_per_vertex(object, "normals", 3, vertices);
   mesh.colors = read_per_vertex(object, "colors", 4, vertices);
+  mesh.texcoords = read_per_vertex(object, "texcoords", 2, vertices);
   if (const auto indices = object.find("color_indices")) mesh.color_indices = read_color_indices(*indices, vertices);
   if (const auto indices = object.find("indices"))
     mesh.indices = read_indices(*indices, vertices, mesh.primitive);
@@ -110,7 +111,7 @@ MeshData read_inline(const Value& value) {
 
 void read_meshes(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
   value.for_each_member([&](const std::string& name, const Value& member) {
-    const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors", "color_indices", "indices"}, {"texcoords"});
+    const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors", "color_indices", "texcoords", "indices"});
     MeshData mesh = object.has("builtin") ? read_builtin(member) : object.has("file") ? read_file(member, base_folder, models, scene) : read_inline(member);
     mesh.name = name;
     scene.meshes.push_back(std::move(mesh));

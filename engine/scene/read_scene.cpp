@@ -163,10 +163,11 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
   if (const auto lights = top.find("lights")) scene.lights = read_lights(*lights);
   const auto materials = top.find("materials");
   const Materials named = materials ? read_materials(*materials) : Materials{};
-  top.only_default("textures", Json::object());
+  const auto textures = top.find("textures");
+  const std::vector<std::string> texture_names = textures ? read_textures(*textures, base_folder, models, scene) : std::vector<std::string>{};
   if (const auto meshes = top.find("meshes")) read_meshes(*meshes, base_folder, models, scene);
   const auto frame = top.find("frame");
-  scene.frame = frame ? read_frame(*frame, scene, named, base_folder, models) : default_frame(scene);
+  scene.frame = frame ? read_frame(*frame, scene, named, texture_names, base_folder, models) : default_frame(scene);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/import/model.h"
 #include "engine/scene/json_value.h"
@@ -18,14 +19,18 @@ SceneCamera default_camera();
 
 LightList read_lights(const json::Value& value);
 
-/// Models and images that were read, by their paths.
+/// Models, images and, with their samplers, textures that were read, by their paths.
 struct ModelCache {
   std::map<std::string, Model> models;
   std::map<std::string, std::shared_ptr<const Picture>> pictures;
+  std::map<std::string, std::shared_ptr<const Texture>> textures;
   std::function<bool()> go_on;  ///< of reading one
 };
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
 void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);
+
+/// Appends every texture of the file's `textures`. Returns their names.
+std::vector<std::string> read_textures(const json::Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene);
 
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
@@ -40,7 +45,9 @@ BitmapCommand read_bitmap(const json::Value& value, const Scene& scene);
 ImageCommand read_image(const json::Value& value, const Scene& scene, const std::string& base_folder, ModelCache& cache);
 
 /// @param scene  all but the frame has been read.
-std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials, const std::string& base_folder, ModelCache& cache);
+/// @param textures  their names
+std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials, const std::vector<std::string>& textures,
+                                     const std::string& base_folder, ModelCache& cache);
 /// One clear of what there is and one draw of every mesh.
 std::vector<SceneCommand> default_frame(const Scene& scene);
 

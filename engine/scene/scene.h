@@ -3,7 +3,7 @@
 //   Scene scene = load_scene("pot.json");
 //   FrameBuffer buffer(scene.framebuffer);
 //   Frame frame(buffer);
-//   record(scene, frame);                    // meshes, bitmaps and images stay the scene's: it must outlive the frame
+//   record(scene, frame);                    // meshes, textures, bitmaps and images stay the scene's: it must outlive the frame
 #pragma once
 
 #include <functional>
@@ -69,11 +69,13 @@ struct Scene {
   LightModel light_model;
   LightList lights{Light{}};
   std::vector<MeshData> meshes;          ///< in the order of the file
+  std::vector<std::shared_ptr<const Texture>> textures;  ///< likewise; draws point to them
   std::vector<SceneCommand> frame;
   std::vector<std::string> warnings;     ///< what was odd, but no error
 };
 
-/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models and images are read once.
+/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models, textures and images are read
+/// once.
 class SceneFile {
  public:
   /// @param go_on  asked while models are read; false ends it with Cancelled
@@ -115,7 +117,7 @@ void apply(const SceneOverrides& overrides, Scene& scene);
 /// The fewest colour bits that hold a palette known by name; 8 for one that fills any number of bits, or is unknown.
 int palette_bits(std::string_view name);
 
-/// Replays the scene's commands. The frame borrows the scene's meshes, bitmaps and images until it is finished.
+/// Replays the scene's commands. The frame borrows the scene's meshes, textures, bitmaps and images until it is finished.
 /// @throws Error, naming the command.
 void record(const Scene& scene, Frame& frame);
 

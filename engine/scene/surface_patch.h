@@ -12,7 +12,7 @@ struct SurfacePoint {
   Vec3 normal;  ///< outwards, of unit length
 };
 
-/// Appends (columns + 1) x (rows + 1) vertices and the triangles between them; each quad is split along the diagonal from
+/// Appends (columns + 1) x (rows + 1) vertices, s and t their texture coordinates, and the triangles between them; each quad is split along the diagonal from
 /// its corner of lowest s and t. Triangles with two corners at one place (where a row collapses into a pole) are left out.
 ///
 /// @param surface  called with (i, j), s = i / columns, t = j / rows; counter-clockwise where s grows to the right, t upwards.
@@ -24,6 +24,8 @@ void append_patch(MeshData& mesh, int columns, int rows, const Surface& surface)
       const SurfacePoint point = surface(i, j);
       for (const double x : {point.position.x, point.position.y, point.position.z}) mesh.positions.push_back(static_cast<float>(x));
       for (const double x : {point.normal.x, point.normal.y, point.normal.z}) mesh.normals.push_back(static_cast<float>(x));
+      mesh.texcoords.push_back(static_cast<float>(static_cast<double>(i) / columns));
+      mesh.texcoords.push_back(static_cast<float>(static_cast<double>(j) / rows));
     }
 
   const auto same_place = [&](std::uint32_t a, std::uint32_t b) {

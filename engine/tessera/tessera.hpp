@@ -18,8 +18,8 @@
 // Threads. Distinct objects may be used on distinct threads at the same time; one object by one thread at a time. There is
 // no global state. The same frame gives the same bits for any number of threads, tile size and instruction set.
 //
-// Lifetimes. Meshes, bitmaps and images are borrowed: what a draw points to has to stay as it is until Renderer::finish returns; indices are checked
-// in Frame::draw, and trusted then. An object that was moved from may be assigned to or destroyed, and nothing else.
+// Lifetimes. Meshes, textures, bitmaps and images are borrowed: what a draw points to has to stay as it is until Renderer::finish returns;
+// indices are checked in Frame::draw, and trusted then. An object that was moved from may be assigned to or destroyed, and nothing else.
 #pragma once
 
 #if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
@@ -54,6 +54,7 @@ TESSERA_API std::string_view version();
 struct FrameBufferState;
 struct FrameRecording;
 struct RendererState;
+struct TextureState;
 
 /// The one exception type of the library: also where memory runs out, but in the small lists that name things
 /// (material_names, available_instruction_sets, serial_executor).
@@ -265,6 +266,60 @@ struct Mesh {
   ColorArray colors{};                      ///< r g b a for each vertex
   IndexArray indices{};                     ///< of vertices, in the primitives' order; empty: vertices in order
   FloatArray color_indices{};               ///< one for each vertex, continuous: what unlit draws into index buffers show in place of colours
+  FloatArray texcoords{};                   ///< s t for each vertex; empty: 0 0
+};
+
+// ---- textures -----------------------------------------------------------------------------------------------------
+
+inline constexpr int kMaxTextureSize = 16384;  ///< largest width and height, in texels
+
+/// Texels in the caller's memory: 8 bits a component, 255 is 1, as they are. s runs from 0 to 1 along a row; t = 0 is the lower edge
+/// of the bottom row.
+struct TextureImage {
+  const void* pixels = nullptr;             ///< of the top row, or of the bottom row with `bottom_row_first`
+  int width = 0, height = 0;                ///< 1 .. kMaxTextureSize; one row: a 1-D texture, of which t has no say
+  int channels = 4;                         ///< 1: luminance, 2: luminance and alpha, 3: red green blue, 4: and alpha
+  std::ptrdiff_t stride_bytes = 0;          ///< from one row to the next; 0: without gaps
+  bool bottom_row_first = false;
+};
+
+enum class TextureWrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
+enum class TextureFilter : std::uint8_t { nearest, linear, nearest_mipmap_nearest, linear_mipmap_nearest, nearest_mipmap_linear, linear_mipmap_linear };
+struct TextureSampler {
+  TextureFilter mag = TextureFilter::linear;  ///< nearest or linear
+  TextureFilter min = TextureFilter::linear_mipmap_linear;
+  TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
+};
+
+/// A texture, ready to be drawn with: a copy of its texels and, for filters with mipmaps, of all smaller sizes. Each size is half the
+/// one before, rounded down, and each of its texels the mean of what it covers there, rounded. Level of detail by GL 2.1, equation
+/// 3.14, from exact derivatives. Takes 4 bytes a texel, a third more with mipmaps.
+class TESSERA_API Texture {
+ public:
+  /// Throws Error for sizes, channels, strides and filters out of range, pixels that are null, and where memory runs out.
+  explicit Texture(const TextureImage& image, const TextureSampler& sampler = {});
+  ~Texture();
+  Texture(Texture&&) noexcept;
+  Texture& operator=(Texture&&) noexcept;
+
+  int width() const noexcept;
+  int height() const noexcept;
+  int channels() const noexcept;
+  const TextureSampler& sampler() const noexcept;
+
+ private:
+  friend class Frame;
+  std::unique_ptr<TextureState> state_;
+};
+
+/// What a texel does to a fragment's colour, after shading and its clamp, by OpenGL 1.5's table. Luminance counts as red, green and
+/// blue; C, A the fragment's colour and alpha, t the texel's, alpha 1 where it has none.
+enum class TextureEnv : std::uint8_t {
+  modulate,  ///< C Ct, A At
+  replace,   ///< Ct, At or, of texels without alpha, A
+  decal,     ///< C (1 - At) + Ct At, A
+  blend,     ///< C (1 - Ct) + texture_env_color Ct, A At
+  add        ///< min(C + Ct, 1), A At
 };
 
 struct Material {
@@ -363,7 +418,7 @@ struct BlendState {
   BlendEquation equation = BlendEquation::add;
   Color color{0, 0, 0, 0};                  ///< the constant, 0 .. 1
 };
-/// Passes where the fragment's alpha func ref: the material's diffuse alpha, or that of the vertex colours which replace it.
+/// Passes where the fragment's alpha func ref: the material's diffuse alpha, or that of the vertex colours which replace it, under the texture.
 struct AlphaTest {
   Compare func = Compare::greater;
   float ref = 0.5f;                         ///< 0 .. 1
@@ -392,6 +447,9 @@ struct DrawState {
   ColorMaterial color_material = ColorMaterial::none;  ///< lit: what of the material the vertices' colours replace; none: they are not used
   ProvokingVertex provoking_vertex = ProvokingVertex::last;
   bool normalize = true;
+  const Texture* texture = nullptr;         ///< borrowed like the mesh; null: none. Where indices are drawn it has no say
+  TextureEnv texture_env = TextureEnv::modulate;
+  Color texture_env_color{0, 0, 0, 0};      ///< of TextureEnv::blend; counts as 0 where it is less, as 1 where it is more
   Cull cull = Cull::none;
   FrontFace front_face = FrontFace::ccw;
   PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;

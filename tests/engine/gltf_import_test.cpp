@@ -68,6 +68,20 @@ TEST_F(GltfImport, NodesCamerasAndLights) {
   EXPECT_EQ(model_scene(model, "t", 64, 48).lights.size(), 3u);
 }
 
+// glTF's v runs downwards, t upwards.
+TEST_F(GltfImport, TextureCoordinatesAreTurned) {
+  const Model model = imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "materials": [{"name": "m"}])", ModelUse::mesh, R"("POSITION": 0, "TEXCOORD_0": 1)");
+  ASSERT_EQ(model.mesh.vertex_count(), 3u);
+  ASSERT_EQ(model.mesh.texcoords.size(), 6u);
+  const float expected[3][2] = {{1, 0}, {0.5f, 0.5f}, {0, 1}};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const std::size_t given = model.mesh.positions[3 * v] == 1 ? 1 : model.mesh.positions[3 * v + 1] == 1 ? 2 : 0;
+    EXPECT_FLOAT_EQ(model.mesh.texcoords[2 * v], expected[given][0]);
+    EXPECT_FLOAT_EQ(model.mesh.texcoords[2 * v + 1], expected[given][1]);
+  }
+  EXPECT_TRUE(imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "materials": [{"name": "m"}])").mesh.texcoords.empty());
+}
+
 // What two nodes share stands at both, whatever they are called.
 TEST_F(GltfImport, SharedAndNamesakeLightsAndCameras) {
   const Model model = imported(R"("scenes": [{"nodes": [0, 1, 2, 3]}], "materials": [{"name": "m"}], "extensionsUsed": ["KHR_lights_punctual"],
@@ -106,7 +120,7 @@ TEST_F(GltfImport, PicturesThatAreLeftOutAreTold) {
     "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "alphaMode": "BLEND"}])");
   EXPECT_FLOAT_EQ(model.parts.at(0).material.emission.r, 0) << "the picture says where it shines";
   ASSERT_EQ(model.warnings.size(), 2u);
-  EXPECT_NE(model.warnings[0].find("textures are not supported"), std::string::npos);
+  EXPECT_NE(model.warnings[0].find("textures of models are not supported"), std::string::npos);
   EXPECT_NE(model.warnings[1].find("transparency is not supported"), std::string::npos);
 }
 

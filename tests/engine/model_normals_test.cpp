@@ -25,10 +25,12 @@ std::array<float, 3> normal(const MeshData& mesh, std::size_t index) {
 TEST(CreasedNormals, ACubeIsFlatAndItsVerticesAreSplitInThree) {
   MeshData mesh = cube();
   mesh.colors.assign(4 * 8, 0.5f);
+  mesh.texcoords.assign(2 * 8, 0.5f);
   add_creased_normals(mesh);
   EXPECT_EQ(mesh.vertex_count(), 24u);
   EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
   EXPECT_EQ(mesh.colors.size(), 4 * mesh.vertex_count());
+  EXPECT_EQ(mesh.texcoords.size(), 2 * mesh.vertex_count());
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const std::array<float, 3> n = normal(mesh, i);
     EXPECT_EQ(std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]), 1) << "along an axis";

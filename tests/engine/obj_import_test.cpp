@@ -54,6 +54,25 @@ TEST_F(ObjImport, NormalsSplitVerticesOnlyWhereTheyDiffer) {
   EXPECT_EQ(model.mesh.normals.size(), 15u);
 }
 
+TEST_F(ObjImport, TextureCoordinatesArriveAndSplitVerticesOnlyWhereTheyDiffer) {
+  write("t.mtl", "newmtl a\nnewmtl b\n");
+  const Model model = import_model(write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt -3 2 0\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/2 4/-1\n"));
+  EXPECT_EQ(model.mesh.vertex_count(), 5u) << "the third position has two";
+  EXPECT_EQ(model.mesh.texcoords, (std::vector<float>{0, 0, 1, 0.25f, -3, 2, 1, 0.25f, -3, 2}));
+  EXPECT_TRUE(model.mesh.normals.empty());
+  const std::vector<MeshData> parts = split_into_parts(model);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].texcoords, (std::vector<float>{0, 0, 1, 0.25f, -3, 2}));
+}
+
+TEST_F(ObjImport, TextureCoordinatesAtSomeCornersOnlyAreDroppedWithAWarning) {
+  const Model model = import_model(write("some_t.obj", std::string(kTriangle) + "vt 0 0\nf 1/1 2/1 3/1\nf 1 2 3\n"));
+  EXPECT_TRUE(model.mesh.texcoords.empty());
+  EXPECT_EQ(model.mesh.vertex_count(), 3u);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("only some corners have texture coordinates"), std::string::npos);
+}
+
 TEST_F(ObjImport, NormalsAtSomeCornersOnlyAreDroppedWithAWarning) {
   const Model model = import_model(write("some.obj", std::string(kTriangle) + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 3\n"));
   EXPECT_TRUE(model.mesh.normals.empty());

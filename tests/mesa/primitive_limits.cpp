@@ -1,15 +1,18 @@
 #include "primitive_limits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <vector>
 
 #include "primitives.h"
+#include "program_texturing.h"
 #include "shadow.h"
 #include "tests/reference/compare.h"
 #include "tests/reference/primitives.h"
+#include "textures.h"
 
 namespace tessera::mesa {
 namespace {
@@ -102,9 +105,8 @@ double lean(Vec4 a, Vec4 b, double width_px, const reference::Rect& viewport) {
   return std::min(dx, dy) == 0 ? 0 : width_px / 2 * std::min(dx, dy) / (dx * dx + dy * dy);
 }
 
-// In levels, from one end of a line to the other: as much as it may be where textures and lights have a say.
+// In levels, from one end of a line to the other: as much as it may be where lights have a say. Textures have a limit of their own.
 double color_change(std::uint32_t a, std::uint32_t b, const Draw& draw, const Mesh& mesh) {
-  if (draw.texture) return 255;
   if (draw.shading == reference::Shading::kFlat) return 0;
   if (draw.lighting) return 255;
   if (!has_vertex_colors(draw, mesh)) return 0;
@@ -146,6 +148,70 @@ Reason polygon_limit(const Corners& polygon, const Draw& draw, bool two_sided_li
   return std::nullopt;
 }
 
+using TexCoord = std::array<double, 2>;
+
+/// A line's end in clip space, and what texture it has there.
+struct TexturedEnd {
+  Vec4 at;
+  TexCoord texcoord;
+};
+
+TexturedEnd mix(const TexturedEnd& a, const TexturedEnd& b, double t) {
+  return {(1 - t) * a.at + t * b.at, {(1 - t) * a.texcoord[0] + t * b.texcoord[0], (1 - t) * a.texcoord[1] + t * b.texcoord[1]}};
+}
+
+/// A textured line, of a mesh or of a polygon's boundary.
+class TexturedLine {
+ public:
+  TexturedLine(TexturedEnd a, TexturedEnd b, const reference::Rect& viewport) {
+    constexpr double kInFront = 1.0 / 64;  // what is behind the eye is not there
+    if (std::max(a.at.w, b.at.w) <= 0) return;
+    if (a.at.w < kInFront * b.at.w) a = mix(b, a, (1 - kInFront) * b.at.w / (b.at.w - a.at.w));
+    if (b.at.w < kInFront * a.at.w) b = mix(a, b, (1 - kInFront) * a.at.w / (a.at.w - b.at.w));
+    const double dx = 0.5 * viewport.width * (b.at.x / b.at.w - a.at.x / a.at.w), dy = 0.5 * viewport.height * (b.at.y / b.at.w - a.at.y / a.at.w);
+    const double major = std::max(std::abs(dx), std::abs(dy));
+    if (major == 0) return;
+    slant_ = std::min(std::abs(dx), std::abs(dy)) / major;
+    for (std::size_t i = 0; i < 2; ++i) slope_[i] = std::abs(b.texcoord[i] - a.texcoord[i]) / major * std::max(a.at.w / b.at.w, b.at.w / a.at.w);
+  }
+
+  // Mesa takes what it interpolates from where the line passes the middle of the pixel's column, or row of a steep one; equation 3.5 from the
+  // foot of the pixel's centre. A step along the line is longer than the one from column to column, too.
+  bool is_beyond_mesa(const reference::Texture& texture, double width_px) const {
+    constexpr double kLevelApart = 1.0 / 128, kLinearApart = 1.0 / 128, kNearestApart = 1.0 / 16;  // texels: a level or two; a pixel of 16
+    if (asks_for_level(texture) && 0.5 * std::log2(1 + slant_ * slant_) > kLevelApart) return true;
+    const double texels_px = std::max(slope_[0] * texture.image.width, is_row(texture) ? 0.0 : slope_[1] * texture.image.height);
+    const bool is_nearest = texture.mag == reference::MagFilter::kNearest && texture.min == reference::MinFilter::kNearest;
+    return 0.5 * std::max(1.0, width_px) * slant_ * texels_px > (is_nearest ? kNearestApart : kLinearApart);
+  }
+
+ private:
+  double slant_ = 0;       // of the minor axis to the major one
+  TexCoord slope_{0, 0};   // the largest along it, for each pixel
+};
+
+// Cut quads are split along the diagonal from the second to the fourth vertex; that shows unless the halves continue each other.
+bool cut_shows(const Vertices& quad, const Mesh& mesh) {
+  const auto rest = [&](std::size_t i) { return mesh.texcoords[quad[0]][i] - mesh.texcoords[quad[1]][i] + mesh.texcoords[quad[2]][i] - mesh.texcoords[quad[3]][i]; };
+  return !is_even(quad, mesh.positions) || std::abs(rest(0)) > 1e-6 || std::abs(rest(1)) > 1e-6;
+}
+
+Reason textured_limit(const Vertices& vertices, const Corners& corners, const Draw& draw, const Mesh& mesh, const reference::Scene& scene,
+                      const reference::Camera& camera) {
+  if (!draw.texture || mesh.texcoords.empty() || corners.size() < 2) return std::nullopt;
+  const reference::Rect viewport = viewport_of(draw, scene.framebuffer);
+  const bool is_line = corners.size() == 2;
+  if (is_line || has_mode(draw, PolygonMode::kLine))
+    for (std::size_t i = 0, j = 1; i < (is_line ? 1 : corners.size()); ++i, j = (i + 1) % corners.size())
+      if (TexturedLine({corners[i], mesh.texcoords[vertices[i]]}, {corners[j], mesh.texcoords[vertices[j]]}, viewport)
+              .is_beyond_mesa(scene.textures.at(*draw.texture), draw.line_width))
+        return "a textured line that leans: Mesa interpolates along its major axis alone";
+  if (mesh.primitive == PrimitiveType::kQuads && has_mode(draw, PolygonMode::kFill) && (is_cut_in_depth(corners, camera) || is_cut_by_sides(corners)) &&
+      cut_shows(vertices, mesh))
+    return "a textured quad that is cut: Mesa splits it along its other diagonal";
+  return std::nullopt;
+}
+
 }  // namespace
 
 Reason primitive_limit(const Draw& draw, const reference::Scene& scene, const reference::Camera& camera) {
@@ -161,6 +227,7 @@ Reason primitive_limit(const Draw& draw, const reference::Scene& scene, const re
   for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {
     const Vertices vertices = reference::primitive(mesh, i, ProvokingVertex::kLast).vertices;
     const Corners corners = in_clip_space(vertices, draw, mesh, camera);
+    if (const Reason textured = textured_limit(vertices, corners, draw, mesh, scene, camera)) return textured;
     Reason reason;
     if (corners.size() == 2) reason = line_limit(corners, draw, camera);
     if (corners.size() > 2) reason = polygon_limit(corners, draw, scene.light_model.two_sided, camera);

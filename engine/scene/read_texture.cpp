@@ -1,0 +1,66 @@
+// Textures, from image files.
+#include <filesystem>
+
+#include "engine/imageio/picture.h"
+#include "engine/scene/read_scene.h"
+
+namespace tessera {
+namespace {
+
+using json::Object;
+using json::Value;
+
+TextureWrap read_wrap(const Value& value) {
+  return value.choice<TextureWrap>({{"repeat", TextureWrap::repeat}, {"clamp_to_edge", TextureWrap::clamp_to_edge}, {"mirrored_repeat", TextureWrap::mirrored_repeat}});
+}
+
+TextureSampler read_sampler(const Object& object) {
+  TextureSampler sampler;
+  if (const auto mag = object.find("mag")) sampler.mag = mag->choice<TextureFilter>({{"nearest", TextureFilter::nearest}, {"linear", TextureFilter::linear}});
+  if (const auto min = object.find("min"))
+    sampler.min = min->choice<TextureFilter>({{"nearest", TextureFilter::nearest},
+                                              {"linear", TextureFilter::linear},
+                                              {"nearest_mipmap_nearest", TextureFilter::nearest_mipmap_nearest},
+                                              {"linear_mipmap_nearest", TextureFilter::linear_mipmap_nearest},
+                                              {"nearest_mipmap_linear", TextureFilter::nearest_mipmap_linear},
+                                              {"linear_mipmap_linear", TextureFilter::linear_mipmap_linear}});
+  if (const auto wrap = object.find("wrap_s")) sampler.wrap_s = read_wrap(*wrap);
+  if (const auto wrap = object.find("wrap_t")) sampler.wrap_t = read_wrap(*wrap);
+  return sampler;
+}
+
+// Pictures hold four channels whatever their files have.
+Texture texture_of(const Picture& picture, const TextureSampler& sampler) {
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(picture.rgba.size() / 4 * channels);
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    for (std::size_t c = 0; c < channels; ++c) pixels.push_back(picture.rgba[i + (channels == 2 && c == 1 ? 3 : c)]);
+  return Texture({.pixels = pixels.data(), .width = picture.width, .height = picture.height, .channels = picture.channels}, sampler);
+}
+
+std::shared_ptr<const Texture> read_texture(const Value& value, const std::string& base_folder, ModelCache& cache) {
+  const Object object(value, {"file", "mag", "min", "wrap_s", "wrap_t"});
+  const Value file = object.require("file");
+  const TextureSampler sampler = read_sampler(object);
+  const std::string path = (std::filesystem::path(base_folder) / file.text()).string();  // an absolute path stays as it is
+  std::string key = path;
+  for (const int part : {static_cast<int>(sampler.mag), static_cast<int>(sampler.min), static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)}) key += '\n' + std::to_string(part);
+  auto texture = cache.textures.find(key);
+  if (texture == cache.textures.end())
+    texture = cache.textures.emplace(key, file.checked([&] { return std::make_shared<const Texture>(texture_of(read_picture(path), sampler)); })).first;
+  return texture->second;
+}
+
+}  // namespace
+
+std::vector<std::string> read_textures(const Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene) {
+  std::vector<std::string> names;
+  value.for_each_member([&](const std::string& name, const Value& member) {
+    scene.textures.push_back(read_texture(member, base_folder, cache));
+    names.push_back(name);
+  });
+  return names;
+}
+
+}  // namespace tessera

@@ -1,0 +1,74 @@
+// Textures as pixels see them: levels of 32-bit texels, how they are filtered, and what a texel does to a colour.
+//
+// A level is stored with one texel more in each row, the one that follows the last under the texture's wrap, and one row more
+// after the last: the four texels of a bilinear filter are then two pairs of neighbours, wherever they lie.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace tessera {
+
+enum class Wrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
+enum class TextureFunction : std::uint8_t { modulate, replace, decal, blend, add };
+
+inline constexpr int kMaxTextureSide = 16384;
+inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
+
+struct TextureLevel {
+  std::int32_t first = 0;                     ///< word of texel (0, 0)
+  std::int32_t width = 1, height = 1;
+  std::int32_t stride() const { return width + 1; }
+  std::int64_t words() const { return std::int64_t{stride()} * (height > 1 ? height + 1 : 1); }  ///< a single row has none after it
+};
+
+struct TextureLevels {
+  const std::uint32_t* words = nullptr;       ///< A:B:G:R, of all levels; rows from the bottom
+  TextureLevel level[kMaxTextureLevels];
+  int last = 0;                               ///< above 0: mipmaps
+  bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
+  bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
+  Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+
+  /// How many texels a pixel spans decides something.
+  bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }
+  /// Squared texels a pixel up to which a texture is magnified: GL 2.1, 3.8.9, c is 0, or 0.5 where magnification is the sharper filter.
+  float most_magnified = 1;
+};
+
+/// What a draw does with its texture.
+struct DrawTexture {
+  const TextureLevels* levels = nullptr;      ///< null: `texel` everywhere
+  std::array<float, 4> texel{1, 1, 1, 1};
+  TextureFunction function = TextureFunction::modulate;
+  bool has_alpha = false;                     ///< else the texels' alpha is 1
+  std::array<float, 3> constant{};            ///< of `blend`, 0..1
+  int attribute = 0;                          ///< of s; t follows it
+
+  /// A fragment's alpha may change.
+  bool changes_alpha() const { return has_alpha && function != TextureFunction::decal; }
+};
+
+/// A texel's components stand in 16 bits: the level times 256.
+inline constexpr float kTexelScale = 1.0f / 65280.0f;
+static_assert(65280.0f * kTexelScale == 1.0f);
+
+/// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of textured_lanes().
+inline std::array<float, 4> textured_color(const DrawTexture& texture, const std::array<float, 4>& f, const std::array<float, 4>& t) {
+  std::array<float, 4> c = f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    switch (texture.function) {
+      case TextureFunction::modulate: c[k] = f[k] * t[k]; break;
+      case TextureFunction::replace: c[k] = t[k]; break;
+      case TextureFunction::decal: c[k] = std::fma(t[3], t[k] - f[k], f[k]); break;
+      case TextureFunction::blend: c[k] = std::fma(t[k], texture.constant[k] - f[k], f[k]); break;
+      case TextureFunction::add: c[k] = std::min(f[k] + t[k], 1.0f); break;
+    }
+  }
+  if (texture.changes_alpha()) c[3] = texture.function == TextureFunction::replace ? t[3] : f[3] * t[3];
+  return c;
+}
+
+}  // namespace tessera

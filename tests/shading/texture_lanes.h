@@ -1,0 +1,23 @@
+// The parts of texturing on each instruction set.
+#pragma once
+
+#include "framebuffer/instruction_set.h"
+#include "raster/fixed_point.h"
+#include "shading/lighting.h"
+#include "shading/texture.h"
+
+namespace tessera::test {
+
+/// Texels of the first `count` points of the batch, a multiple of 16.
+using SampleTexture = void(const TextureLevels& texture, ShadingBatch& batch, int count);
+SampleTexture* sample_texture(Isa isa);
+
+/// colors[c] becomes what they are under texels[c]; 16 of each of r g b a.
+using TextureColors = void(const DrawTexture& texture, float (&colors)[4][16], const float (&texels)[4][16]);
+TextureColors* texture_colors(Isa isa);
+
+/// Fills s, t and the squared texels gone by, tile_size^2 each, in rows. False where the triangle has no pixel in the tile.
+using TileCoordinates = bool(const WindowVertex (&vertices)[3], const float* const (&attributes)[3], const DrawTexture& texture, int tile_size, float* s, float* t, float* squared);
+TileCoordinates* tile_coordinates(Isa isa);
+
+}  // namespace tessera::test
