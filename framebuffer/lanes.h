@@ -21,7 +21,7 @@
 #endif
 #define HWY_BROKEN_EMU128 1  // one baseline for every compiler: a single lane
 // Vectors are for x86: the kernels take widths and layouts of its vectors for granted (raster/lane_packing-inl.h).
-#if defined(TESSERA_SCALAR_ONLY) || !(defined(__x86_64__) || defined(__i386__) || defined(_M_X64) || defined(_M_IX86))
+#if defined(TESSERA_SCALAR_ONLY) || !defined(__x86_64__)
 #define HWY_COMPILE_ONLY_SCALAR
 #endif
 #endif
@@ -31,7 +31,6 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 // highway.h must follow foreach_target.h
 #include "hwy/highway.h"
-#include "hwy/cache_control.h"
 
 #if HWY_TARGETS & HWY_AVX3
 #define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::Isa::avx512 ? &N_AVX3::fn :
