@@ -279,9 +279,9 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
 
 void RendererState::report(const FrameStats& stats) const {
   if (stats.dropped_non_finite > 0)
-    log(LogLevel::warning, [&] { return std::to_string(stats.dropped_non_finite) + " triangles with a NaN or infinite vertex were dropped"; });
+    log(LogLevel::warning, [&] { return std::to_string(stats.dropped_non_finite) + " triangles, lines or points with a NaN or infinite vertex were dropped"; });
   log(LogLevel::debug, [&] {
-    return "frame: " + std::to_string(stats.triangles_in) + " triangles, " + std::to_string(stats.tiles_touched) + " of " + std::to_string(stats.tiles) + " tiles of " +
+    return "frame: " + std::to_string(stats.triangles_in) + " triangles, lines and points, " + std::to_string(stats.tiles_touched) + " of " + std::to_string(stats.tiles) + " tiles of " +
            std::to_string(stats.tile_size) + " pixels, " + std::to_string(stats.shaded_pixels) + " shaded pixels";
   });
 }

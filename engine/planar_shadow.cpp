@@ -19,7 +19,7 @@ std::string list_of(const std::array<double, 4>& v, int count) {
 // and its w to (p.l) x.w - (p.x) l.w. Between the plane, where p.x is 0, and the light, where p.x is p.l, that has the sign of p.l:
 // divided by p.l it is above 0 there, as clipping wants it, whichever way the plane's normal points, and 1 in the plane itself.
 Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, const Light& light) {
-  constexpr double kRounding = 1e-12;  // of the terms of p.l
+  constexpr double kRounding = 0x1p-22;  // of the terms of p.l, since lights stand in floats
   require_finite({owner, "'s plane"}, {plane[0], plane[1], plane[2], plane[3]});
   require_finite({owner, "'s light's position"}, {light.position[0], light.position[1], light.position[2], light.position[3]});
   const double largest = std::max({std::abs(plane[0]), std::abs(plane[1]), std::abs(plane[2])});
@@ -47,7 +47,10 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
   }
   Matrix m;
   for (std::size_t row = 0; row < 4; ++row)
-    for (std::size_t column = 0; column < 4; ++column) m.m[4 * row + column] -= l[row] * p[column] / product;
+    for (std::size_t column = 0; column < 4; ++column) {
+      m.m[4 * row + column] -= l[row] * p[column] / product;
+      if (!std::isfinite(m.m[4 * row + column])) throw Error(std::string(owner) + ": the shadow on the plane " + list_of(plane, 4) + " is too far away for numbers");
+    }
   return m;
 }
 
@@ -63,6 +66,7 @@ void turn_into_shadow(RecordedDraw& draw) {
                 (lights.size() == 1 ? " light" : " lights") + ", counted from 0");
   require_finite({"Frame::draw: shadow_on.color"}, shadow.color);
   draw.state.transform = shadow_matrix("Frame::draw: shadow_on", shadow.plane, lights[shadow.light]) * draw.state.transform;
+  require_finite({"Frame::draw: shadow_on's matrix times transform"}, draw.state.transform);
   draw.state.lighting = false;
   draw.state.material.diffuse = shadow.color;
   draw.mesh.colors = draw.mesh.color_indices = {};

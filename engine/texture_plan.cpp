@@ -34,11 +34,12 @@ std::string described(const TextureState& texture) {
   return std::to_string(level.width) + "x" + std::to_string(level.height) + ", " + std::to_string(texture.channels) + (texture.channels == 1 ? " channel" : " channels");
 }
 
-// One texel everywhere leaves every color as it is.
-bool changes_nothing(const DrawTexture& texture, bool alpha_matters) {
+// One texel everywhere leaves all that is needed of every colour as it is.
+bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_matters) {
   const auto [r, g, b, a] = texture.texel;
   const bool white = r == 1 && g == 1 && b == 1, black = r == 0 && g == 0 && b == 0;
   if (alpha_matters && texture.changes_alpha() && (texture.function == TextureFunction::replace || a != 1)) return false;
+  if (!color_matters) return true;
   switch (texture.function) {
     case TextureFunction::modulate: return white;
     case TextureFunction::replace: return false;
@@ -68,7 +69,7 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, st
   if (state.one_color || !draw.mesh.texcoords) {
     texture.texel = state.one_color ? *state.one_color : state.at_origin;
     if (!state.one_color) note(": the mesh has no texture coordinates");
-    if (needs.colors && changes_nothing(texture, needs.alpha))
+    if (changes_nothing(texture, needs.colors, needs.alpha))
       note(": one colour that changes nothing, left out");
     else
       plan.use = TexturePlan::Use::one_color;

@@ -39,7 +39,7 @@ TEST_P(Picture, IsTheSameByEngineReferenceAndMesa) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Picture, testing::ValuesIn(scene_files()), test_name);
 
 TEST(PictureScenes, AreAllThereAndMesaFollowsMost) {
-  constexpr std::size_t kAtLeast = 200, kByMesaAtLeast = 155;
+  constexpr std::size_t kAtLeast = 340, kByMesaAtLeast = 250;
   EXPECT_GE(scene_files().size(), kAtLeast) << "in " TESSERA_TEST_SCENES;
   std::size_t by_mesa = 0;
   for (const std::string& file : scene_files()) by_mesa += mesa::unsupported(reference::load_scene(file)) ? 0 : 1;

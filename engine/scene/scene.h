@@ -74,8 +74,8 @@ struct Scene {
   std::vector<std::string> warnings;     ///< what was odd, but no error
 };
 
-/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models, textures and images are read
-/// once.
+/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models and images are read once,
+/// textures once for each sampler.
 class SceneFile {
  public:
   /// @param go_on  asked while models are read; false ends it with Cancelled

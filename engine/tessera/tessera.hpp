@@ -453,8 +453,10 @@ struct DrawState {
   Cull cull = Cull::none;
   FrontFace front_face = FrontFace::ccw;
   PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;
-  /// In pixels, above 0. With one sample a pixel it is rounded, and points are squares, lines rows of pixels along x or y; with several
-  /// samples points are discs, lines rectangles.
+  /// In pixels, above 0; above 65536 as 65536. With one sample a pixel it is rounded, and points are squares, lines rows of pixels along x
+  /// or y; with several samples points are discs, lines rectangles. A point is drawn if its centre is in the view volume. Nothing leaves the
+  /// viewport. Primitives that are points or lines take no polygon offset; edges and corners of polygons do. Textures: points show level 0,
+  /// lines the level of detail along them.
   float point_size = 1, line_width = 1;
   DepthState depth{};
   double depth_near = 0, depth_far = 1;     ///< depth range, each 0 .. 1
@@ -540,7 +542,7 @@ struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 
   std::span<std::uint32_t> objects{};       ///< which draw of the frame, counted from 0; bitmaps and images are draws, too
-  std::span<std::uint32_t> primitives{};    ///< which triangle, quad or polygon of that draw's mesh; 0 of bitmaps and images
+  std::span<std::uint32_t> primitives{};    ///< which point, line, triangle, quad or polygon of that draw's mesh; 0 of bitmaps and images
   /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated, in eye space, of
   /// length 1; 0 0 0 where nothing was drawn, of bitmaps and images, and where they cancel out.
   std::span<float> normals{};
@@ -548,6 +550,7 @@ struct Capture {
 
 struct FrameStats {
   std::uint64_t vertices = 0;
+  // "Triangles" are also those that quads and polygons consist of, lines, and points. Bitmaps and images count in bin_entries alone.
   std::uint64_t triangles_in = 0;
   std::uint64_t dropped_non_finite = 0;     ///< triangles with a NaN or infinite vertex
   std::uint64_t outside = 0;                ///< wholly outside the view volume, the scissor or between pixel centres
@@ -581,7 +584,8 @@ class TESSERA_API Frame {
   void clear(const Clear& clear);
   /// Throws Error without an accumulation buffer and for values out of range.
   void accumulate(const Accum& accum);
-  /// Throws Error for spans that do not fit together, indices out of bounds and values out of range.
+  /// Throws Error for spans that do not fit together, indices out of bounds, values out of range, a texture that was moved from, and a shadow
+  /// that there is none of.
   void draw(const Mesh& mesh, const DrawState& state = {});
   /// Throw Error without bits or pixels and for sizes and values out of range. They know no camera and no viewport; what reaches beyond the
   /// buffer is left out.

@@ -1,4 +1,4 @@
-// A frame in which every operation on fragments happens: triangles of all sizes, bitmaps and images in draws that each switch on another
+// A frame in which every operation on fragments happens: triangles of all sizes, every other primitive, bitmaps and images in draws that each switch on another
 // part of the operations, with clears of parts and accumulation in between. Each operation, factor and function has its turn.
 #pragma once
 
@@ -12,7 +12,9 @@ struct RandomOperations {
   FrameBufferFormat format;
   int draws;
   MeshData small, mixed;
+  std::vector<MeshData> elements;   // one of each primitive
   std::vector<std::uint8_t> texels;
+  std::vector<Texture> textures;
   std::vector<Light> lights;
   Camera camera;
 
@@ -21,6 +23,15 @@ struct RandomOperations {
     for (int i = 0; i < 40 * 40 * 4; ++i) texels.push_back(static_cast<std::uint8_t>(of_texels.next()));
     small = triangles(random, 60, 0.12f);
     mixed = triangles(random, 24, 0);
+    Random of_elements(9);
+    for (int primitive = 0; primitive <= static_cast<int>(Primitive::polygon); ++primitive) {
+      MeshData& mesh = elements.emplace_back(triangles(of_elements, 4, primitive % 2 == 0 ? 0.5f : 0));
+      mesh.primitive = static_cast<Primitive>(primitive);
+      for (int i = 0; i < 12; ++i) mesh.texcoords.push_back(of_elements.between(-2, 3)), mesh.texcoords.push_back(of_elements.between(-2, 3));
+    }
+    for (int i = 0; i < 6; ++i)
+      textures.emplace_back(TextureImage{.pixels = texels.data(), .width = 17 + i, .height = i == 1 ? 1 : 13, .channels = 1 + i % 4},
+                            TextureSampler{.mag = i % 2 == 0 ? TextureFilter::linear : TextureFilter::nearest, .min = static_cast<TextureFilter>(i), .wrap_s = static_cast<TextureWrap>(i % 3)});
     Light point;
     point.position = {1, 2, 0, 1};
     point.diffuse = {0.9f, 0.6f, 0.3f, 1};
@@ -30,7 +41,7 @@ struct RandomOperations {
 
   /// Records it; the frame borrows the meshes and the texels.
   void record(Frame& frame) const {
-    Random random(11), of_pixels(12);
+    Random random(11), of_pixels(12), of_elements(13);
     frame.clear(whole_clear());
     frame.set_camera(camera);
     frame.set_lights(lights);
@@ -40,6 +51,7 @@ struct RandomOperations {
       frame.set_light_model({.local_viewer = i % 3 == 0, .two_sided = i % 2 == 0});
       frame.draw((i % 3 == 0 ? mixed : small).view(), state(random, i));
       if (i % 3 == 1) draw_pixels(frame, of_pixels, i);
+      if (i % 2 == 1) draw_element(frame, of_elements, i / 2);
     }
   }
 
@@ -75,6 +87,20 @@ struct RandomOperations {
     else
       frame.draw_image({.pixels = texels.data(), .width = width, .height = height, .channels = channels, .x = x, .y = y, .zoom_x = zoom_x, .zoom_y = zoom_y, .depth = depth},
                        fragment_state_of(s));
+  }
+
+  // Polygons filled or as outlines, every second mesh textured, some as their shadows.
+  void draw_element(Frame& frame, Random& random, int i) const {
+    DrawState s = state(random, i);
+    s.shading = static_cast<Shading>(i / 3 % 3);
+    s.front_mode = static_cast<PolygonMode>(below(random, 3)), s.back_mode = static_cast<PolygonMode>(below(random, 3));
+    s.point_size = random.between(0.5f, 12), s.line_width = random.between(0.5f, 7);
+    s.provoking_vertex = coin(random) ? ProvokingVertex::first : ProvokingVertex::last;
+    if (coin(random)) s.texture = &textures[static_cast<std::size_t>(below(random, static_cast<int>(textures.size())))];
+    s.texture_env = static_cast<TextureEnv>(i % 5);
+    s.texture_env_color = color(random);
+    if (i % 7 == 6) s.shadow_on = ShadowOn{.plane = {0, 1, 0.1, 2}, .light = 1, .color = color(random)};
+    frame.draw(elements[static_cast<std::size_t>(i) % elements.size()].view(), s);
   }
 
   static bool coin(Random& random) { return random.next() % 2 == 0; }

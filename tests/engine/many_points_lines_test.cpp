@@ -36,7 +36,7 @@ std::int32_t about(Random& random, std::int32_t n) { return below(random, 2 * n 
 LinePoint somewhere(Random& random) { return {below(random, (kWidth + 64) * 256) - 32 * 256, below(random, (kHeight + 64) * 256) - 32 * 256}; }
 int count() { return long_tests() ? 1'000'000 : 20'000; }
 
-// Squares of 1 to 4 pixels would do; the rule for a size in one draw: odd, around the pixel that holds the point.
+// Squares of 3 pixels, around the pixel that holds the point. Of some the centre is before the near plane or behind the far one.
 Elements random_points(std::uint64_t seed) {
   Random random(seed);
   Elements points(Primitive::points);
@@ -44,10 +44,11 @@ Elements random_points(std::uint64_t seed) {
     LinePoint p = somewhere(random);
     if (i % 3 == 0) p = {p.x & ~127, p.y & ~127};  // centres, borders and corners of pixels
     const std::uint32_t word = random.next() & 0xffffff;
-    points.add(p, 0, word);
+    const float z = i % 8 == 0 ? random.between(-2, 2) : 0;
+    points.add(p, z, word);
     points.words.push_back(word);
     // Of a border, the pixel to the right or above has the point; the view volume has its own border.
-    const bool is_in_view = p.x >= 0 && p.x <= kWidth * 256 && p.y >= 0 && p.y <= kHeight * 256;
+    const bool is_in_view = z >= -1 && z <= 1 && p.x >= 0 && p.x <= kWidth * 256 && p.y >= 0 && p.y <= kHeight * 256;
     std::vector<std::pair<int, int>> pixels;
     for (int y = -1; y <= 1 && is_in_view; ++y)
       for (int x = -1; x <= 1; ++x) pixels.push_back({(p.x >> 8) + x, ((p.y - 1) >> 8) + y});

@@ -202,7 +202,10 @@ TEST(PlanarShadow, IsRefusedWhereThereIsNone) {
   EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .color = {0, 0, static_cast<float>(nan), 1}}), HasSubstr("shadow_on.color holds nan"));
   // Next to it by rounding alone, and next to it by more.
   EXPECT_THAT(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-14}}), HasSubstr("lies in the plane"));
-  EXPECT_EQ(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-9}}), "(no error)");
+  EXPECT_THAT(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -0.6}}), HasSubstr("lies in the plane"));
+  EXPECT_THAT(of({light_at(0.6f, 0.8f, 0, 0)}, {.plane = {0.8, -0.6, 0, 0}}), HasSubstr("parallel"));
+  EXPECT_EQ(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-5}}), "(no error)");
+  EXPECT_THAT(of({light_at(1, 0, 0, 0)}, {.plane = {1e-300, 0, 0, 1e10}}), HasSubstr("too far away"));
   EXPECT_THAT(of({light_at(0, 0, 0, 0)}, {.plane = {0, 1, 0, 0}}), HasSubstr("parallel"));
   EXPECT_THAT(error_of([&] { planar_shadow({0, 0, 0, 0}, Light{}); }).value_or(""), HasSubstr("planar_shadow: the plane is 0 0 0 0"));
   const Light nowhere = light_at(static_cast<float>(nan), 0, 0, 1);

@@ -97,6 +97,7 @@ TEST(PolygonMode, BelongsToTheFaceThatIsSeen) {
   }
 }
 
+// What Mesa's software driver is known to get wrong.
 TEST(PolygonMode, CullsFacesWhateverTheyAreDrawnAs) {
   Random random(63);
   for (int turn = 0; turn < 30; ++turn) {
@@ -113,7 +114,8 @@ TEST(PolygonMode, CullsFacesWhateverTheyAreDrawnAs) {
   }
 }
 
-// Outlines on their own polygon: moved nearer they all show, moved away none does that lies inside of it.
+// Outlines on their own polygon: moved nearer they all show, moved away none does that lies inside of it. Mesa's software driver is known to
+// get it wrong.
 TEST(PolygonMode, OffsetIsThatOfThePolygon) {
   Random random(64);
   for (const DepthFormat depth : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
