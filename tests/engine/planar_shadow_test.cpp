@@ -104,6 +104,8 @@ MeshData random_caster(Random& random) {
 }
 
 TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
+  const std::uint8_t texel[4] = {200, 90, 30, 60};
+  const Texture texture({.pixels = texel, .width = 1, .height = 1}, {.min = TextureFilter::linear});
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 24; ++turn) {
       Random random(900 + static_cast<std::uint64_t>(turn));
@@ -126,6 +128,7 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
       shadow.lighting = turn % 5 != 0;
       shadow.color_material = ColorMaterial::ambient_and_diffuse;
       shadow.material.color_indexes = {{1, 5, 9}};
+      shadow.texture = &texture;
       state.lighting = false;
       state.material.diffuse = color;
       FrameBuffer by_shadow(format), by_hand(format);
