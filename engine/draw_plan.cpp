@@ -259,7 +259,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
-    plan_texturing(plan, true);
+    plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // elsewhere colours may be extrapolated
     plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled && has_faces && !plan.textures_pixels;
     // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a colour that is not just stored.
     const bool shades_seen = layout.index || layout.luminance || plan.textures_pixels || (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));

@@ -90,7 +90,7 @@ void continue_level(std::uint32_t* words, const TextureLevel& level, const Textu
 
 std::array<float, 4> color_of(std::uint32_t word) {
   std::array<float, 4> color;
-  for (std::size_t c = 0; c < 4; ++c) color[c] = static_cast<float>((word >> (8 * c) & 0xff) << 8) * kTexelScale;
+  for (std::size_t c = 0; c < 4; ++c) color[c] = static_cast<float>((word >> (8 * c) & 0xff) << 8) / kTexelOne;
   return color;
 }
 
@@ -113,7 +113,7 @@ std::array<float, 4> color_at_origin(const TextureState& texture) {
   for (std::size_t c = 0; c < 4; ++c) {
     const auto component = [&](std::ptrdiff_t at) { return texture.words[static_cast<std::size_t>(at)] >> (8 * c) & 0xff; };
     const std::ptrdiff_t row = below * level.stride();
-    color[c] = static_cast<float>((component(0) + component(left) + component(row) + component(row + left)) << 6) * kTexelScale;
+    color[c] = static_cast<float>((component(0) + component(left) + component(row) + component(row + left)) << 6) / kTexelOne;
   }
   return color;
 }

@@ -13,7 +13,8 @@ struct TexturePlan {
   enum class Use : std::uint8_t { none, one_color, texels } use = Use::none;
   DrawTexture texture;       ///< but for the attribute
 
-  /// One colour changes colours in a way that may come before they are interpolated: all but a sum that is cut at 1.
+  /// One colour changes colours in a way that may come before they are interpolated, where none is extrapolated and cut: all but a sum that
+  /// is cut at 1.
   bool is_affine() const { return use == Use::one_color && texture.function != TextureFunction::add; }
 };
 

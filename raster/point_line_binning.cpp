@@ -112,7 +112,9 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
     bool is_left = (c0 & c1) == 0;
     if (is_left && (c0 | c1) != 0) {
       ++counts.clipped;
-      is_left = clip_to_window(bins, draw, line, c0 | c1) && bin_line_piece(bins, grid, draw);
+      const bool has_piece = clip_to_window(bins, draw, line, c0 | c1);
+      is_left = has_piece && bin_line_piece(bins, grid, draw);
+      if (has_piece && !is_left) bins.drop_last_piece();
     } else if (is_left) {
       is_left = bin_band(bins, grid, draw, LineBand(draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1])), line);
     }

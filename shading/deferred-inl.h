@@ -101,6 +101,15 @@ HWY_INLINE void fill_colors(const TileDraw& draw, bool back, ShadingBatch& batch
     for (int point = 0; point < kBatchPoints; point += kLanes) hn::Store(splat(draw.color[back ? 1 : 0][static_cast<std::size_t>(c)]), kFloat, batch.field[kColorR + c] + point);
 }
 
+/// The colours of the first `count` points, and of the rest of their vector. What was extrapolated is cut.
+HWY_INLINE void clamp_colors(ShadingBatch& batch, int count) {
+  for (int point = 0; point < count; point += kLanes)
+    for (int c = 0; c < 3; ++c) {
+      float* const color = batch.field[kColorR + c] + point;
+      hn::Store(clamped_unit(hn::Load(kFloat, color)), kFloat, color);
+    }
+}
+
 /// The colours of the first `count` points, whole vectors of lanes, under the texture.
 inline HWY_NOINLINE void texture_points(const DrawTexture& texture, ShadingBatch& batch, int count) {
   if (texture.levels != nullptr) sample_texture_lanes(*texture.levels, batch, count);
@@ -119,6 +128,8 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
   if (draw.captures_normals) store_normals(run, pixels);
+  // Pixels of a line may lie beyond its ends.
+  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated && !draw.index[pixels.back ? 1 : 0]) clamp_colors(batch, pixels.blocks * kBlockPixels);
   if (pixels.texture != nullptr) {
     if (draw.source == ColorSource::constant) fill_colors(draw, pixels.back, batch);
     texture_points(*pixels.texture, batch, pixels.blocks * kBlockPixels);

@@ -46,14 +46,6 @@ struct SampledBatch : BatchSurface {
   SampledPixels piece[kBatchPoints];  // each has a point at least
 };
 
-/// Centres may lie outside of the triangles that their samples see: colours are extrapolated there, and cut.
-HWY_INLINE void clamp_colors(ShadingBatch& batch, int first) {
-  for (int c = 0; c < 3; ++c) {
-    float* const color = batch.field[kColorR + c] + first;
-    hn::Store(clamped_unit(hn::Load(kFloat, color)), kFloat, color);
-  }
-}
-
 /// Words of the batch's points, in their order.
 HWY_INLINE void shade_points(TileRun& run, const SampledBatch& points, std::int32_t* words) {
   const TileDraw& draw = run.frame.draws[points.draw];
@@ -62,8 +54,8 @@ HWY_INLINE void shade_points(TileRun& run, const SampledBatch& points, std::int3
   const int whole = (points.count + kLanes - 1) / kLanes * kLanes;
   if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, whole);
   if (draw.source == ColorSource::constant) fill_colors(draw, points.back, batch);
-  if (draw.source == ColorSource::interpolated)
-    for (int point = 0; point < points.count; point += kLanes) clamp_colors(batch, point);
+  // Centres may lie outside of the triangles that their samples see.
+  if (draw.source == ColorSource::interpolated) clamp_colors(batch, points.count);
   if (points.texture != nullptr) texture_points(*points.texture, batch, whole);
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);

@@ -101,6 +101,19 @@ struct LineValues {
   }
 };
 
+/// The ends' 1/w as parts of the larger one; equal where that leaves the numbers' range (as of triangles: raster/triangle_setup-inl.h).
+struct RelativeRw {
+  float of[2] = {1, 1};
+
+  HWY_INLINE RelativeRw(const TriangleGroup& g, int i, int second) {
+    const float a = g.rw[0][i], b = g.rw[second][i], largest = a > b ? a : b;
+    if (a == b || !(largest > 0x1p-120f && largest < 0x1p120f)) return;
+    of[0] = a / largest;
+    of[1] = b / largest;
+  }
+  HWY_INLINE bool equal() const { return of[0] == of[1]; }
+};
+
 /// Colours of an RGB buffer, interpolated along a line.
 struct LineColors {
   float first[3], change[3], most[3], rw[2];
@@ -116,7 +129,8 @@ struct LineColors {
       most[c] = static_cast<float>((1 << bits[c]) - 1);
       shift[c] = shifts[c];
     }
-    for (int k = 0; k < 2; ++k) rw[k] = run.memory.group.rw[k][i];
+    const RelativeRw relative(run.memory.group, i, 1);
+    for (int k = 0; k < 2; ++k) rw[k] = relative.of[k];
   }
   /// Equation 3.6
   HWY_INLINE void words(int count, const double* parameters, std::uint32_t* words) const {

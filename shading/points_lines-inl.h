@@ -49,10 +49,11 @@ HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::
   wide.b[0] = -wide.b[1];
   wide.e[0] = squared_length - wide.e[1];
   const float scale = squared_length > 0 ? static_cast<float>(1 / squared_length) : 0.0f;
-  t.affine = g.rw[second][i] == g.rw[0][i];
+  const RelativeRw rw(g, i, second);
+  t.affine = rw.equal();
   for (int k = 0; k < 3; ++k) {
     const int vertex = k == 1 ? second : 0;
-    t.scale[k] = k == 2 ? 0.0f : t.affine ? scale : g.rw[vertex][i] * scale;
+    t.scale[k] = k == 2 ? 0.0f : rw.of[k] * scale;
     t.shift[k] = 0;
     t.attributes[k] = run.memory.attributes[vertex][i];
   }
@@ -185,7 +186,7 @@ class PlainPixels {
   }
   /// Pixels of a line, none of them twice. Whether a depth passes could not be foretold: nothing branches on it.
   HWY_INLINE void store(const LinePixels& pixels, const std::int32_t* keys, const std::uint32_t* words) const {
-    alignas(64) std::int32_t index[kLinePixels], stored[kLinePixels], passed[kLinePixels];
+    alignas(64) std::int32_t index[kLinePixels], stored[kLinePixels] = {}, passed[kLinePixels];
     const int columns = run_.tile_size >> 2;
     for_pixels(pixels.count, [&](int l) HWY_ATTR {
       const std::int32_t x = pixels.x[l], y = pixels.y[l];

@@ -51,9 +51,8 @@ struct DrawTexture {
   bool changes_alpha() const { return has_alpha && function != TextureFunction::decal; }
 };
 
-/// A texel's components stand in 16 bits: the level times 256.
-inline constexpr float kTexelScale = 1.0f / 65280.0f;
-static_assert(65280.0f * kTexelScale == 1.0f);
+/// A texel's components stand in 16 bits: the level times 256. Divided by this a level is the float nearest to it: tests compare with such.
+inline constexpr float kTexelOne = 65280.0f;
 
 /// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of textured_lanes().
 inline std::array<float, 4> textured_color(const DrawTexture& texture, const std::array<float, 4>& f, const std::array<float, 4>& t) {

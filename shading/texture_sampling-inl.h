@@ -171,7 +171,7 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
     s = wrapped(hn::IfThenElseZero(finite, s), texture.wrap_s);
     t = wrapped(hn::IfThenElseZero(finite, t), texture.wrap_t);
     const Texels texels = filtered_texels(texture, batch, point, s, t);
-    const auto store = [&](int field, Int component) HWY_ATTR { hn::Store(hn::Mul(hn::ConvertTo(kFloat, component), splat(kTexelScale)), kFloat, batch.field[field] + point); };
+    const auto store = [&](int field, Int component) HWY_ATTR { hn::Store(hn::Div(hn::ConvertTo(kFloat, component), splat(kTexelOne)), kFloat, batch.field[field] + point); };
     const auto upper = [](Int two) HWY_ATTR { return hn::BitCast(kInt, hn::ShiftRight<16>(hn::BitCast(kUint, two))); };
     const Int lower = splat(0xffff);
     store(kTexelR, hn::And(texels.rb, lower));

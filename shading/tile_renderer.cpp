@@ -201,7 +201,7 @@ struct GroupBuilder {
   }
   HWY_INLINE void fetch(std::size_t vertex) const {
     __builtin_prefetch(draw->vertices + vertex);
-    if (draw->words[0] != nullptr)
+    if (draw->source == ColorSource::vertex_word)
       __builtin_prefetch(draw->words[0] + vertex);
     else
       __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));

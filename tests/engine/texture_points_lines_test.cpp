@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "tests/engine/api_support.h"
@@ -102,6 +103,74 @@ TEST(TexturedPoints, ShowOneTexelOfTheImageItself) {
             ASSERT_EQ(words[static_cast<std::size_t>(y * kSize + x)] & 0xffffff, expected) << x << " " << y << ", lit " << lit << ", shading " << static_cast<int>(shading);
           }
       }
+}
+
+// Of two words, in levels.
+int most_apart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  int most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (const int shift : {0, 8, 16}) most = std::max(most, std::abs(static_cast<int>(a[i] >> shift & 255) - static_cast<int>(b[i] >> shift & 255)));
+  return most;
+}
+
+MeshData colored_lines(Random& random, int count) {
+  MeshData mesh;
+  mesh.primitive = Primitive::lines;
+  for (int i = 0; i < 2 * count; ++i) {
+    for (int c = 0; c < 2; ++c) mesh.positions.push_back(i % 2 == 0 ? random.between(-1, 1) : mesh.positions[mesh.positions.size() - 3] + random.between(-0.2f, 0.2f));
+    mesh.positions.push_back(0);
+    for (int c = 0; c < 4; ++c) mesh.colors.push_back(c == 3 ? 1 : static_cast<float>(random.next() % 2));
+    mesh.texcoords.insert(mesh.texcoords.end(), {0.25f, 0.5f});
+  }
+  return mesh;
+}
+
+// Pixels of a line may lie beyond its ends, where colours are extrapolated: they are cut before a texture, and before they become greys. A
+// blend that changes nothing takes another way there.
+TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
+  Random random(7);
+  const std::uint8_t pixels[] = {255, 255, 255, 200, 128, 90, 60, 255};
+  const Texture texture({.pixels = pixels, .width = 2, .height = 1}, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest});
+  for (int round = 0; round < 24; ++round) {
+    const MeshData mesh = colored_lines(random, 30);
+    for (const int color_bits : {24, 2}) {
+      const auto words_of = [&](bool blends) {
+        FrameBuffer buffer({.width = kSize, .height = kSize, .color_bits = color_bits});
+        Frame frame(buffer);
+        DrawState state = unlit({1, 1, 1, 1});
+        state.depth.enabled = false;
+        state.line_width = round % 2 == 0 ? 1 : 6;
+        if (round % 6 != 5) state.texture = &texture;
+        state.texture_env = static_cast<TextureEnv>(round % 5);
+        if (blends) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::zero};
+        frame.draw(mesh.view(), state);
+        Renderer({.threads = 1}).finish(frame);
+        return color_words(buffer);
+      };
+      EXPECT_LE(most_apart(words_of(false), words_of(true)), color_bits == 24 ? 1 : 0) << "round " << round << ", " << color_bits << " bits";
+    }
+  }
+}
+
+// One colour is worked in where texels are, if it came before the cut it would be another.
+TEST(TexturedLines, ShowOneColorAsTheyShowTexels) {
+  Random random(8);
+  const std::uint8_t pixels[] = {128, 100, 80, 200, 1, 2, 3, 4};
+  const TextureSampler nearest{.mag = TextureFilter::nearest, .min = TextureFilter::nearest};
+  const Texture one({.pixels = pixels, .width = 1, .height = 1}, nearest), two({.pixels = pixels, .width = 2, .height = 1}, nearest);
+  for (int round = 0; round < 20; ++round)
+    for (const int samples : {1, 4}) {
+      MeshData mesh = colored_lines(random, 30);
+      if (round % 2 == 0) mesh.primitive = Primitive::triangles;
+      DrawState state = unlit({1, 1, 1, 1});
+      state.line_width = 6;
+      state.depth.enabled = false;
+      state.texture_env = static_cast<TextureEnv>(round % 5);
+      state.texture = &one;
+      const std::vector<std::uint32_t> expected = drawn(mesh, state, samples);
+      state.texture = &two;
+      EXPECT_LE(most_apart(drawn(mesh, state, samples), expected), 1) << "round " << round << ", " << samples << " samples";
+    }
 }
 
 TEST(TexturedOutlines, AreTexturedAsTheLinesAndPointsThatTheyAre) {

@@ -339,6 +339,20 @@ TEST(Texture, AlphaTestsLookAtTexels) {
     }
 }
 
+TEST(Texture, LevelsEqualThemselvesInAlphaTests) {
+  for (const bool one_color : {true, false})
+    for (int level = 0; level < 256; ++level) {
+      Pixels pixels(2, 1, {255, 255, 255, static_cast<std::uint8_t>(level)});
+      if (!one_color) pixels.bytes[0] = 7;
+      const Texture texture(pixels.image(), one_color ? TextureSampler{} : kNearest);
+      DrawState state = replacing(texture);
+      state.alpha_test = AlphaTest{.func = Compare::equal, .ref = static_cast<float>(level) / 255.0f};
+      state.color_mask = {false, true, false, false};
+      const std::vector<std::uint32_t> words = drawn(textured_window(), state, {.width = 4, .height = 4});
+      EXPECT_TRUE(std::all_of(words.begin(), words.end(), [](std::uint32_t word) { return (word >> 8 & 255) == 255; })) << level << ", one colour " << one_color;
+    }
+}
+
 TEST(Texture, OdditiesOfCoordinatesDropTheirTriangles) {
   const Pixels pixels(4, 4, 3);
   const Texture texture(pixels.image());

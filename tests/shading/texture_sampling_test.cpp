@@ -213,9 +213,9 @@ TEST(TextureSampling, OneColorStaysExact) {
       sample_texture(isa)(texture.levels, batch, kBatchPoints);
       for (int i = 0; i < kBatchPoints; ++i) {
         EXPECT_EQ(batch.field[kTexelA][i], 1.0f);
-        EXPECT_EQ(batch.field[kTexelR][i], static_cast<float>(0x01 << 8) * kTexelScale);
-        EXPECT_EQ(batch.field[kTexelG][i], static_cast<float>(0xb3 << 8) * kTexelScale);
-        EXPECT_EQ(batch.field[kTexelB][i], static_cast<float>(0x80 << 8) * kTexelScale);
+        EXPECT_EQ(batch.field[kTexelR][i], static_cast<float>(0x01 << 8) / kTexelOne);
+        EXPECT_EQ(batch.field[kTexelG][i], static_cast<float>(0xb3 << 8) / kTexelOne);
+        EXPECT_EQ(batch.field[kTexelB][i], static_cast<float>(0x80 << 8) / kTexelOne);
       }
     }
   }
