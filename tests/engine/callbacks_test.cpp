@@ -205,7 +205,7 @@ TEST(Log, SaysWhatRunsAndWarnsOfDroppedTriangles) {
   renderer.finish(frame);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1].first, LogLevel::warning);
-  EXPECT_THAT(lines[1].second, testing::HasSubstr("2 triangles with a NaN"));
+  EXPECT_THAT(lines[1].second, testing::HasSubstr("2 triangles, lines or points with a NaN"));
   EXPECT_EQ(lines[2].first, LogLevel::debug);
 }
 
