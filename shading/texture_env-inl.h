@@ -13,19 +13,19 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-inline HWY_NOINLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
-  Colors c = f;
-  for (int k = 0; k < 3; ++k) {
-    switch (texture.function) {
-      case TextureFunction::modulate: c.c[k] = hn::Mul(f.c[k], t.c[k]); break;
-      case TextureFunction::replace: c.c[k] = t.c[k]; break;
-      case TextureFunction::decal: c.c[k] = mul_add(t.c[3], hn::Sub(t.c[k], f.c[k]), f.c[k]); break;
-      case TextureFunction::blend: c.c[k] = mul_add(t.c[k], hn::Sub(splat(texture.constant[static_cast<std::size_t>(k)]), f.c[k]), f.c[k]); break;
-      case TextureFunction::add: c.c[k] = hn::Min(hn::Add(f.c[k], t.c[k]), splat(1.0f)); break;
-    }
+HWY_INLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
+  const auto each = [&](auto component) HWY_ATTR {
+    const Float alpha = !texture.changes_alpha() ? f.c[3] : texture.function == TextureFunction::replace ? t.c[3] : hn::Mul(f.c[3], t.c[3]);
+    return Colors{{component(0), component(1), component(2), alpha}};
+  };
+  switch (texture.function) {
+    case TextureFunction::modulate: return each([&](int k) HWY_ATTR { return hn::Mul(f.c[k], t.c[k]); });
+    case TextureFunction::replace: return each([&](int k) HWY_ATTR { return t.c[k]; });
+    case TextureFunction::decal: return each([&](int k) HWY_ATTR { return mul_add(t.c[3], hn::Sub(t.c[k], f.c[k]), f.c[k]); });
+    case TextureFunction::blend:
+      return each([&](int k) HWY_ATTR { return mul_add(t.c[k], hn::Sub(splat(texture.constant[static_cast<std::size_t>(k)]), f.c[k]), f.c[k]); });
+    default: return each([&](int k) HWY_ATTR { return hn::Min(hn::Add(f.c[k], t.c[k]), splat(1.0f)); });
   }
-  if (texture.changes_alpha()) c.c[3] = texture.function == TextureFunction::replace ? t.c[3] : hn::Mul(f.c[3], t.c[3]);
-  return c;
 }
 
 }  // namespace HWY_NAMESPACE

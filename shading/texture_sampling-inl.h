@@ -43,17 +43,32 @@ HWY_INLINE Int mixed(Int a, Int b, Int f) {
 HWY_INLINE Texels mixed(const Texels& a, const Texels& b, Int f) { return {mixed(a.rb, b.rb, f), mixed(a.ga, b.ga, f)}; }
 HWY_INLINE Int twice(Int fraction) { return hn::Or(fraction, hn::ShiftLeft<16>(fraction)); }
 
+/// The words at an index.
+HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
+#if HWY_TARGET == HWY_AVX2
+  // Loads one by one are faster than a gather.
+  alignas(32) std::int32_t at[8];
+  hn::Store(index, kInt, at);
+  const auto word = [&](int l) HWY_ATTR { return static_cast<std::int32_t>(words[at[l]]); };
+  return Int{_mm256_setr_epi32(word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7))};
+#else
+  return hn::GatherIndex(kInt, reinterpret_cast<const std::int32_t*>(words), index);
+#endif
+}
+
 /// The words at an index and after it.
 struct TexelPairs {
   Int left, right;
 };
 HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index) {
 #if HWY_TARGET == HWY_AVX2
+  alignas(32) std::int32_t at[8];
+  hn::Store(index, kInt, at);
+  const auto two = [&](int first, int second) HWY_ATTR {
+    return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words + at[first]))), reinterpret_cast<const __m64*>(words + at[second]));
+  };
   // Pairs of lanes 0 1 4 5 and of lanes 2 3 6 7: what parts them again stays within halves.
-  const auto* const from = reinterpret_cast<const long long*>(words);
-  const __m256i order = _mm256_permute4x64_epi64(index.raw, _MM_SHUFFLE(3, 1, 2, 0));
-  const __m256 low = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_castsi256_si128(order), 4));
-  const __m256 high = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_extracti128_si256(order, 1), 4));
+  const __m256 low = _mm256_set_m128(two(4, 5), two(0, 1)), high = _mm256_set_m128(two(6, 7), two(2, 3));
   return {Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))}, Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))}};
 #elif HWY_TARGET == HWY_AVX3
   const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(index.raw), words, 4);
@@ -93,7 +108,7 @@ HWY_INLINE TexelPlace linear_place(Float unit, std::int32_t size, Wrap wrap) {
 HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
   Int index = hn::Add(nearest_texel(s, level.width), splat(level.first));
   if (level.height > 1) index = hn::Add(index, hn::Mul(nearest_texel(t, level.height), splat(level.stride())));
-  return texels_of(hn::GatherIndex(kInt, reinterpret_cast<const std::int32_t*>(texture.words), index));
+  return texels_of(load_words(texture.words, index));
 }
 
 HWY_INLINE Texels linear_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
@@ -129,9 +144,10 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
 }
 
 /// Points of one chunk at whatever levels they have: one pass for each of those, nearly always one or two.
-HWY_INLINE Texels filtered_texels(const TextureLevels& texture, const ShadingBatch& batch, int point, Float s, Float t) {
+/// @param footprint  squared texels a pixel spans, 0 where that decides nothing
+HWY_INLINE Texels filtered_texels(const TextureLevels& texture, Float s, Float t, Float footprint) {
+  if (!texture.needs_footprint()) return texels_in(texture, 0, texture.mag_linear, s, t);
   Texels all{hn::Zero(kInt), hn::Zero(kInt)};
-  const Float footprint = texture.needs_footprint() ? hn::Load(kFloat, batch.field[kTexelsSquared] + point) : hn::Zero(kFloat);
   const auto minified = hn::Gt(footprint, splat(texture.most_magnified));
   const bool any_minified = !hn::AllFalse(kFloat, minified);
   // Magnified points are points of level 0 like others, unless they have a filter of their own.
@@ -161,23 +177,42 @@ HWY_INLINE Texels filtered_texels(const TextureLevels& texture, const ShadingBat
   return all;
 }
 
+/// What a chunk's points see of a texture with levels, coordinates as they come.
+HWY_INLINE Texels texels_where(const TextureLevels& texture, Float s, Float t, Float footprint) {
+  if (texture.level[0].height == 1) t = hn::Zero(kFloat);  // a 1-D texture
+  // A plane beyond its horizon, at a centre that is not covered.
+  const auto finite = hn::Eq(hn::Add(hn::Sub(s, s), hn::Sub(t, t)), hn::Zero(kFloat));
+  s = wrapped(hn::IfThenElseZero(finite, s), texture.wrap_s);
+  t = wrapped(hn::IfThenElseZero(finite, t), texture.wrap_t);
+  return filtered_texels(texture, s, t, footprint);
+}
+
+/// component / kTexelOne, correctly rounded for 0 .. kTexelOne: a product, and what it lacks.
+HWY_INLINE Float unit_component(Int component) {
+  constexpr float kScale = 1.0f / kTexelOne;
+  const Float whole = hn::ConvertTo(kFloat, component), quotient = hn::Mul(whole, splat(kScale));
+  return mul_add(neg_mul_add(quotient, splat(kTexelOne), whole), splat(kScale), quotient);
+}
+HWY_INLINE Colors colors_of(const Texels& texels) {
+  const auto upper = [](Int two) HWY_ATTR { return hn::BitCast(kInt, hn::ShiftRight<16>(hn::BitCast(kUint, two))); };
+  const Int lower = splat(0xffff);
+  return {{unit_component(hn::And(texels.rb, lower)), unit_component(hn::And(texels.ga, lower)), unit_component(upper(texels.rb)), unit_component(upper(texels.ga))}};
+}
+
+/// Words of 8 bits a component: a component's level, floor(255 c + 0.5), is that of its 16 bits rounded to 8.
+HWY_INLINE Int words_of_texels(const Texels& texels) {
+  const Int level = splat(0xff00);
+  const Int r = hn::ShiftLeft<8>(hn::And(hn::Add(texels.rb, splat(0x80)), level)), g = hn::And(hn::Add(texels.ga, splat(0x80)), level);
+  const Int b = hn::BitCast(kInt, hn::ShiftRight<24>(hn::BitCast(kUint, hn::Add(texels.rb, splat(0x800000)))));
+  return hn::Or(hn::Or(r, g), b);
+}
+
 /// Texels of the first `count` points, whole vectors of lanes.
 inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) {
   for (int point = 0; point < count; point += kLanes) {
-    Float s = hn::Load(kFloat, batch.field[kTextureS] + point), t = hn::Load(kFloat, batch.field[kTextureT] + point);
-    if (texture.level[0].height == 1) t = hn::Zero(kFloat);  // a 1-D texture
-    // A plane beyond its horizon, at a centre that is not covered.
-    const auto finite = hn::Eq(hn::Add(hn::Sub(s, s), hn::Sub(t, t)), hn::Zero(kFloat));
-    s = wrapped(hn::IfThenElseZero(finite, s), texture.wrap_s);
-    t = wrapped(hn::IfThenElseZero(finite, t), texture.wrap_t);
-    const Texels texels = filtered_texels(texture, batch, point, s, t);
-    const auto store = [&](int field, Int component) HWY_ATTR { hn::Store(hn::Div(hn::ConvertTo(kFloat, component), splat(kTexelOne)), kFloat, batch.field[field] + point); };
-    const auto upper = [](Int two) HWY_ATTR { return hn::BitCast(kInt, hn::ShiftRight<16>(hn::BitCast(kUint, two))); };
-    const Int lower = splat(0xffff);
-    store(kTexelR, hn::And(texels.rb, lower));
-    store(kTexelG, hn::And(texels.ga, lower));
-    store(kTexelB, upper(texels.rb));
-    store(kTexelA, upper(texels.ga));
+    const Float footprint = texture.needs_footprint() ? hn::Load(kFloat, batch.field[kTexelsSquared] + point) : hn::Zero(kFloat);
+    const Colors colors = colors_of(texels_where(texture, hn::Load(kFloat, batch.field[kTextureS] + point), hn::Load(kFloat, batch.field[kTextureT] + point), footprint));
+    for (int c = 0; c < 4; ++c) hn::Store(colors.c[c], kFloat, batch.field[kTexelR + c] + point);
   }
 }
 

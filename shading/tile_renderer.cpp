@@ -12,6 +12,7 @@
 #include "shading/pixel_rectangles-inl.h"
 #include "shading/points_lines-inl.h"
 #include "shading/resolve-inl.h"
+#include "shading/textured_group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -40,6 +41,7 @@ DrawGroup pick_by_color(Seen seen, bool sampled) {
 DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
   if (draw.topology == Topology::points) return draw_points;
   if (draw.topology == Topology::lines) return draw_lines;
+  if (textures_at_once(frame, draw)) return draw_textured;
   if (draw.ops != nullptr) return frame.samples > 1 ? &draw_fragments_samples : &draw_fragments;
   const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
                     : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect

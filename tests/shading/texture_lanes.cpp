@@ -15,6 +15,17 @@ namespace HWY_NAMESPACE {
 
 void sample_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) { sample_texture_lanes(texture, batch, count); }
 
+void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], std::uint32_t (&words)[16]) {
+  for (int i = 0; i < 16; i += kLanes) {
+    alignas(64) std::int32_t component[kLanes], word[kLanes];
+    for (int l = 0; l < kLanes; ++l) component[l] = components[i + l];
+    const Int one = hn::Load(kInt, component), two = twice(one);
+    hn::StoreU(unit_component(one), kFloat, units + i);
+    hn::Store(words_of_texels({two, two}), kInt, word);
+    for (int l = 0; l < kLanes; ++l) words[i + l] = static_cast<std::uint32_t>(word[l]);
+  }
+}
+
 void color_lanes(const DrawTexture& texture, float (&colors)[4][16], const float (&texels)[4][16]) {
   for (int i = 0; i < 16; i += kLanes) {
     Colors color, texel;
@@ -68,6 +79,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera::test {
 SampleTexture* sample_texture(Isa isa) { return TESSERA_KERNEL(isa, sample_lanes); }
+TexelComponents* texel_components(Isa isa) { return TESSERA_KERNEL(isa, component_lanes); }
 TextureColors* texture_colors(Isa isa) { return TESSERA_KERNEL(isa, color_lanes); }
 TileCoordinates* tile_coordinates(Isa isa) { return TESSERA_KERNEL(isa, coordinate_lanes); }
 }  // namespace tessera::test

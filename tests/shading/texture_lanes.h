@@ -12,6 +12,10 @@ namespace tessera::test {
 using SampleTexture = void(const TextureLevels& texture, ShadingBatch& batch, int count);
 SampleTexture* sample_texture(Isa isa);
 
+/// What 16 components, 0 .. 65280, come to: as numbers 0..1, and as words of 8 bits a component whose three components they all are.
+using TexelComponents = void(const std::uint16_t (&components)[16], float (&units)[16], std::uint32_t (&words)[16]);
+TexelComponents* texel_components(Isa isa);
+
 /// colors[c] becomes what they are under texels[c]; 16 of each of r g b a.
 using TextureColors = void(const DrawTexture& texture, float (&colors)[4][16], const float (&texels)[4][16]);
 TextureColors* texture_colors(Isa isa);

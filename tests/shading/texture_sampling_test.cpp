@@ -2,6 +2,7 @@
 // the same bits on every instruction set.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -195,6 +196,22 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
         }
     }
   });
+}
+
+// Every one: no division is done, and no float where a texel is all that is seen.
+TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
+  for (const Isa isa : available_isas())
+    for (int first = 0; first <= 65280; first += 16) {
+      std::uint16_t components[16];
+      for (int i = 0; i < 16; ++i) components[i] = static_cast<std::uint16_t>(std::min(first + i, 65280));
+      float units[16];
+      std::uint32_t words[16];
+      texel_components(isa)(components, units, words);
+      for (int i = 0; i < 16; ++i) {
+        ASSERT_EQ(units[i], static_cast<float>(components[i]) / kTexelOne) << name_of(isa) << " " << components[i];
+        ASSERT_EQ(words[i], 0x010101u * static_cast<std::uint32_t>(std::fma(units[i], 255.0f, 0.5f))) << name_of(isa) << " " << components[i];
+      }
+    }
 }
 
 // A texture that is the same everywhere is exactly that under every filter, and 255 is exactly 1.
