@@ -92,13 +92,11 @@ class LineWalk {
   // x-major: the minor coordinate moves by slope e + e^2; y-major: by -e.
   constexpr bool tie_goes_down() const { return x_major_ ? rise_ < 0 : true; }
 
+  // Upwards (x-major) or to the right.
   template <class Pixel>
   constexpr void draw_step(const PixelRect& rect, int major, int minor, const Pixel& pixel) const {
-    if (x_major_) {
-      for (int y = std::min(minor, rect.y1 - 1); y >= std::max(minor - width_ + 1, rect.y0); --y) pixel(major, y);
-    } else {
-      for (int x = std::max(minor, rect.x0); x < std::min(minor + width_, rect.x1); ++x) pixel(x, major);
-    }
+    const int before = x_major_ ? minor - (rect.y1 - 1) : rect.x0 - minor, within = x_major_ ? minor - rect.y0 : rect.x1 - 1 - minor;
+    for (int k = std::max(before, 0); k <= std::min(within, width_ - 1); ++k) pixel(x_major_ ? major : minor + k, x_major_ ? minor - k : major);
   }
 
   int width_ = 1;

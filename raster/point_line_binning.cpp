@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include "raster/binning.h"
@@ -40,17 +41,33 @@ struct LineBand {
   }
 };
 
+// Tiles are powers of two wide, and a division would be much of a point's work.
+struct TileSpan {
+  int x0, y0, x1, y1;  // inclusive
+  int columns;         // of the grid
+  TileSpan(const TileGrid& grid, const PixelRect& pixels) {
+    const int shift = std::countr_zero(static_cast<unsigned>(grid.tile_size));
+    x0 = pixels.x0 >> shift, y0 = pixels.y0 >> shift, x1 = (pixels.x1 - 1) >> shift, y1 = (pixels.y1 - 1) >> shift;
+    columns = (grid.width_px + grid.tile_size - 1) >> shift;
+  }
+};
+
 // Into the tiles that its band may touch. Returns whether there are any.
 bool bin_band(Bins& bins, const TileGrid& grid, const BinDraw& draw, const LineBand& band, std::uint32_t id) {
   const PixelRect pixels = intersect(band.bounds(), draw.rect);
   if (pixels.empty()) return false;
-  const int size = grid.tile_size, x0 = pixels.x0 / size, y0 = pixels.y0 / size, x1 = (pixels.x1 - 1) / size, y1 = (pixels.y1 - 1) / size;
+  const TileSpan tiles(grid, pixels);
+  const int size = grid.tile_size, x0 = tiles.x0, y0 = tiles.y0, x1 = tiles.x1, y1 = tiles.y1;
+  if (x0 == x1 && y0 == y1) {
+    bins.push(y0 * tiles.columns + x0, draw.draw, id);
+    return true;
+  }
   const std::int64_t dx = std::int64_t{band.b.x} - band.a.x, dy = std::int64_t{band.b.y} - band.a.y, half = std::int64_t{size} * kHalfPixel;
   const std::int64_t most = (std::abs(dx) + std::abs(dy)) * (half + band.reach);
   for (int ty = y0; ty <= y1; ++ty)
     for (int tx = x0; tx <= x1; ++tx) {
       const std::int64_t across = dx * ((2 * ty + 1) * half - band.a.y) - dy * ((2 * tx + 1) * half - band.a.x);
-      if ((x0 == x1 && y0 == y1) || std::abs(across) <= most) bins.push(ty * grid.columns() + tx, draw.draw, id);
+      if (std::abs(across) <= most) bins.push(ty * tiles.columns + tx, draw.draw, id);
     }
   return true;
 }
@@ -58,9 +75,9 @@ bool bin_band(Bins& bins, const TileGrid& grid, const BinDraw& draw, const LineB
 bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint at, std::uint32_t id) {
   const PixelRect pixels = bounds_of_point(draw, at);
   if (pixels.empty()) return false;
-  const int size = grid.tile_size;
-  for (int ty = pixels.y0 / size; ty <= (pixels.y1 - 1) / size; ++ty)
-    for (int tx = pixels.x0 / size; tx <= (pixels.x1 - 1) / size; ++tx) bins.push(ty * grid.columns() + tx, draw.draw, id);
+  const TileSpan tiles(grid, pixels);
+  for (int ty = tiles.y0; ty <= tiles.y1; ++ty)
+    for (int tx = tiles.x0; tx <= tiles.x1; ++tx) bins.push(ty * tiles.columns + tx, draw.draw, id);
   return true;
 }
 

@@ -232,13 +232,8 @@ struct PlainLine {
   std::uint32_t word;
   LinePixels& waiting;
 
-  HWY_INLINE void add(int x, int y) {
-    waiting.x[waiting.count] = x;
-    waiting.y[waiting.count] = y;
-    if (++waiting.count == kLinePixels) flush();
-  }
-  HWY_NOINLINE void flush() {
-    if (waiting.count == 0) return;
+  HWY_NOINLINE void store(int count) {
+    waiting.count = count;
     alignas(64) double t[kLinePixels];
     alignas(64) std::int32_t keys[kLinePixels];
     alignas(64) std::uint32_t words[kLinePixels];
@@ -249,13 +244,19 @@ struct PlainLine {
     else
       for_pixels(waiting.count, [&](int l) HWY_ATTR { words[l] = word; });
     pixels.store(waiting, keys, words);
-    waiting.count = 0;
   }
 };
 HWY_INLINE void store_plain(const PlainPixels& pixels, const LineShape& shape, LinePixels& waiting, const LineValues& values, const LineColors* colors, std::uint32_t word) {
   PlainLine line{pixels, values, colors, word, waiting};
-  shape.for_each([&](int x, int y) HWY_ATTR { line.add(x, y); });
-  line.flush();
+  int count = 0;  // not the member: it stays in a register
+  shape.for_each([&](int x, int y) HWY_ATTR {
+    waiting.x[count] = x;
+    waiting.y[count] = y;
+    if (++count < kLinePixels) return;
+    line.store(count);
+    count = 0;
+  });
+  if (count > 0) line.store(count);
 }
 
 /// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles go through.
