@@ -18,9 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-// Loops over a line's pixels have no branch and come in eights, so that the compiler makes vectors of them. No sum of theirs is fused: it
+// Loops over a line's pixels have no branch and come in eights where there are vectors, so that the compiler makes such of them. No sum of theirs is fused: it
 // is the same everywhere.
-inline constexpr int kLinePixels = 16, kPixelsAtOnce = 8;
+inline constexpr int kLinePixels = 16, kPixelsAtOnce = kLanes < 8 ? 1 : 8;
 template <class Pixel>
 HWY_INLINE void for_pixels(int count, const Pixel& pixel) {
   for (int first = 0; first < count; first += kPixelsAtOnce)

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
+inline HWY_NOINLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   const auto each = [&](auto component) HWY_ATTR {
     const Float alpha = !texture.changes_alpha() ? f.c[3] : texture.function == TextureFunction::replace ? t.c[3] : hn::Mul(f.c[3], t.c[3]);
     return Colors{{component(0), component(1), component(2), alpha}};

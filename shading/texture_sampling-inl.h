@@ -178,7 +178,7 @@ HWY_INLINE Texels filtered_texels(const TextureLevels& texture, Float s, Float t
 }
 
 /// What a chunk's points see of a texture with levels, coordinates as they come.
-HWY_INLINE Texels texels_where(const TextureLevels& texture, Float s, Float t, Float footprint) {
+inline HWY_NOINLINE Texels texels_where(const TextureLevels& texture, Float s, Float t, Float footprint) {
   if (texture.level[0].height == 1) t = hn::Zero(kFloat);  // a 1-D texture
   // A plane beyond its horizon, at a centre that is not covered.
   const auto finite = hn::Eq(hn::Add(hn::Sub(s, s), hn::Sub(t, t)), hn::Zero(kFloat));

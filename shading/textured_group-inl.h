@@ -27,7 +27,7 @@ struct TexturedBlocks {
   TileRun& run;
   const TileDraw& draw;
   const ShadedTriangle& triangle;
-  bool uses_depth, texels_alone;
+  bool uses_depth, texels_alone, full;
   FragmentDepth depth;
   TextureCoordinates coordinates;
   Corners color[3];
@@ -47,9 +47,10 @@ struct TexturedBlocks {
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
-    draw_block(bx, by, edges, kFull);
+    full = kFull;  // no argument: the compiler would make a copy of draw_block for each
+    draw_block(bx, by, edges);
   }
-  HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& edges, bool full) {
+  HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& edges) {
     const int block = run.block_index(bx, by);
     Int keys[kChunksPerBlock];
     depth.block_keys(bx, by, keys);
