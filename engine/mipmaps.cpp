@@ -48,9 +48,9 @@ std::uint32_t mean_of_four(std::uint32_t a, std::uint32_t b, std::uint32_t c, st
 void fill_next_level(std::uint32_t* words, const TextureLevel& from, const TextureLevel& to) {
   const std::uint32_t* const texels = words + from.first;
   std::uint32_t* out = words + to.first;
-  const auto stride = static_cast<std::size_t>(from.stride());
+  const auto stride = static_cast<std::size_t>(from.stride);
   const bool is_even = from.width % 2 == 0 && from.height % 2 == 0;
-  for (std::int32_t j = 0; j < to.height; ++j, out += to.stride()) {
+  for (std::int32_t j = 0; j < to.height; ++j, out += to.stride) {
     const Taps rows(j, from.height);
     const std::uint32_t* const row = texels + rows.first * stride;
     for (std::int32_t i = 0; i < to.width; ++i)

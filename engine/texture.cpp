@@ -35,8 +35,8 @@ std::uint32_t word_of(const std::uint8_t* pixel, int channels) {
   switch (channels) {
     case 1: return pixel[0] * 0x010101u | kOpaque;
     case 2: return pixel[0] * 0x010101u | static_cast<std::uint32_t>(pixel[1]) << 24;
-    case 3: return pixel[0] | static_cast<std::uint32_t>(pixel[1]) << 8 | static_cast<std::uint32_t>(pixel[2]) << 16 | kOpaque;
-    default: return pixel[0] | static_cast<std::uint32_t>(pixel[1]) << 8 | static_cast<std::uint32_t>(pixel[2]) << 16 | static_cast<std::uint32_t>(pixel[3]) << 24;
+    case 3: return static_cast<std::uint32_t>(pixel[0]) << 16 | static_cast<std::uint32_t>(pixel[1]) << 8 | pixel[2] | kOpaque;
+    default: return static_cast<std::uint32_t>(pixel[0]) << 16 | static_cast<std::uint32_t>(pixel[1]) << 8 | pixel[2] | static_cast<std::uint32_t>(pixel[3]) << 24;
   }
 }
 
@@ -55,16 +55,12 @@ bool has_mipmaps(const TextureSampler& sampler) { return sampler.min != TextureF
 
 // Sizes, and where each level lies. Returns the number of words.
 std::size_t lay_out(TextureLevels& levels, const TextureImage& image, bool mipmaps) {
-  levels.level[0].width = image.width;
-  levels.level[0].height = image.height;
+  levels.level[0] = {0, image.width, image.height};
   std::int64_t words = levels.level[0].words();
   while (mipmaps && (levels.level[levels.last].width > 1 || levels.level[levels.last].height > 1)) {
     const TextureLevel& larger = levels.level[levels.last++];
-    TextureLevel& level = levels.level[levels.last];
-    level.first = static_cast<std::int32_t>(words);
-    level.width = next_size(larger.width);
-    level.height = next_size(larger.height);
-    words += level.words();
+    levels.level[levels.last] = {static_cast<std::int32_t>(words), next_size(larger.width), next_size(larger.height)};
+    words += levels.level[levels.last].words();
   }
   return static_cast<std::size_t>(words);
 }
@@ -73,7 +69,7 @@ void fill_from(const TextureImage& image, std::uint32_t* words, const TextureLev
   const std::ptrdiff_t stride = image.stride_bytes != 0 ? image.stride_bytes : std::ptrdiff_t{image.width} * image.channels;
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* pixel = static_cast<const std::uint8_t*>(image.pixels) + stride * (image.bottom_row_first ? y : image.height - 1 - y);
-    std::uint32_t* const row = words + level.first + std::ptrdiff_t{y} * level.stride();
+    std::uint32_t* const row = words + level.first + std::ptrdiff_t{y} * level.stride;
     for (int x = 0; x < image.width; ++x, pixel += image.channels) row[x] = word_of(pixel, image.channels);
   }
 }
@@ -82,22 +78,22 @@ void fill_from(const TextureImage& image, std::uint32_t* words, const TextureLev
 void continue_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& of) {
   std::uint32_t* const first = words + level.first;
   for (std::int32_t y = 0; y < level.height; ++y) {
-    std::uint32_t* const row = first + std::ptrdiff_t{y} * level.stride();
+    std::uint32_t* const row = first + std::ptrdiff_t{y} * level.stride;
     row[level.width] = of.wrap_s == Wrap::repeat ? row[0] : row[level.width - 1];
   }
-  if (level.height > 1) std::copy_n(of.wrap_t == Wrap::repeat ? first : first + std::ptrdiff_t{level.height - 1} * level.stride(), level.stride(), first + std::ptrdiff_t{level.height} * level.stride());
+  if (level.height > 1) std::copy_n(of.wrap_t == Wrap::repeat ? first : first + std::ptrdiff_t{level.height - 1} * level.stride, level.stride, first + std::ptrdiff_t{level.height} * level.stride);
 }
 
 std::array<float, 4> color_of(std::uint32_t word) {
   std::array<float, 4> color;
-  for (std::size_t c = 0; c < 4; ++c) color[c] = static_cast<float>((word >> (8 * c) & 0xff) << 8) / kTexelOne;
+  for (std::size_t c = 0; c < 4; ++c) color[c] = static_cast<float>((word >> kTexelShift[c] & 0xff) << 8) / kTexelOne;
   return color;
 }
 
 bool is_one_color(const TextureState& texture) {
   const TextureLevel& level = texture.levels.level[0];
   for (std::int32_t y = 0; y < level.height; ++y) {
-    const std::uint32_t* const row = texture.words.data() + std::ptrdiff_t{y} * level.stride();
+    const std::uint32_t* const row = texture.words.data() + std::ptrdiff_t{y} * level.stride;
     if (!std::all_of(row, row + level.width, [&](std::uint32_t word) { return word == texture.words[0]; })) return false;
   }
   return true;
@@ -111,8 +107,8 @@ std::array<float, 4> color_at_origin(const TextureState& texture) {
   const std::ptrdiff_t left = levels.wrap_s == Wrap::repeat ? level.width - 1 : 0, below = levels.wrap_t == Wrap::repeat ? level.height - 1 : 0;
   std::array<float, 4> color;
   for (std::size_t c = 0; c < 4; ++c) {
-    const auto component = [&](std::ptrdiff_t at) { return texture.words[static_cast<std::size_t>(at)] >> (8 * c) & 0xff; };
-    const std::ptrdiff_t row = below * level.stride();
+    const auto component = [&](std::ptrdiff_t at) { return texture.words[static_cast<std::size_t>(at)] >> kTexelShift[c] & 0xff; };
+    const std::ptrdiff_t row = below * level.stride;
     color[c] = static_cast<float>((component(0) + component(left) + component(row) + component(row + left)) << 6) / kTexelOne;
   }
   return color;

@@ -70,6 +70,9 @@ HWY_INLINE Float clamped_unit(Float c) {
   return hn::IfThenElse(hn::Lt(above, splat(1.0f)), above, splat(1.0f));
 }
 
+/// At least 0; 0 for a NaN.
+HWY_INLINE Float clamped_below(Float c) { return hn::Max(c, hn::Zero(kFloat)); }
+
 HWY_INLINE Float component_from(Int words, int shift, int bits) {
   if (bits == 0) return splat(1.0f);
   const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, words), shift)), splat((1 << bits) - 1));
@@ -138,6 +141,12 @@ HWY_INLINE Int words_of(const ColorLayout& layout, const Colors& colors, Float t
   words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
   words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[1], layout.g_bits), layout.g_shift()));
   return hn::Or(words, level(colors.c[2], layout.b_bits));
+}
+
+/// The same for 8 bits each and halves that are rounded up.
+HWY_INLINE Int words_of_rgb8(const Colors& colors) {
+  const auto level = [&](int c) HWY_ATTR { return truncate(mul_add(colors.c[c], splat(255.0f), splat(0.5f))); };
+  return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
 }
 
 HWY_INLINE Int logic_words(Logic logic, Int s, Int d) {

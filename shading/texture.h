@@ -1,7 +1,8 @@
 // Textures as pixels see them: levels of 32-bit texels, how they are filtered, and what a texel does to a colour.
 //
 // A level is stored with one texel more in each row, the one that follows the last under the texture's wrap, and one row more
-// after the last: the four texels of a bilinear filter are then two pairs of neighbours, wherever they lie.
+// after the last: the four texels of a bilinear filter are then two pairs of neighbours, wherever they lie. A row and a word beyond
+// are read, but have no weight.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +18,33 @@ enum class TextureFunction : std::uint8_t { modulate, replace, decal, blend, add
 inline constexpr int kMaxTextureSide = 16384;
 inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
 
-struct TextureLevel {
-  std::int32_t first = 0;                     ///< word of texel (0, 0)
-  std::int32_t width = 1, height = 1;
-  std::int32_t stride() const { return width + 1; }
-  std::int64_t words() const { return std::int64_t{stride()} * (height > 1 ? height + 1 : 1); }  ///< a single row has none after it
+/// Texels along one side of a level, in fixed point with 16 fraction bits.
+struct TexelAxis {
+  float size;                 ///< all of them
+  float half;                 ///< half a texel, of the whole image
+  std::int32_t last;          ///< the last one
+  explicit TexelAxis(std::int32_t texels) : size(static_cast<float>(texels) * 65536.0f), half(0.5f / static_cast<float>(texels)), last((texels - 1) * 65536) {}
 };
 
+struct TextureLevel {
+  std::int32_t first = 0;     ///< word of texel (0, 0)
+  std::int32_t width = 1, height = 1;
+  std::int32_t stride = 0;    ///< from row to row; 0 of a single one, which is then its own neighbour
+  TexelAxis columns{1}, rows{1};
+
+  TextureLevel() = default;
+  TextureLevel(std::int32_t first_word, std::int32_t w, std::int32_t h) : first(first_word), width(w), height(h), stride(h > 1 ? w + 1 : 0), columns(w), rows(h) {}
+  std::int64_t words() const { return height > 1 ? std::int64_t{stride} * (height + 2) + 1 : width + 2; }
+};
+
+/// Where r, g, b and a stand in a texel's word.
+inline constexpr int kTexelShift[4] = {16, 8, 0, 24};
+
+/// How a draw's texels are found, asked once: as nearly all textures have it, or in any way there is.
+enum class TexelFilter : std::uint8_t { nearest, linear, linear_levels, any };
+
 struct TextureLevels {
-  const std::uint32_t* words = nullptr;       ///< A:B:G:R, of all levels; rows from the bottom
+  const std::uint32_t* words = nullptr;       ///< of all levels; rows from the bottom
   TextureLevel level[kMaxTextureLevels];
   int last = 0;                               ///< above 0: mipmaps
   bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
@@ -34,6 +53,10 @@ struct TextureLevels {
 
   /// How many texels a pixel spans decides something.
   bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }
+  TexelFilter filter() const {
+    if (!needs_footprint()) return mag_linear ? TexelFilter::linear : TexelFilter::nearest;
+    return mag_linear && min_linear ? TexelFilter::linear_levels : TexelFilter::any;
+  }
   /// Squared texels a pixel up to which a texture is magnified: GL 2.1, 3.8.9, c is 0, or 0.5 where magnification is the sharper filter.
   float most_magnified = 1;
 };

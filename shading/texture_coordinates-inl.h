@@ -55,10 +55,14 @@ struct TextureCoordinates {
   /// Calls store(field, value) for the coordinates and, where they are needed, the texels gone by.
   template <class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
+    has_slopes ? at<true>(where, store) : at<false>(where, store);
+  }
+  template <bool kHasSlopes, class Store>
+  HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     const Float at_s = interpolate(where, s.corner), at_t = interpolate(where, t.corner);
     store(kTextureS, at_s);
     store(kTextureT, at_t);
-    if (!has_slopes) return;
+    if constexpr (!kHasSlopes) return;
     const Float from_s = hn::Sub(at_s, splat(s.corner.first)), from_t = hn::Sub(at_t, splat(t.corner.first));
     const auto squared = [&](float ds, float s_sum, float dt, float t_sum) HWY_ATTR {
       const Float along_s = neg_mul_add(from_s, splat(s_sum), splat(ds)), along_t = neg_mul_add(from_t, splat(t_sum), splat(dt));

@@ -13,6 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
+/// The most common function, without alpha.
+HWY_INLINE Colors modulated(const Colors& f, const Colors& t) { return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}}; }
+
 inline HWY_NOINLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   const auto each = [&](auto component) HWY_ATTR {
     const Float alpha = !texture.changes_alpha() ? f.c[3] : texture.function == TextureFunction::replace ? t.c[3] : hn::Mul(f.c[3], t.c[3]);

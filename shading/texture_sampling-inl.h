@@ -1,5 +1,5 @@
-// Texels of a batch of points by their texture's filters. Coordinates become fixed point with 16 fraction bits, components are
-// levels with 8: the same bits on every instruction set.
+// Texels of a batch of points by their texture's filters. Coordinates become fixed point with 16 fraction bits: the same bits on every
+// instruction set.
 #if defined(TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
 #undef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
@@ -10,210 +10,205 @@
 #include <algorithm>
 #include <bit>
 
-#include "shading/fragment_ops-inl.h"
 #include "shading/lighting.h"
 #include "shading/power-inl.h"
-#include "shading/texture.h"
+#include "shading/texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Components of texels with 8 fraction bits, two in each lane: red below blue, green below alpha.
-struct Texels {
-  Int rb, ga;
-};
-HWY_INLINE Texels texels_of(Int words) {
-  const Int upper = splat(static_cast<std::int32_t>(0xff00ff00u));
-  return {hn::And(hn::ShiftLeft<8>(words), upper), hn::And(words, upper)};
-}
-
-/// a - (a f >> 16) + (b f >> 16) for each 16 bits: exactly a where b is the same.
-HWY_INLINE Int mixed(Int a, Int b, Int f) {
-#if HWY_TARGET == HWY_SCALAR
-  const auto part = [](std::uint32_t x, std::uint32_t y) { return ((x & 0xffff) * (y & 0xffff) >> 16) | ((x >> 16) * (y >> 16) & 0xffff0000u); };
-  const auto x = static_cast<std::uint32_t>(a.raw), y = static_cast<std::uint32_t>(b.raw), share = static_cast<std::uint32_t>(f.raw);
-  return Int(static_cast<std::int32_t>(x - part(x, share) + part(y, share)));
-#else
-  constexpr hn::Repartition<std::uint16_t, IntTag> d;
-  const auto x = hn::BitCast(d, a), y = hn::BitCast(d, b), share = hn::BitCast(d, f);
-  return hn::BitCast(kInt, hn::Add(hn::Sub(x, hn::MulHigh(x, share)), hn::MulHigh(y, share)));
-#endif
-}
-HWY_INLINE Texels mixed(const Texels& a, const Texels& b, Int f) { return {mixed(a.rb, b.rb, f), mixed(a.ga, b.ga, f)}; }
-HWY_INLINE Int twice(Int fraction) { return hn::Or(fraction, hn::ShiftLeft<16>(fraction)); }
-
-/// The words at an index.
-HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
-#if HWY_TARGET == HWY_AVX2
-  // Loads one by one are faster than a gather.
-  alignas(32) std::int32_t at[8];
-  hn::Store(index, kInt, at);
-  const auto word = [&](int l) HWY_ATTR { return static_cast<std::int32_t>(words[at[l]]); };
-  return Int{_mm256_setr_epi32(word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7))};
-#else
-  return hn::GatherIndex(kInt, reinterpret_cast<const std::int32_t*>(words), index);
-#endif
-}
-
-/// The words at an index and after it.
-struct TexelPairs {
-  Int left, right;
-};
-HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index) {
-#if HWY_TARGET == HWY_AVX2
-  alignas(32) std::int32_t at[8];
-  hn::Store(index, kInt, at);
-  const auto two = [&](int first, int second) HWY_ATTR {
-    return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words + at[first]))), reinterpret_cast<const __m64*>(words + at[second]));
-  };
-  // Pairs of lanes 0 1 4 5 and of lanes 2 3 6 7: what parts them again stays within halves.
-  const __m256 low = _mm256_set_m128(two(4, 5), two(0, 1)), high = _mm256_set_m128(two(6, 7), two(2, 3));
-  return {Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))}, Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))}};
-#elif HWY_TARGET == HWY_AVX3
-  const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(index.raw), words, 4);
-  const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(index.raw, 1), words, 4);
-  const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
-  const __m512i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
-  return {Int{_mm512_permutex2var_epi32(low, even, high)}, Int{_mm512_permutex2var_epi32(low, odd, high)}};
-#else
-  const std::uint32_t* const at = words + index.raw;
-  return {Int(static_cast<std::int32_t>(at[0])), Int(static_cast<std::int32_t>(at[1]))};
-#endif
-}
-
-/// A finite coordinate in the image, 0..1.
+/// A coordinate in the image, 0..1, under a wrap that does not repeat it. Whatever is no number comes out as 0, here and below.
 HWY_INLINE Float wrapped(Float f, Wrap wrap) {
-  if (wrap == Wrap::clamp_to_edge) return clamped_unit(f);
-  if (wrap == Wrap::repeat) return hn::Sub(f, hn::Floor(f));
   const Float there_and_back = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
-  return hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back));
+  return clamped_unit(wrap == Wrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
+}
+HWY_INLINE Float repeated(Float f) { return clamped_below(hn::Sub(f, hn::Floor(f))); }
+
+/// The texel that holds a coordinate: that of the texture where it repeats, else a wrapped one.
+HWY_INLINE Int nearest_texel(Float f, const TexelAxis& axis, Wrap wrap) {
+  if (wrap == Wrap::repeat) f = repeated(f);
+  return hn::Min(hn::ShiftRight<16>(truncate(hn::Mul(f, splat(axis.size)))), hn::ShiftRight<16>(splat(axis.last)));
 }
 
-/// The texel that holds a coordinate.
-HWY_INLINE Int nearest_texel(Float unit, std::int32_t size) { return hn::Min(truncate(hn::Mul(unit, splat(static_cast<float>(size)))), splat(size - 1)); }
-
-/// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the next.
+/// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the next, twice.
 struct TexelPlace {
   Int texel, fraction;
 };
-HWY_INLINE TexelPlace linear_place(Float unit, std::int32_t size, Wrap wrap) {
-  Int at = hn::Sub(truncate(hn::Mul(unit, splat(static_cast<float>(size) * 65536.0f))), splat(1 << 15));
-  if (wrap != Wrap::repeat) at = hn::Max(hn::Min(at, splat((size - 1) << 16)), hn::Zero(kInt));
-  Int texel = hn::ShiftRight<16>(at);
-  if (wrap == Wrap::repeat) texel = hn::Add(texel, hn::And(hn::ShiftRight<31>(at), splat(size)));  // before the first: the last
-  return {texel, hn::And(at, splat(0xffff))};
+HWY_INLINE TexelPlace linear_place(Float f, const TexelAxis& axis, Wrap wrap) {
+  const Float from_center = hn::Sub(f, splat(axis.half));
+  // Where it repeats, all that is left of the first centre lies behind the last one.
+  Int at = truncate(hn::Mul(wrap == Wrap::repeat ? repeated(from_center) : clamped_below(from_center), splat(axis.size)));
+  if (wrap != Wrap::repeat) at = hn::Min(at, splat(axis.last));
+  return {hn::ShiftRight<16>(at), twice(at)};
 }
 
 HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-  Int index = hn::Add(nearest_texel(s, level.width), splat(level.first));
-  if (level.height > 1) index = hn::Add(index, hn::Mul(nearest_texel(t, level.height), splat(level.stride())));
-  return texels_of(load_words(texture.words, index));
+  const Int column = nearest_texel(s, level.columns, texture.wrap_s), row = nearest_texel(t, level.rows, texture.wrap_t);
+  return texels_of(load_words(texture.words + level.first, hn::Add(column, hn::Mul(row, splat(level.stride)))));
 }
 
-HWY_INLINE Texels linear_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-  const TexelPlace column = linear_place(s, level.width, texture.wrap_s);
-  const Int to_right = twice(column.fraction);
-  const auto row_of = [&](Int index) HWY_ATTR {
-    const TexelPairs pairs = load_pairs(texture.words, index);
+/// Which four texels of a level are mixed, and by how much.
+struct LinearTexels {
+  const std::uint32_t* words;
+  std::int32_t stride;
+  Int index, to_right, to_next_row;
+
+  HWY_INLINE void place(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
+    const TexelPlace column = linear_place(s, level.columns, texture.wrap_s), row = linear_place(t, level.rows, texture.wrap_t);
+    words = texture.words + level.first;
+    stride = level.stride;
+    index = hn::Add(column.texel, hn::Mul(row.texel, splat(level.stride)));
+    to_right = column.fraction;
+    to_next_row = row.fraction;
+  }
+  HWY_INLINE Texels mix() const {
+    const Texels lower = mix_of(words);
+    return mixed(lower, mix_of(words + stride), to_next_row);
+  }
+
+ private:
+  HWY_INLINE Texels mix_of(const std::uint32_t* row) const {
+    const TexelPairs pairs = load_pairs(row, index);
     return mixed(texels_of(pairs.left), texels_of(pairs.right), to_right);
-  };
-  const Int in_row = hn::Add(column.texel, splat(level.first));
-  if (level.height == 1) return row_of(in_row);
-  const TexelPlace row = linear_place(t, level.height, texture.wrap_t);
-  const Int index = hn::Add(in_row, hn::Mul(row.texel, splat(level.stride())));
-  return mixed(row_of(index), row_of(hn::Add(index, splat(level.stride()))), twice(row.fraction));
+  }
+};
+HWY_INLINE Texels linear_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
+  LinearTexels texels;
+  texels.place(texture, level, s, t);
+  return texels.mix();
 }
 
-HWY_INLINE Texels texels_in(const TextureLevels& texture, int level, bool linear, Float s, Float t) {
-  return linear ? linear_texels(texture, texture.level[level], s, t) : nearest_texels(texture, texture.level[level], s, t);
-}
+/// Half of log2(m) / (m - 1) with 16 fraction bits, for m in [sqrt(1/2), sqrt(2)): a Remez fit, off by less than 1/65536 of a level.
+inline constexpr float kLevelCoefficients[] = {5975.88720703125f, -12489.646484375f, 16273.4267578125f, -23630.955078125f, 47260.09375f};
 
-/// The level of detail of minified points with 16 fraction bits; whole where levels are not blended. GL 2.1, 3.8.8.
+/// The level of detail of minified points with 16 fraction bits, of others 0; whole where levels are not blended. GL 2.1, 3.8.8.
 HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
-  if (texture.last == 0) return hn::Zero(kInt);
+  // The footprint is squared. Of numbers that are not positive comes something finite.
+  const Int bits = hn::BitCast(kInt, footprint);
   Int level;
   if (texture.blends_levels) {
-    level = truncate(hn::Mul(log2_lanes(footprint), splat(0.5f * 65536.0f)));
+    // m 2^e with m in [sqrt(1/2), sqrt(2)).
+    const Int exponent = hn::ShiftRight<23>(hn::Sub(bits, splat(kSqrtHalfBits)));
+    const Float m = hn::BitCast(kFloat, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), above_one = hn::Sub(m, splat(1.0f));
+    Float sum = splat(kLevelCoefficients[0]);
+    for (int k = 1; k < 5; ++k) sum = mul_add(sum, above_one, splat(kLevelCoefficients[k]));
+    level = hn::Add(truncate(hn::Mul(sum, above_one)), hn::ShiftLeft<15>(exponent));
   } else {
-    // The footprint is squared: level d is that of 2^(2d - 1), exclusive, to 2^(2d + 1), inclusive.
-    const Int exponent = hn::Sub(hn::ShiftRight<23>(hn::Sub(hn::BitCast(kInt, footprint), splat(1))), splat(127));
+    // Level d is that of 2^(2d - 1), exclusive, to 2^(2d + 1), inclusive.
+    const Int exponent = hn::Sub(hn::ShiftRight<23>(hn::Sub(bits, splat(1))), splat(127));
     level = hn::ShiftLeft<16>(hn::ShiftRight<1>(hn::Add(exponent, splat(1))));
   }
-  return hn::Max(hn::Min(level, splat(texture.last << 16)), hn::Zero(kInt));
+  const Int within = hn::Max(hn::Min(level, splat(texture.last << 16)), hn::Zero(kInt));
+  return hn::IfThenElseZero(hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.most_magnified))), within);
+}
+
+/// Chunks all of whose points are at one level, or between it and the next smaller one.
+template <int kChunks>
+HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, const Int (&level_of)[kChunks], const Float (&s)[kChunks], const Float (&t)[kChunks], Texels (&texels)[kChunks]) {
+  // Unrolled, the arrays stay in registers; the compiler finds it too long.
+  LinearTexels linear[2][kChunks];
+#pragma GCC unroll 2
+  for (int i = 0; i < kChunks; ++i) linear[0][i].place(texture, texture.level[level], s[i], t[i]);
+  if (!texture.blends_levels || level == texture.last) {
+    for (int i = 0; i < kChunks; ++i) texels[i] = linear[0][i].mix();
+    return;
+  }
+#pragma GCC unroll 2
+  for (int i = 0; i < kChunks; ++i) linear[1][i].place(texture, texture.level[level + 1], s[i], t[i]);
+#pragma GCC unroll 2
+  for (int i = 0; i < kChunks; ++i) {
+    const Texels larger = linear[0][i].mix();
+    texels[i] = mixed(larger, linear[1][i].mix(), twice(level_of[i]));
+  }
+}
+HWY_INLINE Texels linear_texels_from(const TextureLevels& texture, int level, Int level_of, Float s, Float t) {
+  Texels texels[1];
+  linear_texels_from<1>(texture, level, {level_of}, {s}, {t}, texels);
+  return texels[0];
+}
+HWY_INLINE Texels nearest_texels_from(const TextureLevels& texture, int level, Int level_of, Float s, Float t) {
+  const Texels larger = nearest_texels(texture, texture.level[level], s, t);
+  return texture.blends_levels && level < texture.last ? mixed(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of)) : larger;
 }
 
 /// Points of one chunk at whatever levels they have: one pass for each of those, nearly always one or two.
-/// @param footprint  squared texels a pixel spans, 0 where that decides nothing
-HWY_INLINE Texels filtered_texels(const TextureLevels& texture, Float s, Float t, Float footprint) {
-  if (!texture.needs_footprint()) return texels_in(texture, 0, texture.mag_linear, s, t);
-  Texels all{hn::Zero(kInt), hn::Zero(kInt)};
-  const auto minified = hn::Gt(footprint, splat(texture.most_magnified));
-  const bool any_minified = !hn::AllFalse(kFloat, minified);
+inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Float s, Float t, Float footprint) {
+  const auto minified = hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.most_magnified)));
   // Magnified points are points of level 0 like others, unless they have a filter of their own.
   const bool apart = texture.mag_linear != texture.min_linear;
-  if (!any_minified || (apart && !hn::AllTrue(kFloat, minified))) all = texels_in(texture, 0, texture.mag_linear, s, t);
-  if (!any_minified) return all;
-
-  // Whatever stands in lanes that nobody looks at: a number.
-  const Float most = splat(0x1p60f), sound = hn::IfThenElse(minified, hn::IfThenElse(hn::Lt(footprint, most), footprint, most), splat(1.0f));
-  const auto minified_lanes = hn::RebindMask(kInt, minified);
-  const Int level_of = hn::IfThenElseZero(minified_lanes, level_of_detail(texture, sound));
-  const Int whole = hn::ShiftRight<16>(level_of), fraction = twice(hn::And(level_of, splat(0xffff)));
+  Texels all{hn::Zero(kInt), hn::Zero(kInt)};
+  if (apart && !hn::AllTrue(kInt, minified)) all = texture.mag_linear ? linear_texels(texture, texture.level[0], s, t) : nearest_texels(texture, texture.level[0], s, t);
+  const Int level_of = level_of_detail(texture, footprint), whole = hn::ShiftRight<16>(level_of);
   alignas(64) std::int32_t levels[kLanes];
   hn::Store(whole, kInt, levels);
-  for (std::uint32_t left = apart ? mask_bits(kInt, minified_lanes) : (1u << kLanes) - 1; left != 0;) {
-    const int level = levels[std::countr_zero(left)], last = texture.blends_levels ? std::min(level + 1, texture.last) : level;
-    Texels here;
-    for (int k = level; k <= last; ++k) {
-      const Texels texels = texels_in(texture, k, texture.min_linear, s, t);
-      here = k == level ? texels : mixed(here, texels, fraction);
-    }
+  for (std::uint32_t left = apart ? mask_bits(kInt, minified) : (1u << kLanes) - 1; left != 0;) {
+    const int level = levels[std::countr_zero(left)];
+    const Texels here = texture.min_linear ? linear_texels_from(texture, level, level_of, s, t) : nearest_texels_from(texture, level, level_of, s, t);
     auto same = hn::Eq(whole, splat(level));
-    if (apart) same = hn::And(same, minified_lanes);
-    all = {hn::IfThenElse(same, here.rb, all.rb), hn::IfThenElse(same, here.ga, all.ga)};
+    if (apart) same = hn::And(same, minified);
+    all = {hn::IfThenElse(same, here.br, all.br), hn::IfThenElse(same, here.ga, all.ga)};
     left &= ~mask_bits(kInt, same);
   }
   return all;
 }
 
-/// What a chunk's points see of a texture with levels, coordinates as they come.
-inline HWY_NOINLINE Texels texels_where(const TextureLevels& texture, Float s, Float t, Float footprint) {
-  if (texture.level[0].height == 1) t = hn::Zero(kFloat);  // a 1-D texture
-  // A plane beyond its horizon, at a centre that is not covered.
-  const auto finite = hn::Eq(hn::Add(hn::Sub(s, s), hn::Sub(t, t)), hn::Zero(kFloat));
-  s = wrapped(hn::IfThenElseZero(finite, s), texture.wrap_s);
-  t = wrapped(hn::IfThenElseZero(finite, t), texture.wrap_t);
-  return filtered_texels(texture, s, t, footprint);
-}
-
-/// component / kTexelOne, correctly rounded for 0 .. kTexelOne: a product, and what it lacks.
-HWY_INLINE Float unit_component(Int component) {
-  constexpr float kScale = 1.0f / kTexelOne;
-  const Float whole = hn::ConvertTo(kFloat, component), quotient = hn::Mul(whole, splat(kScale));
-  return mul_add(neg_mul_add(quotient, splat(kTexelOne), whole), splat(kScale), quotient);
-}
-HWY_INLINE Colors colors_of(const Texels& texels) {
-  const auto upper = [](Int two) HWY_ATTR { return hn::BitCast(kInt, hn::ShiftRight<16>(hn::BitCast(kUint, two))); };
-  const Int lower = splat(0xffff);
-  return {{unit_component(hn::And(texels.rb, lower)), unit_component(hn::And(texels.ga, lower)), unit_component(upper(texels.rb)), unit_component(upper(texels.ga))}};
-}
-
-/// Words of 8 bits a component: a component's level, floor(255 c + 0.5), is that of its 16 bits rounded to 8.
-HWY_INLINE Int words_of_texels(const Texels& texels) {
-  const Int level = splat(0xff00);
-  const Int r = hn::ShiftLeft<8>(hn::And(hn::Add(texels.rb, splat(0x80)), level)), g = hn::And(hn::Add(texels.ga, splat(0x80)), level);
-  const Int b = hn::BitCast(kInt, hn::ShiftRight<24>(hn::BitCast(kUint, hn::Add(texels.rb, splat(0x800000)))));
-  return hn::Or(hn::Or(r, g), b);
-}
-
-/// Texels of the first `count` points, whole vectors of lanes.
-inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) {
-  for (int point = 0; point < count; point += kLanes) {
-    const Float footprint = texture.needs_footprint() ? hn::Load(kFloat, batch.field[kTexelsSquared] + point) : hn::Zero(kFloat);
-    const Colors colors = colors_of(texels_where(texture, hn::Load(kFloat, batch.field[kTextureS] + point), hn::Load(kFloat, batch.field[kTextureT] + point), footprint));
-    for (int c = 0; c < 4; ++c) hn::Store(colors.c[c], kFloat, batch.field[kTexelR + c] + point);
+/// What the points of some chunks see of a texture with levels, coordinates as they come. Each step is taken for all chunks before the
+/// next: few of one chunk's can run beside each other.
+/// @param footprint  squared texels a pixel spans, where that decides anything
+template <TexelFilter kFilter, int kChunks>
+HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], Float (&t)[kChunks], const Float (&footprint)[kChunks], Texels (&texels)[kChunks]) {
+  if (texture.wrap_s != Wrap::repeat)
+    for (Float& f : s) f = wrapped(f, texture.wrap_s);
+  if (texture.wrap_t != Wrap::repeat)
+    for (Float& f : t) f = wrapped(f, texture.wrap_t);
+  if constexpr (kFilter == TexelFilter::nearest) {
+    for (int i = 0; i < kChunks; ++i) texels[i] = nearest_texels(texture, texture.level[0], s[i], t[i]);
+  } else if constexpr (kFilter == TexelFilter::linear) {
+    LinearTexels linear[kChunks];
+    for (int i = 0; i < kChunks; ++i) linear[i].place(texture, texture.level[0], s[i], t[i]);
+    for (int i = 0; i < kChunks; ++i) texels[i] = linear[i].mix();
+  } else if constexpr (kFilter == TexelFilter::linear_levels) {
+    Int level_of[kChunks];
+    for (int i = 0; i < kChunks; ++i) level_of[i] = level_of_detail(texture, footprint[i]);
+    const int level = hn::GetLane(hn::ShiftRight<16>(level_of[0]));
+    auto same = hn::Eq(hn::ShiftRight<16>(level_of[0]), splat(level));
+    for (int i = 1; i < kChunks; ++i) same = hn::And(same, hn::Eq(hn::ShiftRight<16>(level_of[i]), splat(level)));
+    if (hn::AllTrue(kInt, same)) return linear_texels_from(texture, level, level_of, s, t, texels);
+    for (int i = 0; i < kChunks; ++i) texels[i] = texels_from_levels(texture, s[i], t[i], footprint[i]);
+  } else {
+    for (int i = 0; i < kChunks; ++i) texels[i] = texels_from_levels(texture, s[i], t[i], footprint[i]);
   }
+}
+
+/// Calls run.operator()<filter>() for the texture's.
+template <class Run>
+HWY_INLINE void with_filter(const TextureLevels& texture, const Run& run) {
+  switch (texture.filter()) {
+    case TexelFilter::nearest: return run.template operator()<TexelFilter::nearest>();
+    case TexelFilter::linear: return run.template operator()<TexelFilter::linear>();
+    case TexelFilter::linear_levels: return run.template operator()<TexelFilter::linear_levels>();
+    case TexelFilter::any: return run.template operator()<TexelFilter::any>();
+  }
+}
+
+/// Texels of the first `count` points, whole blocks of them.
+inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) {
+  with_filter(texture, [&]<TexelFilter kFilter>() HWY_ATTR {
+    for (int first = 0; first < count; first += kBlockPixels) {
+      Float at_s[kChunksPerBlock], at_t[kChunksPerBlock], footprint[kChunksPerBlock];
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+        const auto field = [&](int number) HWY_ATTR { return hn::Load(kFloat, batch.field[number] + first + chunk * kLanes); };
+        at_s[chunk] = field(kTextureS), at_t[chunk] = field(kTextureT), footprint[chunk] = field(kTexelsSquared);
+      }
+      Texels texels[kChunksPerBlock];
+      texels_where<kFilter>(texture, at_s, at_t, footprint, texels);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+        const Colors colors = colors_of(texels[chunk]);
+        for (int c = 0; c < 4; ++c) hn::Store(colors.c[c], kFloat, batch.field[kTexelR + c] + first + chunk * kLanes);
+      }
+    }
+  });
 }
 
 /// What a chunk's points see of a texture. @pre sample_texture_lanes, where it has levels

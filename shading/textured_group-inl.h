@@ -23,20 +23,25 @@ HWY_INLINE bool textures_at_once(const TileFrame& frame, const TileDraw& draw) {
 }
 
 /// One triangle's way through the blocks of a tile.
+template <TexelFilter kFilter>
 struct TexturedBlocks {
   TileRun& run;
   const TileDraw& draw;
   const ShadedTriangle& triangle;
-  bool uses_depth, texels_alone, full;
+  bool uses_depth, is_rgb8, modulates, texels_alone, at_once, full;
   FragmentDepth depth;
   TextureCoordinates coordinates;
   Corners color[3];
   Int seen = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
+  std::uint64_t blocks = 0;   // drawn as a whole
 
   HWY_INLINE void set_up(int i) {
     uses_depth = has_depth(run.frame, draw);
     const ColorLayout& layout = run.frame.layout;
-    texels_alone = draw.texture->function == TextureFunction::replace && layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
+    is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
+    modulates = draw.texture->function == TextureFunction::modulate;
+    texels_alone = is_rgb8 && draw.texture->function == TextureFunction::replace;
+    at_once = is_rgb8 && (texels_alone || modulates) && !uses_depth && !run.cut && (draw.write_mask & 0xffffff) == 0xffffff;
     depth.set_up(run.frame, draw, run.memory.group, i, run.memory.source[i], run.tile_x, run.tile_y);
     coordinates.set_up(triangle, run.memory.wide.data(), *draw.texture, false);
     for (int c = 0; c < 3; ++c) {
@@ -44,43 +49,65 @@ struct TexturedBlocks {
       color[c] = draw.source == ColorSource::constant ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0} : corners(triangle, draw.color_attribute[face] + c);
     }
   }
+  HWY_INLINE std::uint64_t shaded_pixels() const { return std::uint64_t{kBlockPixels} * blocks + count_of(seen); }
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
+    if (kFull && kFilter != TexelFilter::any && at_once) {
+      Barycentric at[kChunksPerBlock];
+      Texels texels[kChunksPerBlock];
+      find_texels(bx, by, edges, at, texels);
+      auto* const stored = reinterpret_cast<std::int32_t*>(run.memory.color + run.block_index(bx, by));
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(texels_alone ? words_of_texels(texels[chunk]) : modulated_words(at[chunk], texels[chunk]), kInt, stored + chunk * kLanes);
+      ++blocks;
+      return;
+    }
     full = kFull;  // no argument: the compiler would make a copy of draw_block for each
     draw_block(bx, by, edges);
   }
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& edges) {
     const int block = run.block_index(bx, by);
-    Int keys[kChunksPerBlock];
-    depth.block_keys(bx, by, keys);
+    Int keys[kChunksPerBlock], passed[kChunksPerBlock], any = hn::Zero(kInt);
+    if (uses_depth) depth.block_keys(bx, by, keys);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const int index = block + chunk * kLanes;
       auto mask = full ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : edges.covered(chunk);
       if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
       if (uses_depth) {
-        std::int32_t* const at = run.memory.depth + index;
+        std::int32_t* const at = run.memory.depth + block + chunk * kLanes;
         const Int stored = hn::Load(kInt, at);
         mask = hn::And(mask, comparing(keys[chunk], draw.depth_test, stored));
         if (draw.depth_write) hn::Store(hn::IfThenElse(mask, keys[chunk], stored), kInt, at);
       }
-      if (hn::AllFalse(kInt, mask)) continue;
-      seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
-      store_words(run.memory.color + index, words(bx, by, chunk, edges), mask, splat(static_cast<std::int32_t>(draw.write_mask)));
+      passed[chunk] = hn::VecFromMask(kInt, mask);
+      any = hn::Or(any, passed[chunk]);
+      seen = hn::Add(seen, passed[chunk]);
     }
+    if (hn::AllFalse(kInt, hn::MaskFromVec(any))) return;
+    Barycentric at[kChunksPerBlock];
+    Texels texels[kChunksPerBlock];
+    find_texels(bx, by, edges, at, texels);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      store_words(run.memory.color + block + chunk * kLanes, words(at[chunk], texels[chunk]), hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
   }
 
  private:
-  HWY_INLINE Int words(int bx, int by, int chunk, const BlockEdges& edges) const {
-    const Barycentric at = triangle.wide >= 0 ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk)
-                                              : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
-    Float s = hn::Zero(kFloat), t = hn::Zero(kFloat), footprint = hn::Zero(kFloat);
-    coordinates.at(at, [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint) = value; });
-    const Texels texels = texels_where(*draw.texture->levels, s, t, footprint);
-    if (texels_alone) return words_of_texels(texels);
-    const Colors own{{interpolate(at, color[0]), interpolate(at, color[1]), interpolate(at, color[2]), splat(1.0f)}};
-    return words_of(run.frame.layout, textured_lanes(*draw.texture, own, colors_of(texels)), splat(0.5f));
+  HWY_INLINE void find_texels(int bx, int by, const BlockEdges& edges, Barycentric (&at)[kChunksPerBlock], Texels (&texels)[kChunksPerBlock]) const {
+    constexpr bool kHasSlopes = kFilter == TexelFilter::linear_levels || kFilter == TexelFilter::any;
+    Float s[kChunksPerBlock], t[kChunksPerBlock], footprint[kChunksPerBlock];
+    for (int i = 0; i < kChunksPerBlock; ++i) {
+      at[i] = triangle.wide >= 0 ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, i)
+                                 : barycentric_from_edges(triangle, edges.at(0, i), edges.at(1, i), edges.at(2, i));
+      coordinates.at<kHasSlopes>(at[i], [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value; });
+    }
+    texels_where<kFilter>(*draw.texture->levels, s, t, footprint, texels);
   }
+  HWY_INLINE Int words(const Barycentric& at, const Texels& texels) const {
+    if (texels_alone) return words_of_texels(texels);
+    if (is_rgb8 && modulates) return modulated_words(at, texels);
+    return words_of(run.frame.layout, textured_lanes(*draw.texture, own_colors(at), colors_of(texels)), splat(0.5f));
+  }
+  HWY_INLINE Int modulated_words(const Barycentric& at, const Texels& texels) const { return words_of_rgb8(modulated(own_colors(at), colors_of(texels))); }
+  HWY_INLINE Colors own_colors(const Barycentric& at) const { return {{interpolate(at, color[0]), interpolate(at, color[1]), interpolate(at, color[2]), splat(1.0f)}}; }
 };
 
 inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
@@ -98,11 +125,13 @@ inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
     ShadedTriangle triangle;
     fill_shaded_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
     if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
-    TexturedBlocks blocks{.run = run, .draw = draw, .triangle = triangle};
-    blocks.set_up(i);
-    const BlockOffsets offsets(edges);
-    for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
-    run.counts.shaded_pixels += count_of(blocks.seen);
+    with_filter(*draw.texture->levels, [&]<TexelFilter kFilter>() HWY_ATTR {
+      TexturedBlocks<kFilter> blocks{.run = run, .draw = draw, .triangle = triangle};
+      blocks.set_up(i);
+      const BlockOffsets offsets(edges);
+      for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
+      run.counts.shaded_pixels += blocks.shaded_pixels();
+    });
     run.memory.wide.clear();
   }
 }

@@ -41,7 +41,9 @@ DrawGroup pick_by_color(Seen seen, bool sampled) {
 DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
   if (draw.topology == Topology::points) return draw_points;
   if (draw.topology == Topology::lines) return draw_lines;
-  if (textures_at_once(frame, draw)) return draw_textured;
+  if constexpr (kLanes > 1) {  // one lane gains nothing
+    if (textures_at_once(frame, draw)) return draw_textured;
+  }
   if (draw.ops != nullptr) return frame.samples > 1 ? &draw_fragments_samples : &draw_fragments;
   const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
                     : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect

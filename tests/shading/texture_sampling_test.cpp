@@ -42,23 +42,21 @@ struct TestTexture {
   }
   double component(int level, std::int64_t i, std::int64_t j, int c) const {
     const TextureLevel& l = levels.level[level];
-    return words[static_cast<std::size_t>(l.first + j * l.stride() + i)] >> (8 * c) & 0xff;
+    return words[static_cast<std::size_t>(l.first + j * l.stride + i)] >> kTexelShift[c] & 0xff;
   }
 
  private:
   void add_level(std::mt19937& random, int number, int width, int height) {
-    TextureLevel& level = levels.level[number];
-    level.first = static_cast<std::int32_t>(words.size());
-    level.width = width;
-    level.height = height;
+    const TextureLevel level(static_cast<std::int32_t>(words.size()), width, height);
+    levels.level[number] = level;
     words.resize(words.size() + static_cast<std::size_t>(level.words()));
     std::uint32_t* const first = words.data() + level.first;
     for (int j = 0; j < height; ++j) {
-      std::uint32_t* const row = first + j * level.stride();
+      std::uint32_t* const row = first + j * level.stride;
       for (int i = 0; i < width; ++i) row[i] = static_cast<std::uint32_t>(random());
       row[width] = levels.wrap_s == Wrap::repeat ? row[0] : row[width - 1];
     }
-    if (height > 1) std::memcpy(first + height * level.stride(), levels.wrap_t == Wrap::repeat ? first : first + (height - 1) * level.stride(), sizeof(std::uint32_t) * static_cast<std::size_t>(level.stride()));
+    if (height > 1) std::memcpy(first + height * level.stride, levels.wrap_t == Wrap::repeat ? first : first + (height - 1) * level.stride, sizeof(std::uint32_t) * static_cast<std::size_t>(level.stride));
   }
 };
 
@@ -219,7 +217,7 @@ TEST(TextureSampling, OneColorStaysExact) {
   std::mt19937 random(9);
   for (const Min min : kMins) {
     TestTexture texture(random, 12, 20, true, min, Wrap::repeat, Wrap::mirrored_repeat);
-    for (std::uint32_t& word : texture.words) word = 0xff80b301;
+    for (std::uint32_t& word : texture.words) word = 0xff01b380;
     ShadingBatch batch{};
     for (int i = 0; i < kBatchPoints; ++i) {
       batch.field[kTextureS][i] = 0.173f * static_cast<float>(i);

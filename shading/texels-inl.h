@@ -1,0 +1,119 @@
+// Texels of a batch of points: loaded, mixed, and as colours. Components are levels with 8 fraction bits, two in each lane.
+#if defined(TESSERA_SHADING_TEXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_TEXELS_INL_H_
+#undef TESSERA_SHADING_TEXELS_INL_H_
+#else
+#define TESSERA_SHADING_TEXELS_INL_H_
+#endif
+
+#include "shading/fragment_ops-inl.h"
+#include "shading/texture.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// Blue below red, green below alpha.
+struct Texels {
+  Int br, ga;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+/// The 16 bits' lower bytes as upper ones, above zeros.
+HWY_INLINE Int lower_bytes_up(Int words) { return hn::And(hn::ShiftLeft<8>(words), splat(static_cast<std::int32_t>(0xff00ff00u))); }
+/// 16 bits' upper byte as the lower one.
+HWY_INLINE Int upper_bytes_down(Int words) { return hn::And(hn::BitCast(kInt, hn::ShiftRight<8>(hn::BitCast(kUint, words))), splat(0x00ff00ff)); }
+/// Each lane's lower 16 bits, twice.
+HWY_INLINE Int twice(Int lower) { return hn::Or(hn::And(lower, splat(0xffff)), hn::ShiftLeft<16>(lower)); }
+/// a - (a f >> 16) + (b f >> 16) for each 16 bits: exactly a where b is the same.
+HWY_INLINE Int mixed(Int a, Int b, Int f) {
+  const auto part = [](std::uint32_t x, std::uint32_t y) { return ((x & 0xffff) * (y & 0xffff) >> 16) | ((x >> 16) * (y >> 16) & 0xffff0000u); };
+  const auto x = static_cast<std::uint32_t>(a.raw), y = static_cast<std::uint32_t>(b.raw), share = static_cast<std::uint32_t>(f.raw);
+  return Int(static_cast<std::int32_t>(x - part(x, share) + part(y, share)));
+}
+#else
+inline constexpr hn::Repartition<std::uint16_t, IntTag> kHalves{};
+HWY_INLINE Int lower_bytes_up(Int words) { return hn::BitCast(kInt, hn::ShiftLeft<8>(hn::BitCast(kHalves, words))); }
+HWY_INLINE Int upper_bytes_down(Int words) { return hn::BitCast(kInt, hn::ShiftRight<8>(hn::BitCast(kHalves, words))); }
+HWY_INLINE Int twice(Int lower) { return hn::BitCast(kInt, hn::OddEven(hn::BitCast(kHalves, hn::ShiftLeft<16>(lower)), hn::BitCast(kHalves, lower))); }
+HWY_INLINE Int mixed(Int a, Int b, Int f) {
+  const auto x = hn::BitCast(kHalves, a), y = hn::BitCast(kHalves, b), share = hn::BitCast(kHalves, f);
+  return hn::BitCast(kInt, hn::Add(hn::Sub(x, hn::MulHigh(x, share)), hn::MulHigh(y, share)));
+}
+#endif
+
+HWY_INLINE Texels texels_of(Int words) { return {lower_bytes_up(words), hn::And(words, splat(static_cast<std::int32_t>(0xff00ff00u)))}; }
+HWY_INLINE Texels mixed(const Texels& a, const Texels& b, Int f) { return {mixed(a.br, b.br, f), mixed(a.ga, b.ga, f)}; }
+
+#if HWY_TARGET == HWY_AVX2
+/// Indices of lanes, for loads one by one: faster than a gather.
+struct LaneIndices {
+  std::uint64_t two[4];
+  explicit HWY_INLINE LaneIndices(Int index) {
+    const __m128i low = _mm256_castsi256_si128(index.raw), high = _mm256_extracti128_si256(index.raw, 1);
+    two[0] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low)), two[1] = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
+    two[2] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high)), two[3] = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
+  }
+  HWY_INLINE std::size_t operator[](int lane) const { return lane % 2 == 0 ? two[lane / 2] & 0xffffffffu : two[lane / 2] >> 32; }
+};
+#endif
+
+/// The words at an index of at least 0.
+HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
+#if HWY_TARGET == HWY_AVX2
+  const LaneIndices at(index);
+  const auto word = [&](int l) HWY_ATTR { return static_cast<std::int32_t>(words[at[l]]); };
+  return Int{_mm256_setr_epi32(word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7))};
+#else
+  return hn::GatherIndex(kInt, reinterpret_cast<const std::int32_t*>(words), index);
+#endif
+}
+
+/// The words at an index and after it.
+struct TexelPairs {
+  Int left, right;
+};
+HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index) {
+#if HWY_TARGET == HWY_AVX2
+  const LaneIndices at(index);
+  const auto two = [&](int first, int second) HWY_ATTR {
+    return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words + at[first]))), reinterpret_cast<const __m64*>(words + at[second]));
+  };
+  // Pairs of lanes 0 1 4 5 and of lanes 2 3 6 7: what parts them again stays within halves.
+  const __m256 low = _mm256_set_m128(two(4, 5), two(0, 1)), high = _mm256_set_m128(two(6, 7), two(2, 3));
+  return {Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))}, Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))}};
+#elif HWY_TARGET == HWY_AVX3
+  const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(index.raw), words, 4);
+  const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(index.raw, 1), words, 4);
+  const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+  const __m512i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
+  return {Int{_mm512_permutex2var_epi32(low, even, high)}, Int{_mm512_permutex2var_epi32(low, odd, high)}};
+#else
+  const std::uint32_t* const at = words + index.raw;
+  return {Int(static_cast<std::int32_t>(at[0])), Int(static_cast<std::int32_t>(at[1]))};
+#endif
+}
+
+/// component / kTexelOne, correctly rounded for 0 .. kTexelOne: a product, and what it lacks.
+HWY_INLINE Float unit_component(Int component) {
+  constexpr float kScale = 1.0f / kTexelOne;
+  const Float whole = hn::ConvertTo(kFloat, component), quotient = hn::Mul(whole, splat(kScale));
+  return mul_add(neg_mul_add(quotient, splat(kTexelOne), whole), splat(kScale), quotient);
+}
+HWY_INLINE Colors colors_of(const Texels& texels) {
+  const auto upper = [](Int two) HWY_ATTR { return hn::BitCast(kInt, hn::ShiftRight<16>(hn::BitCast(kUint, two))); };
+  const Int lower = splat(0xffff);
+  return {{unit_component(upper(texels.br)), unit_component(hn::And(texels.ga, lower)), unit_component(hn::And(texels.br, lower)), unit_component(upper(texels.ga))}};
+}
+
+/// Words of 8 bits a component, none of alpha: a component's level, floor(255 c + 0.5), is that of its 16 bits rounded to 8.
+HWY_INLINE Int words_of_texels(const Texels& texels) {
+  const Int g = hn::And(hn::Add(texels.ga, splat(0x80)), splat(0xff00));
+  return hn::Or(upper_bytes_down(hn::Add(texels.br, splat(0x00800080))), g);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif
