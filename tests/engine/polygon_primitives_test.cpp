@@ -176,7 +176,7 @@ TEST(PolygonPrimitives, HaveTheMaterialOfTheirSide) {
     state.material.emission = {1, 0, 0, 1};
     state.back_material = Material{.emission = {0, 0, 1, 1}};
     state.material.ambient = state.back_material->ambient = {0, 0, 0, 1};
-    if (with_operations) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::zero};
+    if (with_operations) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};
     frame.draw(tie.view(), state);
     Renderer({.threads = 1}).finish(frame);
     std::size_t red = 0, blue = 0;

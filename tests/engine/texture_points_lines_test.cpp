@@ -63,7 +63,7 @@ TEST(TexturedLines, TakeTheLevelOfDetailAlongTheirLength) {
           const std::string where = std::to_string(degrees) + " degrees, " + std::to_string(samples) + " samples, width " + std::to_string(width) + ", blends " + std::to_string(blends);
           DrawState state = replacing(texture);
           state.line_width = width;
-          if (blends) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::zero};
+          if (blends) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
           EXPECT_EQ(not_grey(drawn(spoke(degrees, 40, std::exp2(0.53), 64), state, samples)), 0) << where;
           const std::ptrdiff_t seen = not_grey(drawn(spoke(degrees, 40, std::exp2(0.47), 64), state, samples));
           state.texture = nullptr;
@@ -129,7 +129,7 @@ MeshData colored_lines(Random& random, int count) {
 // blend that changes nothing takes another way there.
 TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
   Random random(7);
-  const std::uint8_t pixels[] = {255, 255, 255, 200, 128, 90, 60, 255};
+  const std::uint8_t pixels[] = {128, 90, 60, 200, 255, 255, 255, 255};
   const Texture texture({.pixels = pixels, .width = 2, .height = 1}, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest});
   for (int round = 0; round < 24; ++round) {
     const MeshData mesh = colored_lines(random, 30);
@@ -142,7 +142,7 @@ TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
         state.line_width = round % 2 == 0 ? 1 : 6;
         if (round % 6 != 5) state.texture = &texture;
         state.texture_env = static_cast<TextureEnv>(round % 5);
-        if (blends) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::zero};
+        if (blends) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
         frame.draw(mesh.view(), state);
         Renderer({.threads = 1}).finish(frame);
         return color_words(buffer);
