@@ -40,9 +40,10 @@ GLenum accum_operation(reference::AccumOp op) {
 
 class Renderer {
  public:
-  explicit Renderer(const reference::Scene& scene)
+  Renderer(const reference::Scene& scene, LevelOfDetail level_of_detail)
       : scene_(scene),
         format_(scene.framebuffer),
+        level_of_detail_(level_of_detail),
         context_(format_.width_px, format_.height_px, buffers_for(scene)),
         gl_(context_.functions()),
         programs_(gl_),
@@ -155,7 +156,7 @@ class Renderer {
     glShadeModel(draw.shading == reference::Shading::kFlat ? GL_FLAT : GL_SMOOTH);
     set_enabled(GL_NORMALIZE, draw.normalize);
     textures_.use(draw);
-    programs_.use(lighting, texture != nullptr && asks_for_level(*texture));
+    programs_.use(lighting, texture != nullptr && asks_for_level(*texture) && level_of_detail_ == LevelOfDetail::exact);
     set_program_texture(programs_, draw, mesh, texture);
     if (lighting == LightingBy::kFixedFunctions) {
       load_matrix(camera_.view_from_world);
@@ -170,6 +171,7 @@ class Renderer {
 
   const reference::Scene& scene_;
   const FrameBufferFormat& format_;
+  LevelOfDetail level_of_detail_;
   Context context_;
   const Functions& gl_;
   Programs programs_;
@@ -182,9 +184,9 @@ class Renderer {
 
 std::optional<std::string> unsupported(const reference::Scene& scene) { return first_limit(scene); }
 
-std::vector<std::uint8_t> render(const reference::Scene& scene) {
+std::vector<std::uint8_t> render(const reference::Scene& scene, LevelOfDetail level_of_detail) {
   if (const auto reason = unsupported(scene)) throw std::runtime_error("Mesa cannot follow: " + *reason);
-  return Renderer(scene).run();
+  return Renderer(scene, level_of_detail).run();
 }
 
 }  // namespace tessera::mesa

@@ -21,8 +21,11 @@ namespace tessera::mesa {
 /// Why Mesa cannot follow a scene; nothing if it can.
 std::optional<std::string> unsupported(const reference::Scene& scene);
 
+/// Of mipmapped textures: by GLSL, from exact derivatives [GL 2.1, equation 3.14], or as Mesa has it, one for several pixels and rounded.
+enum class LevelOfDetail : std::uint8_t { exact, mesas_own };
+
 /// What the colour buffer shows at the end of the frame: 3 bytes a pixel, rows from the top.
 /// @throws std::runtime_error if the scene is unsupported or OpenGL reports an error.
-std::vector<std::uint8_t> render(const reference::Scene& scene);
+std::vector<std::uint8_t> render(const reference::Scene& scene, LevelOfDetail level_of_detail = LevelOfDetail::exact);
 
 }  // namespace tessera::mesa
