@@ -110,7 +110,7 @@ HWY_INLINE void clamp_colors(ShadingBatch& batch, int count) {
     }
 }
 
-/// The colours of the first `count` points, whole vectors of lanes, under the texture.
+/// The colours of the first `count` points, whole vectors of lanes, under the texture. What follows them in the batch may be anything.
 inline HWY_NOINLINE void texture_points(const DrawTexture& texture, ShadingBatch& batch, int count) {
   if (texture.levels != nullptr) sample_texture_lanes(*texture.levels, batch, count);
   for (int point = 0; point < count; point += kLanes) {

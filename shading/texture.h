@@ -1,8 +1,7 @@
 // Textures as pixels see them: levels of 32-bit texels, how they are filtered, and what a texel does to a colour.
 //
 // A level is stored with one texel more in each row, the one that follows the last under the texture's wrap, and one row more
-// after the last: the four texels of a bilinear filter are then two pairs of neighbours, wherever they lie. A row and a word beyond
-// are read, but have no weight.
+// after the last: the four texels of a bilinear filter are then two pairs of neighbours, wherever they lie.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +19,9 @@ inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
 
 /// Texels along one side of a level, in fixed point with 16 fraction bits.
 struct TexelAxis {
-  float size;                 ///< all of them
-  float half;                 ///< half a texel, of the whole image
-  std::int32_t last;          ///< the last one
-  explicit TexelAxis(std::int32_t texels) : size(static_cast<float>(texels) * 65536.0f), half(0.5f / static_cast<float>(texels)), last((texels - 1) * 65536) {}
+  float scale;                ///< all of them
+  std::int32_t all, last;     ///< the same, and the last one
+  explicit TexelAxis(std::int32_t texels) : scale(static_cast<float>(texels) * 65536.0f), all(texels * 65536), last((texels - 1) * 65536) {}
 };
 
 struct TextureLevel {
@@ -34,7 +32,7 @@ struct TextureLevel {
 
   TextureLevel() = default;
   TextureLevel(std::int32_t first_word, std::int32_t w, std::int32_t h) : first(first_word), width(w), height(h), stride(h > 1 ? w + 1 : 0), columns(w), rows(h) {}
-  std::int64_t words() const { return height > 1 ? std::int64_t{stride} * (height + 2) + 1 : width + 2; }
+  std::int64_t words() const { return height > 1 ? std::int64_t{stride} * (height + 1) : width + 1; }
 };
 
 /// Where r, g, b and a stand in a texel's word.

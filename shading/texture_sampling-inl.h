@@ -7,44 +7,41 @@
 #define TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
 #endif
 
-#include <algorithm>
 #include <bit>
 
 #include "shading/lighting.h"
-#include "shading/power-inl.h"
+#include "shading/power.h"
 #include "shading/texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// A coordinate in the image, 0..1, under a wrap that does not repeat it. Whatever is no number comes out as 0, here and below.
+/// A coordinate in the image, 0..1. Whatever is no number comes out as 0.
 HWY_INLINE Float wrapped(Float f, Wrap wrap) {
+  if (wrap == Wrap::repeat) return clamped_below(hn::Sub(f, hn::Floor(f)));
   const Float there_and_back = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
   return clamped_unit(wrap == Wrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
 }
-HWY_INLINE Float repeated(Float f) { return clamped_below(hn::Sub(f, hn::Floor(f))); }
 
-/// The texel that holds a coordinate: that of the texture where it repeats, else a wrapped one.
-HWY_INLINE Int nearest_texel(Float f, const TexelAxis& axis, Wrap wrap) {
-  if (wrap == Wrap::repeat) f = repeated(f);
-  return hn::Min(hn::ShiftRight<16>(truncate(hn::Mul(f, splat(axis.size)))), hn::ShiftRight<16>(splat(axis.last)));
-}
+/// The texel that holds a coordinate.
+HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) { return hn::ShiftRight<16>(hn::Min(truncate(hn::Mul(unit, splat(axis.scale))), splat(axis.last))); }
 
 /// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the next, twice.
 struct TexelPlace {
   Int texel, fraction;
 };
-HWY_INLINE TexelPlace linear_place(Float f, const TexelAxis& axis, Wrap wrap) {
-  const Float from_center = hn::Sub(f, splat(axis.half));
-  // Where it repeats, all that is left of the first centre lies behind the last one.
-  Int at = truncate(hn::Mul(wrap == Wrap::repeat ? repeated(from_center) : clamped_below(from_center), splat(axis.size)));
-  if (wrap != Wrap::repeat) at = hn::Min(at, splat(axis.last));
+HWY_INLINE TexelPlace linear_place(Float unit, const TexelAxis& axis, Wrap wrap) {
+  Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
+  if (wrap == Wrap::repeat)  // left of the first centre one is behind the last: what is below 0 is large without a sign
+    at = hn::BitCast(kInt, hn::Min(hn::BitCast(kUint, at), hn::BitCast(kUint, hn::Add(at, splat(axis.all)))));
+  else
+    at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
   return {hn::ShiftRight<16>(at), twice(at)};
 }
 
 HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-  const Int column = nearest_texel(s, level.columns, texture.wrap_s), row = nearest_texel(t, level.rows, texture.wrap_t);
+  const Int column = nearest_texel(s, level.columns), row = nearest_texel(t, level.rows);
   return texels_of(load_words(texture.words + level.first, hn::Add(column, hn::Mul(row, splat(level.stride)))));
 }
 
@@ -158,10 +155,8 @@ inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Floa
 /// @param footprint  squared texels a pixel spans, where that decides anything
 template <TexelFilter kFilter, int kChunks>
 HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], Float (&t)[kChunks], const Float (&footprint)[kChunks], Texels (&texels)[kChunks]) {
-  if (texture.wrap_s != Wrap::repeat)
-    for (Float& f : s) f = wrapped(f, texture.wrap_s);
-  if (texture.wrap_t != Wrap::repeat)
-    for (Float& f : t) f = wrapped(f, texture.wrap_t);
+  for (Float& f : s) f = wrapped(f, texture.wrap_s);
+  for (Float& f : t) f = wrapped(f, texture.wrap_t);
   if constexpr (kFilter == TexelFilter::nearest) {
     for (int i = 0; i < kChunks; ++i) texels[i] = nearest_texels(texture, texture.level[0], s[i], t[i]);
   } else if constexpr (kFilter == TexelFilter::linear) {

@@ -153,6 +153,29 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
   std::printf("[  figure  ] texels are off by at most %.3g levels\n", worst);
 }
 
+// A float says little of a place far away, but what it says is where the texels are taken from.
+TEST(TextureSampling, RepeatsExactlyHoweverFar) {
+  std::mt19937 random(7);
+  for (const int width : {100, 1000, 1024, 3000}) {
+    TestTexture texture(random, width, 1, true, Min::linear, Wrap::repeat, Wrap::repeat);
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(width); ++i) texture.words[i] = i % 2 == 0 || i == static_cast<std::size_t>(width) ? 0 : 0xffffffff;
+    ShadingBatch batch{};
+    std::uniform_real_distribution<float> far(-4096, 4096);
+    for (int round = 0; round < 20; ++round) {
+      for (int i = 0; i < kBatchPoints; ++i) batch.field[kTextureS][i] = far(random);
+      // The largest before the first centre, the smallest before 0 and what rounds to the end.
+      const float edges[] = {std::nextafter(0.5f / static_cast<float>(width), 0.0f), 0.5f / static_cast<float>(width), -1e-30f, std::nextafter(1.0f, 0.0f), 0.0f};
+      std::ranges::copy(edges, batch.field[kTextureS]);
+      for (const Isa isa : available_isas()) {
+        ShadingBatch out = batch;
+        sample_texture(isa)(texture.levels, out, kBatchPoints);
+        for (int i = 0; i < kBatchPoints; ++i)
+          ASSERT_NEAR(255 * out.field[kTexelR][i], level_component(texture, 0, true, batch.field[kTextureS][i], 0, 0), 0.06) << name_of(isa) << ", width " << width << ", s " << batch.field[kTextureS][i];
+      }
+    }
+  }
+}
+
 // GL 2.1, 3.8.8: d = ceil(lambda + 1/2) - 1, so half-way between two levels the larger one is the nearest.
 TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
   std::mt19937 random(6);
