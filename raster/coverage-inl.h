@@ -65,9 +65,9 @@ struct BlockOffsets {
 
 /// The three edges at the pixels of one block, from those at its first pixel.
 struct BlockEdges {
-  Int start[3];
-  const BlockOffsets& offsets;
-  HWY_INLINE Int at(int k, int chunk) const { return hn::Add(start[k], hn::Load(kInt, offsets.edge[k] + chunk * kLanes)); }
+  std::int32_t start[3];
+  const BlockOffsets* offsets;
+  HWY_INLINE Int at(int k, int chunk) const { return hn::Add(splat(start[k]), hn::Load(kInt, offsets->edge[k] + chunk * kLanes)); }
   /// Lanes inside all three: no sign bit.
   HWY_INLINE auto covered(int chunk) const { return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1)); }
 };
@@ -103,7 +103,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
       }
       for (; touched != 0; touched &= touched - 1) {
         const int i = std::countr_zero(touched);
-        const BlockEdges edges{{splat(start[0][i]), splat(start[1][i]), splat(start[2][i])}, offsets};
+        const BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
         if ((inside >> i & 1) != 0)
           block.template operator()<true>(bx + 4 * i, by, edges);
         else

@@ -105,15 +105,12 @@ template <int kChunks>
 HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, const Int (&level_of)[kChunks], const Float (&s)[kChunks], const Float (&t)[kChunks], Texels (&texels)[kChunks]) {
   // Unrolled, the arrays stay in registers; the compiler finds it too long.
   LinearTexels linear[2][kChunks];
-#pragma GCC unroll 2
   for (int i = 0; i < kChunks; ++i) linear[0][i].place(texture, texture.level[level], s[i], t[i]);
   if (!texture.blends_levels || level == texture.last) {
     for (int i = 0; i < kChunks; ++i) texels[i] = linear[0][i].mix();
     return;
   }
-#pragma GCC unroll 2
   for (int i = 0; i < kChunks; ++i) linear[1][i].place(texture, texture.level[level + 1], s[i], t[i]);
-#pragma GCC unroll 2
   for (int i = 0; i < kChunks; ++i) {
     const Texels larger = linear[0][i].mix();
     texels[i] = mixed(larger, linear[1][i].mix(), twice(level_of[i]));

@@ -35,6 +35,15 @@ struct TexturedBlocks {
   Int seen = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
   std::uint64_t blocks = 0;   // drawn as a whole
 
+  /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of their steps.
+  static constexpr int kBlocksAtOnce = kFilter == TexelFilter::nearest ? 1 : 4;
+  struct FullBlock {
+    int bx, by;
+    BlockEdges edges;
+  };
+  FullBlock waiting[kBlocksAtOnce];
+  int waits = 0;
+
   HWY_INLINE void set_up(int i) {
     uses_depth = has_depth(run.frame, draw);
     const ColorLayout& layout = run.frame.layout;
@@ -54,16 +63,19 @@ struct TexturedBlocks {
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
     if (kFull && kFilter != TexelFilter::any && at_once) {
-      Barycentric at[kChunksPerBlock];
-      Texels texels[kChunksPerBlock];
-      find_texels(bx, by, edges, at, texels);
-      auto* const stored = reinterpret_cast<std::int32_t*>(run.memory.color + run.block_index(bx, by));
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(texels_alone ? words_of_texels(texels[chunk]) : modulated_words(at[chunk], texels[chunk]), kInt, stored + chunk * kLanes);
-      ++blocks;
+      const FullBlock block{bx, by, edges};
+      if constexpr (kBlocksAtOnce == 1) return draw_full_blocks<1>(&block);
+      waiting[waits++] = block;
+      if (waits == kBlocksAtOnce) draw_full_blocks<kBlocksAtOnce>(waiting), waits = 0;
       return;
     }
     full = kFull;  // no argument: the compiler would make a copy of draw_block for each
     draw_block(bx, by, edges);
+  }
+  /// Those that no more company comes for.
+  HWY_INLINE void finish() {
+    full = true;
+    for (int i = 0; i < waits; ++i) draw_block(waiting[i].bx, waiting[i].by, waiting[i].edges);
   }
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& edges) {
     const int block = run.block_index(bx, by);
@@ -85,20 +97,40 @@ struct TexturedBlocks {
     if (hn::AllFalse(kInt, hn::MaskFromVec(any))) return;
     Barycentric at[kChunksPerBlock];
     Texels texels[kChunksPerBlock];
-    find_texels(bx, by, edges, at, texels);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) at[chunk] = barycentric_at(bx, by, edges, chunk);
+    find_texels(at, texels);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
       store_words(run.memory.color + block + chunk * kLanes, words(at[chunk], texels[chunk]), hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
   }
 
  private:
-  HWY_INLINE void find_texels(int bx, int by, const BlockEdges& edges, Barycentric (&at)[kChunksPerBlock], Texels (&texels)[kChunksPerBlock]) const {
-    constexpr bool kHasSlopes = kFilter == TexelFilter::linear_levels || kFilter == TexelFilter::any;
-    Float s[kChunksPerBlock], t[kChunksPerBlock], footprint[kChunksPerBlock];
-    for (int i = 0; i < kChunksPerBlock; ++i) {
-      at[i] = triangle.wide >= 0 ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, i)
-                                 : barycentric_from_edges(triangle, edges.at(0, i), edges.at(1, i), edges.at(2, i));
-      coordinates.at<kHasSlopes>(at[i], [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value; });
+  template <int kBlocks>
+  HWY_INLINE void draw_full_blocks(const FullBlock* group) {
+    constexpr int kChunks = kBlocks * kChunksPerBlock;
+    Barycentric at[kChunks];
+    Texels texels[kChunks];
+    for (int i = 0; i < kChunks; ++i) {
+      const FullBlock& block = group[i / kChunksPerBlock];
+      at[i] = barycentric_at(block.bx, block.by, block.edges, i % kChunksPerBlock);
     }
+    find_texels(at, texels);
+    for (int i = 0; i < kChunks; ++i) {
+      const FullBlock& block = group[i / kChunksPerBlock];
+      auto* const stored = reinterpret_cast<std::int32_t*>(run.memory.color + run.block_index(block.bx, block.by) + i % kChunksPerBlock * kLanes);
+      hn::Store(texels_alone ? words_of_texels(texels[i]) : modulated_words(at[i], texels[i]), kInt, stored);
+    }
+    blocks += kBlocks;
+  }
+  HWY_INLINE Barycentric barycentric_at(int bx, int by, const BlockEdges& edges, int chunk) const {
+    return triangle.wide >= 0 ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk)
+                              : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
+  }
+  template <int kChunks>
+  HWY_INLINE void find_texels(const Barycentric (&at)[kChunks], Texels (&texels)[kChunks]) const {
+    constexpr bool kHasSlopes = kFilter == TexelFilter::linear_levels || kFilter == TexelFilter::any;
+    Float s[kChunks], t[kChunks], footprint[kChunks];
+    for (int i = 0; i < kChunks; ++i)
+      coordinates.at<kHasSlopes>(at[i], [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value; });
     texels_where<kFilter>(*draw.texture->levels, s, t, footprint, texels);
   }
   HWY_INLINE Int words(const Barycentric& at, const Texels& texels) const {
@@ -130,6 +162,7 @@ inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
       blocks.set_up(i);
       const BlockOffsets offsets(edges);
       for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
+      blocks.finish();
       run.counts.shaded_pixels += blocks.shaded_pixels();
     });
     run.memory.wide.clear();
