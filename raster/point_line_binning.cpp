@@ -26,18 +26,18 @@ PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
   return intersect({first_pixel(at.x - reach), first_pixel(at.y - reach), last_pixel(at.x + reach) + 1, last_pixel(at.y + reach) + 1}, draw.rect);
 }
 
-/// What a line's pixels are looked at for: everything within `reach` of it, in 1/256 pixel along each axis.
+/// A line covers nothing whose pixel's centre is farther than `reach` from it along either axis, in 1/256 pixel.
 struct LineBand {
   LinePoint a, b;
   std::int32_t reach;
 
-  LineBand(const BinDraw& draw, LinePoint from, LinePoint to) : a(from), b(to) {
-    reach = (draw.samples == 1 ? whole_size(draw.size) * kSubpixelScale : snapped_size(draw.size)) / 2 + 2 * kSubpixelScale;
-  }
+  // Of several samples one is within a pixel of the centre.
+  LineBand(const BinDraw& draw, LinePoint from, LinePoint to)
+      : a(from), b(to), reach(draw.samples == 1 ? whole_size(draw.size) * kHalfPixel : (snapped_size(draw.size) + 1) / 2 + kSubpixelScale) {}
   PixelRect bounds() const {
     const auto [low_x, high_x] = std::minmax({a.x, b.x});
     const auto [low_y, high_y] = std::minmax({a.y, b.y});
-    return {(low_x - reach) >> kSubpixelBits, (low_y - reach) >> kSubpixelBits, ((high_x + reach) >> kSubpixelBits) + 1, ((high_y + reach) >> kSubpixelBits) + 1};
+    return {first_pixel(low_x - reach), first_pixel(low_y - reach), last_pixel(high_x + reach) + 1, last_pixel(high_y + reach) + 1};
   }
 };
 

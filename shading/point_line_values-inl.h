@@ -11,21 +11,14 @@
 #include <cmath>
 
 #include "framebuffer/format.h"
-#include "raster/line_walk.h"
+#include "raster/double_lanes-inl.h"
+#include "raster/sample_positions.h"
+#include "shading/fragment_ops-inl.h"
 #include "shading/tile_run-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
-
-// Loops over a line's pixels have no branch and come in eights where there are vectors, so that the compiler makes such of them. No sum of theirs is fused: it
-// is the same everywhere.
-inline constexpr int kLinePixels = 16, kPixelsAtOnce = kLanes < 8 ? 1 : 8;
-template <class Pixel>
-HWY_INLINE void for_pixels(int count, const Pixel& pixel) {
-  for (int first = 0; first < count; first += kPixelsAtOnce)
-    for (int l = 0; l < kPixelsAtOnce; ++l) pixel(first + l);
-}
 
 /// Depth in units of what is stored: levels, or floats.
 class LineDepth {
@@ -47,33 +40,17 @@ class LineDepth {
   }
 
   /// The keys where the line has come as far as `t` of its length; no depth leaves 0..1.
-  HWY_INLINE void keys(int count, const double* t, std::int32_t* keys) const {
-    const double first = first_, change = change_, most = most_;
-    if (kind_ == DepthKind::float32)
-      for_pixels(count, [&](int l) HWY_ATTR { keys[l] = std::bit_cast<std::int32_t>(static_cast<float>(std::clamp(first + t[l] * change, 0.0, 1.0)) + 0.0f); });
-    else if (kind_ == DepthKind::unorm32)
-      for_pixels(count, [&](int l) HWY_ATTR { keys[l] = static_cast<std::int32_t>(std::floor(std::clamp(first + t[l] * change, 0.0, most)) - 0x1p31); });
-    else
-      for_pixels(count, [&](int l) HWY_ATTR { keys[l] = static_cast<std::int32_t>(std::clamp(first + t[l] * change, 0.0, most)); });
+  HWY_INLINE Int keys(const Doubles& t) const {
+    const Doubles depth = clamped(plus(times(t, change_), first_), 0, most_);
+    if (kind_ == DepthKind::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
+    return kind_ == DepthKind::unorm32 ? truncate(floor(plus(depth, -0x1p31))) : truncate(depth);
   }
-
   /// Of a point.
-  HWY_INLINE std::int32_t first_key() const {
-    alignas(64) const double t[kPixelsAtOnce] = {};
-    alignas(64) std::int32_t key[kPixelsAtOnce];
-    keys(1, t, key);
-    return key[0];
-  }
+  HWY_INLINE std::int32_t first_key() const { return hn::GetLane(keys(to_doubles(hn::Zero(kInt)))); }
 
  private:
   DepthKind kind_;
   double first_, change_, most_ = 1;
-};
-
-/// Pixels that a line covers.
-struct LinePixels {
-  int count = 0;
-  alignas(64) std::int32_t x[kLinePixels] = {}, y[kLinePixels] = {};  // tile-relative
 };
 
 /// Where pixels stand along a line. What lies aside has the values of where it is projected onto the line; a point is the same everywhere.
@@ -93,11 +70,10 @@ struct LineValues {
     const double squared_length = dx * dx + dy * dy;
     per_squared_length = squared_length > 0 ? 1 / squared_length : 0;
   }
-  /// Equation 3.5, of pixels whose centres are moved by `by`.
-  HWY_INLINE void parameters(const LinePixels& pixels, double* t, SamplePosition by = {}) const {
-    const std::int32_t from_x = first_x + by.x, from_y = first_y + by.y;
-    const double along_x = dx, along_y = dy, per = per_squared_length;
-    for_pixels(pixels.count, [&](int l) HWY_ATTR { t[l] = (along_x * (pixels.x[l] * kSubpixelScale + from_x) + along_y * (pixels.y[l] * kSubpixelScale + from_y)) * per; });
+  /// Equation 3.5, of pixels of the tile whose centres are moved by `by`.
+  HWY_INLINE Doubles parameters(Int x, Int y, SamplePosition by = {}) const {
+    const auto from_first = [](Int pixel, std::int32_t first) HWY_ATTR { return to_doubles(hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(first))); };
+    return times(plus(times(from_first(x, first_x + by.x), dx), times(from_first(y, first_y + by.y), dy)), per_squared_length);
   }
 };
 
@@ -133,24 +109,18 @@ struct LineColors {
     for (int k = 0; k < 2; ++k) rw[k] = relative.of[k];
   }
   /// Equation 3.6
-  HWY_INLINE void words(int count, const double* parameters, std::uint32_t* words) const {
-    alignas(64) float t[kLinePixels];
-    const float rw0 = rw[0], rw1 = rw[1];
-    for_pixels(count, [&](int l) HWY_ATTR { t[l] = static_cast<float>(parameters[l]); });
-    if (rw0 != rw1)
-      for_pixels(count, [&](int l) HWY_ATTR {
-        const float sum = (1 - t[l]) * rw0 + t[l] * rw1, corrected = t[l] * rw1 / sum;
-        t[l] = sum != 0 ? corrected : t[l];
-      });
-    for (int c = 0; c < 3; ++c) {
-      const float from = first[c], by = change[c], levels = most[c];
-      const int place = shift[c];
-      for_pixels(count, [&](int l) HWY_ATTR {
-        const float x = std::fma(t[l], by, from), above = x > 0 ? x : 0.0f;  // a NaN is 0
-        const auto level = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::fma(above < 1 ? above : 1.0f, levels, 0.5f)));
-        words[l] = (c == 0 ? 0 : words[l]) | level << place;
-      });
+  HWY_INLINE Int words(const Doubles& parameters) const {
+    Float t = to_floats(parameters);
+    if (rw[0] != rw[1]) {
+      const Float far = hn::Mul(t, splat(rw[1])), sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
+      t = hn::IfThenElse(hn::Ne(sum, hn::Zero(kFloat)), hn::Div(far, sum), t);
     }
+    Int word = hn::Zero(kInt);
+    for (int c = 0; c < 3; ++c) {
+      const Float color = clamped_unit(mul_add(t, splat(change[c]), splat(first[c])));
+      word = hn::Or(word, hn::ShiftLeftSame(truncate(mul_add(color, splat(most[c]), splat(0.5f))), shift[c]));
+    }
+    return word;
   }
 };
 

@@ -11,9 +11,11 @@
 #include <bit>
 #include <cmath>
 
+#include "raster/line_steps-inl.h"
 #include "raster/point_line_coverage.h"
 #include "shading/fragments-inl.h"
 #include "shading/point_line_values-inl.h"
+#include "shading/texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -83,13 +85,12 @@ struct BlockBits {
       const int block = blocks.list[n], bx = block % columns * 4, by = block / columns * 4;
       BlockFragments covered[kMaxSamples];
       for (int s = 0; s < run.samples; ++s) {
-        alignas(64) std::int32_t keys[kBlockPixels] = {};
         const std::uint32_t bits = blocks.bits[s][block];
-        if (fragments.has_depth) block_keys(bx, by, run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{}, values, keys);
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
           covered[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
-          covered[s].keys[chunk] = hn::Load(kInt, keys + chunk * kLanes);
+          covered[s].keys[chunk] = hn::Zero(kInt);
         }
+        if (fragments.has_depth) block_keys(bx, by, run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{}, values, covered[s].keys);
         blocks.bits[s][block] = 0;
       }
       blocks.samples[block] = 0;
@@ -99,13 +100,9 @@ struct BlockBits {
   }
 
  private:
-  HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values, std::int32_t* keys) const {
-    LinePixels pixels;
-    pixels.count = kBlockPixels;
-    alignas(64) double t[kBlockPixels];
-    for (int p = 0; p < kBlockPixels; ++p) pixels.x[p] = bx + (p & 3), pixels.y[p] = by + (p >> 2);
-    values.parameters(pixels, t, position);
-    values.depth.keys(kBlockPixels, t, keys);
+  HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values, Int (&keys)[kChunksPerBlock]) const {
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      keys[chunk] = values.depth.keys(values.parameters(hn::Add(splat(bx), block_columns(chunk)), hn::Add(splat(by), block_rows(chunk)), position));
   }
 };
 
@@ -170,93 +167,73 @@ struct LineShape {
 class PlainPixels {
  public:
   HWY_INLINE PlainPixels(TileRun& run, const TileDraw& draw)
-      : run_(run), draw_(draw), uses_depth_(has_depth(run.frame, draw)), less_(passes(-1)), equal_(passes(0)), greater_(passes(1)) {}
+      : run_(run), draw_(draw), uses_depth_(has_depth(run.frame, draw)) {}
 
   HWY_INLINE bool uses_depth() const { return uses_depth_; }
   HWY_INLINE void store_one(int x, int y, std::int32_t key, std::uint32_t word) const {
     const int index = run_.pixel_index(x, y);
     if (uses_depth_) {
       std::int32_t& stored = run_.memory.depth[index];
-      if ((key < stored ? less_ : key > stored ? greater_ : equal_) == 0) return;
+      if (!compares(key, draw_.depth_test, stored)) return;
       if (draw_.depth_write) stored = key;
     }
     std::uint32_t& color = run_.memory.color[index];
     color ^= (color ^ word) & draw_.write_mask;
     ++run_.counts.shaded_pixels;
   }
-  /// Pixels of a line, none of them twice. Whether a depth passes could not be foretold: nothing branches on it.
-  HWY_INLINE void store(const LinePixels& pixels, const std::int32_t* keys, const std::uint32_t* words) const {
-    alignas(64) std::int32_t index[kLinePixels], stored[kLinePixels] = {}, passed[kLinePixels];
-    const int columns = run_.tile_size >> 2;
-    for_pixels(pixels.count, [&](int l) HWY_ATTR {
-      const std::int32_t x = pixels.x[l], y = pixels.y[l];
-      index[l] = ((y >> 2) * columns + (x >> 2)) * kBlockPixels + (y & 3) * 4 + (x & 3);
-      passed[l] = -1;
-    });
-    if (uses_depth_) {
-      for (int l = 0; l < pixels.count; ++l) stored[l] = run_.memory.depth[index[l]];
-      const std::int32_t less = less_, equal = equal_, greater = greater_;
-      for_pixels(pixels.count, [&](int l) HWY_ATTR { passed[l] = keys[l] < stored[l] ? less : keys[l] > stored[l] ? greater : equal; });
-      if (draw_.depth_write)
-        for (int l = 0; l < pixels.count; ++l) run_.memory.depth[index[l]] = (keys[l] & passed[l]) | (stored[l] & ~passed[l]);
+  /// Pixels none of which is there twice; of those that are not `inside` nothing is seen. Neither that nor whether a depth passes could
+  /// be foretold: nothing branches on it.
+  template <class Mask>
+  HWY_INLINE void store(Int x, Int y, Mask inside, Int keys, Int words) const {
+    const Int columns = splat(run_.tile_size >> 2), three = splat(3);
+    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), columns), hn::ShiftRight<2>(x));
+    const Int within = hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three));
+    const Int index = hn::IfThenElse(inside, hn::Add(hn::ShiftLeft<4>(block), within), splat(kNoPixel));
+    Int passed = hn::VecFromMask(kInt, inside);
+    if (uses_depth_) passed = hn::And(passed, hn::VecFromMask(kInt, comparing(keys, draw_.depth_test, load_words(reinterpret_cast<const std::uint32_t*>(run_.memory.depth), index))));
+    const auto stays = hn::MaskFromVec(passed);
+    if (draw_.write_mask != 0xffffffffu) {
+      const Int stored = load_words(run_.memory.color, index);
+      words = hn::Xor(stored, hn::And(hn::Xor(stored, words), splat(static_cast<std::int32_t>(draw_.write_mask))));
     }
-    std::int64_t seen = 0;
-    for (int l = 0; l < pixels.count; ++l) {
-      std::uint32_t& color = run_.memory.color[index[l]];
-      color ^= (color ^ words[l]) & draw_.write_mask & static_cast<std::uint32_t>(passed[l]);
-      seen -= passed[l];
-    }
-    run_.counts.shaded_pixels += static_cast<std::uint64_t>(seen);
+    alignas(64) std::int32_t at[kLanes], key[kLanes], word[kLanes];
+    hn::Store(hn::IfThenElse(stays, index, splat(kNoPixel)), kInt, at);
+    hn::Store(keys, kInt, key);
+    hn::Store(words, kInt, word);
+    if (uses_depth_ && draw_.depth_write)
+      for (int l = 0; l < kLanes; ++l) run_.memory.depth[at[l]] = key[l];
+    for (int l = 0; l < kLanes; ++l) run_.memory.color[at[l]] = static_cast<std::uint32_t>(word[l]);
+    run_.counts.shaded_pixels += hn::CountTrue(kInt, stays);
   }
 
  private:
-  /// As a mask: what the test says of a key that is less, equal or greater.
-  HWY_INLINE std::int32_t passes(int order) const { return compares(order, draw_.depth_test, 0) ? -1 : 0; }
-
   TileRun& run_;
   const TileDraw& draw_;
   bool uses_depth_;
-  std::int32_t less_, equal_, greater_;
 };
 
-HWY_INLINE void store_plain(const PlainPixels& pixels, const PointShape& point, LinePixels&, const LineValues& values, const LineColors*, std::uint32_t word) {
-  const std::int32_t key = pixels.uses_depth() ? values.depth.first_key() : 0;
-  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, word); });
+/// What the pixels of a plain point or line get: one word, or colours along the line.
+struct PlainValues {
+  const LineValues& values;
+  const LineColors* colors;  // null: the word
+  std::uint32_t word;
+};
+
+HWY_INLINE void store_plain(const PlainPixels& pixels, const PointShape& point, const PlainValues& plain) {
+  const std::int32_t key = pixels.uses_depth() ? plain.values.depth.first_key() : 0;
+  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, plain.word); });
 }
 
-/// The pixels of a line, which wait until there are some.
-struct PlainLine {
-  const PlainPixels& pixels;
-  const LineValues& values;
-  const LineColors* colors;  // null: one word
-  std::uint32_t word;
-  LinePixels& waiting;
-
-  HWY_NOINLINE void store(int count) {
-    waiting.count = count;
-    alignas(64) double t[kLinePixels];
-    alignas(64) std::int32_t keys[kLinePixels];
-    alignas(64) std::uint32_t words[kLinePixels];
-    if (pixels.uses_depth() || colors != nullptr) values.parameters(waiting, t);
-    if (pixels.uses_depth()) values.depth.keys(waiting.count, t, keys);
-    if (colors != nullptr)
-      colors->words(waiting.count, t, words);
-    else
-      for_pixels(waiting.count, [&](int l) HWY_ATTR { words[l] = word; });
-    pixels.store(waiting, keys, words);
-  }
-};
-HWY_INLINE void store_plain(const PlainPixels& pixels, const LineShape& shape, LinePixels& waiting, const LineValues& values, const LineColors* colors, std::uint32_t word) {
-  PlainLine line{pixels, values, colors, word, waiting};
-  int count = 0;  // not the member: it stays in a register
-  shape.for_each([&](int x, int y) HWY_ATTR {
-    waiting.x[count] = x;
-    waiting.y[count] = y;
-    if (++count < kLinePixels) return;
-    line.store(count);
-    count = 0;
+/// Line i of a group.
+HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const LineSteps& steps, int i, const PlainValues& plain) {
+  const PixelRect& r = run.rect;
+  steps.for_each(i, {r.x0 + run.tile_x, r.y0 + run.tile_y, r.x1 + run.tile_x, r.y1 + run.tile_y}, [&](Int window_x, Int window_y, auto inside) HWY_ATTR {
+    const Int x = hn::Sub(window_x, splat(run.tile_x)), y = hn::Sub(window_y, splat(run.tile_y));
+    const Doubles t = plain.values.parameters(x, y);
+    const Int keys = pixels.uses_depth() ? plain.values.depth.keys(t) : hn::Zero(kInt);
+    const Int words = plain.colors != nullptr ? plain.colors->words(t) : splat(static_cast<std::int32_t>(plain.word));
+    pixels.store(x, y, inside, keys, words);
   });
-  if (count > 0) line.store(count);
 }
 
 /// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles go through.
@@ -268,26 +245,31 @@ inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw
   draw_fragments_of(run, draw_number, i, shaded, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
-/// All of a group, which needs no set-up.
+/// Nothing is to be done with the pixels of a draw but storing them.
+HWY_INLINE bool is_plain(const TileRun& run, const TileDraw& draw) {
+  const bool interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && draw.topology == Topology::lines;
+  return draw.ops == nullptr && run.samples == 1 && (interpolated || has_words(draw));
+}
+
+/// All of a group.
 /// @param second  see LineValues
-template <class Shape>
-HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
+/// @param store  stores element i of a plain draw: store(pixels, i, PlainValues)
+template <class Shape, class Store>
+HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of, const Store& store) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  const bool one_word = has_words(draw), interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
-  const bool plain = draw.ops == nullptr && run.samples == 1 && (interpolated || one_word);
+  const bool one_word = has_words(draw), plain = is_plain(run, draw);
   const PlainPixels pixels(run, draw);
-  LinePixels waiting;
   for (int i = 0; i < g.count; ++i) {
-    const auto shape = shape_of(i);
     const LineValues values(run, i, second, depth_offset_of(run, draw, i));
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
     if (plain) {
       LineColors colors;
       if (!one_word) colors.set_up(run, draw, i, back);
-      store_plain(pixels, shape, waiting, values, one_word ? nullptr : &colors, one_word ? triangle_word(run, draw, i, back) : 0);
+      store(pixels, i, PlainValues{values, one_word ? nullptr : &colors, one_word ? triangle_word(run, draw, i, back) : 0});
       continue;
     }
+    const auto shape = shape_of(i);
     BlockBits bits{run, run.memory.touched};
     if (run.samples == 1)
       shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
@@ -299,11 +281,15 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, in
 
 inline void draw_points(TileRun& run, std::uint32_t draw_number) {
   const float size = run.frame.draws[draw_number].size;
-  draw_points_or_lines(run, draw_number, 0, [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; });
+  const auto shape_of = [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; };
+  draw_points_or_lines(run, draw_number, 0, shape_of, [&](const PlainPixels& pixels, int i, const PlainValues& plain) HWY_ATTR { store_plain(pixels, shape_of(i), plain); });
 }
 inline void draw_lines(TileRun& run, std::uint32_t draw_number) {
-  const float width = run.frame.draws[draw_number].size;
-  draw_points_or_lines(run, draw_number, 1, [&](int i) { return LineShape{run, vertex_of(run.memory.group, i, 0), vertex_of(run.memory.group, i, 1), width}; });
+  const TileDraw& draw = run.frame.draws[draw_number];
+  LineSteps steps;
+  if (is_plain(run, draw)) steps.set_up(run.memory.group, whole_size(draw.size));
+  const auto shape_of = [&](int i) { return LineShape{run, vertex_of(run.memory.group, i, 0), vertex_of(run.memory.group, i, 1), draw.size}; };
+  draw_points_or_lines(run, draw_number, 1, shape_of, [&](const PlainPixels& pixels, int i, const PlainValues& plain) HWY_ATTR { store_plain(pixels, run, steps, i, plain); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -64,9 +64,12 @@ struct TouchedBlocks {
   std::uint16_t bits[kMaxSamples][kBlocks] = {};  ///< of the pixels
 };
 
+/// A pixel behind those of a tile: what is stored there nobody sees.
+inline constexpr int kNoPixel = kMaxTileSize * kMaxTileSize;
+
 struct alignas(64) TileWorkspace::Memory {
-  alignas(64) std::uint32_t color[kMaxTileSize * kMaxTileSize];
-  alignas(64) std::int32_t depth[kMaxTileSize * kMaxTileSize];
+  alignas(64) std::uint32_t color[kNoPixel + 1];
+  alignas(64) std::int32_t depth[kNoPixel + 1];
   alignas(64) std::uint32_t ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
   bool ids_clean = false;                                      ///< every id is kNoTriangle: shading leaves them so
   std::vector<ShadedTriangle> triangles;

@@ -1,0 +1,111 @@
+// The lines of a group as functions of the step along their major axis: the pixels of their twin (line_walk.h), in any order.
+//
+// With integers n and d the minor coordinate of a step is floor(n / d), d = 256 length <= 2^33. As floor((n + 1/2) / d) it may be found by
+// a product: what is divided stands at least 1 / (2 d) >= 2^-34 away from whole numbers, and of quotients up to 2^17, twice a
+// frame buffer's side and width, reciprocal and product are off by 2^-35 at most. n is below 2^52: all sums are exact.
+#if defined(TESSERA_RASTER_LINE_STEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_RASTER_LINE_STEPS_INL_H_
+#undef TESSERA_RASTER_LINE_STEPS_INL_H_
+#else
+#define TESSERA_RASTER_LINE_STEPS_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "framebuffer/tile_grid.h"
+#include "raster/double_lanes-inl.h"
+#include "raster/fixed_point.h"
+#include "raster/triangle_setup.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// A point in raster space in each lane.
+struct LinePoints {
+  Int x, y;
+};
+
+/// The twin of in_diamond().
+HWY_INLINE auto are_in_diamonds(const LinePoints& p) {
+  const Int within = splat(kSubpixelScale - 1), half = splat(kHalfPixel), one = splat(1);
+  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within), hn::Sub(half, one)), dy = hn::Sub(hn::And(p.y, within), half);
+  const Int distance = hn::Add(hn::Abs(dx), hn::Abs(dy));
+  return hn::Or(hn::Gt(half, distance), hn::And(hn::Eq(distance, half), hn::Gt(dx, hn::Zero(kInt))));
+}
+
+class LineSteps {
+ public:
+  /// All lines of a group, `width` pixels wide. @pre every lane holds coordinates below 2^24
+  HWY_NOINLINE void set_up(const TriangleGroup& g, int width) {
+    width_ = width;
+    for (int i = 0; i < kGroupSize; i += kLanes) set_up_lanes(g, i);
+  }
+  /// Calls pixels(x, y, inside) until each pixel of line i that lies in `window` was `inside` once.
+  template <class Pixels>
+  HWY_INLINE void for_each(int i, const PixelRect& window, const Pixels& pixels) const {
+    const bool x_major = x_major_[i] != 0;
+    const int from = std::max(first_[i], x_major ? window.x0 : window.y0), to = std::min(last_[i] + 1, x_major ? window.x1 : window.y1);
+    const int low = x_major ? window.y0 : window.x0, high = x_major ? window.y1 : window.x1;  // of the minor coordinate
+    for (int step = from; step < to; step += kLanes) {
+      const Int major = hn::Iota(kInt, step);
+      const Int base = truncate(floor(times(plus(times(to_doubles(major), rise_[i]), start_[i]), per_[i])));
+      int first = 0, last = 0;  // across, upwards (x-major) or to the right: what of the width may be inside
+      if (width_ > 1) {
+        alignas(64) std::int32_t bases[kLanes];
+        hn::Store(base, kInt, bases);
+        const auto [lowest, highest] = std::minmax(bases[0], bases[std::min(kLanes, to - step) - 1]);
+        first = std::max(x_major ? lowest - (high - 1) : low - highest, 0);
+        last = std::min(x_major ? highest - low : high - 1 - lowest, width_ - 1);
+      }
+      for (int k = first; k <= last; ++k) {
+        const Int minor = hn::Add(base, splat(x_major ? -k : k));
+        const auto inside = hn::And(hn::Gt(splat(to), major), hn::And(hn::Gt(minor, splat(low - 1)), hn::Gt(splat(high), minor)));
+        pixels(x_major ? major : minor, x_major ? minor : major, inside);
+      }
+    }
+  }
+
+ private:
+  HWY_INLINE void set_up_lanes(const TriangleGroup& g, int i) {
+    const Int zero = hn::Zero(kInt), one = splat(1), aside = splat(kHalfPixel * (width_ - 1));
+    LinePoints a{hn::Load(kInt, g.x[0] + i), hn::Load(kInt, g.y[0] + i)}, b{hn::Load(kInt, g.x[1] + i), hn::Load(kInt, g.y[1] + i)};
+    const Int dx = hn::Sub(b.x, a.x), dy = hn::Sub(b.y, a.y);
+    const auto steep = hn::Gt(hn::Abs(dy), hn::Abs(dx));
+    for (LinePoints* p : {&a, &b}) *p = {hn::Sub(p->x, hn::IfThenElseZero(steep, aside)), hn::Add(p->y, hn::IfThenZeroElse(steep, aside))};
+    const Int along = hn::IfThenElse(steep, dy, dx), across = hn::IfThenElse(steep, dx, dy);
+    const auto forward = hn::Gt(along, zero);
+    // Along x the ends move by -e, along y by +e^2.
+    const Int moved = hn::IfThenZeroElse(steep, one), from = hn::IfThenElse(steep, a.y, a.x), to = hn::IfThenElse(steep, b.y, b.x);
+    const Int from_moved = hn::Sub(from, moved), to_moved = hn::Sub(to, moved), step = hn::IfThenElse(forward, one, splat(-1));
+    const auto is_before = [&](Int major) HWY_ATTR { return hn::Gt(splat(kHalfPixel), hn::And(major, splat(kSubpixelScale - 1))); };
+    const auto skips_first = hn::AndNot(are_in_diamonds(a), hn::Xor(forward, is_before(from_moved)));
+    const auto skips_last = hn::Or(are_in_diamonds(b), hn::Not(hn::Xor(forward, is_before(to_moved))));
+    const Int begin = hn::Add(hn::ShiftRight<kSubpixelBits>(from_moved), hn::IfThenElseZero(skips_first, step));
+    const Int end = hn::Sub(hn::ShiftRight<kSubpixelBits>(to_moved), hn::IfThenElseZero(skips_last, step));
+    const auto is_point = hn::Eq(along, zero);
+    hn::Store(hn::VecFromMask(kInt, hn::Not(steep)), kInt, x_major_ + i);
+    hn::Store(hn::IfThenElse(is_point, one, hn::IfThenElse(forward, begin, end)), kInt, first_ + i);
+    hn::Store(hn::IfThenZeroElse(is_point, hn::IfThenElse(forward, end, begin)), kInt, last_ + i);
+
+    const Int slope = hn::IfThenElse(forward, across, hn::Neg(across)), minor = hn::IfThenElse(steep, a.x, a.y);
+    const auto tie_goes_down = hn::Or(steep, hn::Gt(zero, slope));
+    const Doubles length = to_doubles(hn::Max(hn::Abs(along), one)), scaled = times(length, kSubpixelScale);
+    const Doubles at_first = times(to_doubles(minor), length), to_center = times(to_doubles(slope), to_doubles(hn::Sub(splat(kHalfPixel), from)));
+    const Doubles tie = plus(to_doubles(hn::IfThenElseZero(tie_goes_down, splat(-1))), 0.5);
+    store(plus(plus(at_first, to_center), tie), start_ + i);
+    store(times(to_doubles(slope), kSubpixelScale), rise_ + i);
+    store(reciprocals(scaled), per_ + i);
+  }
+
+  int width_ = 1;
+  alignas(64) std::int32_t x_major_[kGroupSize];                              // -1 or 0
+  alignas(64) std::int32_t first_[kGroupSize], last_[kGroupSize];             // inclusive, ascending; first > last: no pixels
+  alignas(64) double start_[kGroupSize], rise_[kGroupSize], per_[kGroupSize];  // the minor coordinate of a step: floor((start + step rise) per)
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif

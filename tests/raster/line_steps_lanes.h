@@ -1,0 +1,17 @@
+// Pixels of lines as the kernels find them.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "framebuffer/instruction_set.h"
+#include "framebuffer/tile_grid.h"
+#include "raster/triangle_setup.h"
+
+namespace tessera::test {
+
+/// Appends to pixels[i] those of line i in `window`, in any order.
+using PixelsOfLines = void(const TriangleGroup& lines, int width, const PixelRect& window, std::vector<std::pair<int, int>> (&pixels)[kGroupSize]);
+PixelsOfLines* pixels_of_lines(Isa isa);
+
+}  // namespace tessera::test

@@ -1,0 +1,87 @@
+// Pixels of lines on every instruction set against the walk in exact integers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "raster/line_walk.h"
+#include "tests/raster/line_steps_lanes.h"
+#include "tests/raster/random_triangles.h"
+#include "tests/raster/tile_stage.h"
+
+namespace tessera::test {
+namespace {
+
+using Pixels = std::vector<std::pair<int, int>>;
+
+struct Cases {
+  const char* name;
+  int origin, reach;  // of first ends, and from those to the second ones, 1/256 pixel
+  int grid;           // ends lie on multiples of it
+  int most_wide;
+  PixelRect window;
+};
+constexpr PixelRect kTile{0, 0, 64, 64}, kFarTile{16256, 16320, 16384, 16384};
+constexpr int kFarthest = (1 << 24) - 1;
+constexpr Cases kCases[] = {{"short", 20000, 3000, 1, 1, kTile},
+                            {"on borders", 20000, 1024, 32, 1, kTile},
+                            {"on centres", 20000, 5000, 128, 1, kTile},
+                            {"wide", 20000, 5000, 1, 9, kTile},
+                            {"wide on borders", 20000, 5000, 64, 200, kTile},
+                            {"long", 4000000, 8000000, 1, 1, kTile},
+                            {"as long as can be", kFarthest, 2 * kFarthest, 1, 1, kFarTile},
+                            {"as wide as can be", 1 << 23, 1 << 24, 1, 65536, kFarTile}};
+
+void fill_lines(TriangleGroup& lines, const Cases& of, std::mt19937& bits) {
+  const auto between = [&](int low, int high) { return low + static_cast<int>(bits() % (static_cast<unsigned>(high - low) + 1)); };
+  const int most = of.most_wide > 200 ? 1 << 23 : kFarthest;
+  const auto within = [&](int v) { return std::clamp(v / of.grid * of.grid, -most, most); };
+  for (int i = 0; i < kGroupSize; ++i) {
+    // Every fourth crosses the window: where it ends is mirrored there.
+    const int middle_x = between(of.window.x0, of.window.x1) * kSubpixelScale, middle_y = between(of.window.y0, of.window.y1) * kSubpixelScale;
+    lines.x[0][i] = within(between(-of.origin, of.origin));
+    lines.y[0][i] = within(between(-of.origin, of.origin));
+    const bool through = i % 4 == 0;
+    lines.x[1][i] = within(through ? 2 * middle_x - lines.x[0][i] + between(-300, 300) : lines.x[0][i] + between(-of.reach, of.reach));
+    lines.y[1][i] = within(through ? 2 * middle_y - lines.y[0][i] + between(-300, 300) : lines.y[0][i] + between(-of.reach, of.reach));
+    if (i == 5) lines.x[1][i] = lines.x[0][i];
+    if (i == 6) lines.y[1][i] = lines.y[0][i];
+    if (i == 7) lines.x[1][i] = lines.x[0][i], lines.y[1][i] = lines.y[0][i];
+    if (i == 9) lines.y[1][i] = within(lines.y[0][i] + std::abs(lines.x[1][i] - lines.x[0][i]));
+  }
+}
+
+void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, Isa isa, std::size_t& seen) {
+  Pixels found[kGroupSize];
+  pixels_of_lines(isa)(lines, width, of.window, found);
+  for (int i = 0; i < kGroupSize; ++i) {
+    const LinePoint a{lines.x[0][i], lines.y[0][i]}, b{lines.x[1][i], lines.y[1][i]};
+    Pixels expected;
+    LineWalk(a, b, width).for_each(of.window, [&](int x, int y) { expected.push_back({x, y}); });
+    std::sort(expected.begin(), expected.end());
+    std::sort(found[i].begin(), found[i].end());
+    ASSERT_EQ(found[i], expected) << of.name << ", width " << width << ", " << name_of(isa) << ": " << a.x << " " << a.y << " to " << b.x << " " << b.y;
+    seen += expected.size();
+  }
+}
+
+TEST(LineSteps, AreThoseOfTheWalk) {
+  for (const Cases& of : kCases)
+    for (const Isa isa : available_isas()) {
+      const int groups = (long_tests() ? 60000 : 600) / (of.most_wide > 1 ? 20 : 1);  // those have more pixels
+      std::mt19937 bits(11);
+      std::size_t seen = 0;
+      for (int n = 0; n < groups; ++n) {
+        TriangleGroup lines;
+        fill_lines(lines, of, bits);
+        expect_the_walk(of, 1 + static_cast<int>(bits() % static_cast<unsigned>(of.most_wide)), lines, isa, seen);
+        if (HasFatalFailure()) return;
+      }
+      EXPECT_GT(seen, static_cast<std::size_t>(groups)) << of.name << ": hardly a line meets the window";
+    }
+}
+
+}  // namespace
+}  // namespace tessera::test
