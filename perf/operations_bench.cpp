@@ -6,7 +6,6 @@
 #include <functional>
 #include <string_view>
 
-#include "engine/parallel.h"
 #include "engine/scene/scene.h"
 #include "perf/rows.h"
 
@@ -16,8 +15,8 @@ namespace {
 /// A scene from recording to the picture in memory.
 class Drawn {
  public:
-  explicit Drawn(Scene scene)
-      : scene_(std::move(scene)), buffer_(scene_.framebuffer), renderer_({.threads = available_cores()}), pixels_(static_cast<std::size_t>(scene_.framebuffer.width) * static_cast<std::size_t>(scene_.framebuffer.height)),
+  Drawn(Scene scene, const RendererOptions& options)
+      : scene_(std::move(scene)), buffer_(scene_.framebuffer), renderer_(options), pixels_(static_cast<std::size_t>(scene_.framebuffer.width) * static_cast<std::size_t>(scene_.framebuffer.height)),
         target_{pixels_.data(), scene_.framebuffer.width, scene_.framebuffer.height, 4 * scene_.framebuffer.width, PixelOrder::rgba8} {}
   void draw() {
     Frame frame(buffer_);
@@ -79,14 +78,11 @@ constexpr Picture kPictures[] = {{"640x480_phong", 640, 480, Shading::phong},
 std::string row_name(const Picture& picture, const Operation& operation) { return std::string(picture.name) + "_" + operation.name; }
 
 int run(int argc, char** argv) {
-  initialize_rows(argc, argv);
+  const RendererOptions options = initialize_rows(argc, argv);
   for (const Picture& picture : kPictures)
     for (const Operation& operation : operations())
-      register_row(row_name(picture, operation), std::make_shared<Drawn>(teapot(picture.width, picture.height, picture.shading, operation.change)));
-  RatioReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles): with, without\n", available_cores(),
-              std::string(name(available_instruction_sets().front())).c_str());
+      register_row(row_name(picture, operation), std::make_shared<Drawn>(teapot(picture.width, picture.height, picture.shading, operation.change), options));
+  const RatioReporter reporter = run_rows(options, "with", "without");
   for (const Picture& picture : kPictures)
     for (const Operation& operation : operations())
       if (operation.name != std::string_view("without"))
@@ -97,11 +93,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace tessera
 
-int main(int argc, char** argv) {
-  try {
-    return tessera::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "operations_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return tessera::run_benchmark("operations_bench", tessera::run, argc, argv); }

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
 #include "perf/rivals/mesa_arrays.h"
 #include "perf/rows.h"
@@ -54,8 +53,8 @@ struct Vertices {
 /// Our side: everything from recording to the picture in memory.
 class Ours {
  public:
-  Ours(const Kind& kind, const Vertices& vertices, int threads)
-      : buffer_({.width = kWidth, .height = kHeight}), renderer_({.threads = threads}), pixels_(std::size_t{kWidth} * kHeight), target_{pixels_.data(), kWidth, kHeight, 4 * kWidth, PixelOrder::rgba8} {
+  Ours(const Kind& kind, const Vertices& vertices, const RendererOptions& options)
+      : buffer_({.width = kWidth, .height = kHeight}), renderer_(options), pixels_(std::size_t{kWidth} * kHeight), target_{pixels_.data(), kWidth, kHeight, 4 * kWidth, PixelOrder::rgba8} {
     mesh_ = {.primitive = kind.primitive, .positions = vertices.positions, .colors = vertices.colors};
     state_.lighting = false;
   }
@@ -85,13 +84,12 @@ double share_that_differs(const std::vector<std::uint32_t>& ours, const std::vec
 }
 
 int run(int argc, char** argv) {
-  initialize_rows(argc, argv);
-  const int threads = available_cores();
+  const RendererOptions options = initialize_rows(argc, argv);
   std::vector<std::unique_ptr<Vertices>> kept;
   for (const Kind& kind : kKinds) {
     const Vertices& vertices = *kept.emplace_back(std::make_unique<Vertices>(kind));
-    auto ours = std::make_shared<Ours>(kind, vertices, threads);
-    auto mesa = std::make_shared<rivals::MesaArrays>(kind.mode, vertices.positions, vertices.colors, kWidth, kHeight, threads);
+    auto ours = std::make_shared<Ours>(kind, vertices, options);
+    auto mesa = std::make_shared<rivals::MesaArrays>(kind.mode, vertices.positions, vertices.colors, kWidth, kHeight, options.threads);
     ours->draw();
     mesa->draw();
     const double differing = share_that_differs(ours->pixels(), mesa->pixels());
@@ -103,10 +101,7 @@ int run(int argc, char** argv) {
     register_row(std::string("tessera_") + kind.name, ours);
     register_row(std::string("mesa_") + kind.name, mesa);
   }
-  RatioReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", threads, std::string(name(available_instruction_sets().front())).c_str());
-  std::printf("%-34s %-32s %-32s\n", "", "Mesa", "Tessera");
+  const RatioReporter reporter = run_rows(options, "Mesa", "Tessera");
   for (const Kind& kind : kKinds) print_ratio(reporter, std::string("1 M ") + kind.name, std::string("mesa_") + kind.name, std::string("tessera_") + kind.name, 3);
   return 0;
 }
@@ -114,11 +109,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace tessera
 
-int main(int argc, char** argv) {
-  try {
-    return tessera::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "primitives_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return tessera::run_benchmark("primitives_bench", tessera::run, argc, argv); }

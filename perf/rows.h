@@ -1,14 +1,20 @@
-// Rows of a benchmark, their repetitions in random order, and the ratios of their medians.
+// What benchmarks have in common: options, rows whose repetitions come in random order, and the ratios of their medians.
 #pragma once
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "engine/parallel.h"
+#include "engine/tessera/tessera.hpp"
 
 namespace tessera {
 
@@ -54,13 +60,56 @@ void register_row(const std::string& name, std::shared_ptr<Side> side) {
       ->MinTime(0.05);
 }
 
-/// Google Benchmark's own options, and repetitions of all rows in random order.
-inline void initialize_rows(int argc, char** argv) {
+/// What `--isa=NAME` asks for, which is taken out of the arguments. Throws std::invalid_argument where the machine has no such set.
+inline InstructionSet take_instruction_set(std::vector<char*>& arguments) {
+  constexpr std::string_view kOption = "--isa=";
+  const auto is_option = [&](const char* argument) { return std::string_view(argument).substr(0, kOption.size()) == kOption; };
+  const auto found = std::find_if(arguments.begin() + 1, arguments.end(), is_option);
+  const std::vector<InstructionSet> sets = available_instruction_sets();
+  if (found == arguments.end()) return sets.front();
+  const std::string_view wanted = std::string_view(*found).substr(kOption.size());
+  std::string names;
+  for (const InstructionSet set : sets) {
+    if (name(set) == wanted) {
+      arguments.erase(found);
+      return set;
+    }
+    names.append(names.empty() ? "" : ", ").append(name(set));
+  }
+  throw std::invalid_argument("--isa is one of " + names + " on this machine, not '" + std::string(wanted) + "'");
+}
+
+/// Takes Google Benchmark's own options and `--isa=NAME`; repetitions of all rows come in random order.
+/// @return what renderers are made with: the set, and as many threads as there are cores
+inline RendererOptions initialize_rows(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
+  const InstructionSet instruction_set = take_instruction_set(arguments);
   static std::string interleave = "--benchmark_enable_random_interleaving=true";
   arguments.insert(arguments.begin() + 1, interleave.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) throw std::invalid_argument("no such option");
+  return {.threads = available_cores(), .instruction_set = instruction_set};
+}
+
+/// Runs the rows; then come the heading of the ratios and that of their columns.
+inline RatioReporter run_rows(const RendererOptions& options, const char* slow, const char* fast) {
+  RatioReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", options.threads, std::string(name(options.instruction_set)).c_str());
+  std::printf("%-34s %-32s %-32s\n", "", slow, fast);
+  return reporter;
+}
+
+/// main(): one line for what was thrown.
+template <class Run>
+int run_benchmark(const char* name, const Run& run, int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 1;
+  }
 }
 
 }  // namespace tessera

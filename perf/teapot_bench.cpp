@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/parallel.h"
 #include "engine/scene/builtin_mesh.h"
 #include "engine/scene/scene.h"
 #include "perf/rivals/mesa_teapot.h"
@@ -35,8 +34,8 @@ Scene teapot_scene(int detail, Shading shading, int width, int height) {
 /// Our side: everything from recording to the picture in memory.
 class Ours {
  public:
-  Ours(int detail, Shading shading, int width, int height, int threads)
-      : scene_(teapot_scene(detail, shading, width, height)), buffer_(scene_.framebuffer), renderer_({.threads = threads}),
+  Ours(int detail, Shading shading, int width, int height, const RendererOptions& options)
+      : scene_(teapot_scene(detail, shading, width, height)), buffer_(scene_.framebuffer), renderer_(options),
         pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), target_{pixels_.data(), width, height, 4 * width, PixelOrder::rgba8} {}
   void draw() {
     Frame frame(buffer_);
@@ -72,12 +71,11 @@ double share_that_differs(const std::vector<std::uint32_t>& ours, const std::vec
 }
 
 int run(int argc, char** argv) {
-  initialize_rows(argc, argv);
-  const int threads = available_cores();
+  const RendererOptions options = initialize_rows(argc, argv);
   for (int s = 0; s < 3; ++s) {
     const auto shading = static_cast<Shading>(s);
-    auto ours = std::make_shared<Ours>(12, shading, kWidth, kHeight, threads);
-    auto mesa = std::make_shared<rivals::MesaTeapot>(ours->scene(), shading, kWidth, kHeight, threads);
+    auto ours = std::make_shared<Ours>(12, shading, kWidth, kHeight, options);
+    auto mesa = std::make_shared<rivals::MesaTeapot>(ours->scene(), shading, kWidth, kHeight, options.threads);
     ours->draw();
     mesa->draw();
     const double differing = share_that_differs(ours->pixels(), mesa->pixels(), kWidth, kHeight);
@@ -89,12 +87,9 @@ int run(int argc, char** argv) {
     register_row(std::string("tessera_") + kShadingNames[s], ours);
     register_row(std::string("mesa_") + kShadingNames[s], mesa);
   }
-  for (const int n : {1, 2}) register_row("phong_detail_40_4k_threads_" + std::to_string(n), std::make_shared<Ours>(40, Shading::phong, 3840, 2160, n));
+  for (const int n : {1, 2}) register_row("phong_detail_40_4k_threads_" + std::to_string(n), std::make_shared<Ours>(40, Shading::phong, 3840, 2160, RendererOptions{.threads = n, .instruction_set = options.instruction_set}));
 
-  RatioReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", threads, std::string(name(available_instruction_sets().front())).c_str());
-  std::printf("%-34s %-32s %-32s\n", "", "Mesa", "Tessera");
+  const RatioReporter reporter = run_rows(options, "Mesa", "Tessera");
   constexpr double kGoals[] = {2.5, 3, 3};
   for (int s = 0; s < 3; ++s)
     print_ratio(reporter, std::string("teapot 1920x1080 ") + kShadingNames[s], std::string("mesa_") + kShadingNames[s], std::string("tessera_") + kShadingNames[s], kGoals[s]);
@@ -106,11 +101,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace tessera
 
-int main(int argc, char** argv) {
-  try {
-    return tessera::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "teapot_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return tessera::run_benchmark("teapot_bench", tessera::run, argc, argv); }

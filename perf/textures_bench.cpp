@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
 #include "perf/rivals/mesa_textures.h"
 #include "perf/rows.h"
@@ -99,8 +98,8 @@ Levels texture_levels() {
 /// Our side: everything from recording to the picture in memory, but for the texture's making.
 class Ours {
  public:
-  Ours(const Kind& kind, const std::vector<TexturedVertex>& vertices, const Levels& levels, int threads)
-      : buffer_({.width = kWidth, .height = kHeight}), renderer_({.threads = threads, .defer_shading = false}),
+  Ours(const Kind& kind, const std::vector<TexturedVertex>& vertices, const Levels& levels, const RendererOptions& options)
+      : buffer_({.width = kWidth, .height = kHeight}), renderer_(options),
         texture_({.pixels = levels[0].data(), .width = kSide, .height = kSide, .bottom_row_first = true}, {.mag = kind.mag, .min = kind.min}), pixels_(kArea),
         target_{pixels_.data(), kWidth, kHeight, 4 * kWidth, PixelOrder::rgba8} {
     for (const TexturedVertex& v : vertices) {
@@ -148,14 +147,14 @@ double share_alike(const std::vector<std::uint32_t>& ours, const std::vector<std
 }
 
 int run(int argc, char** argv) {
-  initialize_rows(argc, argv);
-  const int threads = available_cores();
+  RendererOptions options = initialize_rows(argc, argv);
+  options.defer_shading = false;
   const Levels levels = texture_levels();
   for (const Kind& kind : kKinds) {
     const std::vector<TexturedVertex> vertices = layers(kind.plane);
-    auto ours = std::make_shared<Ours>(kind, vertices, levels, threads);
+    auto ours = std::make_shared<Ours>(kind, vertices, levels, options);
     auto mesa = std::make_shared<rivals::MesaTextures>(
-        rivals::TexturedTriangles{.vertices = vertices, .levels = levels, .side = kSide, .mag = kind.gl_mag, .min = kind.gl_min, .environment = kind.gl_environment}, kWidth, kHeight, threads);
+        rivals::TexturedTriangles{.vertices = vertices, .levels = levels, .side = kSide, .mag = kind.gl_mag, .min = kind.gl_min, .environment = kind.gl_environment}, kWidth, kHeight, options.threads);
     const std::uint64_t shaded = ours->draw().shaded_pixels;
     mesa->draw();
     const double alike = share_alike(ours->pixels(), mesa->pixels());
@@ -167,10 +166,7 @@ int run(int argc, char** argv) {
     register_row(std::string("tessera_") + kind.name, ours);
     register_row(std::string("mesa_") + kind.name, mesa);
   }
-  RatioReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", threads, std::string(name(available_instruction_sets().front())).c_str());
-  std::printf("%-34s %-32s %-32s\n", "", "Mesa", "Tessera");
+  const RatioReporter reporter = run_rows(options, "Mesa", "Tessera");
   for (const Kind& kind : kKinds) print_ratio(reporter, std::to_string(kLayers) + " layers " + kind.name, std::string("mesa_") + kind.name, std::string("tessera_") + kind.name, kind.goal);
   return 0;
 }
@@ -178,11 +174,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace tessera
 
-int main(int argc, char** argv) {
-  try {
-    return tessera::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "textures_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return tessera::run_benchmark("textures_bench", tessera::run, argc, argv); }
