@@ -63,7 +63,7 @@ void register_row(const std::string& name, std::shared_ptr<Side> side) {
 /// What `--isa=NAME` asks for, which is taken out of the arguments. Throws std::invalid_argument where the machine has no such set.
 inline InstructionSet take_instruction_set(std::vector<char*>& arguments) {
   constexpr std::string_view kOption = "--isa=";
-  const auto is_option = [&](const char* argument) { return std::string_view(argument).substr(0, kOption.size()) == kOption; };
+  const auto is_option = [](const char* argument) { return std::string_view(argument).starts_with(kOption); };
   const auto found = std::find_if(arguments.begin() + 1, arguments.end(), is_option);
   const std::vector<InstructionSet> sets = available_instruction_sets();
   if (found == arguments.end()) return sets.front();

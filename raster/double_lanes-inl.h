@@ -48,7 +48,7 @@ HWY_INLINE void store(const Doubles& a, double* to) {
 HWY_INLINE Doubles floor(const Doubles& a) {
   return each_part([&](int p) HWY_ATTR { return hn::Floor(a.part[p]); });
 }
-/// low <= a <= high
+/// Moved into low .. high; a NaN is low.
 HWY_INLINE Doubles clamped(const Doubles& a, double low, double high) {
   return each_part([&](int p) HWY_ATTR { return hn::Min(hn::Max(a.part[p], hn::Set(kDouble, low)), hn::Set(kDouble, high)); });
 }

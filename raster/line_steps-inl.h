@@ -1,8 +1,9 @@
 // The lines of a group as functions of the step along their major axis: the pixels of their twin (line_walk.h), in any order.
 //
-// With integers n and d the minor coordinate of a step is floor(n / d), d = 256 length <= 2^33. As floor((n + 1/2) / d) it may be found by
-// a product: what is divided stands at least 1 / (2 d) >= 2^-34 away from whole numbers, and of quotients up to 2^17, twice a
-// frame buffer's side and width, reciprocal and product are off by 2^-35 at most. n is below 2^52: all sums are exact.
+// With integers n and d the minor coordinate of a step is floor(n / d), d = 256 length < 2^33. As floor((n + 1/2) / d) it may be found by
+// a product: the quotient stands at least 1 / (2 d) > 2^-34 away from whole numbers; it is below 2^17 (coordinates to 2^16 pixels, half a
+// width to 2^15, a vector of steps beyond the end), so reciprocal and product are off by 2^-35 at most. n + 1/2 is below 2^51, which makes all
+// sums exact.
 #if defined(TESSERA_RASTER_LINE_STEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_LINE_STEPS_INL_H_
 #undef TESSERA_RASTER_LINE_STEPS_INL_H_
@@ -36,10 +37,10 @@ HWY_INLINE auto are_in_diamonds(const LinePoints& p) {
 
 class LineSteps {
  public:
-  /// All lines of a group, `width` pixels wide. @pre every lane holds coordinates below 2^24
+  /// All lines of a group, `width` pixels wide. @pre coordinates below 2^24
   HWY_NOINLINE void set_up(const TriangleGroup& g, int width) {
     width_ = width;
-    for (int i = 0; i < kGroupSize; i += kLanes) set_up_lanes(g, i);
+    for (int i = 0; i < g.count; i += kLanes) set_up_lanes(g, i);
   }
   /// Calls pixels(x, y, inside) until each pixel of line i that lies in `window` was `inside` once.
   template <class Pixels>
@@ -50,15 +51,15 @@ class LineSteps {
     for (int step = from; step < to; step += kLanes) {
       const Int major = hn::Iota(kInt, step);
       const Int base = truncate(floor(times(plus(times(to_doubles(major), rise_[i]), start_[i]), per_[i])));
-      int first = 0, last = 0;  // across, upwards (x-major) or to the right: what of the width may be inside
+      int k0 = 0, k1 = 0;  // across, upwards (x-major) or to the right: what of the width may be inside
       if (width_ > 1) {
         alignas(64) std::int32_t bases[kLanes];
         hn::Store(base, kInt, bases);
         const auto [lowest, highest] = std::minmax(bases[0], bases[std::min(kLanes, to - step) - 1]);
-        first = std::max(x_major ? lowest - (high - 1) : low - highest, 0);
-        last = std::min(x_major ? highest - low : high - 1 - lowest, width_ - 1);
+        k0 = std::max(x_major ? lowest - (high - 1) : low - highest, 0);
+        k1 = std::min(x_major ? highest - low : high - 1 - lowest, width_ - 1);
       }
-      for (int k = first; k <= last; ++k) {
+      for (int k = k0; k <= k1; ++k) {
         const Int minor = hn::Add(base, splat(x_major ? -k : k));
         const auto inside = hn::And(hn::Gt(splat(to), major), hn::And(hn::Gt(minor, splat(low - 1)), hn::Gt(splat(high), minor)));
         pixels(x_major ? major : minor, x_major ? minor : major, inside);

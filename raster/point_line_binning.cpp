@@ -23,23 +23,8 @@ bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v
 PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
   if (draw.samples == 1) return intersect(point_square(at, whole_size(draw.size)), draw.rect);
   const std::int32_t reach = (whole_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
-  return intersect({first_pixel(at.x - reach), first_pixel(at.y - reach), last_pixel(at.x + reach) + 1, last_pixel(at.y + reach) + 1}, draw.rect);
+  return intersect(pixels_near(at, at, reach), draw.rect);
 }
-
-/// A line covers nothing whose pixel's centre is farther than `reach` from it along either axis, in 1/256 pixel.
-struct LineBand {
-  LinePoint a, b;
-  std::int32_t reach;
-
-  // Of several samples one is within a pixel of the centre.
-  LineBand(const BinDraw& draw, LinePoint from, LinePoint to)
-      : a(from), b(to), reach(draw.samples == 1 ? whole_size(draw.size) * kHalfPixel : (snapped_size(draw.size) + 1) / 2 + kSubpixelScale) {}
-  PixelRect bounds() const {
-    const auto [low_x, high_x] = std::minmax({a.x, b.x});
-    const auto [low_y, high_y] = std::minmax({a.y, b.y});
-    return {first_pixel(low_x - reach), first_pixel(low_y - reach), last_pixel(high_x + reach) + 1, last_pixel(high_y + reach) + 1};
-  }
-};
 
 // Tiles are powers of two wide, and a division would be much of a point's work.
 struct TileSpan {
@@ -52,9 +37,10 @@ struct TileSpan {
   }
 };
 
-// Into the tiles that its band may touch. Returns whether there are any.
-bool bin_band(Bins& bins, const TileGrid& grid, const BinDraw& draw, const LineBand& band, std::uint32_t id) {
-  const PixelRect pixels = intersect(band.bounds(), draw.rect);
+// Into the tiles that it may have pixels in. Returns whether there are any.
+bool bin_line(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint a, LinePoint b, std::uint32_t id) {
+  const std::int32_t reach = line_reach(draw.size, draw.samples);
+  const PixelRect pixels = intersect(pixels_near(a, b, reach), draw.rect);
   if (pixels.empty()) return false;
   const TileSpan tiles(grid, pixels);
   const int size = grid.tile_size, x0 = tiles.x0, y0 = tiles.y0, x1 = tiles.x1, y1 = tiles.y1;
@@ -62,11 +48,11 @@ bool bin_band(Bins& bins, const TileGrid& grid, const BinDraw& draw, const LineB
     bins.push(y0 * tiles.columns + x0, draw.draw, id);
     return true;
   }
-  const std::int64_t dx = std::int64_t{band.b.x} - band.a.x, dy = std::int64_t{band.b.y} - band.a.y, half = std::int64_t{size} * kHalfPixel;
-  const std::int64_t most = (std::abs(dx) + std::abs(dy)) * (half + band.reach);
+  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y, half = std::int64_t{size} * kHalfPixel;
+  const std::int64_t most = (std::abs(dx) + std::abs(dy)) * (half + reach);
   for (int ty = y0; ty <= y1; ++ty)
     for (int tx = x0; tx <= x1; ++tx) {
-      const std::int64_t across = dx * ((2 * ty + 1) * half - band.a.y) - dy * ((2 * tx + 1) * half - band.a.x);
+      const std::int64_t across = dx * ((2 * ty + 1) * half - a.y) - dy * ((2 * tx + 1) * half - a.x);
       if (std::abs(across) <= most) bins.push(ty * tiles.columns + tx, draw.draw, id);
     }
   return true;
@@ -98,7 +84,7 @@ bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::ui
 bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.pieces.back().vertices[0]), bins.id_of_last_piece()); }
 bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
   const Piece& piece = bins.pieces.back();
-  return bin_band(bins, grid, draw, LineBand(draw, point_of(piece.vertices[0]), point_of(piece.vertices[1])), bins.id_of_last_piece());
+  return bin_line(bins, grid, draw, point_of(piece.vertices[0]), point_of(piece.vertices[1]), bins.id_of_last_piece());
 }
 
 void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
@@ -133,7 +119,7 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
       is_left = has_piece && bin_line_piece(bins, grid, draw);
       if (has_piece && !is_left) bins.drop_last_piece();
     } else if (is_left) {
-      is_left = bin_band(bins, grid, draw, LineBand(draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1])), line);
+      is_left = bin_line(bins, grid, draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1]), line);
     }
     ++(is_left ? counts.binned : counts.outside);
   }

@@ -1,4 +1,4 @@
-// Which pixels and samples points and lines cover, in exact integers of 1/256 pixel. Lines of one sample: line_walk.h.
+// Which pixels and samples points and lines cover, in exact integers of 1/256 pixel. Lines of one sample: line_walk.h, line_steps-inl.h.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +18,15 @@ inline int whole_size(float size) { return std::max(1, static_cast<int>(std::flo
 /// In 1/256 pixel, where they have several: sizes are snapped as positions are.
 inline std::int32_t snapped_size(float size) {
   return std::max(1, static_cast<std::int32_t>(std::floor(static_cast<double>(std::min(size, kMaxPointLineSize)) * kSubpixelScale + 0.5)));
+}
+
+/// Of what covers pixels with one sample the centre is within this of a line along each axis, in 1/256 pixel. Of others too: a sample is less than half a
+/// pixel from the centre, and by less whole sizes differ from snapped ones.
+inline std::int32_t line_reach(float width, int samples) { return samples == 1 ? whole_size(width) * kHalfPixel : (snapped_size(width) + 1) / 2 + kHalfPixel; }
+
+/// The pixels whose centres are within `reach` of a line along each axis.
+constexpr PixelRect pixels_near(LinePoint a, LinePoint b, std::int32_t reach) {
+  return {first_pixel(std::min(a.x, b.x) - reach), first_pixel(std::min(a.y, b.y) - reach), last_pixel(std::max(a.x, b.x) + reach) + 1, last_pixel(std::max(a.y, b.y) + reach) + 1};
 }
 
 /// The square of a point of `size` pixels: an odd size lies around the pixel that holds the point, an even one around the nearest

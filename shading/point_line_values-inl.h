@@ -43,7 +43,7 @@ class LineDepth {
   HWY_INLINE Int keys(const Doubles& t) const {
     const Doubles depth = clamped(plus(times(t, change_), first_), 0, most_);
     if (kind_ == DepthKind::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
-    return kind_ == DepthKind::unorm32 ? truncate(floor(plus(depth, -0x1p31))) : truncate(depth);
+    return kind_ == DepthKind::unorm32 ? truncate(plus(floor(depth), -0x1p31)) : truncate(depth);
   }
   /// Of a point.
   HWY_INLINE std::int32_t first_key() const { return hn::GetLane(keys(to_doubles(hn::Zero(kInt)))); }

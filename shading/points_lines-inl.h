@@ -1,5 +1,5 @@
 // Points and lines in a tile. Few of their pixels lie in one block: each is covered, and has its depth, by itself. Plain colours are
-// stored pixel by pixel; all others go block by block through what fragments of triangles go through.
+// stored as they come; all others go block by block through what fragments of triangles go through.
 #if defined(TESSERA_SHADING_POINTS_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POINTS_LINES_INL_H_
 #undef TESSERA_SHADING_POINTS_LINES_INL_H_
@@ -15,7 +15,6 @@
 #include "raster/point_line_coverage.h"
 #include "shading/fragments-inl.h"
 #include "shading/point_line_values-inl.h"
-#include "shading/texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -134,27 +133,36 @@ struct PointShape {
   HWY_INLINE void cover(BlockBits& bits) const {
     const PointDisc disc(at, snapped_size(size));
     const std::int32_t reach = disc.reach() + kHalfPixel;
-    cover_samples(bits, disc, in_tile(run, {first_pixel(at.x - reach), first_pixel(at.y - reach), last_pixel(at.x + reach) + 1, last_pixel(at.y + reach) + 1}));
+    cover_samples(bits, disc, in_tile(run, pixels_near(at, at, reach)));
   }
 };
 
 struct LineShape {
   const TileRun& run;
-  LinePoint a, b;
+  const LineSteps& steps;  // of the group
+  int i;                   // of the line
   float width;
 
+  /// Calls pixels(x, y, inside), of one sample.
+  template <class Pixels>
+  HWY_INLINE void for_each_vector(const Pixels& pixels) const {
+    const PixelRect& r = run.rect;
+    steps.for_each(i, {r.x0 + run.tile_x, r.y0 + run.tile_y, r.x1 + run.tile_x, r.y1 + run.tile_y},
+                   [&](Int x, Int y, LaneMask inside) HWY_ATTR { pixels(hn::Sub(x, splat(run.tile_x)), hn::Sub(y, splat(run.tile_y)), inside); });
+  }
   template <class Pixel>
   HWY_INLINE void for_each(const Pixel& pixel) const {
-    const PixelRect& r = run.rect;
-    const PixelRect window{r.x0 + run.tile_x, r.y0 + run.tile_y, r.x1 + run.tile_x, r.y1 + run.tile_y};
-    LineWalk(a, b, whole_size(width)).for_each(window, [&](int x, int y) { pixel(x - run.tile_x, y - run.tile_y); });
+    for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
+      alignas(64) std::int32_t columns[kLanes], rows[kLanes];
+      hn::Store(x, kInt, columns);
+      hn::Store(y, kInt, rows);
+      for (std::uint32_t left = mask_bits(kInt, inside); left != 0; left &= left - 1) pixel(columns[std::countr_zero(left)], rows[std::countr_zero(left)]);
+    });
   }
   HWY_INLINE void cover(BlockBits& bits) const {
+    const LinePoint a = vertex_of(run.memory.group, i, 0), b = vertex_of(run.memory.group, i, 1);
     const LineRectangle rectangle(a, b, snapped_size(width));
-    const std::int32_t reach = (snapped_size(width) + 1) / 2 + kHalfPixel;
-    const auto [low_x, high_x] = std::minmax({a.x, b.x});
-    const auto [low_y, high_y] = std::minmax({a.y, b.y});
-    const PixelRect pixels = in_tile(run, {first_pixel(low_x - reach), first_pixel(low_y - reach), last_pixel(high_x + reach) + 1, last_pixel(high_y + reach) + 1});
+    const PixelRect pixels = in_tile(run, pixels_near(a, b, line_reach(width, run.samples)));
     for (int by = pixels.y0 & ~3; by < pixels.y1; by += 4)
       for (int bx = pixels.x0 & ~3; bx < pixels.x1; bx += 4) {
         const LinePoint center{(run.tile_x + bx + 2) * kSubpixelScale, (run.tile_y + by + 2) * kSubpixelScale};
@@ -183,12 +191,8 @@ class PlainPixels {
   }
   /// Pixels none of which is there twice; of those that are not `inside` nothing is seen. Neither that nor whether a depth passes could
   /// be foretold: nothing branches on it.
-  template <class Mask>
-  HWY_INLINE void store(Int x, Int y, Mask inside, Int keys, Int words) const {
-    const Int columns = splat(run_.tile_size >> 2), three = splat(3);
-    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), columns), hn::ShiftRight<2>(x));
-    const Int within = hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three));
-    const Int index = hn::IfThenElse(inside, hn::Add(hn::ShiftLeft<4>(block), within), splat(kNoPixel));
+  HWY_INLINE void store(Int x, Int y, LaneMask inside, Int keys, Int words) const {
+    const Int index = hn::IfThenElse(inside, run_.pixel_indices(x, y), splat(kNoPixel));
     Int passed = hn::VecFromMask(kInt, inside);
     if (uses_depth_) passed = hn::And(passed, hn::VecFromMask(kInt, comparing(keys, draw_.depth_test, load_words(reinterpret_cast<const std::uint32_t*>(run_.memory.depth), index))));
     const auto stays = hn::MaskFromVec(passed);
@@ -224,12 +228,10 @@ HWY_INLINE void store_plain(const PlainPixels& pixels, const PointShape& point, 
   point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, plain.word); });
 }
 
-/// Line i of a group.
-HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const LineSteps& steps, int i, const PlainValues& plain) {
-  const PixelRect& r = run.rect;
-  steps.for_each(i, {r.x0 + run.tile_x, r.y0 + run.tile_y, r.x1 + run.tile_x, r.y1 + run.tile_y}, [&](Int window_x, Int window_y, auto inside) HWY_ATTR {
-    const Int x = hn::Sub(window_x, splat(run.tile_x)), y = hn::Sub(window_y, splat(run.tile_y));
-    const Doubles t = plain.values.parameters(x, y);
+HWY_INLINE void store_plain(const PlainPixels& pixels, const LineShape& line, const PlainValues& plain) {
+  line.for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
+    Doubles t{};
+    if (pixels.uses_depth() || plain.colors != nullptr) t = plain.values.parameters(x, y);
     const Int keys = pixels.uses_depth() ? plain.values.depth.keys(t) : hn::Zero(kInt);
     const Int words = plain.colors != nullptr ? plain.colors->words(t) : splat(static_cast<std::int32_t>(plain.word));
     pixels.store(x, y, inside, keys, words);
@@ -245,31 +247,25 @@ inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw
   draw_fragments_of(run, draw_number, i, shaded, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
-/// Nothing is to be done with the pixels of a draw but storing them.
-HWY_INLINE bool is_plain(const TileRun& run, const TileDraw& draw) {
-  const bool interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && draw.topology == Topology::lines;
-  return draw.ops == nullptr && run.samples == 1 && (interpolated || has_words(draw));
-}
-
-/// All of a group.
+/// All of a group, which needs no set-up.
 /// @param second  see LineValues
-/// @param store  stores element i of a plain draw: store(pixels, i, PlainValues)
-template <class Shape, class Store>
-HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of, const Store& store) {
+template <class Shape>
+HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  const bool one_word = has_words(draw), plain = is_plain(run, draw);
+  const bool one_word = has_words(draw), interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
+  const bool plain = draw.ops == nullptr && run.samples == 1 && (interpolated || one_word);  // nothing is to be done but storing
   const PlainPixels pixels(run, draw);
   for (int i = 0; i < g.count; ++i) {
+    const auto shape = shape_of(i);
     const LineValues values(run, i, second, depth_offset_of(run, draw, i));
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
     if (plain) {
       LineColors colors;
       if (!one_word) colors.set_up(run, draw, i, back);
-      store(pixels, i, PlainValues{values, one_word ? nullptr : &colors, one_word ? triangle_word(run, draw, i, back) : 0});
+      store_plain(pixels, shape, {values, one_word ? nullptr : &colors, one_word ? triangle_word(run, draw, i, back) : 0});
       continue;
     }
-    const auto shape = shape_of(i);
     BlockBits bits{run, run.memory.touched};
     if (run.samples == 1)
       shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
@@ -281,15 +277,13 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, in
 
 inline void draw_points(TileRun& run, std::uint32_t draw_number) {
   const float size = run.frame.draws[draw_number].size;
-  const auto shape_of = [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; };
-  draw_points_or_lines(run, draw_number, 0, shape_of, [&](const PlainPixels& pixels, int i, const PlainValues& plain) HWY_ATTR { store_plain(pixels, shape_of(i), plain); });
+  draw_points_or_lines(run, draw_number, 0, [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; });
 }
 inline void draw_lines(TileRun& run, std::uint32_t draw_number) {
-  const TileDraw& draw = run.frame.draws[draw_number];
+  const float width = run.frame.draws[draw_number].size;
   LineSteps steps;
-  if (is_plain(run, draw)) steps.set_up(run.memory.group, whole_size(draw.size));
-  const auto shape_of = [&](int i) { return LineShape{run, vertex_of(run.memory.group, i, 0), vertex_of(run.memory.group, i, 1), draw.size}; };
-  draw_points_or_lines(run, draw_number, 1, shape_of, [&](const PlainPixels& pixels, int i, const PlainValues& plain) HWY_ATTR { store_plain(pixels, run, steps, i, plain); });
+  if (run.samples == 1) steps.set_up(run.memory.group, whole_size(width));
+  draw_points_or_lines(run, draw_number, 1, [&](int i) { return LineShape{run, steps, i, width}; });
 }
 
 }  // namespace HWY_NAMESPACE

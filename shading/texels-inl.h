@@ -45,48 +45,27 @@ HWY_INLINE Int mixed(Int a, Int b, Int f) {
 HWY_INLINE Texels texels_of(Int words) { return {lower_bytes_up(words), hn::And(words, splat(static_cast<std::int32_t>(0xff00ff00u)))}; }
 HWY_INLINE Texels mixed(const Texels& a, const Texels& b, Int f) { return {mixed(a.br, b.br, f), mixed(a.ga, b.ga, f)}; }
 
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-/// Indices of eight lanes, for loads one by one.
-struct LaneIndices {
-  std::uint64_t two[4];
-  explicit HWY_INLINE LaneIndices(__m256i index) {
-    const __m128i low = _mm256_castsi256_si128(index), high = _mm256_extracti128_si256(index, 1);
-    two[0] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low)), two[1] = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
-    two[2] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high)), two[3] = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
-  }
-  HWY_INLINE std::size_t operator[](int lane) const { return lane % 2 == 0 ? two[lane / 2] & 0xffffffffu : two[lane / 2] >> 32; }
-  /// The words at a lane's index and after it, below those of the next lane.
-  HWY_INLINE __m128 two_pairs(const std::uint32_t* words, int lane) const {
-    return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words + (*this)[lane]))), reinterpret_cast<const __m64*>(words + (*this)[lane + 1]));
-  }
-  /// Those of four lanes, the last two four lanes after the first: what parts them again stays within halves.
-  HWY_INLINE __m256 four_pairs(const std::uint32_t* words, int lane) const { return _mm256_set_m128(two_pairs(words, lane + 4), two_pairs(words, lane)); }
-};
-#endif
-
-/// The words at an index of at least 0. Single ones by a gather where a vector has sixteen, else one by one; pairs always so: the faster ways.
-HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
-#if HWY_TARGET == HWY_AVX2
-  const LaneIndices at(index.raw);
-  const auto word = [&](int l) HWY_ATTR { return static_cast<std::int32_t>(words[at[l]]); };
-  return Int{_mm256_setr_epi32(word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7))};
-#else
-  return hn::GatherIndex(kInt, reinterpret_cast<const std::int32_t*>(words), index);
-#endif
-}
-
 /// The words at an index and after it.
 struct TexelPairs {
   Int left, right;
 };
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+/// Those of two lanes, the second above the first.
+HWY_INLINE __m128 two_pairs(const std::uint32_t* words, const LaneIndices& at, int lane) {
+  return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words + at[lane]))), reinterpret_cast<const __m64*>(words + at[lane + 1]));
+}
+/// Those of four lanes, the last two four lanes after the first: what parts them again stays within halves.
+HWY_INLINE __m256 four_pairs(const std::uint32_t* words, const LaneIndices& at, int lane) { return _mm256_set_m128(two_pairs(words, at, lane + 4), two_pairs(words, at, lane)); }
+#endif
+/// One by one, on every instruction set the faster way.
 HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index) {
 #if HWY_TARGET == HWY_AVX2
   const LaneIndices at(index.raw);
-  const __m256 low = at.four_pairs(words, 0), high = at.four_pairs(words, 2);
+  const __m256 low = four_pairs(words, at, 0), high = four_pairs(words, at, 2);
   return {Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))}, Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))}};
 #elif HWY_TARGET == HWY_AVX3
   const LaneIndices lower(_mm512_castsi512_si256(index.raw)), upper(_mm512_extracti64x4_epi64(index.raw, 1));
-  const auto eight_pairs = [&](int lane) HWY_ATTR { return _mm512_insertf32x8(_mm512_castps256_ps512(lower.four_pairs(words, lane)), upper.four_pairs(words, lane), 1); };
+  const auto eight_pairs = [&](int lane) HWY_ATTR { return _mm512_insertf32x8(_mm512_castps256_ps512(four_pairs(words, lower, lane)), four_pairs(words, upper, lane), 1); };
   const __m512 low = eight_pairs(0), high = eight_pairs(2);
   return {Int{_mm512_castps_si512(_mm512_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))}, Int{_mm512_castps_si512(_mm512_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))}};
 #else

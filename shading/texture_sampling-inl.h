@@ -103,7 +103,6 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
 /// Chunks all of whose points are at one level, or between it and the next smaller one.
 template <int kChunks>
 HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, const Int (&level_of)[kChunks], const Float (&s)[kChunks], const Float (&t)[kChunks], Texels (&texels)[kChunks]) {
-  // Unrolled, the arrays stay in registers; the compiler finds it too long.
   LinearTexels linear[2][kChunks];
   for (int i = 0; i < kChunks; ++i) linear[0][i].place(texture, texture.level[level], s[i], t[i]);
   if (!texture.blends_levels || level == texture.last) {

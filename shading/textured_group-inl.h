@@ -36,7 +36,7 @@ struct TexturedBlocks {
   std::uint64_t blocks = 0;   // drawn as a whole
 
   /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of their steps.
-  static constexpr int kBlocksAtOnce = kFilter == TexelFilter::nearest ? 1 : 4;
+  static constexpr int kBlocksAtOnce = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
   struct FullBlock {
     int bx, by;
     BlockEdges edges;
@@ -64,9 +64,12 @@ struct TexturedBlocks {
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
     if (kFull && kFilter != TexelFilter::any && at_once) {
       const FullBlock block{bx, by, edges};
-      if constexpr (kBlocksAtOnce == 1) return draw_full_blocks<1>(&block);
-      waiting[waits++] = block;
-      if (waits == kBlocksAtOnce) draw_full_blocks<kBlocksAtOnce>(waiting), waits = 0;
+      if constexpr (kBlocksAtOnce == 1) {
+        draw_full_blocks<1>(&block);
+      } else {
+        waiting[waits++] = block;
+        if (waits == kBlocksAtOnce) draw_full_blocks<kBlocksAtOnce>(waiting), waits = 0;
+      }
       return;
     }
     full = kFull;  // no argument: the compiler would make a copy of draw_block for each

@@ -26,6 +26,10 @@ struct TileRun {
 
   HWY_INLINE int block_index(int bx, int by) const { return ((by >> 2) * (tile_size >> 2) + (bx >> 2)) * kBlockPixels; }
   HWY_INLINE int pixel_index(int x, int y) const { return block_index(x, y) + (y & 3) * 4 + (x & 3); }
+  HWY_INLINE Int pixel_indices(Int x, Int y) const {
+    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), splat(tile_size >> 2)), hn::ShiftRight<2>(x)), three = splat(3);
+    return hn::Add(hn::ShiftLeft<4>(block), hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three)));
+  }
 };
 
 /// Lanes of a chunk inside the draw's rectangle.

@@ -1,0 +1,16 @@
+// Depth keys along a line as the kernels find them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framebuffer/instruction_set.h"
+#include "raster/triangle_setup.h"
+
+namespace tessera::test {
+
+/// The key of each parameter: how far of the line from depth word z0 to z1 one has come.
+using LineKeys = std::vector<std::int32_t>(DepthKind kind, std::uint32_t z0, std::uint32_t z1, const std::vector<double>& parameters);
+LineKeys* line_keys(Isa isa);
+
+}  // namespace tessera::test

@@ -1,0 +1,44 @@
+// Depth keys along lines against integers: where all products are exact, a key is the whole part of its depth.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "tests/raster/tile_stage.h"
+#include "tests/shading/line_depth_lanes.h"
+
+namespace tessera::test {
+namespace {
+
+struct Cases {
+  int parameter_bits;     // parameters are multiples of 2^-bits
+  std::uint32_t farthest;  // depth words lie below it
+};
+constexpr Cases kCases[] = {{28, 1u << 20}, {28, 4}, {18, 0xffffffffu}};
+
+TEST(LineDepth, IsTheWholePart) {
+  std::mt19937 random(3);
+  for (const DepthKind kind : {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32})
+    for (const Cases& of : kCases)
+      for (int round = 0; round < 2000; ++round) {
+        const std::uint32_t z0 = random() % of.farthest, z1 = random() % of.farthest;
+        std::vector<double> parameters;
+        std::vector<std::int32_t> expected;
+        const std::int64_t one = std::int64_t{1} << of.parameter_bits, change = std::int64_t{z1} - z0;
+        for (int i = 0; i < 16; ++i) {
+          // Half of them as near to where a level of 32 bits begins as they come.
+          const std::int64_t level_at = change == 0 ? 0 : (2 * (static_cast<std::int64_t>(random()) % std::abs(change)) + 1) * one / (2 * std::abs(change));
+          const std::int64_t n = std::min(one, i % 2 == 0 ? level_at + i % 4 / 2 : static_cast<std::int64_t>(random()) % (one + 1));
+          parameters.push_back(static_cast<double>(n) / static_cast<double>(one));
+          const std::int64_t depth = (std::int64_t{z0} << of.parameter_bits) + n * change;
+          if (kind == DepthKind::unorm32)
+            expected.push_back(static_cast<std::int32_t>(((depth + one / 2) >> of.parameter_bits) - (std::int64_t{1} << 31)));
+          else
+            expected.push_back(static_cast<std::int32_t>(depth >> (of.parameter_bits + (kind == DepthKind::unorm24 ? 8 : 16))));
+        }
+        for (const Isa isa : available_isas()) ASSERT_EQ(line_keys(isa)(kind, z0, z1, parameters), expected) << name_of(isa) << ", depth words " << z0 << " to " << z1;
+      }
+}
+
+}  // namespace
+}  // namespace tessera::test
