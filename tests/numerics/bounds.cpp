@@ -1,0 +1,40 @@
+#include "tests/numerics/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace tessera::test {
+namespace {
+
+struct Row {
+  std::string quantity, unit;
+  long double measured, promised;
+};
+std::vector<Row>& rows() {
+  static std::vector<Row> all;
+  return all;
+}
+
+class Table : public testing::Environment {
+ public:
+  void TearDown() override {
+    if (rows().empty()) return;
+    std::size_t widest = 0;
+    for (const Row& row : rows()) widest = std::max(widest, row.quantity.size());
+    std::printf("\n%-*s  %12s  %12s\n", static_cast<int>(widest), "", "measured", "promised");
+    for (const Row& row : rows()) std::printf("%-*s  %12.4Lg  %12.4Lg  %s\n", static_cast<int>(widest), row.quantity.c_str(), row.measured, row.promised, row.unit.c_str());
+  }
+};
+const testing::Environment* const kTable = testing::AddGlobalTestEnvironment(new Table);
+
+}  // namespace
+
+void expect_within(const std::string& quantity, long double measured, long double promised, const std::string& unit) {
+  EXPECT_LE(measured, promised) << quantity << " (" << unit << ")";
+  rows().push_back({quantity, unit, measured, promised});
+}
+
+}  // namespace tessera::test
