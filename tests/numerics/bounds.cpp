@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 namespace tessera::test {
@@ -12,6 +13,7 @@ namespace {
 struct Row {
   std::string quantity, unit;
   long double measured, promised;
+  std::optional<long double> mesas{};
 };
 std::vector<Row>& rows() {
   static std::vector<Row> all;
@@ -24,8 +26,13 @@ class Table : public testing::Environment {
     if (rows().empty()) return;
     std::size_t widest = 0;
     for (const Row& row : rows()) widest = std::max(widest, row.quantity.size());
-    std::printf("\n%-*s  %12s  %12s\n", static_cast<int>(widest), "", "measured", "promised");
-    for (const Row& row : rows()) std::printf("%-*s  %12.4Lg  %12.4Lg  %s\n", static_cast<int>(widest), row.quantity.c_str(), row.measured, row.promised, row.unit.c_str());
+    std::printf("\n%-*s  %12s  %12s  %12s\n", static_cast<int>(widest), "", "measured", "promised", "Mesa's");
+    for (const Row& row : rows()) {
+      std::printf("%-*s  %12.4Lg  %12.4Lg  ", static_cast<int>(widest), row.quantity.c_str(), row.measured, row.promised);
+      if (row.mesas) std::printf("%12.4Lg", *row.mesas);
+      else std::printf("%12s", "");
+      std::printf("  %s\n", row.unit.c_str());
+    }
   }
 };
 const testing::Environment* const kTable = testing::AddGlobalTestEnvironment(new Table);
@@ -35,6 +42,11 @@ const testing::Environment* const kTable = testing::AddGlobalTestEnvironment(new
 void expect_within(const std::string& quantity, long double measured, long double promised, const std::string& unit) {
   EXPECT_LE(measured, promised) << quantity << " (" << unit << ")";
   rows().push_back({quantity, unit, measured, promised});
+}
+
+void set_beside(const std::string& quantity, long double mesas) {
+  for (Row& row : rows())
+    if (row.quantity == quantity) row.mesas = mesas;
 }
 
 }  // namespace tessera::test
