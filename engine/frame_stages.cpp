@@ -1,22 +1,22 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <numeric>
 #include <span>
 #include <string>
 
 #include "engine/capture_stage.h"
 #include "engine/recording.h"
 #include "engine/renderer_state.h"
-#include "raster/polygon_offset.h"
-#include "raster/sample_positions.h"
 
 namespace tessera {
 namespace {
 
 constexpr std::size_t kVerticesPerTask = 512;
-constexpr std::size_t kTrianglesPerBatch = 1024;
-// What the stages are of a frame, for a progress bar.
-constexpr double kVertexShare = 0.15, kFaceShare = 0.05, kBinningShare = 0.1, kTileShare = 0.7;
+// How much of a frame is done after the stages before the tiles, for a progress bar.
+constexpr double kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
 
 /// Ranges of elements of several draws, cut into tasks.
 struct Range {
@@ -32,16 +32,6 @@ std::vector<Range> cut_into_tasks(const std::vector<GeometryDraw>& draws, bool t
   return tasks;
 }
 
-void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
-  switch (draw.topology) {
-    case Topology::points: return bin_points(bins, grid, draw, first, last);
-    case Topology::lines: return bin_lines(bins, grid, draw, first, last);
-    case Topology::triangles: break;
-  }
-  if (draw.modes != nullptr) return bin_polygons(bins, grid, draw, first, last, isa);
-  bin_triangles(bins, grid, draw, first, last, isa);
-}
-
 /// Seconds since it was last asked.
 class StopWatch {
  public:
@@ -53,6 +43,30 @@ class StopWatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+void count_triangles(FrameStats& stats, const BinCounts& counts) {
+  stats.triangles_in = counts.triangles_in;
+  stats.dropped_non_finite = counts.non_finite;
+  stats.outside = counts.outside;
+  stats.culled = counts.culled;
+  stats.zero_area = counts.zero_area;
+  stats.clipped = counts.clipped;
+  stats.binned = counts.binned;
+  stats.bin_entries = counts.entries;
+}
+
+/// How much of a frame is done after so many of its tiles.
+double done_after(int tiles, const FrameStats& stats) { return std::lerp(kBinsDone, 1.0, static_cast<double>(tiles) / static_cast<double>(stats.tiles)); }
+
+/// @pre several tiles
+std::array<TileRange, 2> halves(const TileRange& tiles) {
+  TileRange first = tiles, second = tiles;
+  if (tiles.y1 - tiles.y0 > 1)
+    first.y1 = second.y0 = std::midpoint(tiles.y0, tiles.y1);
+  else
+    first.x1 = second.x0 = std::midpoint(tiles.x0, tiles.x1);
+  return {first, second};
+}
 
 /// What a buffer holds after all its tiles were rendered.
 void settle(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
@@ -98,106 +112,34 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
 void RendererState::process_geometry(FrameCommands& commands, FrameWatch& watch) {
   for (const GeometryDraw& draw : commands.geometry) prepare_geometry(draw);
   const std::vector<Range> vertices = cut_into_tasks(commands.geometry, false);
-  watch.begin_stage(kVertexShare, vertices.size());
+  watch.begin_stage(kVerticesDone, vertices.size());
   parallel.for_each(vertices.size(), [&](std::size_t i, int) {
     process_vertices(commands.geometry[vertices[i].draw], vertices[i].first, vertices[i].last, isa);
     watch.task_done();
   });
   const std::vector<Range> triangles = cut_into_tasks(commands.geometry, true);
-  watch.begin_stage(kFaceShare, triangles.size());
+  watch.begin_stage(kFacesDone, triangles.size());
   parallel.for_each(triangles.size(), [&](std::size_t i, int) {
     process_triangles(commands.geometry[triangles[i].draw], triangles[i].first, triangles[i].last, isa);
     watch.task_done();
   });
 }
 
-std::vector<BinDraw> RendererState::prepare_bins(const FrameCommands& commands, int samples) {
-  std::vector<BinDraw> draws;
-  for (std::size_t d = 0; d < commands.geometry.size(); ++d) {
-    const GeometryDraw& geometry = commands.geometry[d];
-    const DrawPlan& plan = *geometry.plan;
-    BinDraw draw;
-    draw.draw = commands.first_tile_draw[d];
-    draw.topology = plan.topology;
-    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
-    draw.samples = samples;
-    draw.vertices = geometry.buffers->vertices.data();
-    draw.indices = geometry.indices();
-    draw.codes = geometry.buffers->codes.data();
-    draw.any_code = geometry.buffers->any_code;
-    draw.keep_front = plan.keep_front;
-    draw.keep_back = plan.keep_back;
-    draw.front_is_clockwise = plan.front_is_clockwise;
-    draw.facing = geometry.facing();
-    draw.rect = plan.rect;
-    draw.sample_reach = sample_reach(samples);
-    draw.transform = &plan.transform;
-    draw.positions = geometry.mesh->positions;
-    draw.components = geometry.mesh->components;
-    draw.attributes = geometry.buffers->attributes.data();
-    draw.attribute_count = draw.attribute_stride = plan.attribute_count;
-    if (plan.outlines) {
-      PolygonModes& modes = geometry.buffers->modes;
-      modes = {.style = {plan.style[0], plan.style[1]}, .line_width = plan.line_width, .point_size = plan.point_size, .triangles = geometry.mesh->polygon_triangles(),
-               .boundary = geometry.buffers->boundary.data()};
-      std::uint32_t number = draw.draw;
-      for (const PolygonStyle style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
-      draw.modes = &modes;
-    }
-    draws.push_back(draw);
-  }
-  std::vector<Range> polygons;
-  for (std::size_t d = 0; d < draws.size(); ++d) {
-    const std::size_t count = draws[d].facing != nullptr ? commands.geometry[d].mesh->elements : 0;
-    for (std::size_t first = 0; first < count; first += kTrianglesPerBatch) polygons.push_back({d, first, std::min(count, first + kTrianglesPerBatch)});
-  }
-  parallel.for_each(polygons.size(), [&](std::size_t i, int) {
-    const Range& range = polygons[i];
-    const GeometryDraw& geometry = commands.geometry[range.draw];
-    const std::size_t each = geometry.mesh->polygon_triangles();
-    face_polygons(draws[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
-    const DrawPlan& plan = *geometry.plan;
-    if (plan.has_offset()) offset_polygons(draws[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
-  });
-  return draws;
-}
-
-std::size_t RendererState::fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch) {
-  std::vector<std::size_t> first_element{0};  // of each draw, counted through the frame; a bitmap or an image counts as one
-  for (const GeometryDraw& draw : commands.geometry) first_element.push_back(first_element.back() + (draw.plan->texels ? 1 : draw.mesh->elements));
-  const std::size_t total = first_element.back();
-  const std::size_t batches = std::clamp<std::size_t>(total / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
-  if (bins.size() < batches) bins.resize(batches);
-  const std::vector<BinDraw> draws = prepare_bins(commands, samples);
-  watch.begin_stage(kBinningShare, batches);
-  parallel.for_each(batches, [&](std::size_t b, int) {
-    bins[b].reset(grid.count());
-    const std::size_t begin = total * b / batches, end = total * (b + 1) / batches;
-    for (std::size_t d = 0; d < draws.size(); ++d) {
-      const std::size_t low = std::max(begin, first_element[d]), high = std::min(end, first_element[d + 1]);
-      if (low >= high) continue;
-      if (commands.plans[d].texels)
-        bin_pixels(bins[b], grid, draws[d].draw, draws[d].rect);
-      else
-        bin_elements(bins[b], grid, draws[d], static_cast<std::uint32_t>(low - first_element[d]), static_cast<std::uint32_t>(high - first_element[d]), isa);
-    }
-    watch.task_done();
-  });
-  return batches;
-}
-
-void RendererState::render_tiles(const TileStage& stage, const TileMemory& memory, FrameStats& stats, FrameWatch& watch) {
-  struct alignas(64) WorkerCounts : StripCounts {};
-  std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
-  while (workspaces.size() < counts.size()) workspaces.emplace_back();
+void RendererState::prepare_workspaces(const TileMemory& memory) {
+  while (workspaces.size() < static_cast<std::size_t>(parallel.threads())) workspaces.emplace_back();
   for (TileWorkspace& workspace : workspaces) {
     if (memory.normals) workspace.allocate_normals();
     if (memory.stencil) workspace.allocate_stencil();
     if (memory.accumulation) workspace.allocate_accumulation();
     if (memory.samples) workspace.allocate_samples();
   }
-  const std::vector<TileStrip> strips = stage.strips();
-  watch.begin_stage(kTileShare, strips.size());
+}
+
+void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
+  struct alignas(64) WorkerCounts : StripCounts {};
+  std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
+  const std::vector<TileStrip> strips = stage.strips(tiles);
+  watch.begin_stage(done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
     stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], counts[static_cast<std::size_t>(worker)]);
     watch.task_done();
@@ -206,6 +148,34 @@ void RendererState::render_tiles(const TileStage& stage, const TileMemory& memor
     stats.shaded_pixels += c.shaded_pixels;
     stats.tiles_touched += c.touched;
     stats.fragments += c.fragments;
+  }
+}
+
+void RendererState::render_parts(BinStage& bin_stage, bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch) {
+  StopWatch clock;
+  std::vector<TileRange> left;  // from the last one to the next
+  const auto split = [&](const TileRange& tiles) {
+    const auto [first, second] = halves(tiles);
+    left.insert(left.end(), {second, first});
+  };
+  const TileRange whole{0, 0, stage.grid().columns(), stage.grid().rows()};
+  is_filled ? left.push_back(whole) : split(whole);
+  while (!left.empty()) {
+    const TileRange tiles = left.back();
+    left.pop_back();
+    if (!is_filled) {
+      watch.begin_stage(done_after(tiles.first(stage.grid()), stats), bin_stage.batch_count());
+      is_filled = bin_stage.fill(tiles, watch);
+      ++stats.bin_passes;
+    }
+    stats.binning_seconds += clock.lap();
+    if (!is_filled) {
+      split(tiles);
+      continue;
+    }
+    render_tiles(stage, tiles, stats, watch);
+    stats.tile_seconds += clock.lap();
+    is_filled = false;
   }
 }
 
@@ -228,7 +198,11 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
 
   process_geometry(commands, watch);
   stats.vertex_seconds = clock.lap();
-  const std::size_t batches = fill_bins(commands, grid, target.format.samples, watch);
+  BinStage bin_stage(commands, grid, target.format.samples, options.bin_memory, bins, parallel, isa);
+  watch.begin_stage(kBinsDone, bin_stage.batch_count());
+  const bool is_filled = bin_stage.fill({0, 0, grid.columns(), grid.rows()}, watch);
+  count_triangles(stats, bin_stage.counts());
+  stats.bin_passes = 1;
   connect_draws(commands);
   stats.binning_seconds = clock.lap();
 
@@ -244,8 +218,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.clear_count = static_cast<std::uint32_t>(commands.clears.size());
   frame.accumulations = commands.accumulations.data();
   frame.accumulation_count = static_cast<std::uint32_t>(commands.accumulations.size());
-  frame.bins = bins.data();
-  frame.bin_count = static_cast<std::uint32_t>(batches);
+  frame.batches = &bin_stage.batches();
   frame.shade_at_once = !options.defer_shading;
   frame.samples = target.format.samples;
   frame.loads_color = commands.color.load;
@@ -253,27 +226,15 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.loads_stencil = commands.stencil.load;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
+    prepare_workspaces({capture.needs_normals(), commands.stencil.used, commands.accumulation.used, frame.samples > 1});
     try {
-      render_tiles(TileStage(commands, frame, target, image, capture, isa), {capture.needs_normals(), commands.stencil.used, commands.accumulation.used, frame.samples > 1}, stats, watch);
+      render_parts(bin_stage, is_filled, TileStage(commands, frame, target, image, capture, isa), stats, watch);
     } catch (...) {
       for (const Buffer which : kBuffers) settle_interrupted(commands.traffic(which), target.parts(which));
       throw;
     }
   }
   for (const Buffer which : kBuffers) settle(commands.traffic(which), target.parts(which));
-  stats.tile_seconds = clock.lap();
-
-  for (std::size_t b = 0; b < batches; ++b) {
-    const BinCounts& c = bins[b].counts;
-    stats.triangles_in += c.triangles_in;
-    stats.dropped_non_finite += c.non_finite;
-    stats.outside += c.outside;
-    stats.culled += c.culled;
-    stats.zero_area += c.zero_area;
-    stats.clipped += c.clipped;
-    stats.binned += c.binned;
-    stats.bin_entries += c.entries;
-  }
   return stats;
 }
 

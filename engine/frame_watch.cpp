@@ -1,5 +1,7 @@
 #include "engine/frame_watch.h"
 
+#include <cmath>
+
 #include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -19,10 +21,10 @@ void FrameWatch::report() {
   if (!is_last && now - last_call_ < kPause) return;
   last_call_ = now;
   // Read under the lock, so that it never falls.
-  const double share = before_ + share_ * static_cast<double>(done_.load()) / static_cast<double>(tasks_);
+  const double share = std::lerp(begin_, end_, static_cast<double>(done_.load()) / static_cast<double>(tasks_));
   stopped_ = true;  // unless it says to go on
   bool goes_on = false;
-  isolated([&] { goes_on = progress_(share < 1 ? share : 1); });
+  isolated([&] { goes_on = progress_(share); });
   if (!goes_on) throw Cancelled("Renderer::finish: cancelled by the progress callback");
   stopped_ = false;
 }

@@ -14,10 +14,10 @@ class FrameWatch {
   /// `progress` may be empty: then nothing costs anything.
   explicit FrameWatch(const std::function<bool(double)>& progress) : progress_(progress) {}
 
-  /// A stage of `tasks` tasks begins, which is `share` of the frame; the shares add up to 1. Between stages only.
-  void begin_stage(double share, std::size_t tasks) {
-    before_ += share_;
-    share_ = share;
+  /// A stage of `tasks` tasks begins, at whose end `end` of the frame is done; the last one's is 1. Between stages only.
+  void begin_stage(double end, std::size_t tasks) {
+    begin_ = end_;
+    end_ = end;
     tasks_ = tasks;
     done_ = 0;
   }
@@ -30,7 +30,7 @@ class FrameWatch {
   void report();
 
   const std::function<bool(double)>& progress_;
-  double before_ = 0, share_ = 0;
+  double begin_ = 0, end_ = 0;
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;
   std::mutex calling_;

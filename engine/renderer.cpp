@@ -43,6 +43,8 @@ Renderer::Renderer(RendererOptions options) try {
   if (options.threads < 0 || options.threads > 1024) throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to 1024");
   if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 && options.tile_size != 128)
     throw Error("Renderer: tile_size is " + std::to_string(options.tile_size) + ", must be 0 (chosen), 32, 64 or 128");
+  if (options.bin_memory < kLeastBinMemory)
+    throw Error("Renderer: bin_memory is " + std::to_string(options.bin_memory) + " bytes, must be at least " + std::to_string(kLeastBinMemory));
   const std::vector<InstructionSet> sets = available_instruction_sets();
   if (options.instruction_set == InstructionSet::automatic) options.instruction_set = sets.front();
   if (std::find(sets.begin(), sets.end(), options.instruction_set) == sets.end()) {

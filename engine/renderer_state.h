@@ -4,11 +4,11 @@
 #include <deque>
 #include <vector>
 
+#include "engine/bin_stage.h"
 #include "engine/frame_commands.h"
 #include "engine/frame_watch.h"
 #include "engine/parallel.h"
 #include "engine/tile_stage.h"
-#include "raster/binning.h"
 #include "shading/tile_renderer.h"
 
 namespace tessera {
@@ -41,9 +41,10 @@ struct RendererState {
 
  private:
   void process_geometry(FrameCommands& commands, FrameWatch& watch);
-  std::vector<BinDraw> prepare_bins(const FrameCommands& commands, int samples);
-  std::size_t fill_bins(const FrameCommands& commands, const TileGrid& grid, int samples, FrameWatch& watch);
-  void render_tiles(const TileStage& stage, const TileMemory& memory, FrameStats& stats, FrameWatch& watch);
+  void prepare_workspaces(const TileMemory& memory);
+  /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
+  void render_parts(BinStage& bin_stage, bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
+  void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
 

@@ -35,27 +35,21 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   scan_out_->row(words.data(), frame.grid.width_px, cleared_row_.data());
 }
 
-bool TileStage::untouched(int tile) const {
-  for (std::uint32_t b = 0; b < frame_.bin_count; ++b)
-    if (frame_.bins[b].first(tile) != Bins::kNone) return false;
-  return true;
-}
-
-std::vector<TileStrip> TileStage::strips() const {
+std::vector<TileStrip> TileStage::strips(const TileRange& tiles) const {
   const TileGrid& grid = frame_.grid;
+  const BinBatches& batches = *frame_.batches;
   // Tiles that share a cache line of a plane belong to one worker.
   const bool planes = commands_.stores();
   const int length = planes ? kPlaneLinePixels / grid.tile_size : 1;
   std::vector<TileStrip> strips;
-  for (int row = 0; row < grid.rows(); ++row) {
-    for (int column = 0; column < grid.columns(); column = strips.back().last_column + 1) {
-      TileStrip strip{row, column, std::min(column + length, grid.columns()) - 1};
-      if (!cleared_row_.empty() && untouched(row * grid.columns() + column)) {
+  for (int row = tiles.y0; row < tiles.y1; ++row) {
+    for (int column = tiles.x0; column < tiles.x1; column = strips.back().last_column + 1) {
+      TileStrip strip{row, column, std::min(column + length, tiles.x1) - 1};
+      if (!cleared_row_.empty() && batches.untouched(row * grid.columns() + column)) {
         strip.cleared = true;
-        while (strip.last_column + 1 < grid.columns() && untouched(row * grid.columns() + strip.last_column + 1)) ++strip.last_column;
+        while (strip.last_column + 1 < tiles.x1 && batches.untouched(row * grid.columns() + strip.last_column + 1)) ++strip.last_column;
       } else {
-        for (int c = column; c <= strip.last_column; ++c)
-          for (std::uint32_t b = 0; b < frame_.bin_count; ++b) strip.triangles += frame_.bins[b].triangles(row * grid.columns() + c);
+        for (int c = column; c <= strip.last_column; ++c) strip.triangles += batches.triangles(row * grid.columns() + c);
       }
       strips.push_back(strip);
     }

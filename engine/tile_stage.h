@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/bin_stage.h"
 #include "engine/capture_stage.h"
 #include "engine/frame_buffer_state.h"
 #include "engine/frame_commands.h"
@@ -30,13 +31,13 @@ class TileStage {
   /// All but the image's pixels and the target's planes is only read. `image` may be null.
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, Isa isa);
 
-  /// The frame's tiles, the strips with most triangles first: nobody waits for one that began last. Their order changes no bit.
-  std::vector<TileStrip> strips() const;
+  const TileGrid& grid() const { return frame_.grid; }
+  /// Tiles whose bins are filled, the strips with most triangles first: nobody waits for one that began last. Their order changes no bit.
+  std::vector<TileStrip> strips(const TileRange& tiles) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
  private:
-  bool untouched(int tile) const;
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;

@@ -130,26 +130,6 @@ void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::u
   TESSERA_KERNEL(isa, bin_triangles_lanes)(bins, grid, draw, first, last);
 }
 
-void Bins::reset(int tile_count) {
-  tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone, 0});
-  used_ = 0;
-  pieces.clear();
-  attributes_.assign(kAttributePadding, 0.0f);
-  counts = {};
-}
-
-void Bins::add_block(Tail& tail) {
-  if (used_ == blocks_.size()) blocks_.resize(std::max<std::size_t>(64, used_ * 2));
-  const auto index = static_cast<std::uint32_t>(used_++);
-  blocks_[index].count = 0;
-  blocks_[index].next = kNone;
-  if (tail.last == kNone)
-    tail.first = index;
-  else
-    blocks_[tail.last].next = index;
-  tail.last = index;
-}
-
 void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, const BinDraw& draw, std::uint32_t id,
                         int x0, int y0, int x1, int y1) {
   // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the tile is outside. Ties at 0

@@ -4,107 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "framebuffer/check.h"
 #include "framebuffer/instruction_set.h"
 #include "framebuffer/tile_grid.h"
+#include "raster/bins.h"
 #include "raster/clip.h"
 #include "raster/polygon_facing.h"
 #include "raster/topology.h"
 #include "raster/vertex_transform.h"
 
 namespace tessera {
-
-// A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an image is a marker alone.
-inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
-inline constexpr std::uint32_t kPiece = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
-inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
-
-/// A part of an element that has vertices of its own: what clipping left, or an edge or corner of a polygon.
-struct Piece {
-  WindowVertex vertices[3];
-  std::size_t first_attribute = 0;  ///< see Bins::attributes()
-  std::uint32_t source = 0;         ///< the element that it is a part of
-};
-
-struct BinCounts {
-  std::uint64_t triangles_in = 0, non_finite = 0, outside = 0, culled = 0, zero_area = 0, clipped = 0, binned = 0, entries = 0;
-};
-
-/// The bins of one batch: for each tile a list of blocks of entries.
-class Bins {
- public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-  static constexpr std::uint32_t kBlockEntries = 62;
-  struct Block {
-    std::uint32_t count, next;
-    std::uint32_t entries[kBlockEntries];
-  };
-
-  void reset(int tile_count);
-  void push(int tile, std::uint32_t draw, std::uint32_t id) {
-    Tail& tail = tails_[static_cast<std::size_t>(tile)];
-    if (tail.draw != draw) {
-      tail.draw = draw;
-      append(tail, kDrawMarker | draw);
-    }
-    append(tail, id);
-    ++tail.triangles;
-    ++counts.entries;
-  }
-  /// A draw that is a bitmap or an image.
-  void push_draw(int tile, std::uint32_t draw) {
-    Tail& tail = tails_[static_cast<std::size_t>(tile)];
-    tail.draw = draw;
-    append(tail, kDrawMarker | draw);
-    ++tail.triangles;
-    ++counts.entries;
-  }
-  /// The first block of a tile, or kNone.
-  std::uint32_t first(int tile) const { return tails_[static_cast<std::size_t>(tile)].first; }
-  /// How many triangles a tile's bin holds, bitmaps and images counted as one each.
-  std::uint32_t triangles(int tile) const { return tails_[static_cast<std::size_t>(tile)].triangles; }
-  const Block& block(std::uint32_t index) const { return blocks_[index]; }
-
-  /// A new piece at the end of the list, with room for the attributes of its corners. Throws std::bad_alloc.
-  Piece& add_piece(std::uint32_t source, int corners, int attribute_count) {
-    const std::size_t first = attributes_.size() - kAttributePadding;
-    attributes_.resize(attributes_.size() + static_cast<std::size_t>(corners * attribute_count));
-    Piece& piece = pieces.emplace_back();
-    piece.source = source;
-    piece.first_attribute = first;
-    return piece;
-  }
-  void drop_last_piece() {
-    attributes_.resize(pieces.back().first_attribute + kAttributePadding);
-    pieces.pop_back();
-  }
-  std::uint32_t id_of_last_piece() const { return kPiece | static_cast<std::uint32_t>(pieces.size() - 1); }
-  /// Attributes of a piece, corner by corner; kAttributePadding floats may be read from each.
-  float* attributes(const Piece& piece) { return attributes_.data() + piece.first_attribute; }
-  const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
-
-  std::vector<Piece> pieces;
-  BinCounts counts;
-
- private:
-  struct Tail {
-    std::uint32_t first, last, draw, triangles;
-  };
-  void append(Tail& tail, std::uint32_t entry) {
-    if (tail.last == kNone || blocks_[tail.last].count == kBlockEntries) add_block(tail);
-    Block& block = blocks_[tail.last];
-    block.entries[block.count++] = entry;
-  }
-  void add_block(Tail& tail);
-
-  std::vector<float> attributes_;  // of the pieces, and padding
-  std::vector<Tail> tails_;
-  std::vector<Block> blocks_;
-  std::size_t used_ = 0;
-};
 
 /// How polygons are drawn: filled, as their boundary's lines, or as points at their corners.
 enum class PolygonStyle : std::uint8_t { fill, line, point };

@@ -81,9 +81,9 @@ bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::ui
 
 }  // namespace
 
-bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.pieces.back().vertices[0]), bins.id_of_last_piece()); }
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.last_piece().vertices[0]), bins.id_of_last_piece()); }
 bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
-  const Piece& piece = bins.pieces.back();
+  const Piece& piece = bins.last_piece();
   return bin_line(bins, grid, draw, point_of(piece.vertices[0]), point_of(piece.vertices[1]), bins.id_of_last_piece());
 }
 

@@ -120,12 +120,6 @@ void run_accumulation(TileRun& run, const TileAccumulation& command) {
   run_on(run.memory.color);
 }
 
-bool has_triangles(const TileFrame& frame, int tile) {
-  for (std::uint32_t b = 0; b < frame.bin_count; ++b)
-    if (frame.bins[b].first(tile) != Bins::kNone) return true;
-  return false;
-}
-
 /// What passes the test may be farther than what was stored.
 constexpr bool may_raise_depth(CompareOp test) {
   return test == CompareOp::greater || test == CompareOp::notequal || test == CompareOp::gequal || test == CompareOp::always;
@@ -137,7 +131,7 @@ void begin_samples(TileRun& run, int tile) {
   const TileFrame& frame = run.frame;
   std::int32_t* const stencil = memory.stencil ? memory.stencil->value : nullptr;
   run.sample[0] = {memory.color, memory.depth, memory.ids, stencil};
-  run.samples = frame.samples > 1 && has_triangles(frame, tile) ? frame.samples : 1;
+  run.samples = frame.samples > 1 && !frame.batches->untouched(tile) ? frame.samples : 1;
   if (run.samples == 1) return;
   TileSamples& samples = *memory.samples;
   set_farthest(run, kFarthestKey);
@@ -235,7 +229,7 @@ struct GroupBuilder {
   HWY_INLINE void load(const Bins& bins, std::uint32_t id) {
     const int i = run.memory.group.count++;
     if ((id & kPiece) != 0) {
-      const Piece& piece = bins.pieces[id & ~kPiece];
+      const Piece& piece = bins.piece(id);
       const float* const attributes = bins.attributes(piece);
       for (int k = 0; k < kCorners; ++k) {
         load_vertex(i, k, piece.vertices[k]);
@@ -293,8 +287,9 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     }
     clears_before(draw, frame.clear_count);
   };
-  for (std::uint32_t b = 0; b < frame.bin_count; ++b) {
-    const Bins& bins = frame.bins[b];
+  for (std::uint32_t b = 0; b < frame.batches->count(); ++b) {
+    if (frame.batches->one_by_one()) shade_whole_tile(run);  // triangles that were seen refer to the batch before
+    const Bins& bins = frame.batches->read(b);
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
       run.counts.touched = true;
       const Bins::Block& block = bins.block(index);

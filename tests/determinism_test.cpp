@@ -1,5 +1,5 @@
-// The same frame gives the same bits: for any number of threads, tile size and instruction set, shaded early or late, scanned
-// out or read back, and on any machine: tests/picture_hashes.txt holds what every scene must come to.
+// The same frame gives the same bits: for any number of threads, tile size and instruction set, shaded early or late, whole or in
+// parts, scanned out or read back, and on any machine: tests/picture_hashes.txt holds what every scene must come to.
 //
 // After a change that means to change pictures: TESSERA_WRITE_HASHES=1 engine_tests --gtest_filter='PictureHashes.*'
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ Scene scene_of(const std::string& name) {
 
 std::string text(const RendererOptions& o) {
   return std::to_string(o.threads) + " threads, tiles of " + std::to_string(o.tile_size) + ", " + std::string(name(o.instruction_set)) +
-         (o.defer_shading ? "" : ", shaded at once");
+         (o.defer_shading ? "" : ", shaded at once") + (o.bin_memory == kLeastBinMemory ? ", in parts" : "");
 }
 
 const std::vector<RendererOptions>& all_options() {
@@ -53,7 +53,8 @@ const std::vector<RendererOptions>& all_options() {
     for (const int threads : {1, 2, 3, 8})
       for (const int tile_size : {32, 64, 128})
         for (const InstructionSet set : available_instruction_sets())
-          for (const bool defer : {true, false}) all.push_back({threads, tile_size, set, defer});
+          for (const bool defer : {true, false})
+            all.push_back({.threads = threads, .tile_size = tile_size, .instruction_set = set, .defer_shading = defer, .bin_memory = threads % 2 != 0 ? RendererOptions{}.bin_memory : kLeastBinMemory});
     return all;
   }();
   return kAll;

@@ -43,6 +43,7 @@ std::vector<Count> counts_of(const FrameStats& s) {
           {"  clipped", "clipped", s.clipped},
           {"  drawn (pieces counted singly)", "binned", s.binned},
           {"triangles summed over tiles", "bin_entries", s.bin_entries},
+          {"passes over the triangles", "bin_passes", s.bin_passes},
           {"tiles", "tiles", s.tiles},
           {"tiles touched", "tiles_touched", s.tiles_touched},
           {"fragments", "fragments", s.fragments},

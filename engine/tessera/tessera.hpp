@@ -559,6 +559,7 @@ struct FrameStats {
   std::uint64_t clipped = 0;                ///< cut by the near or far plane or the guard band
   std::uint64_t binned = 0;                 ///< triangles that reached a bin, clipped pieces counted singly
   std::uint64_t bin_entries = 0;            ///< sum over the tiles of the triangles, bitmaps and images in them
+  std::uint64_t bin_passes = 0;             ///< how often the triangles were sorted into tiles: more than once where RendererOptions::bin_memory is small for them
   std::uint64_t tiles = 0, tiles_touched = 0;
   int tile_size = 0;                        ///< pixels, as chosen for the frame
   std::uint64_t fragments = 0;              ///< pixels covered by draws that can change one, before any test; if RendererOptions asks for it
@@ -632,11 +633,16 @@ TESSERA_API std::shared_ptr<Executor> serial_executor();
 
 enum class LogLevel : std::uint8_t { debug, info, warning };
 
+inline constexpr std::size_t kLeastBinMemory = std::size_t{64} << 10;  ///< bytes
+
 struct RendererOptions {
   int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor; otherwise 1 .. 1024; no more than there are workers
   int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen for each frame by its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
+  /// Bytes that the lists of which triangles lie in which tiles may take, at least kLeastBinMemory. A frame that would need more is rendered
+  /// part by part, to the same bits; that takes longer.
+  std::size_t bin_memory = std::size_t{256} << 20;
   bool count_fragments = false;             ///< one more pass over the tiles, for FrameStats::fragments
   std::shared_ptr<Executor> executor{};     ///< absent: oneTBB's threads
   /// Called now and then while a frame runs, at the end of each stage and at most about a hundred times a second in between, on

@@ -47,8 +47,8 @@ class TileStage {
     if (frame_.depth_kind != DepthKind::none) std::fill_n(workspace_.depth(), pixels, depth);
     frame_.draws = draws_.data();
     frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
-    frame_.bins = &bins_;
-    frame_.bin_count = 1;
+    batches_ = {&bins_, 1};
+    frame_.batches = &batches_;
     if (frame_.samples > 1) workspace_.allocate_samples();
     frame_.loads_color = frame_.loads_depth = true;
     return render_tile(isa)(frame_, tile, workspace_);
@@ -65,6 +65,7 @@ class TileStage {
   TileFrame frame_;
   std::vector<TileDraw> draws_;
   Bins bins_;
+  BinBatches batches_;
   TileWorkspace workspace_;
 };
 

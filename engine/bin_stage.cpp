@@ -1,0 +1,139 @@
+#include "engine/bin_stage.h"
+
+#include <algorithm>
+
+#include "raster/polygon_offset.h"
+#include "raster/sample_positions.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kTrianglesPerBatch = 1024;
+/// In the bins of a single tile a triangle takes less than this: its entry, and the pieces that clipping makes of it, in lists that double. (Of a polygon
+/// whose outline is drawn it is one of many that stay together.)
+constexpr std::size_t kMostBytesOfATriangle = 8192;
+
+/// Ranges of triangles of several draws.
+struct Range {
+  std::size_t draw, first, last;
+};
+
+void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
+  switch (draw.topology) {
+    case Topology::points: return bin_points(bins, grid, draw, first, last);
+    case Topology::lines: return bin_lines(bins, grid, draw, first, last);
+    case Topology::triangles: break;
+  }
+  if (draw.modes != nullptr) return bin_polygons(bins, grid, draw, first, last, isa);
+  bin_triangles(bins, grid, draw, first, last, isa);
+}
+
+}  // namespace
+
+BinStage::BinStage(const FrameCommands& commands, const TileGrid& grid, int samples, std::size_t limit, std::vector<Bins>& bins, Parallel& parallel, Isa isa)
+    : commands_(commands), grid_(grid), limit_(limit), bins_(bins), parallel_(parallel), isa_(isa) {
+  for (const GeometryDraw& draw : commands.geometry) first_element_.push_back(first_element_.back() + (draw.plan->texels ? 1 : draw.mesh->elements));
+  batch_count_ = std::clamp<std::size_t>(first_element_.back() / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
+  if (bins_.size() < batch_count_) bins_.resize(batch_count_);
+  prepare_draws(samples);
+}
+
+void BinStage::prepare_draws(int samples) {
+  for (std::size_t d = 0; d < commands_.geometry.size(); ++d) {
+    const GeometryDraw& geometry = commands_.geometry[d];
+    const DrawPlan& plan = *geometry.plan;
+    BinDraw draw;
+    draw.draw = commands_.first_tile_draw[d];
+    draw.topology = plan.topology;
+    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
+    draw.samples = samples;
+    draw.vertices = geometry.buffers->vertices.data();
+    draw.indices = geometry.indices();
+    draw.codes = geometry.buffers->codes.data();
+    draw.any_code = geometry.buffers->any_code;
+    draw.keep_front = plan.keep_front;
+    draw.keep_back = plan.keep_back;
+    draw.front_is_clockwise = plan.front_is_clockwise;
+    draw.facing = geometry.facing();
+    draw.rect = plan.rect;
+    draw.sample_reach = sample_reach(samples);
+    draw.transform = &plan.transform;
+    draw.positions = geometry.mesh->positions;
+    draw.components = geometry.mesh->components;
+    draw.attributes = geometry.buffers->attributes.data();
+    draw.attribute_count = draw.attribute_stride = plan.attribute_count;
+    if (plan.outlines) {
+      PolygonModes& modes = geometry.buffers->modes;
+      modes = {.style = {plan.style[0], plan.style[1]}, .line_width = plan.line_width, .point_size = plan.point_size, .triangles = geometry.mesh->polygon_triangles(),
+               .boundary = geometry.buffers->boundary.data()};
+      std::uint32_t number = draw.draw;
+      for (const PolygonStyle style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
+      draw.modes = &modes;
+    }
+    draws_.push_back(draw);
+    rects_.push_back(draw.rect);
+  }
+  std::vector<Range> polygons;
+  for (std::size_t d = 0; d < draws_.size(); ++d) {
+    const std::size_t count = draws_[d].facing != nullptr ? commands_.geometry[d].mesh->elements : 0;
+    for (std::size_t first = 0; first < count; first += kTrianglesPerBatch) polygons.push_back({d, first, std::min(count, first + kTrianglesPerBatch)});
+  }
+  parallel_.for_each(polygons.size(), [&](std::size_t i, int) {
+    const Range& range = polygons[i];
+    const GeometryDraw& geometry = commands_.geometry[range.draw];
+    const std::size_t each = geometry.mesh->polygon_triangles();
+    face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
+    const DrawPlan& plan = *geometry.plan;
+    if (plan.has_offset()) offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
+  });
+}
+
+bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
+  const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size, tiles.y1 * grid_.tile_size};
+  for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(rects_[d], pixels);
+  std::size_t taken = 0;
+  for (const Bins& bins : bins_) taken += bins.bytes();
+  BinBudget budget(limit_ - std::min(taken, limit_));
+  const std::size_t elements = first_element_.back();
+  parallel_.for_each(batch_count_, [&](std::size_t b, int) {
+    bins_[b].reset(tiles.count(), tiles.first(grid_), &budget);
+    bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_);
+    watch.task_done();
+  });
+  bool fits = true;
+  counts_ = {};
+  for (std::size_t b = 0; b < batch_count_; ++b) {
+    counts_ += bins_[b].counts;
+    fits &= !bins_[b].overflowed();
+  }
+  batches_ = {bins_.data(), static_cast<std::uint32_t>(batch_count_)};
+  if (fits) return true;
+  // Memory that went to batches as this range or earlier frames needed it may be wanted by others now.
+  for (Bins& bins : bins_) bins = Bins();
+  if (tiles.count() > 1) return false;
+  fill_one_by_one(tiles);
+  return true;
+}
+
+void BinStage::fill_one_by_one(const TileRange& tile) {
+  const std::size_t elements = first_element_.back(), each = std::max<std::size_t>(limit_ / kMostBytesOfATriangle, 1);
+  const auto count = static_cast<std::uint32_t>((elements + each - 1) / each);
+  batches_ = {bins_.data(), count, [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
+                bins_.front().reset(1, first_tile);
+                bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
+              }};
+}
+
+/// Elements [begin, end) of the frame.
+void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
+  for (std::size_t d = 0; d < draws_.size(); ++d) {
+    const std::size_t low = std::max(begin, first_element_[d]), high = std::min(end, first_element_[d + 1]);
+    if (low >= high) continue;
+    if (commands_.plans[d].texels) {
+      if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
+    } else
+      bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]), static_cast<std::uint32_t>(high - first_element_[d]), isa_);
+  }
+}
+
+}  // namespace tessera

@@ -1,0 +1,61 @@
+// The second stage of a frame: its elements are sorted into the tiles that they may touch. Where the bins of all tiles would take more memory
+// than is allowed, they are made for one part of the frame after the other, and those parts rendered in between: a tile needs no bins but its own,
+// so its pixels are the same.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/frame_commands.h"
+#include "engine/frame_watch.h"
+#include "engine/parallel.h"
+#include "raster/binning.h"
+
+namespace tessera {
+
+/// Some rows of tiles, or some tiles of one row: their numbers follow each other. Columns [x0, x1), rows [y0, y1).
+struct TileRange {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  int count() const { return (x1 - x0) * (y1 - y0); }
+  int first(const TileGrid& grid) const { return y0 * grid.columns() + x0; }
+};
+
+class BinStage {
+ public:
+  /// All that is given is used as long as this lives; `bins` are kept from frame to frame. Throws std::bad_alloc.
+  ///
+  /// @param limit  bytes that the bins may take together
+  BinStage(const FrameCommands& commands, const TileGrid& grid, int samples, std::size_t limit, std::vector<Bins>& bins, Parallel& parallel, Isa isa);
+  BinStage(const BinStage&) = delete;
+  BinStage& operator=(const BinStage&) = delete;
+
+  std::size_t batch_count() const { return batch_count_; }
+  /// Fills the bins of some tiles. False if there are several and their bins would pass the limit. A single tile is always filled: if its bins
+  /// would pass the limit they will be made while it is rendered, a batch at a time.
+  bool fill(const TileRange& tiles, FrameWatch& watch);
+  /// What was filled last. It stays in one place.
+  const BinBatches& batches() const { return batches_; }
+  /// What was filled last, all batches together; complete if it did not fit, too.
+  const BinCounts& counts() const { return counts_; }
+
+ private:
+  void prepare_draws(int samples);
+  void bin(Bins& bins, std::size_t begin, std::size_t end) const;
+  void fill_one_by_one(const TileRange& tile);
+
+  const FrameCommands& commands_;
+  TileGrid grid_;
+  std::size_t limit_;
+  std::vector<Bins>& bins_;
+  Parallel& parallel_;
+  Isa isa_;
+  std::vector<BinDraw> draws_;
+  std::vector<PixelRect> rects_;           ///< of the draws, in the whole frame
+  std::vector<std::size_t> first_element_{0};  ///< of each draw, counted through the frame; a bitmap or an image counts as one
+  std::size_t batch_count_ = 1;
+  BinBatches batches_;
+  BinCounts counts_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,80 @@
+#include "raster/bins.h"
+
+#include <algorithm>
+
+namespace tessera {
+
+std::size_t Bins::bytes() const {
+  return tails_.capacity() * sizeof(Tail) + blocks_.capacity() * sizeof(Block) + pieces_.capacity() * sizeof(Piece) + attributes_.capacity() * sizeof(float);
+}
+
+/// Room for `count` more, if the budget has what that takes: the old memory is given back only after the new is there.
+template <class T>
+bool Bins::reserve(std::vector<T>& items, std::size_t count) {
+  const std::size_t wanted = items.size() + count, before = items.capacity();
+  if (wanted <= before) return true;
+  const std::size_t after = std::max({wanted, 2 * before, 16384 / sizeof(T)});
+  if (budget_ != nullptr && !budget_->take(after * sizeof(T))) return false;
+  items.reserve(after);
+  if (budget_ != nullptr) budget_->give_back(before * sizeof(T));
+  return true;
+}
+
+void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
+  budget_ = budget;
+  overflowed_ = false;
+  first_tile_ = first_tile;
+  used_ = 0;
+  pieces_.clear();
+  counts = {};
+  tails_.clear();
+  if (blocks_.empty()) blocks_.resize(1);  // the one that is left after an overflow
+  attributes_.clear();
+  if (!reserve(tails_, static_cast<std::size_t>(tile_count))) overflowed_ = true;
+  tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone, 0});
+  attributes_.assign(kAttributePadding, 0.0f);
+}
+
+void Bins::overflow() {
+  overflowed_ = true;
+  pieces_.clear();
+  attributes_.resize(kAttributePadding);
+}
+
+void Bins::add_block(Tail& tail) {
+  if (!overflowed_ && used_ == blocks_.size()) {
+    if (reserve(blocks_, 1)) blocks_.resize(blocks_.capacity());
+    else overflow();
+  }
+  if (overflowed_) {  // entries of all tiles go into one block, which nobody reads
+    blocks_.front().count = 0;
+    tail.last = 0;
+    return;
+  }
+  const auto index = static_cast<std::uint32_t>(used_++);
+  blocks_[index].count = 0;
+  blocks_[index].next = kNone;
+  if (tail.last == kNone)
+    tail.first = index;
+  else
+    blocks_[tail.last].next = index;
+  tail.last = index;
+}
+
+Piece& Bins::add_piece(std::uint32_t source, int corners, int attribute_count) {
+  const auto floats = static_cast<std::size_t>(corners * attribute_count);
+  if (overflowed_ || !reserve(pieces_, 1) || !reserve(attributes_, floats)) overflow();
+  const std::size_t first = attributes_.size() - kAttributePadding;
+  attributes_.resize(attributes_.size() + floats);
+  Piece& piece = pieces_.emplace_back();
+  piece.source = source;
+  piece.first_attribute = first;
+  return piece;
+}
+
+void Bins::drop_last_piece() {
+  attributes_.resize(pieces_.back().first_attribute + kAttributePadding);
+  pieces_.pop_back();
+}
+
+}  // namespace tessera

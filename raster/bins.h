@@ -1,0 +1,169 @@
+// The bins of one batch of elements: for each tile the list of those that it may show.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "raster/clip.h"
+
+namespace tessera {
+
+// A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an image is a marker alone.
+inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
+inline constexpr std::uint32_t kPiece = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
+inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
+
+/// A part of an element that has vertices of its own: what clipping left, or an edge or corner of a polygon.
+struct Piece {
+  WindowVertex vertices[3];
+  std::size_t first_attribute = 0;  ///< see Bins::attributes()
+  std::uint32_t source = 0;         ///< the element that it is a part of
+};
+
+struct BinCounts {
+  std::uint64_t triangles_in = 0, non_finite = 0, outside = 0, culled = 0, zero_area = 0, clipped = 0, binned = 0, entries = 0;
+
+  BinCounts& operator+=(const BinCounts& other) {
+    for (std::uint64_t BinCounts::*const count : {&BinCounts::triangles_in, &BinCounts::non_finite, &BinCounts::outside, &BinCounts::culled, &BinCounts::zero_area, &BinCounts::clipped, &BinCounts::binned, &BinCounts::entries})
+      this->*count += other.*count;
+    return *this;
+  }
+};
+
+/// Bytes that the bins of several batches may take together; batches that are filled at the same time share it.
+class BinBudget {
+ public:
+  explicit BinBudget(std::size_t bytes) : left_(static_cast<std::int64_t>(bytes)) {}
+  /// False, and nothing is taken, if there are not so many left.
+  bool take(std::size_t bytes) {
+    if (left_.fetch_sub(static_cast<std::int64_t>(bytes)) >= static_cast<std::int64_t>(bytes)) return true;
+    give_back(bytes);
+    return false;
+  }
+  void give_back(std::size_t bytes) { left_.fetch_add(static_cast<std::int64_t>(bytes)); }
+
+ private:
+  std::atomic<std::int64_t> left_;
+};
+
+/// For each tile of a range a list of blocks of entries. Where they would take more than the budget has left, what was stored is lost and
+/// nothing more is stored; they still count.
+class Bins {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kBlockEntries = 62;
+  struct Block {
+    std::uint32_t count, next;
+    std::uint32_t entries[kBlockEntries];
+  };
+
+  /// Empty bins of tiles first_tile, first_tile + 1, ... What `bytes()` says is already taken from the budget, which may be null: no limit.
+  /// Throws std::bad_alloc.
+  void reset(int tile_count, int first_tile = 0, BinBudget* budget = nullptr);
+  /// Memory is kept from one reset to the next.
+  std::size_t bytes() const;
+  bool overflowed() const { return overflowed_; }
+
+  void push(int tile, std::uint32_t draw, std::uint32_t id) {
+    Tail& tail = tail_of(tile);
+    if (tail.draw != draw) {
+      tail.draw = draw;
+      append(tail, kDrawMarker | draw);
+    }
+    append(tail, id);
+    ++tail.triangles;
+    ++counts.entries;
+  }
+  /// A draw that is a bitmap or an image.
+  void push_draw(int tile, std::uint32_t draw) {
+    Tail& tail = tail_of(tile);
+    tail.draw = draw;
+    append(tail, kDrawMarker | draw);
+    ++tail.triangles;
+    ++counts.entries;
+  }
+  /// The first block of a tile, or kNone. @pre !overflowed()
+  std::uint32_t first(int tile) const { return tail_of(tile).first; }
+  /// How many triangles a tile's bin holds, bitmaps and images counted as one each.
+  std::uint32_t triangles(int tile) const { return tail_of(tile).triangles; }
+  const Block& block(std::uint32_t index) const { return blocks_[index]; }
+
+  /// A new piece at the end of the list, with room for the attributes of its corners. After an overflow it is the only one.
+  /// Throws std::bad_alloc.
+  Piece& add_piece(std::uint32_t source, int corners, int attribute_count);
+  void drop_last_piece();
+  const Piece& last_piece() const { return pieces_.back(); }
+  std::uint32_t id_of_last_piece() const { return kPiece | static_cast<std::uint32_t>(pieces_.size() - 1); }
+  const Piece& piece(std::uint32_t id) const { return pieces_[id & ~kPiece]; }
+  /// Attributes of a piece, corner by corner; kAttributePadding floats may be read from each.
+  float* attributes(const Piece& piece) { return attributes_.data() + piece.first_attribute; }
+  const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
+
+  BinCounts counts;
+
+ private:
+  struct Tail {
+    std::uint32_t first, last, draw, triangles;
+  };
+  Tail& tail_of(int tile) { return tails_[static_cast<std::size_t>(tile - first_tile_)]; }
+  const Tail& tail_of(int tile) const { return tails_[static_cast<std::size_t>(tile - first_tile_)]; }
+  void append(Tail& tail, std::uint32_t entry) {
+    if (tail.last == kNone || blocks_[tail.last].count == kBlockEntries) add_block(tail);
+    Block& block = blocks_[tail.last];
+    block.entries[block.count++] = entry;
+  }
+  void add_block(Tail& tail);
+  void overflow();
+  template <class T>
+  bool reserve(std::vector<T>& items, std::size_t count);
+
+  std::vector<Piece> pieces_;
+  std::vector<float> attributes_;  // of the pieces, and padding
+  std::vector<Tail> tails_;
+  std::vector<Block> blocks_;
+  std::size_t used_ = 0;
+  int first_tile_ = 0;
+  BinBudget* budget_ = nullptr;
+  bool overflowed_ = false;
+};
+
+/// The batches of a frame in submission order, as its tiles read them.
+class BinBatches {
+ public:
+  BinBatches() = default;
+  BinBatches(const Bins* bins, std::uint32_t count) : bins_(bins), count_(count) {}
+  /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much.
+  BinBatches(const Bins* bins, std::uint32_t count, std::function<void(std::uint32_t)> fill) : bins_(bins), count_(count), fill_(std::move(fill)) {}
+
+  std::uint32_t count() const { return count_; }
+  bool one_by_one() const { return fill_ != nullptr; }
+  /// Batch b. One by one: what was read of another one is gone; throws what `fill` throws.
+  const Bins& read(std::uint32_t b) const {
+    if (!fill_) return bins_[b];
+    fill_(b);
+    return *bins_;
+  }
+  /// True where a tile has no entries, and that is known without a look at all batches.
+  bool untouched(int tile) const {
+    if (one_by_one()) return false;
+    for (std::uint32_t b = 0; b < count_; ++b)
+      if (bins_[b].first(tile) != Bins::kNone) return false;
+    return true;
+  }
+  /// How many triangles a tile's bins hold; 0 one by one.
+  std::uint64_t triangles(int tile) const {
+    std::uint64_t sum = 0;
+    for (std::uint32_t b = 0; b < count_ && !one_by_one(); ++b) sum += bins_[b].triangles(tile);
+    return sum;
+  }
+
+ private:
+  const Bins* bins_ = nullptr;
+  std::uint32_t count_ = 0;
+  std::function<void(std::uint32_t)> fill_;
+};
+
+}  // namespace tessera
