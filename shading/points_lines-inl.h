@@ -247,7 +247,7 @@ inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw
   draw_fragments_of(run, draw_number, i, shaded, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
-/// All of a group, which needs no set-up.
+/// All of a group. Points need no set-up; what lines need is made by `shape_of`.
 /// @param second  see LineValues
 template <class Shape>
 HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
