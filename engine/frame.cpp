@@ -15,6 +15,8 @@
 namespace tessera {
 namespace {
 
+static_assert(kMaxFrameBufferSize == kMaxViewportPixels, "the limits of fixed_point.h are those of every viewport");
+
 void check_material(const char* what, const Material& m) {
   require_finite({what, ".ambient"}, m.ambient);
   require_finite({what, ".diffuse"}, m.diffuse);

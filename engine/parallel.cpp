@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -47,10 +48,26 @@ class SerialExecutor : public Executor {
   }
 };
 
+/// Where a task that would run as number i runs in another order: i step + order modulo count, for a step that meets them all.
+class TaskOrder {
+ public:
+  TaskOrder(std::uint32_t order, std::size_t count) : order_(order), count_(count) {
+    if (order == 0) return;
+    step_ = 1 + std::size_t{order} * 2654435761u % count;
+    while (std::gcd(step_, count) != 1) ++step_;
+  }
+  std::size_t operator()(std::size_t i) const { return order_ == 0 ? i : (i * step_ + order_) % count_; }
+
+ private:
+  std::uint32_t order_;
+  std::size_t count_, step_ = 1;
+};
+
 /// Tasks of one call, taken in order by whichever worker is free, so that callers can put the long ones first.
 struct TaskQueue {
   const std::function<void(std::size_t, int)>& task;
   const std::size_t count;
+  const TaskOrder order;
   std::vector<char>& seen;
   std::atomic<std::size_t> next{0}, done{0};
   std::atomic<bool> failed{false};
@@ -64,7 +81,7 @@ struct TaskQueue {
       if (idle) seen[static_cast<std::size_t>(worker)] = 1;
       idle = false;
       try {
-        task(i, worker);
+        task(order(i), worker);
       } catch (...) {
         if (!failed.exchange(true)) failure = std::current_exception();
       }
@@ -77,7 +94,7 @@ struct TaskQueue {
 
 std::shared_ptr<Executor> serial_executor() { return std::make_shared<SerialExecutor>(); }
 
-Parallel::Parallel(int threads, std::shared_ptr<Executor> executor) : executor_(std::move(executor)) {
+Parallel::Parallel(int threads, std::shared_ptr<Executor> executor, std::uint32_t order) : executor_(std::move(executor)), order_(order) {
   if (executor_) {
     threads_ = std::clamp(threads, 1, std::max(1, executor_->workers()));
   } else {
@@ -94,7 +111,7 @@ Parallel& Parallel::operator=(Parallel&&) noexcept = default;
 
 void Parallel::for_each(std::size_t count, const std::function<void(std::size_t, int)>& task) {
   if (count == 0) return;
-  TaskQueue queue{task, count, seen_};
+  TaskQueue queue{task, count, TaskOrder(order_, count), seen_};
   executor_->run(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count)), &TaskQueue::work, &queue);
   if (queue.failure) std::rethrow_exception(queue.failure);
   if (queue.done.load(std::memory_order_acquire) != count)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -15,7 +16,8 @@ class Parallel {
  public:
   /// @param threads  1 or more, the caller's included
   /// @param executor  null: a oneTBB arena of its own, or for one thread the caller's
-  explicit Parallel(int threads, std::shared_ptr<Executor> executor = nullptr);
+  /// @param order  see RendererOptions::task_order
+  explicit Parallel(int threads, std::shared_ptr<Executor> executor = nullptr, std::uint32_t order = 0);
   ~Parallel();
   Parallel(Parallel&&) noexcept;
   Parallel& operator=(Parallel&&) noexcept;
@@ -31,6 +33,7 @@ class Parallel {
  private:
   int threads_;
   std::shared_ptr<Executor> executor_;
+  std::uint32_t order_ = 0;
   std::vector<char> seen_;  // one for each worker
 };
 

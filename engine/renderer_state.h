@@ -26,7 +26,7 @@ struct RendererState {
   std::vector<Bins> bins;
   std::vector<TileWorkspace> workspaces;  // one for each worker
 
-  explicit RendererState(RendererOptions o) : options(std::move(o)), parallel(options.threads, options.executor) {}
+  explicit RendererState(RendererOptions o) : options(std::move(o)), parallel(options.threads, options.executor, options.task_order) {}
 
   FrameStats run(FrameRecording& recording, const ImageTarget* image);
 

@@ -12,15 +12,19 @@ inline constexpr int kSubpixelBits = 8;
 inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
 inline constexpr int kHalfPixel = kSubpixelScale / 2;
 
-/// Vertices are kept within this many pixels of the viewport's centre; what reaches farther is clipped. A viewport is at
-/// most 16384 pixels wide, so the guard band is at least as wide again on each side.
+/// Largest width and height of a viewport, in pixels.
+inline constexpr int kMaxViewportPixels = 16384;
+/// Vertices are kept within this many pixels of the viewport's centre; what reaches farther is clipped. So the guard band is at least half a
+/// viewport wide on each side.
 inline constexpr int kGuardBandPixels = 16383;
+static_assert(kGuardBandPixels >= kMaxViewportPixels - 1);
 /// A viewport's corner lies within this many pixels of the frame buffer's.
 inline constexpr int kMaxViewportOffset = 32768;
-static_assert((std::int64_t{kGuardBandPixels} + 8192 + kMaxViewportOffset + 1) * kSubpixelScale <= (1 << 24), "a coordinate fits 24 bits and a sign");
+static_assert((std::int64_t{kGuardBandPixels} + kMaxViewportPixels / 2 + kMaxViewportOffset + 1) * kSubpixelScale <= (1 << 24), "a coordinate fits 24 bits and a sign");
 
 /// Largest extent, in pixels, of a triangle between any two vertices after clipping.
 inline constexpr std::int64_t kWidestExtent = 2 * kGuardBandPixels;
+static_assert((kWidestExtent + 128 + 1) * kSubpixelScale <= (1 << 24), "from a vertex to a pixel of a tile that the triangle touches is exact in a float");
 
 // An edge function is E(p) = A (px - vx) + B (py - vy), with A and B differences of coordinates. Divided by 256 and rounded
 // down, E at pixel centres keeps its sign and steps by exactly A and B from pixel to pixel.
@@ -33,6 +37,10 @@ static_assert(2 * kSubpixelScale * kNarrowExtent * (kNarrowExtent + 128 + 1) <= 
 static_assert(127 * 2 * kWidestExtent * kSubpixelScale <= INT32_MAX, "an edge that crosses a tile fits 32 bits in it");
 // Twice a triangle's area is exact in a double.
 static_assert(2 * (kWidestExtent * kSubpixelScale) * (kWidestExtent * kSubpixelScale) < (std::int64_t{1} << 53));
+// Binning looks at the undivided edges at the corners of tiles, in 64 bits.
+static_assert(2 * (kWidestExtent * kSubpixelScale) * ((kWidestExtent + 2 * 128) * kSubpixelScale) < INT64_MAX / 4);
+// The numerators of a depth plane: two products of a coordinate's difference and a depth word's.
+static_assert(2 * kWidestExtent * kSubpixelScale * std::int64_t{0xffffffff} < (std::int64_t{1} << 57));
 
 /// A vertex after projection and snapping.
 struct WindowVertex {

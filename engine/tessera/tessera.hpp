@@ -644,6 +644,7 @@ struct RendererOptions {
   /// part by part, to the same bits; that takes longer.
   std::size_t bin_memory = std::size_t{256} << 20;
   bool count_fragments = false;             ///< one more pass over the tiles, for FrameStats::fragments
+  std::uint32_t task_order = 0;             ///< 0: what is long begins first; any other number: vertices, bins and tiles are worked on in an order of its own. Same bits: for who wants to see that
   std::shared_ptr<Executor> executor{};     ///< absent: oneTBB's threads
   /// Called now and then while a frame runs, at the end of each stage and at most about a hundred times a second in between, on
   /// any of the threads that work, never by two of one renderer at once: `done` rises, to 1 in frames that have tiles to render.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -40,13 +41,27 @@ TEST(Parallel, EightThreadsAreEightDistinctWorkers) {
 TEST(Parallel, EachTaskRunsOnceForAnyNumberOfThreads) {
   const ThreadLimit limit(8);
   for (const int threads : {1, 2, 3, 8}) {
-    Parallel parallel(threads);
-    for (const std::size_t count : {0, 1, 2, 7, 1000}) {
-      std::vector<std::atomic<int>> runs(count);
-      parallel.for_each(count, [&](std::size_t task, int) { ++runs.at(task); });
-      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(runs[i], 1) << "task " << i << " of " << count << " on " << threads << " threads";
+    for (const std::uint32_t order : {0u, 1u, 2u, 1000u, 0xffffffffu}) {
+      Parallel parallel(threads, nullptr, order);
+      for (const std::size_t count : {0, 1, 2, 7, 12, 1000}) {
+        std::vector<std::atomic<int>> runs(count);
+        parallel.for_each(count, [&](std::size_t task, int) { ++runs.at(task); });
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(runs[i], 1) << "task " << i << " of " << count << " on " << threads << " threads in order " << order;
+      }
     }
   }
+}
+
+TEST(Parallel, AnotherOrderIsAnother) {
+  const auto order_of = [](std::uint32_t order) {
+    std::vector<std::size_t> tasks;
+    Parallel(1, nullptr, order).for_each(100, [&](std::size_t task, int) { tasks.push_back(task); });
+    return tasks;
+  };
+  EXPECT_TRUE(std::ranges::is_sorted(order_of(0)));
+  EXPECT_NE(order_of(1), order_of(0));
+  EXPECT_NE(order_of(2), order_of(1));
+  EXPECT_EQ(order_of(2), order_of(2));
 }
 
 TEST(Parallel, NoTwoTasksAtTheSameTimeShareAWorker) {
