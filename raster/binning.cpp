@@ -172,11 +172,7 @@ ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count) {
   const ClipVertex corners[3] = {clip_vertex(draw, vertex_index<3>(draw, triangle, 0), attribute_count), clip_vertex(draw, vertex_index<3>(draw, triangle, 1), attribute_count),
                                  clip_vertex(draw, vertex_index<3>(draw, triangle, 2), attribute_count)};
-  WindowPolygon polygon;
-  polygon.clipped = clip_triangle(*draw.transform, corners, codes, attribute_count);
-  for (int i = 0; i < polygon.clipped.count; ++i) polygon.window[i] = project(*draw.transform, polygon.clipped.vertices[i].position);
-  for (int i = 2; i < polygon.clipped.count; ++i) polygon.area += doubled_area(polygon.window[0], polygon.window[i - 1], polygon.window[i]);
-  return polygon;
+  return WindowPolygon(*draw.transform, clip_triangle(*draw.transform, corners, codes, attribute_count));
 }
 
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes) {
@@ -185,33 +181,29 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     ++bins.counts.outside;
     return;
   }
-  // Facing belongs to the whole of it; a sliver of a piece that snapping turned over has no say.
-  if (polygon.area == 0) {
+  if (polygon.triangles().empty()) {
     ++bins.counts.zero_area;
     return;
   }
-  if (!keeps(draw, triangle, polygon.area)) {
+  if (!keeps(draw, triangle, polygon.area)) {  // facing belongs to the whole of it
     ++bins.counts.culled;
     return;
   }
-  const WindowVertex* const window = polygon.window;
-  for (int i = 2; i < polygon.clipped.count; ++i) {
-    const int corner[3] = {0, i - 1, i};
-    const double area = doubled_area(window[0], window[i - 1], window[i]);
-    if (area == 0 || (area < 0) != (polygon.area < 0)) continue;
-    const auto [low_x, high_x] = std::minmax({window[0].x, window[i - 1].x, window[i].x});
-    const auto [low_y, high_y] = std::minmax({window[0].y, window[i - 1].y, window[i].y});
+  for (const WindowPolygon::Corners& corner : polygon.triangles()) {
+    const WindowVertex &a = polygon.window[corner[0]], &b = polygon.window[corner[1]], &c = polygon.window[corner[2]];
+    const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
+    const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
     const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0), px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
     const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0), py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
     if (px0 > px1 || py0 > py1) continue;
     Piece& piece = bins.add_piece(triangle, 3, draw.attribute_count);
     for (int k = 0; k < 3; ++k) {
-      piece.vertices[k] = window[corner[k]];
+      piece.vertices[k] = polygon.window[corner[k]];
       std::copy_n(polygon.clipped.vertices[corner[k]].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
     }
     ++bins.counts.binned;
     const WindowVertex* const v[3] = {&piece.vertices[0], &piece.vertices[1], &piece.vertices[2]};
-    bin_large_triangle(bins, grid, v, area, draw, bins.id_of_last_piece(), px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
+    bin_large_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.id_of_last_piece(), px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
   }
 }
 

@@ -10,10 +10,10 @@
 #include "framebuffer/instruction_set.h"
 #include "framebuffer/tile_grid.h"
 #include "raster/bins.h"
-#include "raster/clip.h"
 #include "raster/polygon_facing.h"
 #include "raster/topology.h"
 #include "raster/vertex_transform.h"
+#include "raster/window_polygon.h"
 
 namespace tessera {
 
@@ -66,18 +66,8 @@ std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint
 /// A vertex with its attributes, before clipping.
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
 
-/// A triangle after clipping, in the window.
-struct WindowPolygon {
-  ClippedPolygon clipped;                    ///< with the attributes that were asked for
-  WindowVertex window[kMaxClippedVertices];
-  double area = 0;                           ///< doubled; of what snapping left of it
-};
-/// @param codes  the three vertices' codes or-ed
+/// A triangle after clipping, with the attributes that are asked for. @param codes  the three vertices' codes or-ed
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count);
-
-constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
-  return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
-}
 
 /// Bins a bitmap or an image that changes pixels of a rectangle, not empty.
 void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect);

@@ -27,17 +27,13 @@ WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
   std::uint8_t codes = 0;
   for (std::uint32_t k = 0; draw.any_code && k < 3; ++k) codes |= draw.codes[vertex_index<3>(draw, triangle, k)];
   if (codes != 0) return clip_to_window(draw, triangle, codes, 0);
-  WindowPolygon polygon;
-  polygon.clipped.count = 3;
-  for (std::uint32_t k = 0; k < 3; ++k) polygon.window[k] = draw.vertices[vertex_index<3>(draw, triangle, k)];
-  polygon.area = doubled_area(polygon.window[0], polygon.window[1], polygon.window[2]);
-  return polygon;
+  return WindowPolygon(draw.vertices[vertex_index<3>(draw, triangle, 0)], draw.vertices[vertex_index<3>(draw, triangle, 1)], draw.vertices[vertex_index<3>(draw, triangle, 2)]);
 }
 
 double slope_of(DepthKind kind, const WindowPolygon& triangle) {
   double slope = 0, largest = 0;
-  for (int i = 2; i < triangle.clipped.count; ++i) {
-    const WindowVertex &a = triangle.window[0], &b = triangle.window[i - 1], &c = triangle.window[i];
+  for (const WindowPolygon::Corners& corner : triangle.triangles()) {
+    const WindowVertex &a = triangle.window[corner[0]], &b = triangle.window[corner[1]], &c = triangle.window[corner[2]];
     const double area = std::abs(doubled_area(a, b, c));
     if (area <= largest) continue;
     largest = area;

@@ -1,184 +1,223 @@
-// Triangles that share edges cover each pixel exactly once: whole meshes on a buffer that counts, through all of the engine. No tolerance.
+// Triangles that share edges cover each pixel exactly once: whole meshes on a buffer that counts, through all of the engine. Corners are whole
+// numbers of 1/256 pixel, so no rounding comes before the rule. No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "tests/numerics/counting.h"
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/counted_mesh.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
 namespace {
 
 constexpr int kSide = 64;
+const CaseFormat kFormat{.width = kSide, .height = kSide};
 
-struct Draws {
-  std::mt19937 random;
-  double unit() { return static_cast<double>(random()) * 0x1p-32; }
-  int between(int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)); }
-};
+int how_many(bool is_tessera, int normal, int in_long_tests) { return is_tessera && long_tests() ? in_long_tests : normal; }
 
-/// Window coordinates, in 1/256 pixel from the lower left corner, of buffers whose sides are powers of two: exact in clip space.
-std::uint32_t add_window_vertex(CountedMesh& mesh, std::int64_t x, std::int64_t y, int width = kSide, int height = kSide) {
-  return mesh.add_vertex(static_cast<double>(x) / (128.0 * width) - 1, static_cast<double>(y) / (128.0 * height) - 1);
+// Beyond the frame on all sides. Inner vertices are anywhere, or multiples of half a pixel: pixel centres, and corners of pixels and tiles. Or of 1/16:
+// sample positions.
+Grid jittered_grid(MeshRandom& random, double jitter, int most_cells = 24) {
+  Grid grid{random.between(1, most_cells), random.between(1, most_cells), {}};
+  const int snap = random.one_of({1, 16, 128, 256});
+  const auto place = [&](int n, int last) {
+    const double cell = (kSide + 8.0) * 256 / last, at = cell * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) - 1024;
+    return std::llround(at / snap) * snap;
+  };
+  for (int j = 0; j <= grid.rows; ++j)
+    for (int i = 0; i <= grid.columns; ++i) {
+      const std::int64_t x = place(i, grid.columns);
+      grid.points.push_back({x, place(j, grid.rows)});
+    }
+  return grid;
 }
 
-void expect_once(Counter& counter, CountedMesh& mesh, Draws& draws, const std::string& what) {
-  mesh.shuffle(draws.random);
-  const std::vector<std::uint32_t>& counts = counter.count(mesh);
-  const auto wrong = std::find_if(counts.begin(), counts.end(), [](std::uint32_t c) { return c != 1; });
-  ASSERT_TRUE(wrong == counts.end()) << what << ": pixel " << wrong - counts.begin() << " is covered " << *wrong << " times";
-}
-
-using Point = std::array<std::int64_t, 2>;
-std::int64_t doubled_area(const Point& a, const Point& b, const Point& c) { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]); }
-
-// Beyond the frame on all sides. Inner vertices are anywhere, on pixel centres, or on pixel borders (of which some are those of tiles).
-CountedMesh jittered_grid(Draws& draws) {
-  const int columns = draws.between(1, 24), rows = draws.between(1, 24), snap = std::array{1, 128, 256}[static_cast<std::size_t>(draws.between(0, 2))];
-  const double jitter = draws.unit(), cell_x = (kSide + 8.0) * 256 / columns, cell_y = (kSide + 8.0) * 256 / rows;
-  std::vector<Point> points;
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) {
-      const auto place = [&](double cell, int n, int last) {
-        const double at = cell * (n + (n > 0 && n < last ? jitter * (draws.unit() - 0.5) : 0)) - 1024;
-        return static_cast<std::int64_t>(std::lround(at / snap)) * snap;
-      };
-      const std::int64_t x = place(cell_x, i, columns);
-      points.push_back({x, place(cell_y, j, rows)});
-    }
-  CountedMesh mesh;
-  for (const Point& p : points) add_window_vertex(mesh, p[0], p[1]);
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const auto at = [&](int di, int dj) { return static_cast<std::uint32_t>((j + dj) * (columns + 1) + i + di); };
-      const std::uint32_t p = at(0, 0), q = at(1, 0), r = at(1, 1), s = at(0, 1);
-      // A cell that is not convex has one diagonal inside.
-      const auto area = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { return doubled_area(points[a], points[b], points[c]); };
-      const bool first = area(p, q, r) >= 0 && area(p, r, s) >= 0, second = area(q, r, s) >= 0 && area(q, s, p) >= 0;
-      if (first && (!second || draws.between(0, 1) != 0)) {
-        mesh.add_triangle(p, q, r, draws.random);
-        mesh.add_triangle(p, r, s, draws.random);
-      } else {
-        mesh.add_triangle(q, r, s, draws.random);
-        mesh.add_triangle(q, s, p, draws.random);
-      }
-    }
+CountedMesh triangles_of(const Grid& grid, MeshRandom& random, int width = kSide, int height = kSide) {
+  CountedMesh mesh = mesh_of(grid.points, width, height);
+  grid.cut_into(mesh, random);
   return mesh;
 }
 
-// Snapped to coarse places, cells of fine grids fold over; those are no meshes without overlap.
-bool folds(const CountedMesh& mesh) {
-  double area = 0;
-  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-    const auto corner = [&](std::size_t k) { return Point{std::llround((double{mesh.positions[4 * mesh.indices[t + k]]} + 1) * 128 * kSide), std::llround((double{mesh.positions[4 * mesh.indices[t + k] + 1]} + 1) * 128 * kSide)}; };
-    area += static_cast<double>(std::abs(doubled_area(corner(0), corner(1), corner(2))));
-  }
-  constexpr double kWhole = 2 * 256.0 * 256.0 * (kSide + 8) * (kSide + 8);
-  return area != kWhole;
-}
-
 TEST(ExactlyOnce, Grids) {
-  Draws draws{std::mt19937(1)};
-  Counter counter(kSide, kSide);
-  const int wanted = long_tests() ? 1000000 : 10000;
-  for (int n = 0; n < wanted;) {
-    CountedMesh mesh = jittered_grid(draws);
-    if (folds(mesh)) continue;
-    expect_once(counter, mesh, draws, "grid " + std::to_string(n++));
-    if (HasFatalFailure()) return;
-  }
+  expect_coverage("random grids", kFormat, [](const Count& count, bool is_tessera) {
+    for (int n = 0; n < how_many(is_tessera, 10000, 1000000); ++n) {
+      MeshRandom random(n);
+      Grid grid = jittered_grid(random, random.unit());
+      while (grid.folds()) grid = jittered_grid(random, random.unit());
+      count({counting(triangles_of(grid, random))}, "mesh " + std::to_string(n), {});
+    }
+  });
 }
 
-// Around a pixel's centre or corner, to points beyond the frame.
+// All lines of the grid lie on the borders and centres of pixels and tiles, or 1/256 pixel beside them.
+TEST(ExactlyOnce, LinesAtPixelCentresAndTileBorders) {
+  expect_coverage("lines at centres and tile borders", kFormat, [](const Count& count, bool is_tessera) {
+    const auto lines = [](MeshRandom& random) {
+      std::vector<std::int64_t> at{-1024, (kSide + 4) * 256};
+      for (const int pixel : {0, 1, 31, 32, 33, 63})
+        for (const int place : {-1, 0, 1, 127, 128, 129})
+          if (random.coin()) at.push_back(256 * pixel + place);
+      std::sort(at.begin(), at.end());
+      return at;
+    };
+    for (int n = 0; n < how_many(is_tessera, 1000, 100000); ++n) {
+      MeshRandom random(n);
+      const std::vector<std::int64_t> x = lines(random), y = lines(random);
+      Grid grid{static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, {}};
+      for (const std::int64_t at_y : y)
+        for (const std::int64_t at_x : x) grid.points.push_back({at_x, at_y});
+      count({counting(triangles_of(grid, random))}, "mesh " + std::to_string(n), {});
+    }
+  });
+}
+
+// Around a pixel's centre or corner, to points so far beyond the frame that no edge of the rim comes near it.
 TEST(ExactlyOnce, Fans) {
-  Draws draws{std::mt19937(2)};
-  Counter counter(kSide, kSide);
-  for (int n = 0; n < (long_tests() ? 100000 : 2000); ++n) {
-    const Point center{draws.between(0, kSide) * 256 + draws.between(0, 1) * 128, draws.between(0, kSide) * 256 + draws.between(0, 1) * 128};
-    CountedMesh mesh;
-    add_window_vertex(mesh, center[0], center[1]);
-    const int count = draws.between(5, 200);
-    std::vector<Point> rim;
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2 * std::numbers::pi * (i + 0.9 * draws.unit()) / count, radius = 256 * kSide * (6 + 5 * draws.unit())  /* no chord comes near the frame */;
-      rim.push_back({center[0] + std::llround(radius * std::cos(angle)), center[1] + std::llround(radius * std::sin(angle))});
-      add_window_vertex(mesh, rim.back()[0], rim.back()[1]);
+  expect_coverage("fans around a pixel's centre", kFormat, [](const Count& count, bool is_tessera) {
+    for (int n = 0; n < how_many(is_tessera, 2000, 100000); ++n) {
+      MeshRandom random(n);
+      const WindowPoint center{random.between(0, kSide) * 256 + random.between(0, 1) * 128, random.between(0, kSide) * 256 + random.between(0, 1) * 128};
+      const int spokes = random.between(5, 200);
+      std::vector<WindowPoint> points{center};
+      for (int i = 0; i < spokes; ++i) {
+        const double angle = 2 * std::numbers::pi * (i + 0.9 * random.unit()) / spokes, radius = 256 * kSide * (6 + 5 * random.unit());
+        points.push_back({center.x + std::llround(radius * std::cos(angle)), center.y + std::llround(radius * std::sin(angle))});
+      }
+      CountedMesh mesh = mesh_of(points, kSide, kSide);
+      for (std::uint32_t i = 1; i < points.size(); ++i) mesh.add_triangle(0, i, i + 1 < points.size() ? i + 1 : 1);
+      mesh.shuffle(random);
+      count({counting(mesh)}, "fan " + std::to_string(n), {});
     }
-    bool turns = true;
-    for (int i = 0; i < count; ++i) {
-      turns &= doubled_area(center, rim[static_cast<std::size_t>(i)], rim[static_cast<std::size_t>((i + 1) % count)]) > 0;
-      mesh.add_triangle(0, static_cast<std::uint32_t>(i + 1), static_cast<std::uint32_t>((i + 1) % count + 1), draws.random);
-    }
-    if (!turns) continue;
-    expect_once(counter, mesh, draws, "fan " + std::to_string(n));
-    if (HasFatalFailure()) return;
-  }
+  });
 }
 
-// 1/256 pixel wide and 16,384 pixels long, lying and standing.
+// 1/256 pixel wide and 16,384 pixels long; and needles from one point, whose other ends are 1/256 pixel apart.
 TEST(ExactlyOnce, LongSlivers) {
-  Draws draws{std::mt19937(3)};
-  constexpr int kLong = 16384, kShort = 2;
+  constexpr int kLong = 16384, kShort = 2, kCount = 256 * kShort;
   for (const bool lying : {true, false}) {
     const int width = lying ? kLong : kShort, height = lying ? kShort : kLong;
-    Counter counter(width, height);
-    CountedMesh mesh;
-    for (int k = 0; k <= kShort * 256; ++k)
-      for (const std::int64_t end : {0, kLong * 256}) add_window_vertex(mesh, lying ? end : k, lying ? k : end, width, height);
-    for (std::uint32_t k = 0; k < kShort * 256; ++k) {
-      mesh.add_triangle(2 * k, 2 * k + 1, 2 * k + 3, draws.random);
-      mesh.add_triangle(2 * k, 2 * k + 3, 2 * k + 2, draws.random);
-    }
-    expect_once(counter, mesh, draws, lying ? "lying" : "standing");
+    expect_coverage(lying ? "slivers, lying" : "slivers, standing", {.width = width, .height = height}, [&](const Count& count, bool) {
+      MeshRandom random(0);
+      const auto point = [&](std::int64_t along, std::int64_t across) { return lying ? WindowPoint{along, across} : WindowPoint{across, along}; };
+      Grid grid = lying ? Grid{1, kCount, {}} : Grid{kCount, 1, {}};
+      for (int j = 0; j <= grid.rows; ++j)
+        for (int i = 0; i <= grid.columns; ++i) grid.points.push_back({lying ? i * kLong * 256 : i, lying ? j : j * kLong * 256});
+      count({counting(triangles_of(grid, random, width, height))}, "parallel", {});
+
+      for (const int corner : {0, kCount}) {
+        std::vector<WindowPoint> points{point(0, corner), point(0, kCount - corner)};
+        for (int k = 0; k <= kCount; ++k) points.push_back(point(kLong * 256, k));
+        CountedMesh mesh = mesh_of(points, width, height);
+        for (std::uint32_t k = 0; k < kCount; ++k) mesh.add_triangle(0, k + 2, k + 3);
+        mesh.add_triangle(0, 1, corner == 0 ? kCount + 2 : 2);
+        mesh.shuffle(random);
+        count({counting(mesh)}, "from corner " + std::to_string(corner), {});
+      }
+    });
   }
 }
 
-// Seen from within, a surface around the eye is seen once in each direction, whatever of it is in front, behind or beyond the guard band: corners are
-// as far away as they like, so triangles are clipped in all ways.
-TEST(ExactlyOnce, SurfacesAroundTheEye) {
-  Draws draws{std::mt19937(4)};
-  Counter counter(kSide, kSide);
-  for (int n = 0; n < (long_tests() ? 100000 : 2000); ++n) {
-    const int cells = draws.between(1, 6);
-    const double spread = draws.between(0, 1) != 0 ? 0 : draws.between(0, 4);
-    const Matrix turn = rotate(360 * draws.unit(), draws.unit() - 0.5, draws.unit() - 0.5, draws.unit() + 0.1);
-    const Matrix view = perspective(std::array{5.0, 40.0, 90.0, 150.0}[static_cast<std::size_t>(draws.between(0, 3))], 1, 1e-6, 1e12) * turn;
-    CountedMesh mesh;
-    std::vector<std::array<int, 3>> keys;  // corners of a cube's faces, whole numbers: the same on all faces that meet there
-    const auto vertex = [&](const std::array<int, 3>& key) {
-      const auto found = std::find(keys.begin(), keys.end(), key);
-      if (found != keys.end()) return static_cast<std::uint32_t>(found - keys.begin());
-      keys.push_back(key);
-      const double distance = std::pow(10, spread * (draws.unit() - 0.5));
-      std::array<double, 4> clip{};
-      for (int row = 0; row < 4; ++row) {
-        for (int c = 0; c < 3; ++c) clip[static_cast<std::size_t>(row)] += view.m[static_cast<std::size_t>(4 * row + c)] * distance * key[static_cast<std::size_t>(c)] / cells;
-        clip[static_cast<std::size_t>(row)] += view.m[static_cast<std::size_t>(4 * row + 3)];
-      }
-      return mesh.add_vertex(clip[0], clip[1], clip[2], clip[3]);
-    };
-    for (int face = 0; face < 6; ++face)
-      for (int j = -cells; j < cells; j += 2)
-        for (int i = -cells; i < cells; i += 2) {
-          const auto corner = [&](int u, int v) {
-            std::array<int, 3> key{};
-            key[static_cast<std::size_t>(face / 2)] = face % 2 != 0 ? cells : -cells;
-            key[static_cast<std::size_t>((face / 2 + 1) % 3)] = u;
-            key[static_cast<std::size_t>((face / 2 + 2) % 3)] = v;
-            return vertex(key);
-          };
-          const std::uint32_t p = corner(i, j), q = corner(i + 2, j), r = corner(i + 2, j + 2), s = corner(i, j + 2);
-          mesh.add_triangle(p, q, r, draws.random);
-          mesh.add_triangle(p, r, s, draws.random);
-        }
-    expect_once(counter, mesh, draws, "surface " + std::to_string(n) + " cells " + std::to_string(cells) + " spread " + std::to_string(spread) + " vertices " + std::to_string(keys.size()));
-    if (HasFatalFailure()) return;
+// Grids as quads and as rows of strips.
+std::vector<CaseDraw> rows_of(const Grid& grid, Primitive primitive) {
+  std::vector<CaseDraw> draws;
+  for (int j = 0; j < grid.rows; ++j) {
+    CountedMesh row = mesh_of(grid.points, kSide, kSide);
+    for (int i = 0; i <= grid.columns; ++i) row.indices.insert(row.indices.end(), {grid.index(i, j), grid.index(i, j + 1)});
+    draws.push_back(counting(row));
+    draws.back().primitive = primitive;
+  }
+  return draws;
+}
+CaseDraw quads_of(const Grid& grid) {
+  CountedMesh quads = mesh_of(grid.points, kSide, kSide);
+  grid.for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) { quads.indices.insert(quads.indices.end(), {p, q, r, s}); });
+  CaseDraw draw = counting(quads);
+  draw.primitive = Primitive::quads;
+  return draw;
+}
+// A convex polygon around the frame that chords cut into polygons and fans.
+std::vector<CaseDraw> parts_of_a_polygon(MeshRandom& random) {
+  const int corners = random.between(4, 60);
+  std::vector<WindowPoint> points;
+  for (int i = 0; i < corners; ++i) {  // around the frame, however few
+    const double angle = 2 * std::numbers::pi * i / corners;
+    points.push_back({128 * kSide + std::llround(40000 * std::cos(angle)), 128 * kSide + std::llround(40000 * std::sin(angle))});
+  }
+  std::vector<std::vector<std::uint32_t>> whole{{}}, parts;
+  for (int i = 0; i < corners; ++i) whole[0].push_back(static_cast<std::uint32_t>(i));
+  while (!whole.empty()) {
+    std::vector<std::uint32_t> polygon = std::move(whole.back());
+    whole.pop_back();
+    const int size = static_cast<int>(polygon.size());
+    std::rotate(polygon.begin(), polygon.begin() + random.between(0, size - 1), polygon.end());
+    if (size == 3 || random.between(0, 3) == 0) {
+      parts.push_back(std::move(polygon));
+      continue;
+    }
+    const int other = random.between(2, size - 2);
+    whole.emplace_back(polygon.begin(), polygon.begin() + other + 1);
+    whole.emplace_back(polygon.begin() + other, polygon.end()).push_back(polygon[0]);
+  }
+  std::vector<CaseDraw> draws;
+  for (std::vector<std::uint32_t>& part : parts) {
+    if (random.coin()) std::reverse(part.begin(), part.end());
+    CountedMesh mesh = mesh_of(points, kSide, kSide);
+    mesh.indices = std::move(part);
+    draws.push_back(counting(mesh));
+    draws.back().primitive = random.coin() ? Primitive::polygon : Primitive::triangle_fan;
+  }
+  return draws;
+}
+
+TEST(ExactlyOnce, StripsQuadsFansAndPolygons) {
+  expect_coverage("strips, quads, fans and polygons", kFormat, [](const Count& count, bool is_tessera) {
+    for (int n = 0; n < how_many(is_tessera, 500, 50000); ++n) {
+      MeshRandom random(n);
+      const std::string number = " " + std::to_string(n);
+      Grid grid = jittered_grid(random, 0.5 * random.unit(), 8);
+      while (!grid.is_convex()) grid = jittered_grid(random, 0.5 * random.unit(), 8);
+      count(rows_of(grid, Primitive::triangle_strip), "strips" + number, {});
+      count(rows_of(grid, Primitive::quad_strip), "quad strips" + number, {});
+      count({quads_of(grid)}, "quads" + number, {});
+      count(parts_of_a_polygon(random), "parts" + number, {});
+    }
+  });
+}
+
+// Of several samples a pixel shows the mean, in which what one sample has too often could make up for another: so each sample's own stencil counts,
+// and what has not come to 1 is then painted white. Mesa's OSMesa has one sample a pixel.
+TEST(ExactlyOnce, EachSampleOfAPixel) {
+  for (const int samples : {4, 8}) {
+    FrameBuffer buffer({.width = kSide, .height = kSide, .depth = DepthFormat::none, .samples = samples});
+    Renderer renderer({.threads = 1});
+    const DrawState counts{.lighting = false, .stencil = StencilState{.front = {.zpass = StencilOp::incr_wrap}}, .color_mask = {false, false, false, false}};
+    const DrawState shows{.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .stencil = StencilState{.front = {.func = Compare::notequal, .ref = 1}}};
+    const std::vector<float> whole{-1, -1, 0, 3, -1, 0, -1, 3, 0};
+    std::vector<std::uint32_t> words(kSide * kSide);
+    long double wrong = 0;
+    for (int n = 0; n < (long_tests() ? 100000 : 1000); ++n) {
+      MeshRandom random(n);
+      Grid grid = jittered_grid(random, random.unit());
+      while (grid.folds()) grid = jittered_grid(random, random.unit());
+      const CountedMesh mesh = triangles_of(grid, random);
+      Frame frame(buffer);
+      frame.clear({.color = Color{0, 0, 0, 1}, .stencil = 0});
+      frame.draw({.positions = mesh.positions, .position_components = 4, .indices = mesh.indices}, counts);
+      frame.draw({.positions = whole, }, shows);
+      renderer.finish(frame);
+      buffer.read_color_words(words);
+      const auto first = std::find_if(words.begin(), words.end(), [](std::uint32_t word) { return word != 0; });
+      if (first == words.end()) continue;
+      wrong += static_cast<long double>(std::count_if(words.begin(), words.end(), [](std::uint32_t word) { return word != 0; }));
+      ADD_FAILURE() << samples << " samples, mesh " << n << ": pixel (" << (first - words.begin()) % kSide << ", " << (first - words.begin()) / kSide << ") from the top left";
+    }
+    expect_within("random grids, each of " + std::to_string(samples) + " samples: wrong", wrong, 0, "pixels");
   }
 }
 

@@ -1,0 +1,106 @@
+// Polygons that snapping has dented are cut into triangles that cover them exactly: compared with the even-odd rule, and so without any triangles.
+#include "raster/window_polygon.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/raster/random_triangles.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kSide = 24;
+
+VertexTransform window_transform() {
+  VertexTransform t;
+  t.half_width = t.half_height = kSide / 2.0;
+  t.center_x = t.center_y = 128 * kSide;
+  return t;
+}
+
+// Corners in 1/256 pixel, y down, the centre 0.
+struct Corner {
+  std::int32_t x, y;
+};
+ClippedPolygon clipped(const std::vector<Corner>& corners) {
+  ClippedPolygon polygon;
+  for (const Corner& c : corners) polygon.vertices[polygon.count++].position = {c.x / (128.0 * kSide), -c.y / (128.0 * kSide), 0, 1};
+  return polygon;
+}
+
+// A centre on an edge counts as if it lay a hair to the right, and a hair of that down: crossings are those of a ray from there to the right.
+bool is_inside(const WindowPolygon& polygon, int x, int y) {
+  const std::int64_t px = 256 * x + 128, py = 256 * y + 128;
+  bool inside = false;
+  for (int i = 0; i < polygon.clipped.count; ++i) {
+    WindowVertex a = polygon.window[i], b = polygon.window[(i + 1) % polygon.clipped.count];
+    if ((a.y > py) == (b.y > py)) continue;
+    if (a.y > b.y) std::swap(a, b);
+    inside ^= (b.x - a.x) * (py - a.y) > (px - a.x) * (b.y - a.y);  // the crossing is to the right of px
+  }
+  return inside;
+}
+
+void expect_covered_once(const WindowPolygon& polygon, int round) {
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      int covered = 0;
+      for (const WindowPolygon::Corners& c : polygon.triangles()) covered += reference_of({polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]}).covers(x, y);
+      ASSERT_EQ(covered, is_inside(polygon, x, y) ? 1 : 0) << "round " << round << ", pixel " << x << " " << y;
+    }
+}
+
+// Around a point, in order of their directions: edges never cross, dents are anywhere. Clipping makes dents of 1/256 pixel; here they are as deep as they like.
+TEST(WindowPolygon, IsCoveredOnceByItsTriangles) {
+  RandomTriangles source(41, kSide);
+  int dented = 0;
+  for (int round = 0; round < (long_tests() ? 100000 : 5000); ++round) {
+    const int count = source.between(3, kMaxClippedVertices);
+    const double start = 6.3 * source.unit();
+    std::vector<Corner> corners;
+    for (int i = 0; i < count; ++i) {
+      const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count, radius = 128 * kSide * (0.2 + source.unit());
+      corners.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))), static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))});
+    }
+    if (source.between(0, 1) != 0) std::reverse(corners.begin(), corners.end());
+    const WindowPolygon polygon(window_transform(), clipped(corners));
+    for (const WindowPolygon::Corners& c : polygon.triangles()) ASSERT_GT(doubled_area(polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]) * polygon.area, 0);
+    for (int i = 2; i < count; ++i)
+      if (doubled_area(polygon.window[0], polygon.window[i - 1], polygon.window[i]) * polygon.area < 0) {
+        ++dented;
+        break;
+      }
+    expect_covered_once(polygon, round);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(dented, 500);
+}
+
+// Two corners in one place, corners on a straight line, and a line there and back: none of it covers anything.
+TEST(WindowPolygon, HasNoTrianglesWithoutArea) {
+  const WindowPolygon line(window_transform(), clipped({{0, 0}, {256, 256}, {512, 512}, {256, 256}}));
+  EXPECT_TRUE(line.triangles().empty());
+  const WindowPolygon square(window_transform(), clipped({{0, 0}, {512, 0}, {1024, 0}, {1024, 0}, {1024, 1024}, {0, 1024}, {0, 512}}));
+  EXPECT_EQ(square.area, 2 * 1024.0 * 1024.0);
+  expect_covered_once(square, 0);
+}
+
+// Thinner than a step of the grid, it may come out with edges that cross, and no area as a whole: it is drawn nevertheless, or its neighbours would show
+// a hole.
+TEST(WindowPolygon, WhoseEdgesCrossLeavesNoHole) {
+  const WindowPolygon crossed(window_transform(), clipped({{-1024, -1024}, {1024, 1024}, {1024, -1024}, {-1024, 1024}}));
+  EXPECT_EQ(crossed.area, 0);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      if (!is_inside(crossed, x, y)) continue;
+      bool covered = false;
+      for (const WindowPolygon::Corners& c : crossed.triangles()) covered |= reference_of({crossed.window[c[0]], crossed.window[c[1]], crossed.window[c[2]]}).covers(x, y);
+      EXPECT_TRUE(covered) << x << " " << y;
+    }
+}
+
+}  // namespace
+}  // namespace tessera::test
