@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/eye_space.h"
 #include "engine/fragment_plan.h"
 #include "engine/matrix.h"
 #include "engine/pixel_plan.h"
@@ -17,33 +18,6 @@ namespace {
 Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
 
 SurfaceMaterial surface(const Material& m) { return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess}; }
-
-std::array<float, 3> unit(const glm::dvec3& v) {
-  const double length = glm::length(v);
-  const glm::dvec3 n = length > 0 ? v / length : glm::dvec3(0);
-  return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-}
-
-EyeLight eye_light(const Light& light, const glm::dmat4& view) {
-  EyeLight e;
-  e.ambient = rgb(light.ambient);
-  e.diffuse = rgb(light.diffuse);
-  e.specular = rgb(light.specular);
-  const auto& p = light.position;
-  e.directional = p[3] == 0;
-  if (e.directional) {
-    e.position = unit(glm::dmat3(view) * glm::dvec3(p[0], p[1], p[2]));
-  } else {
-    const glm::dvec4 at = view * glm::dvec4(glm::dvec3(p[0], p[1], p[2]) / double{p[3]}, 1.0);
-    e.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-  }
-  const auto& d = light.spot_direction;
-  e.spot_direction = unit(glm::dmat3(view) * glm::dvec3(d[0], d[1], d[2]));
-  e.spot_exponent = light.spot_exponent;
-  e.spot_cutoff = light.spot_cutoff;
-  e.attenuation = {light.attenuation_constant, light.attenuation_linear, light.attenuation_quadratic};
-  return e;
-}
 
 TrackedColors tracked_colors(ColorMaterial mode) {
   switch (mode) {

@@ -1,0 +1,14 @@
+// What carries a draw's lights into eye space, where lighting happens.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include "engine/tessera/tessera.hpp"
+#include "shading/lighting.h"
+
+namespace tessera {
+
+/// A light however far away: its squared distance from what is within 2^62 of the eye is a float.
+EyeLight eye_light(const Light& light, const glm::dmat4& view);
+
+}  // namespace tessera
