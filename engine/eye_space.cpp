@@ -53,4 +53,32 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
   return e;
 }
 
+// The inverse transpose is the matrix of cofactors over the determinant; a singular matrix keeps the cofactors. Powers of two are taken out, so that
+// nothing leaves a double's range, and put back where lengths matter: they change no bit.
+EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLengths& lengths) {
+  const auto exponent_of = [](const glm::dmat3& m) {
+    const double largest = std::max({largest_of(m[0]), largest_of(m[1]), largest_of(m[2])});
+    return largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  };
+  const auto scale_by = [](glm::dmat3& m, int exponent) {
+    for (int column = 0; column < 3; ++column)
+      for (int row = 0; row < 3; ++row) m[column][row] = std::scalbn(m[column][row], exponent);
+  };
+  glm::dmat3 m(eye_from_object);
+  const int exponent = exponent_of(m);
+  scale_by(m, -exponent);
+  glm::dmat3 normal(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  const double determinant = glm::dot(m[0], normal[0]);
+  const bool singular = !std::isnormal(determinant), lengths_matter = lengths.shortest == 0;
+  normal *= !singular ? 1 / determinant : determinant < 0 ? -1.0 : 1.0;
+  scale_by(normal, !lengths_matter ? -exponent_of(normal) : singular ? 2 * exponent : -exponent);
+
+  EyeTransform eye;
+  std::copy_n(from_glm(eye_from_object).m.begin(), 12, eye.eye_from_object);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) eye.normal_matrix[3 * row + column] = normal[column][row];
+  eye.normal_lengths = lengths;
+  return eye;
+}
+
 }  // namespace tessera

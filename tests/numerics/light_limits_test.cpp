@@ -62,6 +62,30 @@ TEST(LightLimits, ScenesOfAnySize) {
   expect_within("scenes from 2^-60 to 2^60", worst, 1.5, "levels of 255");
 }
 
+// Where normals are normalized at the vertex any length will do, and so it will where Phong renormalizes them, if all of a mesh have about the same.
+TEST(LightLimits, NormalsOfAnyLength) {
+  Draws draws{std::mt19937(33)};
+  Real worst = 0;
+  LitPatches scene;
+  for (int exponent = -120; exponent <= 126; ++exponent)
+    for (const bool normalize : {true, false}) {
+      scene.normalize = true;
+      any_patches(draws, scene);
+      for (Patch& patch : scene.patches)
+        for (std::array<float, 3>& n : patch.normals) {
+          const Real3 unit = normalized(real3(n));
+          for (std::size_t c = 0; c < 3; ++c) n[c] = static_cast<float>(std::ldexp(unit[c], exponent));
+        }
+      scene.normalize = normalize;
+      scene.shading = normalize ? draws.of({Shading::flat, Shading::gouraud, Shading::phong}) : Shading::phong;
+      scene.material = any_material(draws);
+      scene.material.shininess = std::min(scene.material.shininess, 128.0f);
+      scene.lights = {any_light(draws, 2, 1), any_light(draws, 2, 1)};
+      worst = std::max(worst, scene.error_in_levels());
+    }
+  expect_within("normals from 2^-120 to 2^126", worst, 1.5, "levels of 255");
+}
+
 // Flat and Gouraud take normals as they are, whatever comes of that; a normal of 0 sees neither diffuse light nor highlights.
 TEST(LightLimits, NormalsAsTheyAre) {
   LitPatches scene;
