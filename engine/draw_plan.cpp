@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/glm.hpp>
+#include <glm/mat4x4.hpp>
 
+#include "engine/eye_space.h"
 #include "engine/fragment_plan.h"
 #include "engine/matrix.h"
 #include "engine/pixel_plan.h"
@@ -17,33 +18,6 @@ namespace {
 Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
 
 SurfaceMaterial surface(const Material& m) { return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess}; }
-
-std::array<float, 3> unit(const glm::dvec3& v) {
-  const double length = glm::length(v);
-  const glm::dvec3 n = length > 0 ? v / length : glm::dvec3(0);
-  return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-}
-
-EyeLight eye_light(const Light& light, const glm::dmat4& view) {
-  EyeLight e;
-  e.ambient = rgb(light.ambient);
-  e.diffuse = rgb(light.diffuse);
-  e.specular = rgb(light.specular);
-  const auto& p = light.position;
-  e.directional = p[3] == 0;
-  if (e.directional) {
-    e.position = unit(glm::dmat3(view) * glm::dvec3(p[0], p[1], p[2]));
-  } else {
-    const glm::dvec4 at = view * glm::dvec4(glm::dvec3(p[0], p[1], p[2]) / double{p[3]}, 1.0);
-    e.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-  }
-  const auto& d = light.spot_direction;
-  e.spot_direction = unit(glm::dmat3(view) * glm::dvec3(d[0], d[1], d[2]));
-  e.spot_exponent = light.spot_exponent;
-  e.spot_cutoff = light.spot_cutoff;
-  e.attenuation = {light.attenuation_constant, light.attenuation_linear, light.attenuation_quadratic};
-  return e;
-}
 
 TrackedColors tracked_colors(ColorMaterial mode) {
   switch (mode) {
@@ -61,18 +35,11 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   const FrameBufferFormat& format = target.format;
   const Camera& camera = draw.surroundings->camera;
   const glm::dmat4 eye_from_object = to_glm(camera.view) * to_glm(draw.state.transform);
-  const Matrix clip = from_glm(to_glm(camera.projection) * eye_from_object), eye = from_glm(eye_from_object);
+  const Matrix clip = from_glm(to_glm(camera.projection) * eye_from_object);
   std::copy(clip.m.begin(), clip.m.end(), plan.transform.clip_from_object);
-  std::copy_n(eye.m.begin(), 12, plan.eye.eye_from_object);
-
-  // The inverse transpose is the matrix of cofactors over the determinant; a singular matrix keeps the cofactors.
-  const glm::dmat3 m(eye_from_object);
-  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  const double determinant = glm::dot(m[0], cofactors[0]);
-  const double scale = std::isnormal(determinant) ? 1 / determinant : 1;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) plan.eye.normal_matrix[3 * row + column] = cofactors[column][row] * scale;
-  plan.eye.normalize = draw.state.normalize;
+  const bool phong = draw.state.shading == Shading::phong;
+  plan.eye = eye_transform(eye_from_object, draw.state.normalize ? kUnitNormals : phong ? kMeasurableNormals : kNormalsAsTheyAre);
+  plan.captured_eye = draw.state.normalize || phong ? plan.eye : eye_transform(eye_from_object, kMeasurableNormals);
 
   const Rect viewport = draw.state.viewport.value_or(Rect{0, 0, format.width, format.height});
   VertexTransform& t = plan.transform;

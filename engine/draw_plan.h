@@ -16,6 +16,7 @@ namespace tessera {
 struct DrawPlan {
   VertexTransform transform;
   EyeTransform eye;
+  EyeTransform captured_eye;      ///< for normals whose direction alone is wanted
   Topology topology = Topology::triangles;
   float point_size = 1, line_width = 1;  ///< pixels
   bool outlines = false;          ///< some faces are drawn as lines or points

@@ -7,6 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/matrix.h"
+
 namespace tessera {
 namespace {
 
@@ -33,8 +35,9 @@ glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t first, std::size_t la
 }
 
 void store_unit(const glm::dvec3& v, float* out) {
-  const double length = glm::length(v);
-  const glm::dvec3 n = length > 0 ? v / length : glm::dvec3(0);
+  const glm::dvec3 m = measurable(v);
+  const double length = glm::length(m);
+  const glm::dvec3 n = length > 0 ? m / length : glm::dvec3(0);
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k]);
 }
 

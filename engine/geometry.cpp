@@ -174,7 +174,7 @@ void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t co
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count, Isa isa) {
   const StridedFloats normals = draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->captured_normals.data(), 3};
   float eye[3][kVertexBatch];
-  eye_normals(isa)(draw.plan->eye, normals.from(first), count, eye[0], eye[1], eye[2]);
+  eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
   float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal;
   for (std::size_t i = 0; i < count; ++i, out += stride)

@@ -30,17 +30,12 @@ Matrix operator*(const Matrix& left, const Matrix& right) { return from_glm(to_g
 Matrix translate(double x, double y, double z) { return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}}; }
 Matrix scale(double x, double y, double z) { return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}}; }
 
-namespace {
-
-// The same direction, its square within a double's range: very long and very short vectors are scaled by a power of two.
 glm::dvec3 measurable(const glm::dvec3& v) {
   const double largest = std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
   if (!(largest > 0) || !std::isfinite(largest) || (largest > 1e-100 && largest < 1e100)) return v;
   const int exponent = std::ilogb(largest);
   return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
 }
-
-}  // namespace
 
 // [GL 2.1, 2.11.2, Rotate]
 Matrix rotate(double degrees, double x, double y, double z) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "framebuffer/format.h"
 #include "framebuffer/instruction_set.h"
@@ -62,15 +63,25 @@ using TransformVertices = std::uint8_t(const VertexTransform& transform, Strided
                                        WindowVertex* vertices, std::uint8_t* codes);
 TransformVertices* transform_vertices(Isa isa);
 
-/// Carries vectors into eye space: `matrix` is 3 rows of 4 for points (x y z [w] -> x y z) and 3 rows of 3 for normals.
+/// Which lengths normals may have in eye space; those that are shorter or longer become as long as this, but normals of 0 stay.
+struct NormalLengths {
+  double shortest = 1, longest = 1;
+};
+inline constexpr NormalLengths kUnitNormals{1, 1};
+inline constexpr NormalLengths kNormalsAsTheyAre{0, std::numeric_limits<double>::infinity()};
+/// Of normals that will be interpolated and then normalized: the squares of these, and of what cancelling to the last bit leaves of them, are
+/// normal floats.
+inline constexpr NormalLengths kMeasurableNormals{0x1p-32, 0x1p32};
+
+/// Carries vectors into eye space: 3 rows of 4 for points (x y z [w] -> x y z) and 3 rows of 3 for normals.
 struct EyeTransform {
   double eye_from_object[12] = {};
-  double normal_matrix[9] = {};  ///< the inverse transpose's 3x3
-  bool normalize = true;
+  double normal_matrix[9] = {};  ///< the inverse transpose's 3x3, times a power of two where the lengths of normals do not matter
+  NormalLengths normal_lengths{};
 };
 /// Eye-space positions of up to kVertexBatch vertices, as three arrays.
 using EyePositions = void(const EyeTransform& transform, StridedFloats positions, int components, std::size_t count, float* x, float* y, float* z);
-/// Eye-space normals, of length 1 with `normalize`; normalize(0) = 0.
+/// Eye-space normals.
 using EyeNormals = void(const EyeTransform& transform, StridedFloats normals, std::size_t count, float* x, float* y, float* z);
 EyePositions* eye_positions(Isa isa);
 EyeNormals* eye_normals(Isa isa);

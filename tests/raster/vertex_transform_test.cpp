@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -189,13 +190,13 @@ TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
   }
 }
 
-TEST(EyeTransform, NormalizesAndDividesOnEveryInstructionSetAlike) {
+TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
   RandomTransforms random(3);
   for (int round = 0; round < 500; ++round) {
     EyeTransform t;
     for (double& m : t.eye_from_object) m = random.in(-3, 3);
     for (double& m : t.normal_matrix) m = random.in(-3, 3);
-    t.normalize = round % 2 != 0;
+    t.normal_lengths = std::array{kUnitNormals, kNormalsAsTheyAre, NormalLengths{0.5, 2}}[static_cast<std::size_t>(round % 3)];
     std::vector<float> in(4 * kVertexBatch);
     for (float& p : in) p = static_cast<float>(random.in(-2, 2));
     if (round % 5 == 0) in[0] = in[1] = in[2] = 0;
@@ -215,9 +216,9 @@ TEST(EyeTransform, NormalizesAndDividesOnEveryInstructionSetAlike) {
           at[r] = 0;
           for (std::size_t k = 0; k < 4; ++k) at[r] += t.eye_from_object[static_cast<std::size_t>(4 * r) + k] * in[4 * i + k];
         }
-        const double length = t.normalize && squared > 0 ? std::sqrt(squared) : 1;
+        const double whole = std::sqrt(squared), length = whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest, t.normal_lengths.longest) : 1;
         for (std::size_t r = 0; r < 3; ++r) {
-          ASSERT_NEAR(n[r][i], exact[r] / length, 1e-6 * std::max(1.0, std::sqrt(squared) / length));
+          ASSERT_NEAR(n[r][i], exact[r] / length, 1e-6 * std::max(1.0, whole / length));
           ASSERT_NEAR(p[r][i], at[r] / in[4 * i + 3], 1e-6 * (std::abs(at[r] / in[4 * i + 3]) + 1e-3));
         }
       }

@@ -1,0 +1,127 @@
+// Section 5 of the specification in long double: what a point looks like under lights, term by term. Where rounding decides on which side of a jump a
+// point lies (the edge of a cone, the terminator of a highlight), both sides are right: sums are intervals.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera::test {
+
+using Real = long double;
+using Real3 = std::array<Real, 3>;
+
+inline Real dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Real3 operator+(const Real3& a, const Real3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Real3 operator-(const Real3& a, const Real3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Real3 operator*(const Real3& a, Real s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+inline Real length(const Real3& v) { return std::sqrt(dot(v, v)); }
+/// normalize(0) = 0.
+inline Real3 normalized(const Real3& v) { return length(v) > 0 ? v * (1 / length(v)) : Real3{0, 0, 0}; }
+template <class Number>
+Real3 real3(const std::array<Number, 3>& v) {
+  return {Real{v[0]}, Real{v[1]}, Real{v[2]}};
+}
+inline Real3 real3(const Color& c) { return {c.r, c.g, c.b}; }
+
+struct RealRange {
+  Real low = 0, high = 0;
+};
+/// factor * range, whichever sign the factor has.
+inline RealRange operator*(Real factor, const RealRange& r) { return {std::min(factor * r.low, factor * r.high), std::max(factor * r.low, factor * r.high)}; }
+inline RealRange operator+(const RealRange& a, const RealRange& b) { return {a.low + b.low, a.high + b.high}; }
+
+/// A light as seen from the eye's space: directions of length 1.
+struct RealLight {
+  Real3 ambient{}, diffuse{}, specular{};
+  bool directional = true;
+  Real3 position{}, spot_direction{};
+  Real spot_exponent = 0, spot_cutoff = 180;
+  Real3 attenuation{1, 0, 0};
+};
+/// Of a scene whose camera stands where the world's origin is.
+inline RealLight real_light(const Light& l) {
+  const Real3 xyz{l.position[0], l.position[1], l.position[2]};
+  RealLight r{real3(l.ambient), real3(l.diffuse), real3(l.specular)};
+  r.directional = l.position[3] == 0;
+  r.position = r.directional ? normalized(xyz) : xyz * (1 / Real{l.position[3]});
+  r.spot_direction = normalized(real3(l.spot_direction));
+  r.spot_exponent = l.spot_exponent;
+  r.spot_cutoff = l.spot_cutoff;
+  r.attenuation = {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic};
+  return r;
+}
+
+struct RealPoint {
+  Real3 normal{}, position{};
+};
+
+/// x^0 = 1 for every x.
+inline Real real_power(Real x, Real y) { return y == 0 ? 1 : x > 0 ? std::pow(x, y) : 0; }
+
+/// What one light does at one point. `slack` is how far the cosines of an implementation may be off.
+struct LightAtPoint {
+  Real att = 1, n_dot_l = 0, spot_cosine = 1, highlight_base = 0;
+  Real half_length = 2;                ///< |L + E|, Blinn's
+  RealRange spot{1, 1}, highlight{0, 0};
+
+  LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, Highlight kind, Real shininess, Real slack) {
+    const Real3 offset = light.directional ? light.position : light.position - point.position;
+    const Real distance = length(offset);
+    const Real3 l = light.directional ? light.position : normalized(offset);
+    if (distance == 0) slack = 0;  // nothing to round there: L is 0
+    if (!light.directional) {
+      const Real denominator = light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance * distance;
+      att = denominator > 0 ? 1 / denominator : 1e6L;
+    }
+    if (light.spot_cutoff != 180) {
+      spot_cosine = -dot(l, light.spot_direction);
+      const Real edge = light.spot_cutoff == 90 ? 0 : std::cos(light.spot_cutoff * std::numbers::pi_v<Real> / 180);
+      const Real inside = real_power(spot_cosine, light.spot_exponent);
+      const bool surely = spot_cosine >= edge + slack && spot_cosine > slack, maybe = spot_cosine >= edge - slack && spot_cosine > -slack;
+      spot = {surely ? inside : 0, maybe ? inside : 0};
+    }
+    n_dot_l = dot(point.normal, l);
+    const Real3 e = local_viewer ? normalized(point.position * -1) : Real3{0, 0, 1}, half = l + e;
+    half_length = length(half);
+    if (kind == Highlight::blinn)
+      highlight_base = dot(normalized(half), point.normal);
+    else
+      highlight_base = dot(point.normal * (2 * n_dot_l) - l, e);
+    const Real shine = real_power(highlight_base, shininess), reach = slack * std::max<Real>(length(point.normal), 1);
+    highlight = {n_dot_l > reach ? shine : 0, n_dot_l > -reach && (slack > 0 || n_dot_l > 0) ? shine : 0};
+  }
+};
+
+/// The colour of a point of a front face (else of a back face), clamped to 0..1.
+inline std::array<RealRange, 3> lit_color(const Material& material, std::span<const Light> lights, const LightModel& model, RealPoint point, Real slack, bool front = true) {
+  if (!front) point.normal = point.normal * -1;
+  std::array<RealRange, 3> sum;
+  const Real3 emission = real3(material.emission), scene = real3(model.ambient), ambient = real3(material.ambient), diffuse = real3(material.diffuse), specular = real3(material.specular);
+  for (std::size_t c = 0; c < 3; ++c) sum[c].low = sum[c].high = emission[c] + scene[c] * ambient[c];
+  for (const Light& given : lights) {
+    const RealLight light = real_light(given);
+    const LightAtPoint at(light, point, model.local_viewer, model.specular, material.shininess, slack);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Real even = light.ambient[c] * ambient[c] + std::max<Real>(at.n_dot_l, 0) * light.diffuse[c] * diffuse[c], shine = light.specular[c] * specular[c];
+      // The four corners of what may be: inside the cone or not, with the highlight or not.
+      RealRange all{};
+      bool first = true;
+      for (const Real s : {at.spot.low, at.spot.high})
+        for (const Real h : {at.highlight.low, at.highlight.high}) {
+          const Real term = at.att * s * (even + h * shine);
+          all = first ? RealRange{term, term} : RealRange{std::min(all.low, term), std::max(all.high, term)};
+          first = false;
+        }
+      sum[c] = sum[c] + all;
+    }
+  }
+  for (RealRange& s : sum) s = {std::clamp<Real>(s.low, 0, 1), std::clamp<Real>(s.high, 0, 1)};
+  return sum;
+}
+
+}  // namespace tessera::test
