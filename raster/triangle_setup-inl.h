@@ -87,23 +87,27 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
   return ((w - kBiasBits) << kFraction) + (b - kBiasBits);
 }
 
+/// What depth 0 is in a plane.
+template <int kFraction>
+inline constexpr std::uint64_t kPlaneZero = kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32Lift} << kUnorm32Fraction) + kUnorm32FractionLift : std::uint64_t{kUnormLift};
+
 /// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the first vertex's pixel.
 template <int kFraction>
-HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy, SamplePosition from, int tile_x, int tile_y, std::uint64_t lift) {
+HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy, SamplePosition from, int tile_x, int tile_y) {
   const std::int32_t x = g.x[0][i] - from.x, y = g.y[0][i] - from.y;
   const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
-  return ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed_modulo<kFraction>(to_center) + dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
+  return kPlaneZero<kFraction> + (std::uint64_t{g.z[0][i]} << kFraction) + fixed_modulo<kFraction>(to_center) + dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
          dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
 }
 
 /// The planes of a group's unorm depths in fixed point.
 template <int kFraction>
-HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y, std::uint64_t lift) {
+HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y) {
   for (int i = 0; i < kGroupSize; ++i) {
     const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]), dy = fixed_modulo<kFraction>(g.depth_dy[i]);
     g.fixed_dx[i] = dx;
     g.fixed_dy[i] = dy;
-    g.fixed_base[i] = fixed_base<kFraction>(g, i, dx, dy, {0, 0}, tile_x, tile_y, lift);
+    g.fixed_base[i] = fixed_base<kFraction>(g, i, dx, dy, {0, 0}, tile_x, tile_y);
   }
 }
 
@@ -112,7 +116,7 @@ struct ExactDepth {
   std::uint64_t dx, dy, base;
 };
 template <int kFraction>
-ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int tile_x, int tile_y, std::uint64_t lift) {
+ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int tile_x, int tile_y) {
   using Wide = __int128;
   const auto area = static_cast<std::int64_t>(g.area[i]);
   const std::int64_t dz1 = std::int64_t{g.z[1][i]} - g.z[0][i], dz2 = std::int64_t{g.z[2][i]} - g.z[0][i];
@@ -125,30 +129,42 @@ ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int t
   const std::int32_t x = g.x[0][i] - from.x, y = g.y[0][i] - from.y;
   const std::uint64_t dx = fixed(Wide{nx} * kSubpixelScale), dy = fixed(Wide{ny} * kSubpixelScale);
   return {dx, dy,
-          ((std::uint64_t{g.z[0][i]} + lift) << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
+          kPlaneZero<kFraction> + (std::uint64_t{g.z[0][i]} << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
               dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)})};
 }
 
 /// Depth planes of a group: in doubles where those are good for 2^-8 of a depth word, else exactly.
 template <int kFraction>
-HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroupSize], int tile_x, int tile_y, std::uint64_t lift) {
-  set_up_fixed_depth<kFraction>(g, tile_x, tile_y, lift);
-  alignas(64) std::int32_t steep[kGroupSize];
+HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroupSize], int tile_x, int tile_y) {
+  set_up_fixed_depth<kFraction>(g, tile_x, tile_y);
+  // A gradient is off by four roundings, 2^-51 of its terms, and counts once for each pixel from the first vertex on, whose pixel's centre is less than
+  // two away. Fixed point rounds by half of its last place for each pixel. In places of fixed point, and times the area:
+  constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21, kSteps = 1.0 / (2 * kSubpixelScale), kLift = kFraction == 32 ? kUnormLift : kUnorm32FractionLift;
+  alignas(64) double off[kGroupSize];
+  alignas(64) std::int32_t rough[kGroupSize];
   for (int i = 0; i < kGroupSize; ++i) {
-    // A gradient is off by a few 2^-53 of its terms, and counts once for each pixel from the first vertex on.
     const double dz1 = __builtin_fabs(z[1][i] - z[0][i]), dz2 = __builtin_fabs(z[2][i] - z[0][i]);
     const double a1 = __builtin_fabs(static_cast<double>(g.a[1][i])), a2 = __builtin_fabs(static_cast<double>(g.a[2][i])), b1 = __builtin_fabs(static_cast<double>(g.b[1][i])), b2 = __builtin_fabs(static_cast<double>(g.b[2][i]));
-    const double terms = (a1 + b1) * dz1 + (a2 + b2) * dz2, reach = a1 + a2 + b1 + b2;  // reach in 1/256 pixel
-    steep[i] = terms * reach > 0x1p42 * g.area[i] ? 1 : 0;
+    const double terms = (a1 + b1) * dz1 + (a2 + b2) * dz2, reach = a1 + a2 + b1 + b2 + 4 * kSubpixelScale;  // reach in 1/256 pixel
+    off[i] = (terms * kGradients + g.area[i] * kSteps) * reach;
+    rough[i] = off[i] > kLift * g.area[i] ? 1 : 0;
   }
-  g.steep = 0;
+  constexpr double kTolerated = kFraction == 32 ? 0x1p24 : 0x1p22;  // 2^-8 of a word
+  g.rough = g.steep = 0;
   for (int i = 0; i < g.count; ++i) {
-    if (steep[i] == 0 || (g.mask >> i & 1) == 0) continue;
+    if (rough[i] == 0 || (g.mask >> i & 1) == 0) continue;
+    g.rough |= 1u << i;
+    if (off[i] <= kTolerated * g.area[i]) {
+      g.further[i] = static_cast<std::uint64_t>(off[i] / g.area[i]);
+      g.fixed_base[i] += g.further[i];
+      continue;
+    }
     g.steep |= 1u << i;
-    const ExactDepth exact = exact_depth<kFraction>(g, i, {0, 0}, tile_x, tile_y, lift);
+    g.further[i] = std::uint64_t{1} << 17;  // the steps alone, of the widest triangle
+    const ExactDepth exact = exact_depth<kFraction>(g, i, {0, 0}, tile_x, tile_y);
     g.fixed_dx[i] = exact.dx;
     g.fixed_dy[i] = exact.dy;
-    g.fixed_base[i] = exact.base;
+    g.fixed_base[i] = exact.base + g.further[i];
   }
 }
 
@@ -173,9 +189,9 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
     g.depth_dy[i] = (g.b[1][i] * dz1 + g.b[2][i] * dz2) * scale;
   }
   if (kind == DepthKind::unorm32)
-    set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
+    set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y);
   else if (kind != DepthKind::float32)
-    set_up_unorm_depth<kUnormFraction>(g, z, tile_x, tile_y, 0);
+    set_up_unorm_depth<kUnormFraction>(g, z, tile_x, tile_y);
 }
 
 /// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has unorm depth, set_up_depth
@@ -202,15 +218,16 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
     const SamplePosition at = positions[s];
     if (kind == DepthKind::unorm32) {
       for (int i = 0; i < kGroupSize; ++i)
-        to.fixed_base[s][i] = fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift));
+        to.fixed_base[s][i] = fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
     } else if (kind != DepthKind::none && kind != DepthKind::float32) {
-      for (int i = 0; i < kGroupSize; ++i) to.fixed_base[s][i] = fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y, 0);
+      for (int i = 0; i < kGroupSize; ++i) to.fixed_base[s][i] = fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
     }
     if (kind == DepthKind::none || kind == DepthKind::float32) continue;
-    for (std::uint32_t left = g.steep; left != 0; left &= left - 1) {
+    for (std::uint32_t left = g.rough; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      to.fixed_base[s][i] = (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y, static_cast<std::uint64_t>(kUnorm32Lift))
-                                                        : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y, 0)).base;
+      if ((g.steep >> i & 1) != 0)
+        to.fixed_base[s][i] = (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y) : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y)).base;
+      to.fixed_base[s][i] += g.further[i];
     }
   }
 }

@@ -16,6 +16,9 @@ inline constexpr int kUnormFraction = 32;
 /// Unorm32 uses the whole depth word, so there is no margin at the ends: 34.30 fixed point, lifted by 2^32 and cut to range.
 inline constexpr int kUnorm32Fraction = 30;
 inline constexpr std::int64_t kUnorm32Lift = std::int64_t{1} << 32;
+// Planes are lifted by what rounding may take from them, so that at no pixel they fall below the least of the vertices' words, where a level may
+// end; above the greatest there is room for both. For nearly all triangles a 2^-19th of a word is enough.
+inline constexpr std::int64_t kUnormLift = std::int64_t{1} << (kUnormFraction - 19), kUnorm32FractionLift = std::int64_t{1} << (kUnorm32Fraction - 19);
 
 /// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
 struct TriangleGroup {
@@ -37,7 +40,9 @@ struct TriangleGroup {
   alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
   std::uint32_t mask = 0;  ///< those with a pixel in the tile
-  std::uint32_t steep = 0;  ///< of these, those whose unorm depth is worked out in exact integers
+  std::uint32_t rough = 0;  ///< of these, those whose unorm depth is rounded by more than planes are lifted by, and so lifted further
+  std::uint32_t steep = 0;  ///< of those, the ones whose unorm depth is worked out in exact integers
+  std::uint64_t further[kGroupSize];  ///< for the rough ones
 };
 
 /// What differs of a group from sample to sample: edges, and the value of unorm depth planes at the tile's first pixel.
