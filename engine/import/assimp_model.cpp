@@ -83,7 +83,7 @@ class Converter {
 
   void add_mesh(unsigned number, const aiMatrix4x4& world) {
     const aiMesh& mesh = *scene_.mMeshes[number];
-    if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;
+    if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || !mesh.HasPositions() || !mesh.HasFaces()) return;
     const auto first = static_cast<std::uint32_t>(model_.mesh.vertex_count());
     aiMatrix3x3 normal_matrix(world);
     const bool mirrors = normal_matrix.Determinant() < 0;
