@@ -18,7 +18,7 @@ add_custom_command(OUTPUT ${tessera_embedded}
   COMMENT "Embedding the teapot and the built-in scene" VERBATIM)
 
 file(GLOB tessera_scene_sources CONFIGURE_DEPENDS engine/scene/*.cpp engine/import/*.cpp engine/imageio/*.cpp)
-set(tessera_import_sources engine/import/import_module.cpp engine/import/assimp_material.cpp engine/import/assimp_view.cpp engine/import/gltf_view.cpp)
+set(tessera_import_sources engine/import/import_module.cpp engine/import/assimp_material.cpp engine/import/assimp_model.cpp engine/import/assimp_view.cpp engine/import/gltf_view.cpp)
 list(TRANSFORM tessera_import_sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 list(REMOVE_ITEM tessera_scene_sources ${tessera_import_sources} ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/module.cpp ${CMAKE_CURRENT_SOURCE_DIR}/engine/imageio/indexed_png.cpp)
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})

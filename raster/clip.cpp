@@ -35,6 +35,9 @@ ClipVertex cut(const ClipVertex& inner, const ClipVertex& outer, double inner_di
   return v;
 }
 
+// False where the eye's plane is touched in a single point, which is no pixel; and where sums of the largest numbers overflowed.
+bool is_usable(const ClipPosition& p) { return p.w > 0 && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w); }
+
 // What of a polygon is inside of one plane, vertex by vertex.
 template <class Keep>
 void keep_inside(const VertexTransform& transform, ClipCode plane, const ClipVertex* vertices, int count, int attribute_count, const Keep& keep) {
@@ -62,7 +65,7 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
     if (polygon.count < 3) return {};
   }
   for (int i = 0; i < polygon.count; ++i)
-    if (!(polygon.vertices[i].position.w > 0)) return {};  // touches the eye's plane in a single point: no pixel
+    if (!is_usable(polygon.vertices[i].position)) return {};
   return polygon;
 }
 
@@ -75,7 +78,7 @@ std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vect
     if (polygon.size() < 3) return {};
   }
   for (const ClipVertex& v : polygon)
-    if (!(v.position.w > 0)) return {};
+    if (!is_usable(v.position)) return {};
   return polygon;
 }
 
@@ -87,7 +90,7 @@ bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uin
     if (d0 < 0) line[0] = cut(line[1], line[0], d1, d0, attribute_count);
     if (d1 < 0) line[1] = cut(line[0], line[1], d0, d1, attribute_count);
   }
-  return line[0].position.w > 0 && line[1].position.w > 0;
+  return is_usable(line[0].position) && is_usable(line[1].position);
 }
 
 bool is_between_sides(const ClipPosition& p) { return std::abs(p.x) <= p.w && std::abs(p.y) <= p.w; }

@@ -174,14 +174,22 @@ std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
   return code;
 }
 
+// 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what was cut at the guard band
+// may lie beyond it, by any factor, and is put back.
+static std::int32_t snapped(double pixels) {
+  constexpr double kFarthest = kGuardBandPixels * kSubpixelScale;
+  return static_cast<std::int32_t>(std::clamp(std::floor(std::fma(pixels, kSubpixelScale, 0.5)), -kFarthest, kFarthest));
+}
+
 WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   WindowVertex v;
   // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex exactly.
-  v.x = t.center_x + static_cast<std::int32_t>(std::floor(std::fma(p.x / p.w * t.half_width, 256.0, 0.5)));
-  v.y = t.center_y - static_cast<std::int32_t>(std::floor(std::fma(p.y / p.w * t.half_height, 256.0, 0.5)));
+  v.x = t.center_x + snapped(p.x / p.w * t.half_width);
+  v.y = t.center_y - snapped(p.y / p.w * t.half_height);
   v.rw = static_cast<float>(1.0 / p.w);
   const double unit = t.reversed ? p.z / p.w : std::fma(p.z / p.w, 0.5, 0.5);
-  const double z = std::clamp(std::fma(unit, t.depth_far - t.depth_near, t.depth_near), 0.0, 1.0);
+  const double ranged = std::fma(unit, t.depth_far - t.depth_near, t.depth_near);
+  const double z = ranged > 0 ? std::min(ranged, 1.0) : 0;  // also where an infinite quotient met a range of no depth
   if (t.depth == DepthKind::float32) {
     v.z = depth_word(DepthKind::float32, z);
   } else if (t.depth != DepthKind::none) {

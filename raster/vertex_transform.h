@@ -54,7 +54,8 @@ struct VertexTransform {
 
 ClipPosition clip_position(const VertexTransform& transform, double x, double y, double z, double w);
 std::uint8_t clip_code(const VertexTransform& transform, const ClipPosition& position);
-/// The scalar twin of the kernel, and the way for single vertices that clipping makes. @pre position.w > 0
+/// The scalar twin of the kernel, and the way for single vertices that clipping makes; what lies beyond the guard band is put onto its border.
+/// @pre position.w > 0, all are finite
 WindowVertex project(const VertexTransform& transform, const ClipPosition& position);
 
 /// Transforms `count` vertices, at most kVertexBatch. `positions` holds x y z or x y z w; `components` is 3 or 4. Vertices with a code are left

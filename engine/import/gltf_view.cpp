@@ -23,9 +23,7 @@ constexpr int kDeepestNode = 500;
 constexpr int kMostVisits = 1000000;
 
 // The text of a .gltf, or the first chunk of a .glb: "glTF", version, length, length of the chunk, "JSON".
-std::string json_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
+std::string json_text(const std::string& bytes) {
   if (!bytes.starts_with("glTF")) return bytes;
   std::uint32_t header[5] = {};
   if (bytes.size() < sizeof header) return {};
@@ -130,7 +128,12 @@ class ViewReader {
 }  // namespace
 
 bool add_gltf_view(const std::string& path, Model& model) {
-  const Json file = Json::parse(json_text(path), nullptr, false);
+  std::ifstream file(path, std::ios::binary);
+  return add_gltf_view_of_bytes(std::string(std::istreambuf_iterator<char>(file), {}), model);
+}
+
+bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
+  const Json file = Json::parse(json_text(bytes), nullptr, false);
   const Json version = file.is_object() ? file.value("/asset/version"_json_pointer, Json()) : Json();
   if (!version.is_string() || !version.get<std::string>().starts_with("2")) return false;
   try {

@@ -13,5 +13,7 @@ namespace tessera {
 ///   spot: the cutoff is the outer angle; the exponent halves the light where glTF's ramp between both angles does
 /// False, and nothing is added, if the file is none of glTF 2.
 bool add_gltf_view(const std::string& path, Model& model);
+/// The same from the file's bytes.
+bool add_gltf_view_of_bytes(const std::string& bytes, Model& model);
 
 }  // namespace tessera

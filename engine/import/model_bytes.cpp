@@ -81,8 +81,8 @@ class Reader {
     if constexpr (kIsPlain<T>) {
       list(elements);
     } else {
-      elements.resize(count(1));
-      for (T& element : elements) members(*this, element);
+      // One by one: what a wrong count promises takes no memory.
+      for (std::size_t left = count(1); left > 0; --left) members(*this, elements.emplace_back());
     }
   }
   template <class T>

@@ -43,6 +43,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
     const std::string path = (std::filesystem::path(folder_) / name).string();
     std::string text;
     try {
+      refuse_endless_file(path);
       text = read_text_file(path);
     } catch (const Error& missing) {
       *warning += std::string(missing.what()) + "\n";

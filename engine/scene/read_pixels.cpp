@@ -3,6 +3,7 @@
 
 #include "engine/imageio/picture.h"
 #include "engine/scene/read_scene.h"
+#include "engine/scene/text_file.h"
 
 namespace tessera {
 namespace {
@@ -55,8 +56,13 @@ void read_row(const Value& value, std::size_t bytes, std::vector<std::uint8_t>& 
 std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder, ModelCache& cache) {
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
   auto picture = cache.pictures.find(path.string());
-  if (picture == cache.pictures.end())
-    picture = cache.pictures.emplace(path.string(), file.checked([&] { return std::make_shared<const Picture>(read_picture(path.string())); })).first;
+  if (picture == cache.pictures.end()) {
+    const auto read = [&] {
+      refuse_endless_file(path.string());
+      return std::make_shared<const Picture>(read_picture(path.string()));
+    };
+    picture = cache.pictures.emplace(path.string(), file.checked(read)).first;
+  }
   return picture->second;
 }
 

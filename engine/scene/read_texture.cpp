@@ -3,6 +3,7 @@
 
 #include "engine/imageio/picture.h"
 #include "engine/scene/read_scene.h"
+#include "engine/scene/text_file.h"
 
 namespace tessera {
 namespace {
@@ -47,8 +48,13 @@ std::shared_ptr<const Texture> read_texture(const Value& value, const std::strin
   std::string key = path;
   for (const int part : {static_cast<int>(sampler.mag), static_cast<int>(sampler.min), static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)}) key += '\n' + std::to_string(part);
   auto texture = cache.textures.find(key);
-  if (texture == cache.textures.end())
-    texture = cache.textures.emplace(key, file.checked([&] { return std::make_shared<const Texture>(texture_of(read_picture(path), sampler)); })).first;
+  if (texture == cache.textures.end()) {
+    const auto read = [&] {
+      refuse_endless_file(path);
+      return std::make_shared<const Texture>(texture_of(read_picture(path), sampler));
+    };
+    texture = cache.textures.emplace(key, file.checked(read)).first;
+  }
   return texture->second;
 }
 

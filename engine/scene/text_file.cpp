@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "engine/tessera/tessera.hpp"
@@ -18,6 +19,13 @@ std::string read_text_file(const std::string& path) {
   while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) text.append(block, count);
   if (std::ferror(file.get())) fail(errno);  // a folder opens, and fails here
   return text;
+}
+
+void refuse_endless_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;  // what is missing is told by who reads it
+  const fs::file_status status = fs::status(path, unknown);
+  if (fs::is_other(status)) throw Error("cannot read \"" + path + "\": it is a device or a pipe, expected a file");
 }
 
 }  // namespace tessera

@@ -8,4 +8,7 @@ namespace tessera {
 /// @throws Error, naming the file and the reason, for one that is missing, is a folder, or cannot be read.
 std::string read_text_file(const std::string& path);
 
+/// @throws Error for a device or a pipe, which may have no end. For files that other files name: what people type may be a pipe.
+void refuse_endless_file(const std::string& path);
+
 }  // namespace tessera

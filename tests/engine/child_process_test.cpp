@@ -100,5 +100,20 @@ TEST(ModelBytes, OfABrokenProcessAreRefused) {
   }
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need more memory than a limit leaves
+TEST(ModelBytes, OfABrokenProcessTakeNoMoreMemoryThanTheyAreLong) {
+  constexpr std::size_t kParts = 16 << 20;
+  std::string bytes(40, '\0');  // five empty arrays, then parts
+  bytes.append(reinterpret_cast<const char*>(&kParts), sizeof kParts);
+  bytes.append(kParts, '\xff');  // the name of the first is longer than all that follows
+  try {
+    run_in_child("reading", {.memory_bytes = 256 << 20}, [&] { return to_bytes(model_from_bytes(bytes, "file")); });
+    FAIL() << "bytes of no model became one";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "file: the reading process sent no sound model");
+  }
+}
+#endif
+
 }  // namespace
 }  // namespace tessera

@@ -150,6 +150,42 @@ TEST(Clip, OfTrianglesBehindTheEyeLeavesNothing) {
   EXPECT_EQ(clip_triangle(t, touching, codes_of(t, touching), 0).count, 0);
 }
 
+// Sizes from 2^-1000 to 2^1023 in one triangle, where a cut has no digit left of w: what is drawn of it, if anything, is a triangle in
+// the guard band all the same.
+TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
+  constexpr std::int64_t kFarthest = std::int64_t{kGuardBandPixels} * kSubpixelScale;
+  RandomClip random{std::mt19937(11)};
+  VertexTransform t = identity(24);
+  t.depth = DepthKind::unorm32;
+  std::size_t kept = 0;
+  const auto check = [&](const ClipPosition& p) {
+    const WindowVertex v = project(t, p);
+    EXPECT_LE(std::abs(std::int64_t{v.x} - t.center_x), kFarthest);
+    EXPECT_LE(std::abs(std::int64_t{v.y} - t.center_y), kFarthest);
+    ++kept;
+  };
+  for (int round = 0; round < (long_tests() ? 1000000 : 50000); ++round) {
+    t.depth_far = round % 3 == 0 ? 0 : 1;
+    const auto size = [&] { return std::ldexp(random.in(-1, 1), round % 2 == 0 ? static_cast<int>(random.in(-1000, 1024)) : static_cast<int>(random.in(1000, 1025))); };
+    ClipVertex v[3];
+    for (ClipVertex& c : v) {
+      c.position = {size(), size(), size(), size()};
+      if (random.in(0, 1) < 0.5) c.position.z = 0;
+      if (random.in(0, 1) < 0.5) c.position.w = std::abs(c.position.w);
+    }
+    const std::uint8_t codes = codes_of(t, v);
+    if ((codes & kNonFinite) != 0 || codes == 0) continue;
+    const ClippedPolygon polygon = clip_triangle(t, v, codes, 0);
+    for (int i = 0; i < polygon.count; ++i) check(polygon.vertices[i].position);
+    for (const ClipVertex& corner : clip_polygon(t, {v[0], v[1], v[2]}, codes, 0)) check(corner.position);
+    ClipVertex line[2] = {v[0], v[1]};
+    const std::uint8_t line_codes = clip_code(t, v[0].position) | clip_code(t, v[1].position);
+    if (line_codes != 0 && clip_line(t, line, line_codes, 0))
+      for (const ClipVertex& end : line) check(end.position);
+  }
+  EXPECT_GT(kept, 10000u);
+}
+
 // From vertices to pixels: a pixel is painted where a ray through its centre hits the triangle between the planes; or where one
 // within 1/64 pixel does or does not: cut points are snapped.
 TEST(Clip, PaintsWhatARayHits) {

@@ -1,0 +1,35 @@
+#include "tests/fuzz/files.h"
+
+#include "engine/import/model_bytes.h"
+#include "engine/import/model_normals.h"
+#include "engine/import/obj.h"
+#include "engine/scene/text_file.h"
+#include "tests/fuzz/target.h"
+
+namespace tessera {
+
+std::map<std::string, std::string, std::less<>> fuzz::files;
+
+std::string read_text_file(const std::string& path) {
+  const auto found = fuzz::files.find(path);
+  if (found == fuzz::files.end()) throw Error("cannot read \"" + path + "\": No such file or directory");
+  return found->second;
+}
+
+void refuse_endless_file(const std::string&) {}
+
+// As the real one for OBJ files, without a process of its own.
+Model import_model(const std::string& path, ModelUse use, const std::function<bool()>&) {
+  Model model = import_obj(path);
+  if (use == ModelUse::display) {
+    if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
+    wind_by_normals(model.mesh);
+  }
+  const std::string bytes = to_bytes(model);
+  std::optional<Model> received;
+  if (const auto error = fuzz::error_of([&] { received = model_from_bytes(bytes, path); })) fuzz::finding("what import_obj made is refused: " + *error);
+  fuzz::require(to_bytes(*received) == bytes, "a model changes on its way between processes");
+  return std::move(*received);
+}
+
+}  // namespace tessera

@@ -1,0 +1,21 @@
+// What comes from the process that reads a model, should that process have broken.
+#include "engine/import/model_bytes.h"
+#include "engine/import/model_normals.h"
+#include "engine/scene/model_scene.h"
+#include "tests/fuzz/render_small.h"
+#include "tests/fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace tessera;
+  using namespace tessera::fuzz;
+  const std::string bytes(data, data + size);
+  std::optional<Model> model;
+  if (error_of([&] { model = model_from_bytes(bytes, "model"); })) return 0;
+  require(to_bytes(*model) == bytes, "a model changes on its way between processes");
+  error_of([&] { render_small(model_scene(*model, "model", 24, 32)); });
+  // The reading process has the same model in its hands.
+  add_creased_normals(model->mesh);
+  wind_by_normals(model->mesh);
+  error_of([&] { render_small(model_scene(*model, "model", 32, 24)); });
+  return 0;
+}

@@ -1,0 +1,48 @@
+// States, cameras and lights of a fuzzer's bytes.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "engine/tessera/tessera.hpp"
+#include "tests/fuzz/bytes.h"
+
+namespace tessera::fuzz {
+
+class StateReader {
+ public:
+  /// @param window  where all that the states let through is to stay; absent: anywhere
+  StateReader(Bytes& from, const FrameBufferFormat& format, std::optional<Rect> window) : from_(from), format_(format), window_(window) {}
+
+  Color any_color();
+  /// Components of 0 .. 1.
+  Color unit_color();
+  Matrix matrix();
+  Camera camera();
+  Light light();
+  LightModel light_model();
+  /// Mostly within or around the buffer.
+  Rect rect();
+  /// A scissor, where the window asks for one.
+  std::optional<Rect> scissor();
+  DrawState draw_state(const std::deque<Texture>& textures);
+  FragmentState fragment_state();
+  Clear clear();
+  Accum accum();
+
+ private:
+  bool is_index() const { return format_.color_mode == ColorMode::index; }
+  /// Nearly always what the buffer can do.
+  bool wants(bool possible) { return possible ? from_.byte() % 3 == 0 : from_.rarely(); }
+  Material material();
+  StencilFace stencil_face();
+  std::array<bool, 4> color_mask();
+  DepthState depth_state();
+  void read_operations(DrawState& state);
+
+  Bytes& from_;
+  const FrameBufferFormat& format_;
+  std::optional<Rect> window_;
+};
+
+}  // namespace tessera::fuzz

@@ -1,0 +1,29 @@
+// Renders a scene as the program does, on a few pixels.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/imageio/picture.h"
+#include "engine/scene/scene.h"
+
+namespace tessera::fuzz {
+
+/// Scenes of many triangles are left out: they would take the fuzzer's time, and show nothing new.
+/// @throws Error as the program would.
+inline void render_small(Scene scene) {
+  constexpr int kMostPixels = 32;
+  constexpr std::size_t kMostTriangles = 20000;
+  apply({.width = std::min(scene.framebuffer.width, kMostPixels), .height = std::min(scene.framebuffer.height, kMostPixels)}, scene);
+  std::size_t triangles = 0;
+  for (const SceneCommand& command : scene.frame)
+    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) triangles += scene.meshes[draw->mesh].triangle_count();
+  if (triangles > kMostTriangles) return;
+  FrameBuffer buffer(scene.framebuffer);
+  Frame frame(buffer);
+  record(scene, frame);
+  for (std::size_t i = 0; i < frame.draw_count(); ++i) frame.explain(i);
+  Picture picture(scene.framebuffer.width, scene.framebuffer.height);
+  Renderer({.threads = 1}).finish(frame, picture.target());
+}
+
+}  // namespace tessera::fuzz
