@@ -35,9 +35,25 @@ add_library(tessera_import SHARED ${tessera_import_sources} engine/import/model_
 target_link_libraries(tessera_import PRIVATE tessera_options tessera assimp::assimp nlohmann_json::nlohmann_json)
 set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${tessera_soversion})
 
+set(tessera_selftest ${CMAKE_CURRENT_BINARY_DIR}/selftest_scenes.cpp)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/engine/cli/selftest_scenes.txt)
+file(STRINGS engine/cli/selftest_scenes.txt tessera_selftest_files)
+list(TRANSFORM tessera_selftest_files REPLACE " .*" ".json")
+list(TRANSFORM tessera_selftest_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/tests/scenes/)
+foreach(file ${tessera_selftest_files})
+  if(NOT EXISTS ${file})
+    message(FATAL_ERROR "engine/cli/selftest_scenes.txt names a scene that there is none of: ${file}")
+  endif()
+endforeach()
+add_custom_command(OUTPUT ${tessera_selftest}
+  COMMAND ${CMAKE_COMMAND} -DLIST=${CMAKE_CURRENT_SOURCE_DIR}/engine/cli/selftest_scenes.txt -DSCENES=${CMAKE_CURRENT_SOURCE_DIR}/tests/scenes
+          -DHASHES=${CMAKE_CURRENT_SOURCE_DIR}/tests/picture_hashes.txt -DOUTPUT=${tessera_selftest} -P ${CMAKE_CURRENT_SOURCE_DIR}/engine/cli/embed_selftest.cmake
+  DEPENDS engine/cli/embed_selftest.cmake engine/cli/selftest_scenes.txt tests/picture_hashes.txt ${tessera_selftest_files}
+  COMMENT "Embedding the scenes of the self-test" VERBATIM)
+
 # The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS engine/cli/*.cpp)
-add_executable(tessera_cli ${tessera_cli_sources} engine/parallel.cpp)
+add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest} engine/parallel.cpp)
 target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio tessera_import)

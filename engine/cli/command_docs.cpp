@@ -137,7 +137,7 @@ std::string man_page(const std::vector<CommandDoc>& commands, const std::string&
     if (!command.examples.empty()) text += ".PP\n.nf\n" + roff(command.examples) + "\n.fi\n";
   }
   text += ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\nthreads, as for \\-\\-threads\n.TP\n.B NO_COLOR\npictures in the terminal are made of letters\n"
-          ".SH EXIT STATUS\n0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference, 130 it was interrupted\n";
+          ".SH EXIT STATUS\n0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference or the self\\-test found something wrong, 130 it was interrupted\n";
   return text;
 }
 

@@ -41,7 +41,7 @@ std::string count_of(std::vector<std::string> endings(), const char* what) {
 
 }  // namespace
 
-std::string info_text() {
+std::string machine_text() {
   std::vector<std::string> sets;
   for (const InstructionSet set : available_instruction_sets()) sets.emplace_back(name(set));
   std::string text = "tessera            " + std::string(version()) + "\n";
@@ -53,7 +53,11 @@ std::string info_text() {
   text += "CPU                " + cpu_name() + "\n";
   text += "cores              " + std::to_string(available_cores()) + " for this process\n";
   text += "caches             L1 " + cache(_SC_LEVEL1_DCACHE_SIZE) + ", L2 " + cache(_SC_LEVEL2_CACHE_SIZE) + ", L3 " + cache(_SC_LEVEL3_CACHE_SIZE) + "\n";
-  text += "instruction sets   " + listed(sets) + "; chosen: " + sets.front() + "\n";
+  return text + "instruction sets   " + listed(sets) + "; chosen: " + sets.front() + "\n";
+}
+
+std::string info_text() {
+  std::string text = machine_text();
   text += "image module       " + count_of(module_endings, "written") + "\n";
   return text + "import module      " + count_of(model_endings, "read") + "\n";
 }

@@ -1,5 +1,5 @@
-// The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference, 130 it was
-// interrupted; then one line on stderr says why.
+// The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference or the self-test
+// found something wrong, 130 it was interrupted; then one line on stderr says why.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +16,7 @@
 #include "engine/cli/parse_overrides.h"
 #include "engine/cli/printable.h"
 #include "engine/cli/render_command.h"
+#include "engine/cli/selftest_command.h"
 #include "engine/scene/suggest.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -38,7 +39,13 @@ constexpr const char* kProgramExamples = R"(Examples:
   tessera render                                  the built-in teapot, as tessera.png
   tessera render --help                           all that it can render, and how
   tessera info                                    this machine, and what is used of it
+  tessera selftest                                is what it renders right?
   tessera completion bash > /etc/bash_completion.d/tessera)";
+
+constexpr const char* kSelftestExamples = R"(Examples:
+  tessera selftest
+  tessera selftest --hashes > here.txt            on one machine
+  tessera selftest --expect here.txt              on another)";
 
 using Names = std::vector<std::string_view>;
 
@@ -153,6 +160,19 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   return command;
 }
 
+CLI::App* add_selftest(CLI::App& program, SelftestRequest& request) {
+  CLI::App* command = program.add_subcommand("selftest", "Render scenes and exact cases in every way that this machine has, and say whether all of it is right");
+  command->footer(kSelftestExamples);
+  command->option_defaults()->take_last();
+  command->add_option("--expect", request.expected, "hashes that the scenes should come to, from another machine or version; default: those of this version")->option_text("FILE");
+  command->add_flag("--hashes", request.hashes, "print what the scenes come to here, as --expect reads it, and nothing else");
+  command->add_option("--threads", request.threads, "threads beside one; default: TESSERA_THREADS, or all cores")->option_text("N")->check(integer_from(1, 1024));
+  command->parse_complete_callback([&request] {
+    if (request.hashes && !request.expected.empty()) throw CLI::ValidationError("--hashes", "it prints what scenes come to and compares nothing, --expect compares");
+  });
+  return command;
+}
+
 // Names of the long options and of the subcommands, for suggestions.
 Names names_of(const CLI::App& app) {
   Names names;
@@ -174,13 +194,23 @@ std::string unexpected_argument(const CLI::App& program) {
   if (command != nullptr) return message;
   std::error_code error;
   if (std::filesystem::exists(word, error)) return message + "; did you mean \"tessera render " + word + "\"?";
-  return "unknown command \"" + word + "\"" + did_you_mean(word, Names{"render", "info", "formats", "completion", "man"});
+  return "unknown command \"" + word + "\"" + did_you_mean(word, Names{"render", "info", "selftest", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
   const bool in_command = !program.get_subcommands().empty();
   std::cerr << "tessera: error: " << printable(message) << " (see tessera " << (in_command ? program.get_subcommands().front()->get_name() + " " : "") << "--help)\n";
   return kBadUsage;
+}
+
+/// Threads that no option chose are those of TESSERA_THREADS. Returns what is wrong with it; empty: nothing.
+std::string threads_of_environment(int& threads) {
+  const char* const value = std::getenv("TESSERA_THREADS");
+  if (value == nullptr || *value == '\0' || threads != 0) return "";
+  std::string text = value;
+  if (std::string wrong = integer_from(1, 1024)(text); !wrong.empty()) return wrong;
+  threads = std::stoi(text);
+  return "";
 }
 
 std::vector<CommandDoc> docs_of(const CLI::App& program) {
@@ -209,6 +239,8 @@ int run(int argument_count, char** arguments) {
   RenderRequest request;
   CLI::App* render_command = add_render(program, request);
   CLI::App* info = program.add_subcommand("info", "Say what this machine is and what is used of it");
+  SelftestRequest selftest_request;
+  CLI::App* selftest_command = add_selftest(program, selftest_request);
   CLI::App* formats = program.add_subcommand("formats", "List the formats of scenes, models and pictures");
   CLI::App* completion = program.add_subcommand("completion", "Print a completion script for a shell");
   std::string shell;
@@ -228,13 +260,10 @@ int run(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), program);
   }
+  if (int* const threads = render_command->parsed() ? &request.options.threads : selftest_command->parsed() ? &selftest_request.threads : nullptr; threads != nullptr)
+    if (const std::string wrong = threads_of_environment(*threads); !wrong.empty()) return usage_error("TESSERA_THREADS: " + wrong, program);
+  if (selftest_command->parsed()) return selftest(selftest_request);
   if (render_command->parsed()) {
-    const char* const threads = std::getenv("TESSERA_THREADS");
-    if (threads != nullptr && *threads != '\0' && request.options.threads == 0) {
-      std::string value = threads;
-      if (const std::string wrong = integer_from(1, 1024)(value); !wrong.empty()) return usage_error("TESSERA_THREADS: " + wrong, program);
-      request.options.threads = std::stoi(value);
-    }
     if (!request.stats_name.empty()) request.stats = request.stats_name == "json" ? StatsFormat::json : StatsFormat::text;
     return render(std::move(request));
   }

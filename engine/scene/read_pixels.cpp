@@ -38,21 +38,6 @@ FragmentState read_state(const Object& object, const Scene& scene) {
           .scissor = s.scissor};
 }
 
-int hexadecimal_digit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; }
-
-// Whole bytes, two digits each.
-void read_row(const Value& value, std::size_t bytes, std::vector<std::uint8_t>& bits) {
-  const std::string expected = std::to_string(2 * bytes) + " hexadecimal digits";
-  if (!value.json().is_string()) value.fail(expected);
-  const std::string& digits = value.text();
-  if (digits.size() != 2 * bytes) value.fail(expected);
-  for (std::size_t i = 0; i < digits.size(); i += 2) {
-    const int high = hexadecimal_digit(digits[i]), low = hexadecimal_digit(digits[i + 1]);
-    if (high < 0 || low < 0) value.fail(expected);
-    bits.push_back(static_cast<std::uint8_t>(16 * high + low));
-  }
-}
-
 std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder, ModelCache& cache) {
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
   auto picture = cache.pictures.find(path.string());
@@ -66,7 +51,21 @@ std::shared_ptr<const Picture> read_image_file(const Value& file, const std::str
   return picture->second;
 }
 
+int hexadecimal_digit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; }
+
 }  // namespace
+
+void read_hexadecimal_row(const Value& value, std::size_t bytes, std::vector<std::uint8_t>& row) {
+  const std::string expected = std::to_string(2 * bytes) + " hexadecimal digits";
+  if (!value.json().is_string()) value.fail(expected);
+  const std::string& digits = value.text();
+  if (digits.size() != 2 * bytes) value.fail(expected);
+  for (std::size_t i = 0; i < digits.size(); i += 2) {
+    const int high = hexadecimal_digit(digits[i]), low = hexadecimal_digit(digits[i + 1]);
+    if (high < 0 || low < 0) value.fail(expected);
+    row.push_back(static_cast<std::uint8_t>(16 * high + low));
+  }
+}
 
 BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
   const Object object(value, {"at", "depth", "width", "height", "rows", "color",  //
@@ -80,7 +79,7 @@ BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
   const Value rows = object.require("rows");
   if (!rows.json().is_array() || rows.size() != static_cast<std::size_t>(bitmap.height))
     rows.fail("one row for each of the bitmap's " + std::to_string(bitmap.height));
-  for (std::size_t i = 0; i < rows.size(); ++i) read_row(rows.element(i), (static_cast<std::size_t>(bitmap.width) + 7) / 8, command.bits);
+  for (std::size_t i = 0; i < rows.size(); ++i) read_hexadecimal_row(rows.element(i), (static_cast<std::size_t>(bitmap.width) + 7) / 8, command.bits);
   bitmap.depth = read_raster_depth(object);
   if (const auto color = object.find("color")) bitmap.color = color->color();
   command.state = read_state(object, scene);

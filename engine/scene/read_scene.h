@@ -23,11 +23,14 @@ LightList read_lights(const json::Value& value);
 struct ModelCache {
   std::map<std::string, Model> models;
   std::map<std::string, std::shared_ptr<const Picture>> pictures;
-  std::map<std::string, std::shared_ptr<const Texture>> textures;
+  std::map<std::string, std::shared_ptr<const Texture>> textures;  // of those written in the scene, by their texels
   std::function<bool()> go_on;  ///< of reading one
 };
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
 void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);
+
+/// Appends what a row of pixels is made of: whole bytes, two hexadecimal digits each.
+void read_hexadecimal_row(const json::Value& value, std::size_t bytes, std::vector<std::uint8_t>& row);
 
 /// Appends every texture of the file's `textures`. Returns their names.
 std::vector<std::string> read_textures(const json::Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene);

@@ -1,4 +1,5 @@
-// Textures, from image files.
+// Textures, from image files or from the scene itself.
+#include <algorithm>
 #include <filesystem>
 
 #include "engine/imageio/picture.h"
@@ -40,20 +41,35 @@ Texture texture_of(const Picture& picture, const TextureSampler& sampler) {
   return Texture({.pixels = pixels.data(), .width = picture.width, .height = picture.height, .channels = picture.channels}, sampler);
 }
 
+// Rows from the top; the first one says how many texels wide they are.
+Texture read_texels(const Object& object, const TextureSampler& sampler) {
+  const auto channels = static_cast<std::size_t>(object.require("channels").integer(1, 4));
+  const Value rows = object.require("rows");
+  if (!rows.json().is_array() || rows.size() == 0) rows.fail("a list of rows, from the top");
+  const Value first = rows.element(0);
+  const std::size_t width = first.text().size() / (2 * channels);
+  if (width == 0) first.fail("at least " + std::to_string(2 * channels) + " hexadecimal digits, a texel");
+  std::vector<std::uint8_t> pixels;
+  for (std::size_t i = 0; i < rows.size(); ++i) read_hexadecimal_row(rows.element(i), width * channels, pixels);
+  // One too many where there are more than fit: the texture says what it allows.
+  const auto side = [](std::size_t texels) { return static_cast<int>(std::min<std::size_t>(texels, kMaxTextureSize + 1)); };
+  return rows.checked([&] { return Texture({.pixels = pixels.data(), .width = side(width), .height = side(rows.size()), .channels = static_cast<int>(channels)}, sampler); });
+}
+
 std::shared_ptr<const Texture> read_texture(const Value& value, const std::string& base_folder, ModelCache& cache) {
-  const Object object(value, {"file", "mag", "min", "wrap_s", "wrap_t"});
-  const Value file = object.require("file");
+  const bool in_scene = value.json().is_object() && value.json().contains("rows");
+  const Object object = in_scene ? Object(value, {"channels", "rows", "mag", "min", "wrap_s", "wrap_t"}) : Object(value, {"file", "mag", "min", "wrap_s", "wrap_t"});
   const TextureSampler sampler = read_sampler(object);
-  const std::string path = (std::filesystem::path(base_folder) / file.text()).string();  // an absolute path stays as it is
-  std::string key = path;
+  const std::string path = in_scene ? "" : (std::filesystem::path(base_folder) / object.require("file").text()).string();  // an absolute path stays as it is
+  std::string key = in_scene ? value.json().dump() : path;
   for (const int part : {static_cast<int>(sampler.mag), static_cast<int>(sampler.min), static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)}) key += '\n' + std::to_string(part);
   auto texture = cache.textures.find(key);
   if (texture == cache.textures.end()) {
-    const auto read = [&] {
+    const auto read_file = [&] {
       refuse_endless_file(path);
-      return std::make_shared<const Texture>(texture_of(read_picture(path), sampler));
+      return texture_of(read_picture(path), sampler);
     };
-    texture = cache.textures.emplace(key, file.checked(read)).first;
+    texture = cache.textures.emplace(key, std::make_shared<const Texture>(in_scene ? read_texels(object, sampler) : object.require("file").checked(read_file))).first;
   }
   return texture->second;
 }

@@ -1,16 +1,12 @@
-// What the tests of the public interface share: small meshes, read-back in one line, and fingerprints of frame buffers.
+// What the tests of the public interface share: small meshes, images, messages; and what frame buffers hold (fingerprint.h).
 #pragma once
 
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <optional>
-#include <ostream>
-#include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
+#include "engine/scene/fingerprint.h"
 #include "engine/scene/mesh_data.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -50,32 +46,6 @@ inline DrawState unlit(Color color) {
   return state;
 }
 
-inline std::size_t pixel_count(const FrameBuffer& buffer) {
-  return static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
-}
-inline std::vector<std::uint32_t> color_words(const FrameBuffer& buffer) {
-  std::vector<std::uint32_t> words(pixel_count(buffer));
-  buffer.read_color_words(words);
-  return words;
-}
-inline std::vector<std::uint32_t> depth_words(const FrameBuffer& buffer) {
-  std::vector<std::uint32_t> words(pixel_count(buffer));
-  buffer.read_depth_words(words);
-  return words;
-}
-inline std::vector<std::uint8_t> stencil_values(const FrameBuffer& buffer) {
-  std::vector<std::uint8_t> values(pixel_count(buffer));
-  buffer.read_stencil(values);
-  return values;
-}
-
-/// r g b a of each pixel.
-inline std::vector<float> accumulated_values(const FrameBuffer& buffer) {
-  std::vector<float> values(4 * pixel_count(buffer));
-  buffer.read_accumulation(values);
-  return values;
-}
-
 /// Pixels of its own, 4 bytes each without gaps.
 struct Image {
   int width = 0, height = 0;
@@ -85,67 +55,6 @@ struct Image {
     return {.pixels = bytes.data(), .width = width, .height = height, .stride_bytes = std::ptrdiff_t{4} * width, .order = order};
   }
 };
-
-/// 64 bits of a run of words, by value: no matter of byte order.
-class Hash {
- public:
-  void add(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x9e3779b97f4a7c15u;
-    value_ ^= value_ >> 32;
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
-inline std::uint64_t hash_of(std::span<const std::uint32_t> words) {
-  Hash hash;
-  for (const std::uint32_t word : words) hash.add(word);
-  return hash.value();
-}
-inline std::uint64_t hash_of(const PlaneView& plane) {
-  Hash hash;
-  for (int y = 0; y < plane.height; ++y)
-    for (std::ptrdiff_t at = 0; at < plane.stride_bytes; at += 8) {
-      std::uint64_t bits;  // rows are padded to whole cache lines
-      std::memcpy(&bits, plane.bits + y * plane.stride_bytes + at, sizeof bits);
-      hash.add(bits);
-    }
-  return hash.value();
-}
-
-/// What a frame left behind. 0 stands for a buffer that there is none of, 1 for one that was not kept. Alpha stands in the colour.
-struct Fingerprint {
-  std::uint64_t color = 0, depth = 0, stencil = 0, accumulation = 0;
-  std::vector<std::uint64_t> planes;  ///< of colour, then of depth, of stencil and of accumulation
-  friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
-  friend std::ostream& operator<<(std::ostream& out, const Fingerprint& f) {
-    out << std::hex << "colour " << f.color << ", depth " << f.depth << ", stencil " << f.stencil << ", accumulation " << f.accumulation << ", planes";
-    for (const std::uint64_t plane : f.planes) out << ' ' << (plane & 0xffff);
-    return out << std::dec;
-  }
-};
-inline Fingerprint fingerprint(const FrameBuffer& buffer) {
-  Fingerprint f;
-  f.color = hash_of(color_words(buffer));
-  if (buffer.plane_count(Buffer::depth) > 0) f.depth = hash_of(depth_words(buffer));
-  const auto value_hash = [&](Buffer which, const auto& values) -> std::uint64_t {
-    if (buffer.plane_count(which) == 0) return 0;
-    try {
-      Hash hash;
-      for (const auto value : values()) hash.add(std::bit_cast<std::conditional_t<sizeof value == 1, std::uint8_t, std::uint32_t>>(value));
-      return hash.value();
-    } catch (const Error&) {
-      return 1;
-    }
-  };
-  f.stencil = value_hash(Buffer::stencil, [&] { return stencil_values(buffer); });
-  f.accumulation = value_hash(Buffer::accumulation, [&] { return accumulated_values(buffer); });
-  for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation})
-    if ((which != Buffer::stencil || f.stencil != 1) && (which != Buffer::accumulation || f.accumulation != 1))
-      for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
-  return f;
-}
 
 /// The message of the tessera::Error that `act` throws; empty if it throws none.
 template <class Act>

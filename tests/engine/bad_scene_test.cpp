@@ -154,6 +154,18 @@ const BadScene kBadScenes[] = {
     {R"("textures": {"t": {"file": "x.png", "wrap_s": "clamp"}})", "/textures/t/wrap_s", "expected one of \"repeat\""},
     {R"("textures": {"t": {"file": "x.png", "wrap_t": 1}})", "/textures/t/wrap_t", "expected one of \"repeat\""},
     {R"("textures": [])", "/textures", "expected an object"},
+    {R"("textures": {"t": {"rows": ["00"]}})", "/textures/t", "key \"channels\" is missing"},
+    {R"("textures": {"t": {"rows": ["00"], "channels": 5}})", "/textures/t/channels", "found 5, expected an integer from 1 to 4"},
+    {R"("textures": {"t": {"rows": ["00"], "channels": 1, "file": "x.png"}})", "/textures/t/file", "unknown key"},
+    {R"("textures": {"t": {"channels": 1}})", "/textures/t/channels", "unknown key"},
+    {R"("textures": {"t": {"rows": [], "channels": 1}})", "/textures/t/rows", "expected a list of rows"},
+    {R"("textures": {"t": {"rows": "00", "channels": 1}})", "/textures/t/rows", "expected a list of rows"},
+    {R"("textures": {"t": {"rows": [0], "channels": 1}})", "/textures/t/rows/0", "expected a string"},
+    {R"("textures": {"t": {"rows": ["0000"], "channels": 3}})", "/textures/t/rows/0", "expected at least 6 hexadecimal digits"},
+    {R"("textures": {"t": {"rows": ["000000", "00000"], "channels": 3}})", "/textures/t/rows/1", "expected 6 hexadecimal digits"},
+    {R"("textures": {"t": {"rows": ["00000000"], "channels": 3}})", "/textures/t/rows/0", "expected 6 hexadecimal digits"},
+    {R"("textures": {"t": {"rows": ["0g"], "channels": 1}})", "/textures/t/rows/0", "expected 2 hexadecimal digits"},
+    {"\"textures\": {\"t\": {\"rows\": [\"" + std::string(2 * 16385, '0') + "\"], \"channels\": 1}}", "/textures/t/rows", "16384"},
 
     // Meshes
     {mesh(R"("builtin": "teapott")"), "/meshes/m/builtin", "did you mean \"teapot\"?"},

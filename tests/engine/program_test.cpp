@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -91,6 +92,11 @@ TEST_F(Program, BadUsageExitsWithTwoAndOneLine) {
       {"render --compression 10", "expected an integer from 0 to 9"},
       {"completion csh", "expected one of bash, zsh, fish"},
       {"inof", "did you mean \"info\"?"},
+      {"selftset", "did you mean \"selftest\"?"},
+      {"selftest --expct x", "did you mean \"--expect\"?"},
+      {"selftest x", "unexpected argument \"x\""},
+      {"selftest --threads 0", "expected an integer from 1 to 1024"},
+      {"selftest --hashes --expect x", "--hashes: it prints"},
   };
   for (const auto& [arguments, fragment] : kBad) {
     const Result result = run(arguments);
@@ -108,6 +114,7 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
   write("bad.ppm", "P6\n8 8\n255\nabc");
   write("small.ppm", "P6 1 1 255 abc");
   write("notes.txt", "no model");
+  write("empty.txt", "");
   const struct {
     const char *arguments, *fragment;
   } kFailing[] = {
@@ -131,6 +138,10 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
       {"render fine.json -o x.ppm --compare bad.ppm", "cannot read \"bad.ppm\": it ends before its last pixel"},
       {"render fine.json -o x.ppm --compare bad.json", "cannot read \"bad.json\""},
       {"render fine.json -o x.ppm --compare small.ppm", "the reference 1x1"},
+      {"selftest --expect nothing.txt", "cannot read \"nothing.txt\": No such file or directory"},
+      {"selftest --expect notes.txt", "notes.txt:1: expected a scene's name and two hashes"},
+      {"selftest --expect empty.txt", "empty.txt: there is no hash of the scene \"terms_together\""},
+      {"selftest --expect /dev/zero", "cannot read \"/dev/zero\": it holds more than 1048576 bytes"},
   };
   for (const auto& [arguments, fragment] : kFailing) {
     const Result result = run(arguments);
@@ -304,6 +315,7 @@ TEST_F(Program, TellsOfTheMachineAndItself) {
   for (const char* part : {".json", ".obj", ".ppm", ".png"}) EXPECT_TRUE(contains(formats.out, part)) << formats.out;
   EXPECT_TRUE(man.out.starts_with(".TH TESSERA 1")) << man.out.substr(0, 80);
   EXPECT_TRUE(contains(man.out, "\\-\\-palette"));
+  for (const char* command : {"render", "info", "selftest", "formats", "completion", "man"}) EXPECT_TRUE(contains(man.out, std::string(".SS tessera ") + command + "\n") || contains(man.out, std::string(".SS tessera ") + command + " ")) << command;
   for (const char* shell : {"bash", "zsh", "fish"}) {
     const Result script = run(std::string("completion ") + shell);
     EXPECT_EQ(script.code, 0);
@@ -315,6 +327,63 @@ TEST_F(Program, TellsOfTheMachineAndItself) {
   const std::string command = "cd '" + folder_.string() + "' && bash complete.sh > said.txt 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(content("said.txt"), "--palette\ngouraud\nzsh\n");
+}
+
+double seconds_of_children() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+TEST_F(Program, TheSelfTestPassesInSeconds) {
+  const double before = seconds_of_children();
+  const Result result = run("selftest --threads 2");
+  const double seconds = seconds_of_children() - before;
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  EXPECT_TRUE(result.err.empty()) << result.err;
+  for (const char* part : {"CPU   ", "instruction sets   ", "1 and 2 threads, ", "tex_rows_in_scene ", "coverage, ", "0 pixels wrong", "powers, ", "stored levels, ", "verdict            all is well: "})
+    EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(seconds, 10) << "of all cores together";
+#else
+  static_cast<void>(seconds);
+#endif
+}
+
+// The hashes are those of the one list; any other is told of, scene by scene.
+TEST_F(Program, TheSelfTestTellsWhatDiffers) {
+  const std::string hashes = run("selftest --hashes").out;
+  std::ifstream stream(TESSERA_SOURCE_DIR "/tests/picture_hashes.txt");
+  const std::string kept{std::istreambuf_iterator<char>(stream), {}};
+  std::size_t lines = 0;
+  for (std::size_t at = 0, end; (end = hashes.find('\n', at)) != std::string::npos; at = end + 1, ++lines) EXPECT_TRUE(contains("\n" + kept, "\n" + hashes.substr(at, end + 1 - at))) << hashes.substr(at, end - at);
+  EXPECT_GE(lines, 12u);
+
+  // A digit of one scene's colours and a digit of another one's depths.
+  const std::string colors = "terms_together", depths = "tex_rows_in_scene";
+  std::string other = "\n" + kept;
+  for (const auto& [scene, digit] : {std::pair{colors, 3}, std::pair{depths, 20}}) {
+    const std::size_t at = other.find("\n" + scene + " ");
+    ASSERT_NE(at, std::string::npos);
+    char& changed = other[at + scene.size() + 2 + digit];
+    changed = changed == '0' ? '1' : '0';
+  }
+  write("kept.txt", kept);
+  write("other.txt", other.substr(1));
+  EXPECT_EQ(run("selftest --threads 1 --expect kept.txt").code, 0) << "more scenes than are rendered";
+  const Result result = run("selftest --threads 1 --expect other.txt");
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_EQ(result.err, "tessera: error: the self-test failed: " + std::to_string(lines - 2) + " of " + std::to_string(lines) + " scenes and 3 of 3 oracles are right\n");
+  EXPECT_TRUE(contains(result.out, "verdict            NOT WELL: ")) << result.out;
+  std::vector<std::string> told;
+  std::istringstream said(result.out);
+  for (std::string line, before; std::getline(said, line); before = line)
+    if (before.ends_with("DIFFERS")) told.push_back(before.substr(0, before.find(' ')) + line);
+  ASSERT_EQ(told.size(), 2u) << result.out;
+  EXPECT_TRUE(told[0].starts_with(colors + "  each term of light")) << told[0];
+  EXPECT_TRUE(told[1].starts_with(depths + "  textures")) << told[1];
+  const std::string times = result.out.substr(result.out.find("each scene         ") + 19), number = times.substr(0, times.find(' '));
+  for (const std::string& line : told) EXPECT_TRUE(contains(line, number + " of " + number + " renderings are wrong; the first: colours and depths come to ")) << line;
 }
 
 // Things that are no models, and models that are too much: one line, in time, and in little memory.

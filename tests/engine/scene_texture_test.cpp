@@ -86,6 +86,23 @@ TEST_F(SceneTexture, AFileIsReadOnceForAnAnimation) {
   EXPECT_NE(first.textures[0], first.textures[1]);
 }
 
+// Drawn texel by pixel: rows from the top, components side by side.
+TEST_F(SceneTexture, TexelsMayStandInTheScene) {
+  SceneFile file(write("s.json", R"({"tessera": 1, "framebuffer": {"width": 3, "height": 2, "alpha": 8}, "camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]},
+    "textures": {"t": {"channels": 4, "rows": ["00112233445566778899aAbB", "ccddeeff0123456789abcdef"], "mag": "nearest"}, "u": {"channels": 4, "rows": ["00112233445566778899aAbB", "ccddeeff0123456789abcdef"]}},
+    "meshes": {"m": {"primitive": "quads", "positions": [[-1,-1,0],[1,-1,0],[1,1,0],[-1,1,0]], "texcoords": [[0,0],[1,0],[1,1],[0,1]]}},
+    "light_model": {"ambient": [{"keys": [[0, 0], [1, 1]]}, 0, 0, 1]},
+    "frame": [{"draw": "m", "texture": "t", "texture_env": "replace", "lighting": false}]})"));
+  const Scene scene = file.at(0);
+  FrameBuffer buffer(scene.framebuffer);
+  Frame frame(buffer);
+  record(scene, frame);
+  Renderer().finish(frame);
+  EXPECT_EQ(color_words(buffer), (std::vector<std::uint32_t>{0x33001122, 0x77445566, 0xbb8899aa, 0xffccddee, 0x67012345, 0xef89abcd}));
+  EXPECT_EQ(file.at(1).textures[0], scene.textures[0]) << "made once";
+  EXPECT_NE(scene.textures[0], scene.textures[1]) << "another sampler";
+}
+
 TEST_F(SceneTexture, FilesThatAreMissingOrBrokenAreNamed) {
   EXPECT_THAT(error("none.png"), AllOf(HasSubstr("scene.json: /textures/t/file: cannot read"), HasSubstr("none.png"), HasSubstr("No such file")));
   write("short.ppm", "P6 4 4 255\nabc");

@@ -1,0 +1,158 @@
+#include "engine/cli/selftest_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+#include <vector>
+
+#include "engine/cli/info_command.h"
+#include "engine/cli/printable.h"
+#include "engine/cli/progress.h"
+#include "engine/cli/selftest_oracles.h"
+#include "engine/cli/selftest_scenes.h"
+#include "engine/parallel.h"
+#include "engine/scene/picture_hashes.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/text_file.h"
+
+namespace tessera::cli {
+namespace {
+
+/// A scene, and where it is not what it should be.
+struct SceneReport {
+  std::string about;
+  Scene scene;
+  PictureHash expected;
+  std::optional<Fingerprint> found;  ///< by the first way
+  std::size_t wrong_ways = 0;
+  std::string first_wrong;
+};
+
+std::string count(std::size_t number, const char* what) { return std::to_string(number) + " " + what + (number == 1 ? "" : "s"); }
+
+// One row of the tables.
+std::string row(const std::string& what, const std::string& found, bool good, const char* otherwise) {
+  char text[256];
+  std::snprintf(text, sizeof text, "%-29s  %-45s  %s\n", what.c_str(), found.c_str(), good ? "ok" : otherwise);
+  return text;
+}
+
+std::string wrong_text(std::size_t wrong, std::size_t all, const std::string& first) { return std::to_string(wrong) + " of " + count(all, "rendering") + " are wrong; the first: " + printable(first) + "\n"; }
+
+std::vector<SceneReport> scenes_with(const PictureHashes& hashes, const std::string& file) {
+  std::vector<SceneReport> scenes;
+  for (const SelftestScene& each : kSelftestScenes) {
+    const auto expected = hashes.find(each.name);
+    if (expected == hashes.end()) throw Error(file + ": there is no hash of the scene \"" + std::string(each.name) + "\"");
+    scenes.push_back({.about = std::string(each.about), .scene = parse_scene(each.json, std::string(each.name)), .expected = expected->second, .found = {}, .first_wrong = {}});
+  }
+  return scenes;
+}
+
+Fingerprint rendered(const Scene& scene, Renderer& renderer) {
+  FrameBuffer buffer(scene.framebuffer);
+  Frame frame(buffer);
+  record(scene, frame);
+  renderer.finish(frame);
+  return fingerprint(buffer);
+}
+
+/// What is wrong with a fingerprint; empty: nothing. The list has hashes of colours and depths: all else has to be as it was by the first way.
+std::string difference(const Fingerprint& f, const SceneReport& scene) {
+  const PictureHash hash = picture_hash(f);
+  if (hash != scene.expected) return "colours and depths come to " + to_text(hash) + ", expected " + to_text(scene.expected);
+  return f == scene.found ? "" : "stencil, accumulation or planes are not what they were by the first way";
+}
+
+void render_by(const RendererOptions& way, Renderer& renderer, SceneReport& scene) {
+  std::string wrong;
+  try {
+    const Fingerprint f = rendered(scene.scene, renderer);
+    if (!scene.found) scene.found = f;
+    wrong = difference(f, scene);
+  } catch (const Error& error) {
+    wrong = error.what();
+  }
+  if (!wrong.empty() && scene.wrong_ways++ == 0) scene.first_wrong = wrong + ", by " + to_text(way);
+}
+
+/// How many of a kind are right.
+struct Tally {
+  std::size_t right = 0, all = 0;
+  std::string text(const char* kind) const { return std::to_string(right) + " of " + count(all, kind); }
+};
+
+Tally run_scenes(std::vector<SceneReport>& scenes, const Ways& ways) {
+  Progress progress(ShowProgress::automatic);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    progress.show(static_cast<double>(i) / static_cast<double>(ways.size()), "scenes");
+    Renderer renderer(ways[i]);
+    for (SceneReport& scene : scenes) render_by(ways[i], renderer, scene);
+  }
+  progress.clear();
+  Tally tally{.all = scenes.size()};
+  for (const SceneReport& each : scenes) {
+    const bool right = each.wrong_ways == 0;
+    tally.right += right ? 1 : 0;
+    std::cout << row(each.scene.name, each.found ? to_text(picture_hash(*each.found)) : "", right, "DIFFERS");
+    if (!right) std::cout << "  " << each.about << ": " << wrong_text(each.wrong_ways, ways.size(), each.first_wrong);
+  }
+  return tally;
+}
+
+Tally run_oracles(const Ways& ways) {
+  Tally tally;
+  for (const auto& check : {check_coverage, check_powers, check_levels}) {
+    const OracleReport report = check(ways);
+    const bool right = report.wrong_ways == 0;
+    ++tally.all;
+    tally.right += right ? 1 : 0;
+    std::cout << row(report.oracle, report.measured, right, "WRONG");
+    if (!right) std::cout << "  " << wrong_text(report.wrong_ways, ways.size(), report.first_wrong);
+  }
+  return tally;
+}
+
+void print_hashes(const std::vector<SceneReport>& scenes) {
+  Renderer renderer;
+  for (const SceneReport& each : scenes) std::cout << each.scene.name << " " << to_text(picture_hash(rendered(each.scene, renderer))) << "\n";
+}
+
+PictureHashes expected_hashes(const std::string& file) {
+  constexpr std::size_t kLongestList = 1 << 20;
+  return parse_picture_hashes(read_text_file(file, kLongestList), file);
+}
+
+}  // namespace
+
+int selftest(const SelftestRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<SceneReport> scenes = request.expected.empty() ? scenes_with(parse_picture_hashes(kSelftestHashes, "the program"), "the program") : scenes_with(expected_hashes(request.expected), request.expected);
+  if (request.hashes) {
+    print_hashes(scenes);
+    return 0;
+  }
+  constexpr int kMostThreads = 1024;
+  const int threads = request.threads != 0 ? request.threads : std::clamp(available_cores(), 2, kMostThreads);
+  std::optional<ThreadLimit> more_threads_than_cores;
+  if (threads > available_cores()) more_threads_than_cores.emplace(threads);
+  const Ways ways = every_way(threads);
+  std::cout << machine_text() << "each scene         " << ways.size() << " times: by each set, " << (threads == 1 ? "" : "1 and ") << count(static_cast<std::size_t>(threads), "thread")
+            << ", tiles of 32, 64 and 128, shaded late and at once\n\n" << std::flush;
+  const Tally right_scenes = run_scenes(scenes, ways);
+  std::cout << "\n" << std::flush;
+  const Tally right_oracles = run_oracles(few_ways(threads));
+
+  const bool good = right_scenes.right == right_scenes.all && right_oracles.right == right_oracles.all;
+  const std::string verdict = right_scenes.text("scene") + " and " + right_oracles.text("oracle") + " are right";
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.1f s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  std::cout << "\nverdict            " << (good ? "all is well: " : "NOT WELL: ") << verdict << ", in " << seconds << "\n";
+  if (good) return 0;
+  std::cerr << "tessera: error: the self-test failed: " << verdict << "\n";
+  return kSelftestFailed;
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,139 @@
+// Triangles that add one level each to what they cover, counted pixel by pixel. No tolerance.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+
+#include "engine/cli/selftest_oracles.h"
+#include "engine/scene/fingerprint.h"
+#include "raster/coverage_reference.h"
+
+namespace tessera::cli {
+namespace {
+
+constexpr int kSide = 128;       // of the frame; a power of two, so that clip space holds 1/256 pixel exactly
+constexpr int kTriangles = 255;  // of a frame: as many as 8 bits count
+constexpr int kRounds = 20;
+
+using Corner = std::array<std::int32_t, 2>;  // raster space, 1/256 pixel
+using Triangles = std::vector<std::array<Corner, 3>>;
+using Counts = std::vector<std::uint32_t>;   // of each pixel, rows from the top
+
+struct Dice {
+  std::mt19937 random;
+  int between(int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)); }
+};
+
+std::int64_t doubled_area(const Corner& a, const Corner& b, const Corner& c) {
+  return std::int64_t{b[0] - a[0]} * (c[1] - a[1]) - std::int64_t{c[0] - a[0]} * (b[1] - a[1]);
+}
+
+// Of all sizes, as far as the guard band; corners anywhere, on pixels' centres, or on pixels' borders, some of them tiles'.
+Triangles random_triangles(Dice& dice) {
+  constexpr int kFarthest = 16000 * 256;
+  Triangles triangles;
+  for (int i = 0; i < kTriangles; ++i) {
+    const int reach = 1 << dice.between(3, 22), snap = std::array{1, 128, 256}[static_cast<std::size_t>(dice.between(0, 2))];
+    const Corner middle{dice.between(0, kSide * 256), dice.between(0, kSide * 256)};
+    auto& triangle = triangles.emplace_back();
+    for (Corner& corner : triangle)
+      for (std::size_t axis = 0; axis < 2; ++axis) corner[axis] = std::clamp(middle[axis] + dice.between(-reach, reach), -kFarthest, kFarthest) / snap * snap;
+  }
+  return triangles;
+}
+
+// Two triangles beyond the frame, of which one is split at a point inside again and again: every edge in the frame is shared.
+Triangles shared_edges(Dice& dice) {
+  constexpr int kLow = -1000, kHigh = kSide * 256 + 1000;
+  const Corner p{kLow, kLow}, q{kHigh, kLow}, r{kHigh, kHigh}, s{kLow, kHigh};
+  Triangles triangles{{p, q, r}, {p, r, s}};
+  for (int tries = 0; tries < 2 * kTriangles && triangles.size() + 2 <= kTriangles; ++tries) {
+    auto& split = triangles[dice.random() % triangles.size()];
+    const auto [a, b, c] = split;
+    const int along = dice.between(1, 255), across = dice.between(1, 256 - along);
+    Corner inside;
+    for (std::size_t axis = 0; axis < 2; ++axis) inside[axis] = a[axis] + ((b[axis] - a[axis]) * along + (c[axis] - a[axis]) * across) / 256;
+    if (dice.between(0, 3) == 0) inside = {inside[0] / 128 * 128, inside[1] / 128 * 128};
+    if (doubled_area(a, b, inside) <= 0 || doubled_area(b, c, inside) <= 0 || doubled_area(c, a, inside) <= 0) continue;
+    split = {a, b, inside};
+    triangles.push_back({b, c, inside});
+    triangles.push_back({c, a, inside});
+  }
+  return triangles;
+}
+
+Counts exact_counts(const Triangles& triangles) {
+  Counts counts(static_cast<std::size_t>(kSide) * kSide);
+  for (const auto& [a, b, c] : triangles) {
+    const auto [left, right] = std::minmax({a[0], b[0], c[0]});
+    const auto [top, bottom] = std::minmax({a[1], b[1], c[1]});
+    const WindowVertex vertices[3] = {{a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]}};
+    TriangleReference(vertices).for_each_covered(std::max(first_pixel(left), 0), std::max(first_pixel(top), 0), std::min(last_pixel(right) + 1, kSide), std::min(last_pixel(bottom) + 1, kSide),
+                                                 [&](int x, int y) { ++counts[static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x)]; });
+  }
+  return counts;
+}
+
+/// In clip space, either winding.
+std::vector<float> clip_positions(const Triangles& triangles, Dice& dice) {
+  std::vector<float> positions;
+  for (const auto& triangle : triangles) {
+    const bool turned = dice.between(0, 1) != 0;
+    for (const std::size_t k : {0, turned ? 2 : 1, turned ? 1 : 2}) {
+      const Corner& corner = triangle[k];
+      positions.insert(positions.end(), {static_cast<float>(corner[0]) / (128 * kSide) - 1, 1 - static_cast<float>(corner[1]) / (128 * kSide), 0});
+    }
+  }
+  return positions;
+}
+
+Counts drawn_counts(const std::vector<float>& positions, Renderer& renderer) {
+  DrawState state{.lighting = false};
+  state.material.diffuse = {0, 0, 1 / 255.0f, 1};  // one level of blue, the lowest bits of the word
+  state.depth.enabled = false;
+  state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
+  FrameBuffer buffer({.width = kSide, .height = kSide});
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}});
+  frame.draw({.positions = positions}, state);
+  renderer.finish(frame);
+  return color_words(buffer);
+}
+
+}  // namespace
+
+OracleReport check_coverage(const Ways& ways) {
+  Dice dice{std::mt19937(1)};
+  struct Case {
+    std::vector<float> positions;
+    Counts exact;
+  };
+  std::vector<Case> cases;
+  std::size_t triangle_count = 0;
+  for (int round = 0; round < kRounds; ++round)
+    for (const bool shared : {false, true}) {
+      const Triangles triangles = shared ? shared_edges(dice) : random_triangles(dice);
+      triangle_count += triangles.size();
+      cases.push_back({clip_positions(triangles, dice), shared ? Counts(static_cast<std::size_t>(kSide) * kSide, 1) : exact_counts(triangles)});
+    }
+  OracleReport report{.oracle = "coverage, 128-bit integers", .measured = {}, .first_wrong = {}};
+  std::size_t wrong_pixels = 0;
+  for (const RendererOptions& way : ways) {
+    Renderer renderer(way);
+    std::size_t wrong = 0;
+    std::string first;
+    for (const Case& each : cases) {
+      const Counts drawn = drawn_counts(each.positions, renderer);
+      for (std::size_t i = 0; i < drawn.size(); ++i) {
+        if (drawn[i] == each.exact[i]) continue;
+        if (wrong++ == 0) first = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") is covered " + std::to_string(drawn[i]) + " times, expected " + std::to_string(each.exact[i]);
+      }
+    }
+    wrong_pixels += wrong;
+    if (wrong != 0) report.add(first, way);
+  }
+  report.measured = std::to_string(triangle_count * ways.size()) + " triangles, " + std::to_string(wrong_pixels) + " pixels wrong";
+  return report;
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,43 @@
+#include "engine/scene/picture_hashes.h"
+
+#include <charconv>
+#include <cstdio>
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kDigits = 16;
+
+// The hash at the end of a line, which loses it and the blank before it.
+bool take_hash(std::string_view& line, std::uint64_t& hash) {
+  if (line.size() <= kDigits || line[line.size() - kDigits - 1] != ' ') return false;
+  const std::string_view digits = line.substr(line.size() - kDigits);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + kDigits, hash, 16);
+  line.remove_suffix(kDigits + 1);
+  return error == std::errc{} && end == digits.data() + kDigits;
+}
+
+}  // namespace
+
+std::string to_text(const PictureHash& hash) {
+  char text[2 * kDigits + 2];
+  std::snprintf(text, sizeof text, "%016llx %016llx", static_cast<unsigned long long>(hash.color), static_cast<unsigned long long>(hash.depth));
+  return text;
+}
+
+PictureHashes parse_picture_hashes(std::string_view text, const std::string& file) {
+  PictureHashes hashes;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    std::string_view name = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    PictureHash hash;
+    const auto fail = [&](const std::string& message) { throw Error(file + ":" + std::to_string(number) + ": " + message); };
+    if (!take_hash(name, hash.depth) || !take_hash(name, hash.color) || name.empty() || name.find(' ') != std::string_view::npos)
+      fail("expected a scene's name and two hashes of 16 hexadecimal digits, one blank between");
+    if (!hashes.emplace(name, hash).second) fail("\"" + std::string(name) + "\" occurs twice");
+  }
+  return hashes;
+}
+
+}  // namespace tessera

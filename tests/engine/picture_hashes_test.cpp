@@ -1,0 +1,45 @@
+// Lists of hashes are read as they are written, and nothing else is.
+#include <gtest/gtest.h>
+
+#include "engine/scene/picture_hashes.h"
+#include "tests/engine/api_support.h"
+
+namespace tessera {
+namespace {
+
+using test::error_of;
+
+TEST(PictureHashLists, AreReadAsTheyAreWritten) {
+  const PictureHash a{0x0123456789abcdef, 0}, b{1, 0xffffffffffffffff};
+  EXPECT_EQ(to_text(a), "0123456789abcdef 0000000000000000");
+  const PictureHashes list = parse_picture_hashes("a " + to_text(a) + "\nb_2 " + to_text(b), "list");
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list.at("a"), a);
+  EXPECT_EQ(list.at("b_2"), b);
+  EXPECT_TRUE(parse_picture_hashes("", "list").empty());
+}
+
+TEST(PictureHashLists, LinesOfAnotherFormAreErrors) {
+  const std::string good = "a 0123456789abcdef 0123456789abcdef\n";
+  const struct {
+    std::string text, message;
+  } kBad[] = {
+      {"\n", "list:1: expected a scene's name"},
+      {good + "b 0123456789abcdef\n", "list:2: expected a scene's name"},
+      {good + "0123456789abcdef 0123456789abcdef\n", "list:2: expected a scene's name"},
+      {good + " 0123456789abcdef 0123456789abcdef\n", "list:2: expected a scene's name"},
+      {good + "b 0123456789abcdef 0123456789abcdefa\n", "list:2: expected"},
+      {good + "b 0123456789abcdeg 0123456789abcdef\n", "list:2: expected"},
+      {good + "b 0123456789abcdef  0123456789abcdef\n", "list:2: expected"},
+      {good + "b -123456789abcdef 0123456789abcdef\n", "list:2: expected"},
+      {good + "b 0123456789abcdef 0123456789abcdef\r\n", "list:2: expected"},
+      {good + "b 0123456789abcdef 0123456789abcdef \n", "list:2: expected"},
+      {good + "b c 0123456789abcdef 0123456789abcdef\n", "list:2: expected"},
+      {good + good, "list:2: \"a\" occurs twice"},
+      {std::string("\0\xff\x80", 3), "list:1: expected"},
+  };
+  for (const auto& [text, message] : kBad) EXPECT_TRUE(error_of([&] { parse_picture_hashes(text, "list"); }).value_or("(no error)").starts_with(message)) << text;
+}
+
+}  // namespace
+}  // namespace tessera
