@@ -3,7 +3,7 @@
 // Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel does not depend on
 // tiles or blocks, and a gradient too steep for 64 bits comes right again inside the triangle. Gradients come from doubles,
 // those of needles, where doubles are not enough, from exact quotients. float32: one fused multiply-add for each direction
-// from the first vertex, kept within the vertices' range.
+// from the anchor, kept within the vertices' range.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
 #undef TESSERA_RASTER_DEPTH_INL_H_
@@ -110,25 +110,25 @@ struct Unorm32Depth : UnormDepth {
 };
 
 struct Float32Depth {
-  float z0, dx, dy, first_x, first_y, low, high;  // first_x, y: from the first vertex to the tile's first pixel centre
+  float z0, dx, dy, first_x, first_y, low, high;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthKind) {
     float z[3];
     for (int k = 0; k < 3; ++k) std::memcpy(&z[k], &g.z[k][i], sizeof z[k]);
-    z0 = z[0];
+    std::memcpy(&z0, &g.anchor_z[i], sizeof z0);
     low = z[0] < z[1] ? (z[0] < z[2] ? z[0] : z[2]) : (z[1] < z[2] ? z[1] : z[2]);
     high = z[0] > z[1] ? (z[0] > z[2] ? z[0] : z[2]) : (z[1] > z[2] ? z[1] : z[2]);
     dx = static_cast<float>(g.depth_dx[i]);
     dy = static_cast<float>(g.depth_dy[i]);
-    first_x = static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - g.x[0][i]) * (1.0 / 256));  // exact: 24 bits
-    first_y = static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - g.y[0][i]) * (1.0 / 256));
+    first_x = static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - g.anchor_x[i]) * (1.0 / 256));  // exact: 24 bits
+    first_y = static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - g.anchor_y[i]) * (1.0 / 256));
   }
   HWY_INLINE void prepare_blocks() {}
   struct Anchor {
     float x, y;
   };
   static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at, int tile_x, int tile_y) {
-    return {static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - (g.x[0][i] - at.x)) * (1.0 / 256)),
-            static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - (g.y[0][i] - at.y)) * (1.0 / 256))};
+    return {static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256)),
+            static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256))};
   }
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {  // of floats that are not negative: their bits
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));

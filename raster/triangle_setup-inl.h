@@ -91,12 +91,12 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
 template <int kFraction>
 inline constexpr std::uint64_t kPlaneZero = kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32Lift} << kUnorm32Fraction) + kUnorm32FractionLift : std::uint64_t{kUnormLift};
 
-/// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the first vertex's pixel.
+/// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the anchor's pixel.
 template <int kFraction>
 HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy, SamplePosition from, int tile_x, int tile_y) {
-  const std::int32_t x = g.x[0][i] - from.x, y = g.y[0][i] - from.y;
+  const std::int32_t x = g.anchor_x[i] - from.x, y = g.anchor_y[i] - from.y;
   const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
-  return kPlaneZero<kFraction> + (std::uint64_t{g.z[0][i]} << kFraction) + fixed_modulo<kFraction>(to_center) + dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
+  return kPlaneZero<kFraction> + (std::uint64_t{g.anchor_z[i]} << kFraction) + fixed_modulo<kFraction>(to_center) + dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
          dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
 }
 
@@ -119,33 +119,41 @@ template <int kFraction>
 ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int tile_x, int tile_y) {
   using Wide = __int128;
   const auto area = static_cast<std::int64_t>(g.area[i]);
-  const std::int64_t dz1 = std::int64_t{g.z[1][i]} - g.z[0][i], dz2 = std::int64_t{g.z[2][i]} - g.z[0][i];
   // Gradients in depth words for each 1/256 pixel, times the area: below 2^57.
-  const std::int64_t nx = g.a[1][i] * dz1 + g.a[2][i] * dz2, ny = g.b[1][i] * dz1 + g.b[2][i] * dz2;
+  std::int64_t nx = 0, ny = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t dz = std::int64_t{g.z[k][i]} - g.anchor_z[i];
+    nx += g.a[k][i] * dz;
+    ny += g.b[k][i] * dz;
+  }
   const auto fixed = [area](Wide numerator) {  // numerator / area in fixed point, to the nearest, modulo 2^64
     const Wide scaled = numerator * (Wide{1} << kFraction), half = area / 2;
     return static_cast<std::uint64_t>((scaled + (scaled < 0 ? -half : half)) / area);
   };
-  const std::int32_t x = g.x[0][i] - from.x, y = g.y[0][i] - from.y;
+  const std::int32_t x = g.anchor_x[i] - from.x, y = g.anchor_y[i] - from.y;
   const std::uint64_t dx = fixed(Wide{nx} * kSubpixelScale), dy = fixed(Wide{ny} * kSubpixelScale);
   return {dx, dy,
-          kPlaneZero<kFraction> + (std::uint64_t{g.z[0][i]} << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
+          kPlaneZero<kFraction> + (std::uint64_t{g.anchor_z[i]} << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
               dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)})};
 }
 
 /// Depth planes of a group: in doubles where those are good for 2^-8 of a depth word, else exactly.
 template <int kFraction>
-HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroupSize], int tile_x, int tile_y) {
+HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGroupSize], int tile_x, int tile_y) {
   set_up_fixed_depth<kFraction>(g, tile_x, tile_y);
-  // A gradient is off by four roundings, 2^-51 of its terms, and counts once for each pixel from the first vertex on, whose pixel's centre is less than
+  // A gradient is off by four roundings, 2^-51 of its terms, and counts once for each pixel from the anchor on, whose pixel's centre is less than
   // two away. Fixed point rounds by half of its last place for each pixel. In places of fixed point, and times the area:
   constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21, kSteps = 1.0 / (2 * kSubpixelScale), kLift = kFraction == 32 ? kUnormLift : kUnorm32FractionLift;
   alignas(64) double off[kGroupSize];
   alignas(64) std::int32_t rough[kGroupSize];
   for (int i = 0; i < kGroupSize; ++i) {
-    const double dz1 = __builtin_fabs(z[1][i] - z[0][i]), dz2 = __builtin_fabs(z[2][i] - z[0][i]);
-    const double a1 = __builtin_fabs(static_cast<double>(g.a[1][i])), a2 = __builtin_fabs(static_cast<double>(g.a[2][i])), b1 = __builtin_fabs(static_cast<double>(g.b[1][i])), b2 = __builtin_fabs(static_cast<double>(g.b[2][i]));
-    const double terms = (a1 + b1) * dz1 + (a2 + b2) * dz2, reach = a1 + a2 + b1 + b2 + 4 * kSubpixelScale;  // reach in 1/256 pixel
+    double terms = 0, extents = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double steps = __builtin_fabs(static_cast<double>(g.a[k][i])) + __builtin_fabs(static_cast<double>(g.b[k][i]));
+      terms += steps * __builtin_fabs(dz[k][i]);
+      extents += steps;
+    }
+    const double reach = 0.5 * extents + 4 * kSubpixelScale;  // in 1/256 pixel; the three edges go once there and once back, in x and in y
     off[i] = (terms * kGradients + g.area[i] * kSteps) * reach;
     rough[i] = off[i] > kLift * g.area[i] ? 1 : 0;
   }
@@ -168,30 +176,53 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&z)[3][kGroup
   }
 }
 
-/// Depth gradients: per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32).
-inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y) {
-  alignas(64) double z[3][kGroupSize];
-  for (int k = 0; k < 3; ++k) {
-    if (kind == DepthKind::float32) {
-      for (int i = 0; i < kGroupSize; ++i) {
-        float f;
-        std::memcpy(&f, &g.z[k][i], sizeof f);
-        z[k][i] = f;
-      }
-    } else {
-      // Exact: the offset makes the word signed, which is what converts in lanes.
-      for (int i = 0; i < kGroupSize; ++i) z[k][i] = static_cast<double>(static_cast<std::int32_t>(g.z[k][i] ^ 0x80000000u)) + 2147483648.0;
-    }
-  }
+/// Chooses the vertices where depth planes are anchored.
+HWY_INLINE void set_up_anchors(TriangleGroup& g) {
   for (int i = 0; i < kGroupSize; ++i) {
-    const double scale = 256.0 / g.area[i], dz1 = z[1][i] - z[0][i], dz2 = z[2][i] - z[0][i];
-    g.depth_dx[i] = (g.a[1][i] * dz1 + g.a[2][i] * dz2) * scale;
-    g.depth_dy[i] = (g.b[1][i] * dz1 + g.b[2][i] * dz2) * scale;
+    const bool second = g.y[1][i] < g.y[0][i] || (g.y[1][i] == g.y[0][i] && g.x[1][i] < g.x[0][i]);
+    const std::int32_t x = second ? g.x[1][i] : g.x[0][i], y = second ? g.y[1][i] : g.y[0][i];
+    const std::uint32_t z = second ? g.z[1][i] : g.z[0][i];
+    const bool third = g.y[2][i] < y || (g.y[2][i] == y && g.x[2][i] < x);
+    g.anchor_x[i] = third ? g.x[2][i] : x;
+    g.anchor_y[i] = third ? g.y[2][i] : y;
+    g.anchor_z[i] = third ? g.z[2][i] : z;
   }
+}
+
+/// A depth word as a number, exactly.
+template <bool kFloat>
+HWY_INLINE double depth_number(std::uint32_t word) {
+  if constexpr (kFloat) {
+    float f;
+    std::memcpy(&f, &word, sizeof f);
+    return f;
+  } else {
+    return static_cast<double>(static_cast<std::int32_t>(word ^ 0x80000000u)) + 2147483648.0;  // the offset makes the word signed, which is what converts in lanes
+  }
+}
+
+/// Gradients per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32). `dz` gets the differences from the anchor, of which
+/// one is 0: the sum of the two others is the same in any order.
+template <bool kFloat>
+HWY_INLINE void set_up_gradients(TriangleGroup& g, double (&dz)[3][kGroupSize]) {
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < kGroupSize; ++i) dz[k][i] = depth_number<kFloat>(g.z[k][i]) - depth_number<kFloat>(g.anchor_z[i]);
+  for (int i = 0; i < kGroupSize; ++i) {
+    const double scale = 256.0 / g.area[i];
+    g.depth_dx[i] = (g.a[0][i] * dz[0][i] + g.a[1][i] * dz[1][i] + g.a[2][i] * dz[2][i]) * scale;
+    g.depth_dy[i] = (g.b[0][i] * dz[0][i] + g.b[1][i] * dz[1][i] + g.b[2][i] * dz[2][i]) * scale;
+  }
+}
+
+inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y) {
+  alignas(64) double dz[3][kGroupSize];
+  set_up_anchors(g);
+  if (kind == DepthKind::float32) return set_up_gradients<true>(g, dz);
+  set_up_gradients<false>(g, dz);
   if (kind == DepthKind::unorm32)
-    set_up_unorm_depth<kUnorm32Fraction>(g, z, tile_x, tile_y);
-  else if (kind != DepthKind::float32)
-    set_up_unorm_depth<kUnormFraction>(g, z, tile_x, tile_y);
+    set_up_unorm_depth<kUnorm32Fraction>(g, dz, tile_x, tile_y);
+  else
+    set_up_unorm_depth<kUnormFraction>(g, dz, tile_x, tile_y);
 }
 
 /// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has unorm depth, set_up_depth

@@ -35,7 +35,10 @@ struct TriangleGroup {
   alignas(64) double signed_area[kGroupSize], area[kGroupSize];  ///< doubled area, exact
   alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize], y1[kGroupSize];  ///< pixel bounds in the tile, inclusive
   alignas(64) std::int32_t wide[kGroupSize], affine[kGroupSize];
-  // Depth planes: float32 as they are, unorm in fixed point modulo 2^64 with the value at the tile's first pixel; see depth-inl.h.
+  // Depth planes: float32 as they are, unorm in fixed point modulo 2^64 with the value at the tile's first pixel; see depth-inl.h. They are anchored at
+  // the topmost vertex, the leftmost of those, so that the order of the vertices does not change their roundings.
+  alignas(64) std::int32_t anchor_x[kGroupSize], anchor_y[kGroupSize];
+  alignas(64) std::uint32_t anchor_z[kGroupSize];
   alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
   alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];

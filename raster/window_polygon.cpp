@@ -1,17 +1,14 @@
 #include "raster/window_polygon.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tessera {
 
 WindowPolygon::WindowPolygon(const VertexTransform& transform, const ClippedPolygon& polygon) : clipped(polygon) {
   for (int i = 0; i < clipped.count; ++i) window[i] = project(transform, clipped.vertices[i].position);
   for (int i = 2; i < clipped.count; ++i) area += doubled_area(window[0], window[i - 1], window[i]);
-  if (is_star()) {
-    for (int i = 2; i < clipped.count; ++i) add({0, i - 1, i});
-  } else {
-    add_ears();
-  }
+  if (!add_fan()) add_ears();
 }
 
 WindowPolygon::WindowPolygon(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) : window{a, b, c}, area(doubled_area(a, b, c)) {
@@ -25,16 +22,26 @@ double WindowPolygon::turn_of(const Corners& c) const {
   return area < 0 ? -turn : turn;
 }
 
-// Whether all of it is seen from the first corner. Snapping may dent a polygon: then triangles from there on cover the dent, which is a neighbour's, and
-// one is turned over.
-bool WindowPolygon::is_star() const {
-  for (int i = 2; i < clipped.count; ++i)
-    if (turn_of({0, i - 1, i}) < 0) return false;
-  return true;
-}
+// What decides between corners is their place, so that the order of the triangle's vertices does not change what is drawn.
+bool WindowPolygon::is_before(int a, int b) const { return std::tie(window[a].y, window[a].x, window[a].z) < std::tie(window[b].y, window[b].x, window[b].z); }
 
 void WindowPolygon::add(const Corners& corners) {
   if (turn_of(corners) != 0) triangles_[static_cast<std::size_t>(count_++)] = corners;
+}
+
+// Around the topmost corner. False if a triangle is turned over: snapping has dented the polygon, and the others would cover the dent, which is a neighbour's.
+bool WindowPolygon::add_fan() {
+  int first = 0;
+  for (int i = 1; i < clipped.count; ++i)
+    if (is_before(i, first)) first = i;
+  bool turned = false;
+  for (int i = 2; i < clipped.count; ++i) {
+    const Corners corners{first, (first + i - 1) % clipped.count, (first + i) % clipped.count};
+    turned |= turn_of(corners) < 0;
+    add(corners);
+  }
+  if (turned) count_ = 0;
+  return !turned;
 }
 
 // Cuts off one corner after the other, none together with which others would go. There is always one, unless edges cross.
@@ -50,10 +57,16 @@ void WindowPolygon::add_ears() {
       };
       return turn_of(ear) == 0 || (turn_of(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
     };
-    int at = 0;
-    while (at + 1 < count && !is_ear(ear_at(at))) ++at;
-    add(ear_at(at));
-    std::copy(left.begin() + at + 1, left.begin() + count, left.begin() + at);
+    int best = 0;
+    bool found = false;
+    for (int i = 0; i < count; ++i) {
+      const bool ear = is_ear(ear_at(i));
+      if (ear < found || (ear == found && !is_before(ear_at(i)[1], ear_at(best)[1]))) continue;
+      best = i;
+      found = ear;
+    }
+    add(ear_at(best));
+    std::copy(left.begin() + best + 1, left.begin() + count, left.begin() + best);
   }
 }
 

@@ -25,14 +25,15 @@ struct WindowPolygon {
   /// A triangle that is not clipped.
   WindowPolygon(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c);
 
-  /// Triangles that cover it exactly; none of those without an area. They turn as it does, unless snapping made its edges cross: that happens to polygons
+  /// Triangles that cover it exactly, the same ones wherever its corners begin and whichever way round; none without an area. They turn as it does, unless snapping made its edges cross: that happens to polygons
   /// thinner than a step of the grid, which then overlap their neighbours, and all of it is drawn rather than holes left.
   std::span<const Corners> triangles() const { return {triangles_.data(), static_cast<std::size_t>(count_)}; }
 
  private:
   double turn_of(const Corners& corners) const;
-  bool is_star() const;
+  bool is_before(int a, int b) const;
   void add(const Corners& corners);
+  bool add_fan();
   void add_ears();
 
   std::array<Corners, kMaxClippedVertices - 2> triangles_{};

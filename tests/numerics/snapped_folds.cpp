@@ -50,7 +50,7 @@ bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, cons
   std::int64_t area = 0;
   for (std::size_t i = 2; i < snapped.size(); ++i) area += doubled_area(snapped[0], snapped[i - 1], snapped[i]);
   const long double turn = v[0][0] * (v[1][1] * v[2][3] - v[1][3] * v[2][1]) + v[0][1] * (v[1][3] * v[2][0] - v[1][0] * v[2][3]) + v[0][3] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
-  return static_cast<long double>(area) * turn < 0 || edges_cross(snapped);
+  return (turn == 0 ? area != 0 : static_cast<long double>(area) * turn < 0) || edges_cross(snapped);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Stored depths against exact rational arithmetic, and all that depth tests must agree on with themselves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -80,7 +81,8 @@ TEST(Depth, OfNeedlesIsWithinItsLevels) {
 
 // float32. The gradients are floats, each off by at most 2^-24 of itself (2^-52 of their terms come on top, which only
 // needles feel); the inner multiply-add rounds to 2^-24 of |z0 + gy Y|, the outer to 2^-24 of the sum. So the error is at most
-// 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never more than the vertices' range, to which it is cut.
+// 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never more than the vertices' range, to which it is cut. X and Y count from
+// the topmost vertex, the leftmost of those, whose depth is z0.
 TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
   for (int s = 0; s < static_cast<int>(Shape::kCount); ++s) {
     RandomTriangles source(static_cast<std::uint32_t>(100 + s), kTile);
@@ -98,12 +100,15 @@ TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
       const double gx = gradient(reference.edge[1].dx, reference.edge[2].dx), gy = gradient(reference.edge[1].dy, reference.edge[2].dy);
       const double tx = terms(reference.edge[1].dx, reference.edge[2].dx), ty = terms(reference.edge[1].dy, reference.edge[2].dy);
       const auto [low, high] = std::minmax({t.depth(0), t.depth(1), t.depth(2)});
+      const auto is_before = [](const WindowVertex& a, const WindowVertex& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
+      const auto anchor = static_cast<int>(std::min_element(t.corners.begin(), t.corners.end(), is_before) - t.corners.begin());
+      const WindowVertex& at = t.corners[static_cast<std::size_t>(anchor)];
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
         reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
           const double stored = float_of(stage.depth(x, y)), exact = static_cast<double>(exact_depth(reference, t, x, y));
-          const double across = std::abs(x + 0.5 - t.corners[0].x / 256.0), down = std::abs(y + 0.5 - t.corners[0].y / 256.0);
-          const double bound = 1.01 * 0x1p-24 * (2 * t.depth(0) + 2 * std::abs(gx) * across + 3 * std::abs(gy) * down) + 0x1p-50 * (tx * across + ty * down);
+          const double across = std::abs(x + 0.5 - at.x / 256.0), down = std::abs(y + 0.5 - at.y / 256.0);
+          const double bound = 1.01 * 0x1p-24 * (2 * t.depth(anchor) + 2 * std::abs(gx) * across + 3 * std::abs(gy) * down) + 0x1p-50 * (tx * across + ty * down);
           ASSERT_LE(std::abs(stored - exact), std::min(bound, high - low)) << name_of(isa) << ": " << stored << " for " << exact << ": " << Describe{t.corners};
           ASSERT_GE(stored, low);
           ASSERT_LE(stored, high);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/raster/random_triangles.h"
@@ -54,29 +55,60 @@ void expect_covered_once(const WindowPolygon& polygon, int round) {
 }
 
 // Around a point, in order of their directions: edges never cross, dents are anywhere. Clipping makes dents of 1/256 pixel; here they are as deep as they like.
+std::vector<Corner> random_corners(RandomTriangles& source) {
+  const int count = source.between(3, kMaxClippedVertices);
+  const double start = 6.3 * source.unit();
+  std::vector<Corner> corners;
+  for (int i = 0; i < count; ++i) {
+    const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count, radius = 128 * kSide * (0.2 + source.unit());
+    corners.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))), static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))});
+  }
+  if (source.between(0, 1) != 0) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+bool is_dented(const WindowPolygon& polygon) {
+  const int n = polygon.clipped.count;
+  for (int i = 0; i < n; ++i)
+    if (doubled_area(polygon.window[i], polygon.window[(i + 1) % n], polygon.window[(i + 2) % n]) * polygon.area < 0) return true;
+  return false;
+}
+
 TEST(WindowPolygon, IsCoveredOnceByItsTriangles) {
   RandomTriangles source(41, kSide);
   int dented = 0;
   for (int round = 0; round < (long_tests() ? 100000 : 5000); ++round) {
-    const int count = source.between(3, kMaxClippedVertices);
-    const double start = 6.3 * source.unit();
-    std::vector<Corner> corners;
-    for (int i = 0; i < count; ++i) {
-      const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count, radius = 128 * kSide * (0.2 + source.unit());
-      corners.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))), static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))});
-    }
-    if (source.between(0, 1) != 0) std::reverse(corners.begin(), corners.end());
-    const WindowPolygon polygon(window_transform(), clipped(corners));
+    const WindowPolygon polygon(window_transform(), clipped(random_corners(source)));
     for (const WindowPolygon::Corners& c : polygon.triangles()) ASSERT_GT(doubled_area(polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]) * polygon.area, 0);
-    for (int i = 2; i < count; ++i)
-      if (doubled_area(polygon.window[0], polygon.window[i - 1], polygon.window[i]) * polygon.area < 0) {
-        ++dented;
-        break;
-      }
+    dented += is_dented(polygon);
     expect_covered_once(polygon, round);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(dented, 500);
+}
+
+using Places = std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>>;
+Places places_of(const WindowPolygon& polygon) {
+  Places places;
+  for (const WindowPolygon::Corners& corners : polygon.triangles()) {
+    places.emplace_back();
+    for (const int c : corners) places.back().emplace_back(polygon.window[c].x, polygon.window[c].y);
+    std::sort(places.back().begin(), places.back().end());
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+TEST(WindowPolygon, HasTheSameTrianglesWhereverItBegins) {
+  RandomTriangles source(42, kSide);
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<Corner> corners = random_corners(source);
+    const Places first = places_of(WindowPolygon(window_transform(), clipped(corners)));
+    for (std::size_t turn = 0; turn < 2 * corners.size(); ++turn) {
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+      if (turn == corners.size()) std::reverse(corners.begin(), corners.end());
+      ASSERT_EQ(places_of(WindowPolygon(window_transform(), clipped(corners))), first) << "round " << round;
+    }
+  }
 }
 
 // Two corners in one place, corners on a straight line, and a line there and back: none of it covers anything.
