@@ -90,7 +90,8 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   std::vector<EyeLight> lights;
   for (const Light& light : draw.surroundings->lights) lights.push_back(eye_light(light, view));
   const TrackedColors tracked = draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
-  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong};
+  const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
+  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong, unit_normals};
   const auto program = [&](const Material& material, bool index) {
     if (!index) return plan_lighting(surface(material), tracked, lights, lighting, reasons);
     if (reasons) *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";

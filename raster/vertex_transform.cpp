@@ -127,19 +127,28 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
   }
   for (std::size_t i = count; i < kVertexBatch; ++i) nx[i] = ny[i] = nz[i] = 0;
   const double* m = t.normal_matrix;
+  const auto carry = [&](const auto& scaled) HWY_ATTR {
+    for (int i = 0; i < kVertexBatch; ++i) {
+      const double ex = __builtin_fma(m[0], nx[i], __builtin_fma(m[1], ny[i], m[2] * nz[i]));
+      const double ey = __builtin_fma(m[3], nx[i], __builtin_fma(m[4], ny[i], m[5] * nz[i]));
+      const double ez = __builtin_fma(m[6], nx[i], __builtin_fma(m[7], ny[i], m[8] * nz[i]));
+      scaled(i, ex, ey, ez);
+    }
+  };
   const auto [shortest, longest] = t.normal_lengths;
-  const double least = shortest * shortest, most = longest * longest, per_shortest = shortest > 0 ? 1 / shortest : 0, per_longest = 1 / longest;
-  for (int i = 0; i < kVertexBatch; ++i) {
-    const double ex = __builtin_fma(m[0], nx[i], __builtin_fma(m[1], ny[i], m[2] * nz[i]));
-    const double ey = __builtin_fma(m[3], nx[i], __builtin_fma(m[4], ny[i], m[5] * nz[i]));
-    const double ez = __builtin_fma(m[6], nx[i], __builtin_fma(m[7], ny[i], m[8] * nz[i]));
+  if (shortest == 0) {
+    carry([&](int i, double ex, double ey, double ez) HWY_ATTR { x[i] = static_cast<float>(ex), y[i] = static_cast<float>(ey), z[i] = static_cast<float>(ez); });
+    return;
+  }
+  const double least = shortest * shortest, most = longest * longest, per_shortest = 1 / shortest, per_longest = 1 / longest;
+  carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
     const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
     const bool is_short = squared > 0 && squared < least, is_long = squared > most;
     const double length = is_short || is_long ? __builtin_sqrt(squared) * (is_short ? per_shortest : per_longest) : 1.0;
     x[i] = static_cast<float>(ex / length);
     y[i] = static_cast<float>(ey / length);
     z[i] = static_cast<float>(ez / length);
-  }
+  });
 }
 
 }  // namespace HWY_NAMESPACE

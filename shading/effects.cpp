@@ -111,6 +111,7 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
     term.spot_exponent = light.spot_exponent;
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
     term.shininess = material.shininess;
+    term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
     // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.
     term.highlight_floor = material.shininess == 0 ? -std::numeric_limits<float>::infinity() : exp2_reference(std::max(-32.0f / material.shininess, -126.0f));
     program.needs_normal = true;

@@ -16,6 +16,10 @@ struct Vector {
   Float x, y, z;
 };
 HWY_INLINE Float dot(const Vector& a, const Vector& b) { return mul_add(a.x, b.x, mul_add(a.y, b.y, hn::Mul(a.z, b.z))); }
+/// a - b s
+HWY_INLINE Vector less_times(const Vector& a, const Vector& b, Float s) { return {neg_mul_add(b.x, s, a.x), neg_mul_add(b.y, s, a.y), neg_mul_add(b.z, s, a.z)}; }
+/// The cosine of two unit vectors that are that far apart: near 1 it has the error of what is missing there.
+HWY_INLINE Float cosine_of_units(const Vector& apart) { return mul_add(splat(-0.5f), dot(apart, apart), splat(1.0f)); }
 HWY_INLINE Vector splat_vector(const std::array<float, 3>& v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
 HWY_INLINE Vector load_vector(const ShadingBatch& batch, int first_field, int point) {
   return {hn::Load(kFloat, batch.field[first_field] + point), hn::Load(kFloat, batch.field[first_field + 1] + point),
@@ -90,15 +94,22 @@ HWY_INLINE void add_light_to_chunk(const LightTerm& term, const ShadingBatch& ba
   if constexpr (kHighlight != HighlightKind::none) {
     Float base;
     if constexpr (kBlinn && !kLocal && !kPositional) {
-      base = dot(normal, splat_vector(term.half_vector));
+      const Vector half = splat_vector(term.half_vector);
+      base = dot(normal, half);
+      if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, splat(1.0f)));
     } else {
       const Vector view = kLocal ? surface.view : Vector{zero, zero, splat(1.0f)};
       const Float n_dot_v = kLocal ? surface.n_dot_v : normal.z;
       if constexpr (kBlinn) {  // S = normalize(L + E)
         const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)};
-        base = hn::Mul(hn::Add(n_dot_l, n_dot_v), inverse_length(dot(half, half)));
+        const Float inverse = inverse_length(dot(half, half));
+        base = hn::Mul(hn::Add(n_dot_l, n_dot_v), inverse);
+        if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, inverse));
       } else {  // R = 2 (L.n) n - L
-        base = hn::Sub(hn::Mul(hn::Add(n_dot_l, n_dot_l), n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
+        const Float twice = hn::Add(n_dot_l, n_dot_l);
+        base = hn::Sub(hn::Mul(twice, n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
+        if (HWY_UNLIKELY(term.sharp))  // E - R
+          base = cosine_of_units(less_times({hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)}, normal, twice));
       }
     }
     const auto shiny = hn::And(facing, hn::Gt(base, splat(term.highlight_floor)));

@@ -69,7 +69,11 @@ struct LightingModel {
   Rgb scene_ambient{0.2f, 0.2f, 0.2f};
   bool local_viewer = false;
   bool phong_highlight = false;  ///< (R.E)^shininess instead of (S.n)^shininess
+  bool unit_normals = false;     ///< normals that are lit have length 1, or none
 };
+
+/// From here on highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings, times the exponent, would begin to show.
+inline constexpr float kSharpShininess = 2048;
 
 enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
 enum class HighlightKind : std::uint8_t { none, blinn_infinite, blinn_local, phong_infinite, phong_local };
@@ -79,6 +83,7 @@ inline constexpr int kLightKinds = 5, kHighlightKinds = 5;
 struct LightTerm {
   LightKind kind = LightKind::directional;
   HighlightKind highlight = HighlightKind::none;
+  bool sharp = false;                          ///< a highlight from kSharpShininess on, of unit normals
   bool general = false;                        ///< has an ambient part or a part that the vertex colour multiplies
   std::array<float, 3> position{};             ///< or direction
   std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))

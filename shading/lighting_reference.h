@@ -22,6 +22,10 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
   const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
   const auto power = [](float x, float exponent) { return exponent == 0 ? 1.0f : power_reference(x, exponent); };
+  const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) {  // a and b s
+    const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
+    return std::fma(-0.5f, dot(apart, apart), 1.0f);
+  };
   const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] = std::fma(intensity, color[c], sum[c]);
   };
@@ -58,14 +62,16 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       const bool local = term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
       const Vec eye = local ? view : Vec{0, 0, 1};
       const float n_dot_v = local ? dot(normal, view) : normal[2];
+      const Vec half{to_light[0] + eye[0], to_light[1] + eye[1], to_light[2] + eye[2]};
       float base;
       if (term.highlight == HighlightKind::phong_infinite || term.highlight == HighlightKind::phong_local) {
-        base = (n_dot_l + n_dot_l) * n_dot_v - (local ? dot(to_light, view) : to_light[2]);  // R = 2 (L.n) n - L
+        const float twice = n_dot_l + n_dot_l;  // R = 2 (L.n) n - L
+        base = term.sharp ? cosine_of_units(half, normal, twice) : twice * n_dot_v - (local ? dot(to_light, view) : to_light[2]);
       } else if (term.kind == LightKind::directional && !local) {
-        base = dot(normal, term.half_vector);
+        base = term.sharp ? cosine_of_units(normal, term.half_vector, 1.0f) : dot(normal, term.half_vector);
       } else {  // S = normalize(L + E)
-        const Vec half{to_light[0] + eye[0], to_light[1] + eye[1], to_light[2] + eye[2]};
-        base = (n_dot_l + n_dot_v) * inverse_length(dot(half, half));
+        const float inverse = inverse_length(dot(half, half));
+        base = term.sharp ? cosine_of_units(normal, half, inverse) : (n_dot_l + n_dot_v) * inverse;
       }
       highlight = base > term.highlight_floor ? power(base, term.shininess) * factor : 0.0f;
     }

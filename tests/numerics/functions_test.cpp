@@ -12,11 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "framebuffer/palette_search.h"
+#include "raster/vertex_transform.h"
+#include "shading/lighting.h"
 #include "shading/power.h"
 #include "shading/trigonometry.h"
 #include "tests/numerics/bounds.h"
 #include "tests/raster/random_triangles.h"
 #include "tests/shading/power_lanes.h"
+#include "tests/shading/texture_lanes.h"
 
 namespace tessera::test {
 namespace {
@@ -103,6 +107,136 @@ TEST(Functions, SinesAndCosines) {
     EXPECT_EQ(found.sine, kSines[quarter & 3]);
     EXPECT_EQ(found.cosine, kSines[(quarter + 1) & 3]);
   }
+}
+
+/// Two more components for each first one: of about its size, or much smaller, at most `largest`.
+struct Vectors {
+  std::vector<float> xyz;
+  Vectors(const std::vector<float>& first, double smallest, double largest, std::mt19937& random) {
+    for (const float x : first) {
+      xyz.push_back(x);
+      for (int k = 0; k < 2; ++k) {
+        const double other = x * std::ldexp(1 + random() * 0x1p-32, 1 - static_cast<int>(random() % 40));
+        xyz.push_back(static_cast<float>(std::clamp(random() % 16 == 0 ? 0 : other, smallest, largest)));
+      }
+    }
+  }
+  long double unit(std::size_t i, std::size_t k) const {
+    const long double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2];
+    return xyz[3 * i + k] / std::sqrt(x * x + y * y + z * z);
+  }
+};
+
+// In double, so that squares of all floats are numbers: 3.5 roundings of 2^-53 before the one to a float.
+TEST(Functions, NormalsOfVertices) {
+  std::mt19937 random(6);
+  long double worst = 0;
+  EyeTransform transform;
+  for (int k = 0; k < 3; ++k) transform.normal_matrix[4 * k] = 1;
+  for_floats(1, bits_of(3.4028234e38f), [&](const std::vector<float>& first) {
+    const Vectors vectors(first, 0, 3.4028234e38, random);
+    for (std::size_t at = 0; at < first.size(); at += 16) {
+      float unit[3][kVertexBatch];
+      eye_normals(available_isas().front())(transform, {vectors.xyz.data() + 3 * at, 3}, 16, unit[0], unit[1], unit[2]);
+      for (std::size_t i = 0; i < 16; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          if (vectors.xyz[3 * (at + i) + k] != 0) worst = std::max(worst, ulps(unit[k][i], vectors.unit(at + i, k)));
+    }
+  });
+  expect_within("normalize at vertices, every float", worst, 0.50001L, "ulp");
+}
+
+/// A program of lights along x, y and z, whose diffuse parts are what the points' normals are, in red, green and blue.
+LightingProgram normals_as_colors() {
+  std::vector<EyeLight> lights(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    lights[k].position = lights[k].diffuse = lights[k].specular = {0, 0, 0};
+    lights[k].position[k] = lights[k].diffuse[k] = 1;
+  }
+  LightingProgram program = plan_lighting({.ambient = {0, 0, 0}, .diffuse = {1, 1, 1}}, {}, lights, {.scene_ambient = {0, 0, 0}}, nullptr);
+  program.renormalize = true;
+  return program;
+}
+
+// In floats: of the squared length 3 roundings, half of which stay; of the root, its reciprocal and the product one each.
+TEST(Functions, NormalsOfPixels) {
+  std::mt19937 random(7);
+  long double worst = 0;
+  const LightingProgram program = normals_as_colors();
+  for_floats(bits_of(0x1p-60f), bits_of(0x1p60f), [&](const std::vector<float>& first) {
+    const Vectors vectors(first, 0, 0x1p60, random);
+    for (std::size_t at = 0; at < first.size(); at += 16) {
+      ShadingBatch batch{};
+      for (std::size_t i = 0; i < 16; ++i)
+        for (std::size_t k = 0; k < 3; ++k) batch.field[kNormalX + k][i] = vectors.xyz[3 * (at + i) + k];
+      light_points(available_isas().front())(program, batch, 16);
+      for (std::size_t i = 0; i < 16; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          if (vectors.xyz[3 * (at + i) + k] != 0) worst = std::max(worst, std::min<long double>(ulps(batch.field[kColorR + k][i], vectors.unit(at + i, k)), 1e9L));
+    }
+  });
+  expect_within("normalize at pixels, lengths of 2^-60 to 2^60", worst, 4.5, "ulp");
+}
+
+// The root of a rounded square is the number itself, and its reciprocal is rounded once.
+TEST(Functions, Reciprocals) {
+  long double worst = 0;
+  EyeLight light{.ambient = {0x1p-61f, 0, 0}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}};
+  light.directional = false;
+  light.position = {0, 0, 0};
+  light.attenuation = {0, 1, 0};
+  const LightingProgram program = plan_lighting({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, {}, {light}, {.scene_ambient = {0, 0, 0}}, nullptr);
+  for_floats(bits_of(0x1p-60f), bits_of(0x1p60f), [&](const std::vector<float>& distances) {
+    for (std::size_t at = 0; at < distances.size(); at += 16) {
+      ShadingBatch batch{};
+      std::copy_n(distances.data() + at, 16, batch.field[kPositionY]);
+      light_points(available_isas().front())(program, batch, 16);
+      for (std::size_t i = 0; i < 16; ++i) worst = std::max(worst, ulps(batch.field[kColorR][i], 0x1p-61L / distances[at + i]));
+    }
+  });
+  expect_within("1 / sqrt(x x), x in 2^-60 .. 2^60", worst, 0.5, "ulp");
+}
+
+// Half the logarithm of how many texels a pixel spans, squared: the polynomial is off by less than 1/65536, truncating takes as much again, and the last
+// sums round at less than 2^15 with 24 bits.
+TEST(Functions, LevelsOfDetail) {
+  long double worst = 0;
+  for_floats(bits_of(1) + 1, bits_of(0x1p28f), [&](const std::vector<float>& footprints) {
+    std::vector<std::int32_t> levels(footprints.size());
+    levels_of_detail(available_isas().front())(footprints.data(), levels.data(), footprints.size());
+    for (std::size_t i = 0; i < footprints.size(); ++i) worst = std::max(worst, std::abs(levels[i] - 32768 * std::log2(static_cast<long double>(footprints[i]))));
+  });
+  expect_within("level of detail of 1 to 16384 texels a pixel", worst, 2.01L, "1/65536 level");
+}
+
+// A difference is off by 2^-24 for the entry's own rounding and one of its own; three squares and two sums round at most three times each: of two entries
+// the farther one may be taken where their squared distances differ by less than twice that.
+TEST(Functions, PaletteDistances) {
+  std::mt19937 random(8);
+  long double worst = 0;
+  for (const int count : {2, 16, 256}) {
+    Palette palette{.bits = 8, .entries = {}};
+    for (int i = 0; i < count; ++i) palette.entries.push_back({static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random())});
+    const PaletteSearch search(palette);
+    for (int n = 0; n < (long_tests() ? 10000000 : 100000); ++n) {
+      // Anywhere, or nearly half way between two entries.
+      float at[3];
+      const Rgb8 a = palette.entries[random() % palette.entries.size()], b = palette.entries[random() % palette.entries.size()];
+      const bool between = random() % 2 != 0;
+      const double to_b = 0.5 + (random() * 0x1p-32 - 0.5) * 1e-6;
+      const auto mixed = [&](int of_a, int of_b) { return static_cast<float>(between ? (of_a + (of_b - of_a) * to_b) / 255 : random() * 0x1p-32); };
+      at[0] = mixed(a.r, b.r), at[1] = mixed(a.g, b.g), at[2] = mixed(a.b, b.b);
+      const auto squared = [&](const Rgb8& e) {
+        const long double r = at[0] - e.r / 255.0L, g = at[1] - e.g / 255.0L, bl = at[2] - e.b / 255.0L;
+        return r * r + g * g + bl * bl;
+      };
+      long double least = 9;
+      for (const Rgb8& e : palette.entries) least = std::min(least, squared(e));
+      const long double found = squared(palette.entries[search.nearest(at[0], at[1], at[2])]), root = std::sqrt(found);
+      worst = std::max(worst, (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
+    }
+  }
+  expect_within("squared distance of palette entries beyond the least, of its roundings", worst, 1, "");
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ class RandomLighting {
     return l;
   }
   SurfaceMaterial material() {
-    constexpr float kShininess[] = {0, 0.5f, 1, 5, 20, 76.8f, 128, 1000};
-    return {color(), color(), color(), color(), kShininess[std::uniform_int_distribution<std::size_t>(0, 7)(random_)]};
+    constexpr float kShininess[] = {0, 0.5f, 1, 5, 20, 76.8f, 128, 1000, 10000};
+    return {color(), color(), color(), color(), kShininess[std::uniform_int_distribution<std::size_t>(0, 8)(random_)]};
   }
   LightingCase next() {
     LightingCase c;
@@ -82,7 +82,7 @@ class RandomLighting {
     const int count = std::uniform_int_distribution<int>(0, 5)(random_);
     for (int i = 0; i < count; ++i) c.lights.push_back(light(static_cast<LightKind>(std::uniform_int_distribution<int>(0, kLightKinds - 1)(random_))));
     c.model = {color(), one_in(2), one_in(2)};
-    c.renormalize = one_in(2);
+    c.renormalize = c.model.unit_normals = one_in(2);
     c.negate_normal = one_in(2);
     return c;
   }

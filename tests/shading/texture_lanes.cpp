@@ -72,6 +72,13 @@ bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&at
   return true;
 }
 
+void level_lanes(const float* footprints, std::int32_t* levels, std::size_t count) {
+  TextureLevels texture;
+  texture.last = kMaxTextureLevels - 1;
+  texture.blends_levels = true;
+  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(kLanes)) hn::StoreU(level_of_detail(texture, hn::LoadU(kFloat, footprints + i)), kInt, levels + i);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera
 HWY_AFTER_NAMESPACE();
@@ -81,6 +88,7 @@ namespace tessera::test {
 SampleTexture* sample_texture(Isa isa) { return TESSERA_KERNEL(isa, sample_lanes); }
 TexelComponents* texel_components(Isa isa) { return TESSERA_KERNEL(isa, component_lanes); }
 TextureColors* texture_colors(Isa isa) { return TESSERA_KERNEL(isa, color_lanes); }
+LevelsOfDetail* levels_of_detail(Isa isa) { return TESSERA_KERNEL(isa, level_lanes); }
 TileCoordinates* tile_coordinates(Isa isa) { return TESSERA_KERNEL(isa, coordinate_lanes); }
 }  // namespace tessera::test
 #endif

@@ -24,4 +24,8 @@ TextureColors* texture_colors(Isa isa);
 using TileCoordinates = bool(const WindowVertex (&vertices)[3], const float* const (&attributes)[3], const DrawTexture& texture, int tile_size, float* s, float* t, float* squared);
 TileCoordinates* tile_coordinates(Isa isa);
 
+/// Of `count` squared footprints, a multiple of 16, in a texture with all levels, which are blended: with 16 fraction bits.
+using LevelsOfDetail = void(const float* footprints, std::int32_t* levels, std::size_t count);
+LevelsOfDetail* levels_of_detail(Isa isa);
+
 }  // namespace tessera::test

@@ -1,0 +1,144 @@
+// Shadows that are hardly cast: lights nearly in the plane, nearly parallel to it, very far away; planes of huge and tiny coefficients. Either there is
+// none, and draws say so, or the matrix takes points to the plane.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/random_lit_scenes.h"
+#include "tests/raster/random_triangles.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr Real kDouble = 0x1p-53L, kLongDouble = 0x1p-64L;
+using Real4 = std::array<Real, 4>;
+
+Real dot(const Real4& a, const Real4& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
+Real4 magnitudes(const Real4& v) { return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), std::abs(v[3])}; }
+
+struct Shadow {
+  std::array<double, 4> plane{};
+  Light light;
+
+  Real4 p() const { return {plane[0], plane[1], plane[2], plane[3]}; }
+  Real4 l() const { return {light.position[0], light.position[1], light.position[2], light.position[3]}; }
+  /// p.l over what is added up for it: 0 where there is no shadow.
+  Real slope() const { return std::abs(dot(p(), l())) / dot(magnitudes(p()), magnitudes(l())); }
+  std::optional<Matrix> matrix() const {
+    try {
+      return planar_shadow(plane, light);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
+};
+
+// x goes to x - l (p.x) / (p.l). An element of the matrix multiplies l and p and divides by p.l (2 roundings), which is 4 roundings of its terms off, and
+// subtracts that from 1 or 0 (another). Of each product with the point that much; and what long double itself rounds.
+Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
+  const Real4 p = shadow.p(), l = shadow.l();
+  const Real product = dot(p, l), condition = 1 / shadow.slope();
+  Real worst = 0, from_plane = 0, from_plane_allowed = 0;
+  for (std::size_t r = 0; r < 4; ++r) {
+    Real at = 0, exact = x[r], allowed = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Real removed = l[r] * p[c] / product;
+      at += m.m[4 * r + c] * x[c];
+      exact -= removed * x[c];
+      allowed += (((3 + 4 * condition) * std::abs(removed) + (r == c)) * kDouble + 8 * kLongDouble * (std::abs(removed) + 1)) * std::abs(x[c]);
+    }
+    worst = std::max(worst, std::abs(at - exact) / allowed);
+    from_plane += p[r] * at;
+    from_plane_allowed += std::abs(p[r]) * allowed;
+  }
+  return std::max(worst, std::abs(from_plane) / from_plane_allowed);
+}
+
+// Between light and plane, and beyond the plane.
+Real4 any_point(Draws& draws, const Shadow& shadow) {
+  Real4 x{draws.between(-10, 10), draws.between(-10, 10), draws.between(-10, 10), 1};
+  if (draws.one_in(2)) {  // near the plane
+    const Real4 p = shadow.p();
+    const Real off = dot(p, x) / (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    for (std::size_t k = 0; k < 3; ++k) x[k] -= 0.999L * off * p[k];
+  }
+  return x;
+}
+
+Shadow any_shadow(Draws& draws) {
+  Shadow s;
+  const std::array<float, 3> n = draws.direction(), d = draws.direction();
+  const double size = std::pow(10, draws.of({0.0, 0.0, -100.0, 100.0, -290.0, 290.0}));
+  s.plane = {n[0] * size, n[1] * size, n[2] * size, draws.between(-10, 10) * size};
+  const float far = static_cast<float>(std::pow(10, draws.of({-20, -3, 0, 3, 20, 36})));
+  for (std::size_t k = 0; k < 3; ++k) s.light.position[k] = d[k] * far;
+  s.light.position[3] = draws.one_in(3) ? 0 : draws.of({1.0f, 2.0f, -1.0f, 1e-20f});
+  return s;
+}
+
+TEST(PlanarShadows, FallOntoThePlane) {
+  Draws draws{std::mt19937(51)};
+  Real worst = 0;
+  int cast = 0;
+  for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
+    const Shadow shadow = any_shadow(draws);
+    const std::optional<Matrix> m = shadow.matrix();
+    if (!m) {
+      EXPECT_LT(shadow.slope(), 0x1p-21L) << "there is a shadow";
+      continue;
+    }
+    ++cast;
+    for (int k = 0; k < 4; ++k) worst = std::max(worst, worst_error(shadow, *m, any_point(draws, shadow)));
+  }
+  EXPECT_GT(cast, 19000);
+  expect_within("planar shadows, of 4 double eps over the sine between light and plane", worst, 1, "");
+}
+
+// From where the light is 2^-30 of its distance off the plane to where it is well off: refused up to 2^-22 of what is added up, right from there on.
+TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
+  Draws draws{std::mt19937(52)};
+  Real worst = 0;
+  int cast = 0, refused = 0;
+  for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
+    Shadow shadow = any_shadow(draws);
+    const double off = std::exp2(draws.between(-30, -8));
+    // A plane through nearly where the light is, or along it.
+    const Real4 l = shadow.l();
+    Real4 p = shadow.p();
+    if (l[3] == 0) {
+      const Real along = (p[0] * l[0] + p[1] * l[1] + p[2] * l[2]) / (l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+      for (std::size_t k = 0; k < 3; ++k) shadow.plane[k] = static_cast<double>(p[k] - along * l[k] * (1 - off));
+    } else {
+      shadow.plane[3] = static_cast<double>(-(p[0] * l[0] + p[1] * l[1] + p[2] * l[2]) / l[3]) * (1 + off);
+    }
+    if (!std::isfinite(shadow.plane[3])) continue;
+    const Real slope = shadow.slope();
+    const std::optional<Matrix> m = shadow.matrix();
+    (m ? cast : refused) += 1;
+    EXPECT_TRUE(!m || slope > 0x1.fp-23L) << static_cast<double>(slope);
+    EXPECT_TRUE(m || slope < 0x1.1p-22L) << static_cast<double>(slope);
+    if (!m) continue;
+    for (int k = 0; k < 4; ++k) worst = std::max(worst, worst_error(shadow, *m, any_point(draws, shadow)));
+  }
+  EXPECT_GT(cast, 5000);
+  EXPECT_GT(refused, 3000);
+  expect_within("planar shadows of lights nearly in the plane, of the same", worst, 1, "");
+}
+
+// Elements that no double holds are refused, too; what is drawn never is.
+TEST(PlanarShadows, ThatAreTooFarAwayAreRefused) {
+  const Light above{.position = {0, 0, 1, 1}};
+  EXPECT_THROW(planar_shadow({0, 0, 1e-310, 1e300}, Light{.position = {0, 0, 1e-30f, 0}}), Error);
+  EXPECT_THROW(planar_shadow({0, 0, 0, 1}, above), Error);
+  EXPECT_THROW(planar_shadow({0, 0, 1, -1}, above), Error);
+  EXPECT_NO_THROW(planar_shadow({0, 0, 1e308, 1e308}, above));
+  EXPECT_NO_THROW(planar_shadow({0, 0, 1e-308, 1e-308}, above));
+  EXPECT_NO_THROW(planar_shadow({0, 0, 1, 0}, Light{.position = {3e38f, 0, 3e38f, 1e-38f}}));
+}
+
+}  // namespace
+}  // namespace tessera::test
