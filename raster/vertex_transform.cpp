@@ -173,9 +173,11 @@ std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
 
 WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   WindowVertex v;
-  // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex exactly.
-  v.x = t.center_x + static_cast<std::int32_t>(std::floor(std::fma(p.x / p.w * t.half_width, 256.0, 0.5)));
-  v.y = t.center_y - static_cast<std::int32_t>(std::floor(std::fma(p.y / p.w * t.half_height, 256.0, 0.5)));
+  // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex exactly. What a cut makes of very large numbers may be
+  // anywhere: it stays in the guard band.
+  const double x = std::clamp(p.x / p.w, -t.guard_x, t.guard_x), y = std::clamp(p.y / p.w, -t.guard_y, t.guard_y);
+  v.x = t.center_x + static_cast<std::int32_t>(std::floor(std::fma(x * t.half_width, 256.0, 0.5)));
+  v.y = t.center_y - static_cast<std::int32_t>(std::floor(std::fma(y * t.half_height, 256.0, 0.5)));
   v.rw = static_cast<float>(1.0 / p.w);
   const double unit = t.reversed ? p.z / p.w : std::fma(p.z / p.w, 0.5, 0.5);
   const double z = std::clamp(std::fma(unit, t.depth_far - t.depth_near, t.depth_near), 0.0, 1.0);
