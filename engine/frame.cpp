@@ -8,6 +8,7 @@
 #include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/out_of_memory.h"
+#include "engine/parallel.h"
 #include "engine/planar_shadow.h"
 #include "engine/recording.h"
 #include "raster/fixed_point.h"
@@ -97,23 +98,28 @@ Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
+// Comparisons and products, too, belong in a mode of our own: in the caller's a NaN may be a trap.
 void Frame::set_camera(const Camera& camera) {
+  const FloatingPointMode mode;
   require_finite({"Frame::set_camera: view"}, camera.view);
   require_finite({"Frame::set_camera: projection"}, camera.projection);
   change(*recording_, "Frame::set_camera", [&](Surroundings& changed) { changed.camera = camera; });
 }
 
 void Frame::set_lights(std::span<const Light> lights) {
+  const FloatingPointMode mode;
   for (std::size_t i = 0; i < lights.size(); ++i) check_light(i, lights[i]);
   change(*recording_, "Frame::set_lights", [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
 }
 
 void Frame::set_light_model(const LightModel& model) {
+  const FloatingPointMode mode;
   require_finite({"Frame::set_light_model: ambient"}, model.ambient);
   change(*recording_, "Frame::set_light_model", [&](Surroundings& changed) { changed.light_model = model; });
 }
 
 void Frame::clear(const Clear& clear) {
+  const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
   if (clear.color)
     for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a}) require_range({"Frame::clear: a component of color"}, c, 0, 1);
@@ -142,6 +148,7 @@ void Frame::clear(const Clear& clear) {
 }
 
 void Frame::accumulate(const Accum& accum) {
+  const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
   if (target.layout.index) throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0) throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
@@ -152,6 +159,7 @@ void Frame::accumulate(const Accum& accum) {
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
+  const FloatingPointMode mode;
   with_memory("Frame::draw", [&] {
     RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = recording_->surroundings};
     check_state(state);
@@ -188,6 +196,7 @@ std::string Frame::explain(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
     throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " + std::to_string(recording_->draws.size()) + " draws, counted from 0");
   return with_memory("Frame::explain", [&] {
+    const FloatingPointMode mode;
     std::string reasons;
     plan_draw(recording_->draws[draw_index], *recording_->target, false, &reasons);
     return reasons;

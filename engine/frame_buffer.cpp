@@ -41,7 +41,7 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
     throw Error(std::string(function) + ": the target is " + std::to_string(target.width) + " x " + std::to_string(target.height) +
                 " pixels, the frame buffer is " + std::to_string(format.width) + " x " + std::to_string(format.height));
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
-  if (target.height > 1 && std::abs(target.stride_bytes) < row)
+  if (target.height > 1 && target.stride_bytes < row && target.stride_bytes > -row)
     throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) + " bytes, a row takes " + std::to_string(row));
   if (target.part && (target.part->width < 0 || target.part->height < 0))
     throw Error(std::string(function) + ": the target's part is " + std::to_string(target.part->width) + " x " + std::to_string(target.part->height) +
@@ -69,6 +69,7 @@ PixelRect shown_part(const ImageTarget& target) {
 
 std::vector<Color> named_palette(std::string_view palette_name, int color_bits) try {
   require_range("color_bits", color_bits, 1, 24);
+  const FloatingPointMode mode;
   const auto entries = palette_entries(palette_name, color_bits);
   if (!entries) throw Error("palette: \"" + std::string(palette_name) + "\" is unknown, it must be bw, gray, ega16, vga256 or web216");
   if (entries->size() > std::size_t{1} << color_bits)
@@ -81,6 +82,7 @@ std::vector<Color> named_palette(std::string_view palette_name, int color_bits) 
 
 std::vector<Color> default_palette(int color_bits) {
   require_range("color_bits", color_bits, 1, 24);
+  const FloatingPointMode mode;
   return with_memory("palette", [&] { return to_colors(default_palette_of(color_bits).entries); });
 }
 
@@ -264,6 +266,7 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
 
 void FrameBuffer::read_color(const ImageTarget& target) const {
   require_image(target, state_->format, "FrameBuffer::read_color");
+  const FloatingPointMode mode;
   const auto scan_out = with_memory("FrameBuffer::read_color", [&] {
     return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr,
                    target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());

@@ -5,6 +5,7 @@
 
 #include "engine/mipmaps.h"
 #include "engine/out_of_memory.h"
+#include "engine/parallel.h"
 #include "engine/texture_state.h"
 
 namespace tessera {
@@ -134,6 +135,7 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
 }  // namespace
 
 Texture::Texture(const TextureImage& image, const TextureSampler& sampler) {
+  const FloatingPointMode mode;
   check(image, sampler);
   state_ = with_memory("Texture", [&] { return make_texture(image, sampler); });
 }
