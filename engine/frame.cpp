@@ -47,6 +47,12 @@ void check_state(const DrawState& s) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
   require_finite({"Frame::draw: transform"}, s.transform);
+  require_enum({"Frame::draw: shading"}, s.shading, Shading::phong);
+  require_enum({"Frame::draw: color_material"}, s.color_material, ColorMaterial::specular);
+  require_enum({"Frame::draw: provoking_vertex"}, s.provoking_vertex, ProvokingVertex::first);
+  require_enum({"Frame::draw: cull"}, s.cull, Cull::front);
+  require_enum({"Frame::draw: front_face"}, s.front_face, FrontFace::cw);
+  for (const PolygonMode mode : {s.front_mode, s.back_mode}) require_enum({"Frame::draw: a polygon mode"}, mode, PolygonMode::point);
   require_range({"Frame::draw: depth_near"}, s.depth_near, 0, 1);
   require_range({"Frame::draw: depth_far"}, s.depth_far, 0, 1);
   if (s.viewport) {
@@ -73,6 +79,7 @@ void check_shape(const DrawState& s, const FrameBufferState& target) {
 }
 
 const TextureState* check_texture(const DrawState& s, const TextureState* state) {
+  require_enum({"Frame::draw: texture_env"}, s.texture_env, TextureEnv::add);
   require_finite({"Frame::draw: texture_env_color"}, s.texture_env_color);
   if (s.texture != nullptr && state == nullptr) throw Error("Frame::draw: the texture was moved from");
   return state;
@@ -115,6 +122,7 @@ void Frame::set_lights(std::span<const Light> lights) {
 void Frame::set_light_model(const LightModel& model) {
   const FloatingPointMode mode;
   require_finite({"Frame::set_light_model: ambient"}, model.ambient);
+  require_enum({"Frame::set_light_model: specular"}, model.specular, Highlight::phong);
   change(*recording_, "Frame::set_light_model", [&](Surroundings& changed) { changed.light_model = model; });
 }
 
@@ -152,6 +160,7 @@ void Frame::accumulate(const Accum& accum) {
   const FrameBufferState& target = *recording_->target;
   if (target.layout.index) throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0) throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
+  require_enum({"Frame::accumulate: op"}, accum.op, AccumOp::return_);
   require_finite({"Frame::accumulate: value"}, {accum.value});
   if (accum.scissor) check_rect({"Frame::accumulate: scissor"}, *accum.scissor);
   check_color_mask("Frame::accumulate", accum.color_mask, target);
@@ -172,6 +181,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
 }
 
 void Frame::keep(std::initializer_list<Buffer> buffers) {
+  for (const Buffer buffer : buffers) require_enum({"Frame::keep: a buffer"}, buffer, Buffer::accumulation);
   with_memory("Frame::keep", [&] { recording_->keep.emplace(buffers); });
 }
 

@@ -3,6 +3,7 @@
 #include <new>
 #include <string>
 
+#include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/frame_buffer_state.h"
 #include "engine/image_target.h"
@@ -43,6 +44,7 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
   if (target.height > 1 && target.stride_bytes < row && target.stride_bytes > -row)
     throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) + " bytes, a row takes " + std::to_string(row));
+  require_enum({function, ": the target's order"}, target.order, PixelOrder::bgra8);
   if (target.part && (target.part->width < 0 || target.part->height < 0))
     throw Error(std::string(function) + ": the target's part is " + std::to_string(target.part->width) + " x " + std::to_string(target.part->height) +
                 " pixels, must not be negative");
@@ -96,6 +98,9 @@ void require_palette_size(std::size_t entries, int bits) {
 void check_format(const FrameBufferFormat& format) {
   require_range("width", format.width, 1, kMaxFrameBufferSize, " px");
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
+  require_enum({"FrameBuffer: color_mode"}, format.color_mode, ColorMode::index);
+  require_enum({"FrameBuffer: depth"}, format.depth, DepthFormat::float32);
+  require_enum({"FrameBuffer: dither"}, format.dither, Dither::bayer8);
   require_range("color_bits", format.color_bits, 1, 24);
   require_range("stencil_bits", format.stencil_bits, 0, 8);
   if (format.alpha_bits != 0 && format.alpha_bits != 8) throw Error("FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
@@ -251,6 +256,7 @@ void for_each_row(FrameBufferState& state, Buffer which, const char* function, c
 }  // namespace
 
 PlaneView FrameBuffer::plane(Buffer which, int k) const try {
+  require_enum({"FrameBuffer::plane: buffer"}, which, Buffer::accumulation);
   require_kept(*state_, which, "FrameBuffer::plane");
   if (k < 0 || k >= plane_count(which))
     throw Error("FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) + " buffer, which has planes 0 to " +

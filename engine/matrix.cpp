@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/checks.h"
 #include "engine/matrix.h"
 #include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
@@ -154,6 +155,7 @@ Matrix orthographic(double left, double right, double bottom, double top, double
 // x/z of OpenCV's axes is x/w here; pixel coordinates count from the first pixel's centre, the window's from its corner.
 Camera calibrated_camera(const Intrinsics& i, const Matrix& camera_from_world, double near, double far, CameraAxes axes, bool reversed) {
   const FloatingPointMode mode;
+  require_enum({"calibrated_camera: axes"}, axes, CameraAxes::opengl);
   for (const double f : {i.fx, i.fy})
     if (!(f > 0) || !std::isfinite(f)) throw Error("calibrated_camera: a focal length is " + std::to_string(f) + " pixels, must be finite and above 0");
   if (!std::isfinite(i.cx) || !std::isfinite(i.cy))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/checks.h"
 #include "raster/binning.h"
 
 namespace tessera {
@@ -91,6 +92,7 @@ void add_indices(const IndexArray& array, MeshArrays& mesh) {
 MeshArrays check_mesh(const Mesh& mesh) {
   if (mesh.position_components != 3 && mesh.position_components != 4)
     throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) + ", must be 3 or 4");
+  require_enum({"Frame::draw: the mesh's primitive"}, mesh.primitive, Primitive::polygon);
   const auto components = static_cast<std::size_t>(mesh.position_components);
   MeshArrays arrays;
   arrays.components = mesh.position_components;
