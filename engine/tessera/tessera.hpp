@@ -633,7 +633,7 @@ TESSERA_API std::shared_ptr<Executor> serial_executor();
 enum class LogLevel : std::uint8_t { debug, info, warning };
 
 struct RendererOptions {
-  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor; otherwise 1 .. 1024; no more than there are workers
+  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor, but 1024 at most; otherwise 1 .. 1024; no more than there are workers
   int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen for each frame by its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
