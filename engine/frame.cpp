@@ -8,6 +8,7 @@
 #include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/out_of_memory.h"
+#include "engine/parallel.h"
 #include "engine/planar_shadow.h"
 #include "engine/recording.h"
 #include "raster/fixed_point.h"
@@ -48,6 +49,12 @@ void check_state(const DrawState& s) {
   check_material("Frame::draw: material", s.material);
   if (s.back_material) check_material("Frame::draw: back_material", *s.back_material);
   require_finite({"Frame::draw: transform"}, s.transform);
+  require_enum({"Frame::draw: shading"}, s.shading, Shading::phong);
+  require_enum({"Frame::draw: color_material"}, s.color_material, ColorMaterial::specular);
+  require_enum({"Frame::draw: provoking_vertex"}, s.provoking_vertex, ProvokingVertex::first);
+  require_enum({"Frame::draw: cull"}, s.cull, Cull::front);
+  require_enum({"Frame::draw: front_face"}, s.front_face, FrontFace::cw);
+  for (const PolygonMode mode : {s.front_mode, s.back_mode}) require_enum({"Frame::draw: a polygon mode"}, mode, PolygonMode::point);
   require_range({"Frame::draw: depth_near"}, s.depth_near, 0, 1);
   require_range({"Frame::draw: depth_far"}, s.depth_far, 0, 1);
   if (s.viewport) {
@@ -74,6 +81,7 @@ void check_shape(const DrawState& s, const FrameBufferState& target) {
 }
 
 const TextureState* check_texture(const DrawState& s, const TextureState* state) {
+  require_enum({"Frame::draw: texture_env"}, s.texture_env, TextureEnv::add);
   require_finite({"Frame::draw: texture_env_color"}, s.texture_env_color);
   if (s.texture != nullptr && state == nullptr) throw Error("Frame::draw: the texture was moved from");
   return state;
@@ -99,23 +107,29 @@ Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
+// Comparisons and products, too, belong in a mode of our own: in the caller's a NaN may be a trap.
 void Frame::set_camera(const Camera& camera) {
+  const FloatingPointMode mode;
   require_finite({"Frame::set_camera: view"}, camera.view);
   require_finite({"Frame::set_camera: projection"}, camera.projection);
   change(*recording_, "Frame::set_camera", [&](Surroundings& changed) { changed.camera = camera; });
 }
 
 void Frame::set_lights(std::span<const Light> lights) {
+  const FloatingPointMode mode;
   for (std::size_t i = 0; i < lights.size(); ++i) check_light(i, lights[i]);
   change(*recording_, "Frame::set_lights", [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
 }
 
 void Frame::set_light_model(const LightModel& model) {
+  const FloatingPointMode mode;
   require_finite({"Frame::set_light_model: ambient"}, model.ambient);
+  require_enum({"Frame::set_light_model: specular"}, model.specular, Highlight::phong);
   change(*recording_, "Frame::set_light_model", [&](Surroundings& changed) { changed.light_model = model; });
 }
 
 void Frame::clear(const Clear& clear) {
+  const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
   if (clear.color)
     for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a}) require_range({"Frame::clear: a component of color"}, c, 0, 1);
@@ -144,9 +158,11 @@ void Frame::clear(const Clear& clear) {
 }
 
 void Frame::accumulate(const Accum& accum) {
+  const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
   if (target.layout.index) throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0) throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
+  require_enum({"Frame::accumulate: op"}, accum.op, AccumOp::return_);
   require_finite({"Frame::accumulate: value"}, {accum.value});
   if (accum.scissor) check_rect({"Frame::accumulate: scissor"}, *accum.scissor);
   check_color_mask("Frame::accumulate", accum.color_mask, target);
@@ -154,6 +170,7 @@ void Frame::accumulate(const Accum& accum) {
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
+  const FloatingPointMode mode;
   with_memory("Frame::draw", [&] {
     RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = recording_->surroundings};
     check_state(state);
@@ -166,6 +183,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
 }
 
 void Frame::keep(std::initializer_list<Buffer> buffers) {
+  for (const Buffer buffer : buffers) require_enum({"Frame::keep: a buffer"}, buffer, Buffer::accumulation);
   with_memory("Frame::keep", [&] { recording_->keep.emplace(buffers); });
 }
 
@@ -190,6 +208,7 @@ std::string Frame::explain(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
     throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " + std::to_string(recording_->draws.size()) + " draws, counted from 0");
   return with_memory("Frame::explain", [&] {
+    const FloatingPointMode mode;
     std::string reasons;
     plan_draw(recording_->draws[draw_index], *recording_->target, false, &reasons);
     return reasons;

@@ -3,6 +3,7 @@
 #include <new>
 #include <string>
 
+#include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/frame_buffer_state.h"
 #include "engine/image_target.h"
@@ -41,8 +42,9 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
     throw Error(std::string(function) + ": the target is " + std::to_string(target.width) + " x " + std::to_string(target.height) +
                 " pixels, the frame buffer is " + std::to_string(format.width) + " x " + std::to_string(format.height));
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
-  if (target.height > 1 && std::abs(target.stride_bytes) < row)
+  if (target.height > 1 && target.stride_bytes < row && target.stride_bytes > -row)
     throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) + " bytes, a row takes " + std::to_string(row));
+  require_enum({function, ": the target's order"}, target.order, PixelOrder::bgra8);
   if (target.part && (target.part->width < 0 || target.part->height < 0))
     throw Error(std::string(function) + ": the target's part is " + std::to_string(target.part->width) + " x " + std::to_string(target.part->height) +
                 " pixels, must not be negative");
@@ -69,6 +71,7 @@ PixelRect shown_part(const ImageTarget& target) {
 
 std::vector<Color> named_palette(std::string_view palette_name, int color_bits) try {
   require_range("color_bits", color_bits, 1, 24);
+  const FloatingPointMode mode;
   const auto entries = palette_entries(palette_name, color_bits);
   if (!entries) throw Error("palette: \"" + std::string(palette_name) + "\" is unknown, it must be bw, gray, ega16, vga256 or web216");
   if (entries->size() > std::size_t{1} << color_bits)
@@ -81,6 +84,7 @@ std::vector<Color> named_palette(std::string_view palette_name, int color_bits) 
 
 std::vector<Color> default_palette(int color_bits) {
   require_range("color_bits", color_bits, 1, 24);
+  const FloatingPointMode mode;
   return with_memory("palette", [&] { return to_colors(default_palette_of(color_bits).entries); });
 }
 
@@ -94,6 +98,9 @@ void require_palette_size(std::size_t entries, int bits) {
 void check_format(const FrameBufferFormat& format) {
   require_range("width", format.width, 1, kMaxFrameBufferSize, " px");
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
+  require_enum({"FrameBuffer: color_mode"}, format.color_mode, ColorMode::index);
+  require_enum({"FrameBuffer: depth"}, format.depth, DepthFormat::float32);
+  require_enum({"FrameBuffer: dither"}, format.dither, Dither::bayer8);
   require_range("color_bits", format.color_bits, 1, 24);
   require_range("stencil_bits", format.stencil_bits, 0, 8);
   if (format.alpha_bits != 0 && format.alpha_bits != 8) throw Error("FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
@@ -249,6 +256,7 @@ void for_each_row(FrameBufferState& state, Buffer which, const char* function, c
 }  // namespace
 
 PlaneView FrameBuffer::plane(Buffer which, int k) const try {
+  require_enum({"FrameBuffer::plane: buffer"}, which, Buffer::accumulation);
   require_kept(*state_, which, "FrameBuffer::plane");
   if (k < 0 || k >= plane_count(which))
     throw Error("FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) + " buffer, which has planes 0 to " +
@@ -264,6 +272,7 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
 
 void FrameBuffer::read_color(const ImageTarget& target) const {
   require_image(target, state_->format, "FrameBuffer::read_color");
+  const FloatingPointMode mode;
   const auto scan_out = with_memory("FrameBuffer::read_color", [&] {
     return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr,
                    target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, available_isas().front());

@@ -4,6 +4,7 @@
 
 #include "engine/checks.h"
 #include "engine/out_of_memory.h"
+#include "engine/parallel.h"
 #include "engine/recording.h"
 
 namespace tessera {
@@ -47,6 +48,7 @@ void record(FrameRecording& recording, const char* function, const RecordedPixel
 
 void Frame::draw_bitmap(const Bitmap& bitmap, const FragmentState& state) {
   constexpr const char* kFunction = "Frame::draw_bitmap";
+  const FloatingPointMode mode;
   RecordedPixels pixels{.texels = {.x = bitmap.x,
                                    .y = bitmap.y,
                                    .width = bitmap.width,
@@ -64,6 +66,7 @@ void Frame::draw_bitmap(const Bitmap& bitmap, const FragmentState& state) {
 
 void Frame::draw_image(const PixelImage& image, const FragmentState& state) {
   constexpr const char* kFunction = "Frame::draw_image";
+  const FloatingPointMode mode;
   require_range({kFunction, ": channels"}, image.channels, 1, 4);
   RecordedPixels pixels{.texels = {.x = image.x,
                                    .y = image.y,

@@ -1,8 +1,8 @@
 #include "engine/generated_normals.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include <glm/glm.hpp>
@@ -48,17 +48,15 @@ std::vector<std::uint32_t> first_at_position(const MeshArrays& mesh) {
   while (slots < 2 * count) slots *= 2;
   constexpr std::uint32_t kEmpty = 0xffffffffu;
   std::vector<std::uint32_t> table(slots, kEmpty), first(count);
+  using Key = std::array<std::uint32_t, 4>;  // bits: a NaN is no number, not even the same as itself
   const auto key = [&](std::size_t v) {
     const float* p = mesh.positions.at(v);
-    std::array<float, 4> k{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.components == 4 ? p[3] : 1.0f};  // + 0: -0 is 0
-    return k;
+    return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0: -0 is 0
   };
   for (std::size_t v = 0; v < count; ++v) {
-    const auto k = key(v);
+    const Key k = key(v);
     std::uint64_t hash = 0;
-    for (const float f : k) {
-      std::uint32_t bits;
-      std::memcpy(&bits, &f, sizeof bits);
+    for (const std::uint32_t bits : k) {
       hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
       hash ^= hash >> 29;
     }

@@ -1,11 +1,14 @@
-// Matrices and projections of the public interface.
+// Matrices and projections of the public interface. The same bits in whatever floating-point mode the caller is.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/checks.h"
 #include "engine/matrix.h"
+#include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
 #include "shading/trigonometry.h"
 
@@ -25,7 +28,10 @@ Matrix from_glm(const glm::dmat4& matrix) {
   return result;
 }
 
-Matrix operator*(const Matrix& left, const Matrix& right) { return from_glm(to_glm(left) * to_glm(right)); }
+Matrix operator*(const Matrix& left, const Matrix& right) {
+  const FloatingPointMode mode;
+  return from_glm(to_glm(left) * to_glm(right));
+}
 
 Matrix translate(double x, double y, double z) { return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}}; }
 Matrix scale(double x, double y, double z) { return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}}; }
@@ -39,6 +45,7 @@ glm::dvec3 measurable(const glm::dvec3& v) {
 
 // [GL 2.1, 2.11.2, Rotate]
 Matrix rotate(double degrees, double x, double y, double z) {
+  const FloatingPointMode mode;
   const glm::dvec3 axis = measurable({x, y, z});
   x = axis.x, y = axis.y, z = axis.z;
   const double length = std::sqrt(x * x + y * y + z * z);
@@ -54,10 +61,14 @@ Matrix rotate(double degrees, double x, double y, double z) {
 }
 
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up) {
+  const FloatingPointMode mode;
   const glm::dvec3 e(eye.x, eye.y, eye.z), t(target.x, target.y, target.z), u = measurable({up.x, up.y, up.z});
   const double span = glm::length(glm::cross(t - e, u));
   if (!(span > 0) || !std::isfinite(span)) throw Error("look_at: eye, target and up do not span a frame; eye and target must differ, and up must not lie along the view");
-  return from_glm(glm::lookAtRH(e, t, u));
+  const Matrix matrix = from_glm(glm::lookAtRH(e, t, u));
+  if (!std::all_of(matrix.m.begin(), matrix.m.end(), [](double element) { return std::isfinite(element); }))
+    throw Error("look_at: eye and target are too far apart, or too near, for their distance to be a number");
+  return matrix;
 }
 
 namespace {
@@ -90,6 +101,7 @@ Matrix finite(const char* function, const Matrix& matrix) {
 
 // [GL 2.1, 2.11.2, Frustum]; for an infinite far plane its limit; reversed: z = w at near and 0 at far.
 Matrix frustum(double left, double right, double bottom, double top, double near, double far, bool reversed) {
+  const FloatingPointMode mode;
   require_span("frustum", "left", left, "right", right);
   require_span("frustum", "bottom", bottom, "top", top);
   require_depths("frustum", near, far, true);
@@ -112,6 +124,7 @@ Matrix frustum(double left, double right, double bottom, double top, double near
 }
 
 Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed) {
+  const FloatingPointMode mode;
   if (!(fovy_degrees > 0 && fovy_degrees < 180)) throw Error("perspective: fovy is " + std::to_string(fovy_degrees) + " degrees, it must be above 0 and below 180");
   if (!(aspect > 0) || !std::isfinite(aspect)) throw Error("perspective: aspect is " + std::to_string(aspect) + ", it must be finite and above 0");
   require_depths("perspective", near, far, true);
@@ -122,6 +135,7 @@ Matrix perspective(double fovy_degrees, double aspect, double near, double far, 
 }
 
 Matrix orthographic(double left, double right, double bottom, double top, double near, double far, bool reversed) {
+  const FloatingPointMode mode;
   require_span("orthographic", "left", left, "right", right);
   require_span("orthographic", "bottom", bottom, "top", top);
   require_depths("orthographic", near, far, false);
@@ -135,6 +149,8 @@ Matrix orthographic(double left, double right, double bottom, double top, double
 
 // x/z of OpenCV's axes is x/w here; pixel coordinates count from the first pixel's centre, the window's from its corner.
 Camera calibrated_camera(const Intrinsics& i, const Matrix& camera_from_world, double near, double far, CameraAxes axes, bool reversed) {
+  const FloatingPointMode mode;
+  require_enum({"calibrated_camera: axes"}, axes, CameraAxes::opengl);
   for (const double f : {i.fx, i.fy})
     if (!(f > 0) || !std::isfinite(f)) throw Error("calibrated_camera: a focal length is " + std::to_string(f) + " pixels, must be finite and above 0");
   if (!std::isfinite(i.cx) || !std::isfinite(i.cy))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/checks.h"
 #include "raster/binning.h"
 
 namespace tessera {
@@ -10,12 +11,9 @@ namespace {
 
 [[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
 
-// How many floats a packed array has: all that were given, or those of its vertices.
-std::size_t packed_floats(const FloatArray& array, std::size_t components) { return array.floats != 0 ? array.floats : array.vertices * components; }
-
-std::size_t vertices_of(FloatArray positions, std::size_t components) {
-  if (positions.stride_bytes != 0) return positions.vertices;
-  positions.floats = packed_floats(positions, components);
+// Packed arrays have floats, or vertices as those with a stride do.
+std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
+  if (positions.stride_bytes != 0 || positions.floats == 0) return positions.vertices;
   if (positions.floats % components != 0)
     fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " + std::to_string(components));
   return positions.floats / components;
@@ -39,13 +37,13 @@ void require_address(const char* what, const void* data, std::size_t multiple) {
 StridedFloats strided(const FloatArray& array, const char* what, std::size_t components, std::size_t vertices) {
   if (array.empty()) return {};
   require_address(what, array.data, alignof(float));
-  if (array.stride_bytes == 0) {
-    const std::size_t floats = packed_floats(array, components);
-    if (floats != vertices * components)
-      fail("has " + std::to_string(floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
+  if (array.stride_bytes == 0 && array.floats != 0) {
+    if (array.floats != vertices * components)
+      fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
     return {array.data, components};
   }
   require_all(what, array.vertices, vertices);
+  if (array.stride_bytes == 0) return {array.data, components};
   require_stride(what, array.stride_bytes, sizeof(float), components * sizeof(float));
   return {array.data, array.stride_bytes / sizeof(float)};
 }
@@ -91,6 +89,7 @@ void add_indices(const IndexArray& array, MeshArrays& mesh) {
 MeshArrays check_mesh(const Mesh& mesh) {
   if (mesh.position_components != 3 && mesh.position_components != 4)
     throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) + ", must be 3 or 4");
+  require_enum({"Frame::draw: the mesh's primitive"}, mesh.primitive, Primitive::polygon);
   const auto components = static_cast<std::size_t>(mesh.position_components);
   MeshArrays arrays;
   arrays.components = mesh.position_components;

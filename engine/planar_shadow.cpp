@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/checks.h"
+#include "engine/parallel.h"
 
 namespace tessera {
 namespace {
@@ -56,7 +57,10 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
 
 }  // namespace
 
-Matrix planar_shadow(const std::array<double, 4>& plane, const Light& light) { return shadow_matrix("planar_shadow", plane, light); }
+Matrix planar_shadow(const std::array<double, 4>& plane, const Light& light) {
+  const FloatingPointMode mode;
+  return shadow_matrix("planar_shadow", plane, light);
+}
 
 void turn_into_shadow(RecordedDraw& draw) {
   const ShadowOn& shadow = *draw.state.shadow_on;

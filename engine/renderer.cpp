@@ -12,6 +12,8 @@
 namespace tessera {
 namespace {
 
+constexpr int kMostThreads = 1024;
+
 InstructionSet public_name(Isa isa) {
   return isa == Isa::avx512 ? InstructionSet::avx512 : isa == Isa::avx2 ? InstructionSet::avx2 : InstructionSet::scalar;
 }
@@ -40,7 +42,7 @@ std::string_view name(InstructionSet set) {
 }
 
 Renderer::Renderer(RendererOptions options) try {
-  if (options.threads < 0 || options.threads > 1024) throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to 1024");
+  if (options.threads < 0 || options.threads > kMostThreads) throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to " + std::to_string(kMostThreads));
   if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 && options.tile_size != 128)
     throw Error("Renderer: tile_size is " + std::to_string(options.tile_size) + ", must be 0 (chosen), 32, 64 or 128");
   if (options.bin_memory < kLeastBinMemory)
@@ -54,7 +56,7 @@ Renderer::Renderer(RendererOptions options) try {
   }
   if (options.executor && options.executor->workers() < 1)
     throw Error("Renderer: the executor has " + std::to_string(options.executor->workers()) + " workers, must have at least 1");
-  if (options.threads == 0) options.threads = options.executor ? options.executor->workers() : available_cores();
+  if (options.threads == 0) options.threads = std::min(options.executor ? options.executor->workers() : available_cores(), kMostThreads);
   state_ = std::make_unique<RendererState>(std::move(options));
   RendererState& state = *state_;
   state.options.threads = state.parallel.threads();

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <string>
 
+#include "engine/checks.h"
 #include "engine/mipmaps.h"
 #include "engine/out_of_memory.h"
+#include "engine/parallel.h"
 #include "engine/texture_state.h"
 
 namespace tessera {
@@ -26,6 +28,9 @@ void check(const TextureImage& image, const TextureSampler& sampler) {
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
   if (image.stride_bytes != 0 && image.stride_bytes < row && image.stride_bytes > -row)
     throw Error("Texture: the rows are " + std::to_string(image.stride_bytes) + " bytes apart, but " + std::to_string(row) + " bytes long");
+  require_enum({"Texture: mag"}, sampler.mag, TextureFilter::linear_mipmap_linear);
+  require_enum({"Texture: min"}, sampler.min, TextureFilter::linear_mipmap_linear);
+  for (const TextureWrap wrap : {sampler.wrap_s, sampler.wrap_t}) require_enum({"Texture: a wrap"}, wrap, TextureWrap::mirrored_repeat);
   if (sampler.mag != TextureFilter::nearest && sampler.mag != TextureFilter::linear)
     throw Error("Texture: mag is a filter with mipmaps, must be nearest or linear");
 }
@@ -134,6 +139,7 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
 }  // namespace
 
 Texture::Texture(const TextureImage& image, const TextureSampler& sampler) {
+  const FloatingPointMode mode;
   check(image, sampler);
   state_ = with_memory("Texture", [&] { return make_texture(image, sampler); });
 }

@@ -1,6 +1,8 @@
 #include "raster/clip.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace tessera {
@@ -25,12 +27,20 @@ double distance(const VertexTransform& t, ClipCode plane, const ClipPosition& p)
   }
 }
 
-ClipVertex cut(const ClipVertex& inner, const ClipVertex& outer, double inner_distance, double outer_distance, int attribute_count) {
+ClipVertex cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& inner, const ClipVertex& outer, double inner_distance, double outer_distance, int attribute_count) {
   const double t = inner_distance / (inner_distance - outer_distance);
   const auto mix = [t](double a, double b) { return std::fma(t, b - a, a); };
   ClipVertex v;
   v.position = {mix(inner.position.x, outer.position.x), mix(inner.position.y, outer.position.y), mix(inner.position.z, outer.position.z),
                 mix(inner.position.w, outer.position.w)};
+  // Between ends that are very far away, what is mixed is off by more than the guard band is wide.
+  switch (plane) {
+    case kLeftOfGuardBand: v.position.x = -(transform.guard_x * v.position.w); break;
+    case kRightOfGuardBand: v.position.x = transform.guard_x * v.position.w; break;
+    case kBelowGuardBand: v.position.y = -(transform.guard_y * v.position.w); break;
+    case kAboveGuardBand: v.position.y = transform.guard_y * v.position.w; break;
+    default: break;
+  }
   for (int k = 0; k < attribute_count; ++k) v.attributes[k] = static_cast<float>(mix(inner.attributes[k], outer.attributes[k]));
   return v;
 }
@@ -45,9 +55,17 @@ void keep_inside(const VertexTransform& transform, ClipCode plane, const ClipVer
     const ClipVertex &a = vertices[i], &b = vertices[i + 1 == count ? 0 : i + 1];
     const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
     if (da >= 0) keep(a);
-    if (da >= 0 && db < 0) keep(cut(a, b, da, db, attribute_count));
-    if (da < 0 && db >= 0) keep(cut(b, a, db, da, attribute_count));
+    if (da >= 0 && db < 0) keep(cut(transform, plane, a, b, da, db, attribute_count));
+    if (da < 0 && db >= 0) keep(cut(transform, plane, b, a, db, da, attribute_count));
   }
+}
+
+// Distances, and differences of positions, of the largest doubles would be infinite. A power of two in all positions of a polygon moves none of its points.
+void keep_finite(std::span<ClipVertex> vertices) {
+  constexpr double kLarge = 0x1p980, kScale = 0x1p-40;  // sums of two numbers below 2^984, times at most 2^15 of a guard band
+  const auto size = [](const ClipPosition& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(p.w)}); };
+  if (std::none_of(vertices.begin(), vertices.end(), [&](const ClipVertex& v) { return size(v.position) > kLarge; })) return;
+  for (ClipVertex& v : vertices) v.position = {v.position.x * kScale, v.position.y * kScale, v.position.z * kScale, v.position.w * kScale};
 }
 
 }  // namespace
@@ -55,6 +73,7 @@ void keep_inside(const VertexTransform& transform, ClipCode plane, const ClipVer
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count) {
   ClippedPolygon polygon;
   for (const ClipVertex& v : triangle) polygon.vertices[polygon.count++] = v;
+  keep_finite({polygon.vertices, 3});
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
     ClippedPolygon kept;
@@ -70,6 +89,7 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
 }
 
 std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vector<ClipVertex> polygon, std::uint8_t codes, int attribute_count) {
+  keep_finite(polygon);
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
     std::vector<ClipVertex> kept;
@@ -83,12 +103,13 @@ std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vect
 }
 
 bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t codes, int attribute_count) {
+  keep_finite(line);
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
     const double d0 = distance(transform, plane, line[0].position), d1 = distance(transform, plane, line[1].position);
     if (!(d0 >= 0 || d1 >= 0)) return false;
-    if (d0 < 0) line[0] = cut(line[1], line[0], d1, d0, attribute_count);
-    if (d1 < 0) line[1] = cut(line[0], line[1], d0, d1, attribute_count);
+    if (d0 < 0) line[0] = cut(transform, plane, line[1], line[0], d1, d0, attribute_count);
+    if (d1 < 0) line[1] = cut(transform, plane, line[0], line[1], d0, d1, attribute_count);
   }
   return is_usable(line[0].position) && is_usable(line[1].position);
 }

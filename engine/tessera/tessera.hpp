@@ -636,7 +636,7 @@ enum class LogLevel : std::uint8_t { debug, info, warning };
 inline constexpr std::size_t kLeastBinMemory = std::size_t{64} << 10;  ///< bytes
 
 struct RendererOptions {
-  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor; otherwise 1 .. 1024; no more than there are workers
+  int threads = 0;                          ///< 0: one for each core that the process may use, or each worker of the executor, but 1024 at most; otherwise 1 .. 1024; no more than there are workers
   int tile_size = 0;                        ///< pixels: 32, 64, 128; 0: chosen for each frame by its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading = true;                ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
