@@ -12,9 +12,10 @@ class TesseraCases : public CaseRenderer {
   TesseraCases(const CaseFormat& format, const RendererOptions& options)
       : format_(format), buffer_({.width = format.width, .height = format.height, .depth = format.depth, .stencil_bits = 0}), renderer_(options),
         words_(static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height)) {
+    const TextureFilter filter = format.nearest_texel ? TextureFilter::nearest : TextureFilter::linear;
     if (format.texture_width > 0)
       texture_.emplace(TextureImage{.pixels = format.texture.data(), .width = format.texture_width, .height = format.texture_height, .channels = 1, .bottom_row_first = true},
-                       TextureSampler{.mag = TextureFilter::linear, .min = TextureFilter::linear});
+                       TextureSampler{.mag = filter, .min = filter});
   }
 
   const CasePicture& draw(const std::vector<CaseDraw>& draws) override {
@@ -30,6 +31,8 @@ class TesseraCases : public CaseRenderer {
       state.depth_near = d.depth_near;
       state.depth_far = d.depth_far;
       state.viewport = d.viewport;
+      state.transform = d.transform.value_or(Matrix{});
+      state.polygon_offset = d.offset;
       if (d.add) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
       if (d.textured) state.texture = &*texture_, state.texture_env = TextureEnv::replace;
       frame.draw({.primitive = d.primitive, .positions = d.positions, .position_components = 4, .colors = d.colors, .indices = d.indices, .texcoords = d.texcoords}, state);

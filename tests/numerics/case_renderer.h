@@ -13,7 +13,7 @@
 
 namespace tessera::test {
 
-/// A draw in clip space, unlit. Nothing is culled.
+/// A draw in clip space, or in one that `transform` carries there; unlit. Nothing is culled.
 struct CaseDraw {
   Primitive primitive = Primitive::triangles;
   std::vector<float> positions{};           ///< x y z w
@@ -27,6 +27,8 @@ struct CaseDraw {
   double depth_near = 0, depth_far = 1;
   std::optional<Rect> viewport{};           ///< absent: the whole buffer
   bool textured = false;                    ///< with the case's texture, in place of the colour
+  std::optional<Matrix> transform{};        ///< to clip space, in double; Mesa makes floats of it
+  PolygonOffset offset{};                   ///< of filled triangles
 };
 
 struct CaseFormat {
@@ -34,9 +36,10 @@ struct CaseFormat {
   DepthFormat depth = DepthFormat::none;
   bool reversed = false;                    ///< z runs 0..w, depth is z/w
   double cleared_depth = 1;
-  /// A texture of luminances, rows from the bottom, repeated, filtered linearly from level 0.
+  /// A texture of luminances, rows from the bottom, repeated, filtered linearly from level 0, or the nearest texel.
   int texture_width = 0, texture_height = 0;
   std::vector<std::uint8_t> texture{};
+  bool nearest_texel = false;
 };
 
 /// Rows from the top.

@@ -31,7 +31,7 @@ class MesaCases : public CaseRenderer {
     if (format.texture_width > 0) {
       glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
       glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, format.texture_width, format.texture_height, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, format.texture.data());
-      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+      for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, format.nearest_texel ? GL_NEAREST : GL_LINEAR);
       glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
     }
     glBlendFunc(GL_ONE, GL_ONE);
@@ -58,6 +58,9 @@ class MesaCases : public CaseRenderer {
     enable(GL_TEXTURE_2D, d.textured);
     glDepthFunc(func_of(d.depth_func));
     glDepthRange(d.depth_near, d.depth_far);
+    enable(GL_POLYGON_OFFSET_FILL, d.offset.factor != 0 || d.offset.units != 0);
+    glPolygonOffset(d.offset.factor, d.offset.units);
+    load_transposed(d.transform.value_or(Matrix{}));
     const Rect view = d.viewport.value_or(Rect{0, 0, format_.width, format_.height});
     context_.functions().viewport_indexed(0, static_cast<GLfloat>(view.x), static_cast<GLfloat>(view.y), static_cast<GLfloat>(view.width), static_cast<GLfloat>(view.height));
     glColor4f(d.color.r, d.color.g, d.color.b, d.color.a);
@@ -66,6 +69,12 @@ class MesaCases : public CaseRenderer {
     array(GL_TEXTURE_COORD_ARRAY, d.texcoords, [&] { glTexCoordPointer(2, GL_FLOAT, 0, d.texcoords.data()); });
     if (d.indices.empty()) glDrawArrays(mode_of(d.primitive), 0, static_cast<GLsizei>(d.positions.size() / 4));
     else glDrawElements(mode_of(d.primitive), static_cast<GLsizei>(d.indices.size()), GL_UNSIGNED_INT, d.indices.data());
+  }
+
+  static void load_transposed(const Matrix& matrix) {
+    double columns[16];
+    for (std::size_t i = 0; i < 16; ++i) columns[i] = matrix.m[i % 4 * 4 + i / 4];
+    glLoadMatrixd(columns);
   }
 
   template <class Point>

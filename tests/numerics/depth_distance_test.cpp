@@ -1,0 +1,117 @@
+// How far a depth buffer sees: a reversed projection into floats, and projections without a far end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/case_renderer.h"
+#include "tests/numerics/depth_formats.h"
+#include "tests/raster/random_triangles.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kSide = 64;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Two triangles over the whole window and beyond, whose corners are 1 to `tilt` units away.
+CaseDraw sheet(Dice& dice, double tilt) {
+  CaseDraw draw{.test_depth = true, .depth_func = Compare::greater};
+  std::array<std::array<float, 4>, 4> corners{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double away = 1 + (tilt - 1) * dice.unit();
+    corners[k] = {static_cast<float>((k == 1 || k == 2 ? 1.25 : -1.25) * away), static_cast<float>((k >= 2 ? 1.25 : -1.25) * away), static_cast<float>(-away), 1};
+  }
+  for (const std::size_t k : {0, 1, 2, 0, 2, 3}) draw.positions.insert(draw.positions.end(), corners[k].begin(), corners[k].end());
+  return draw;
+}
+
+bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, double distance, double part) {
+  const Matrix projection = perspective(90, 1, 0.1, kInfinity, true);
+  nearer.transform = projection * scale(distance * (1 - part), distance * (1 - part), distance * (1 - part));
+  farther.transform = projection * scale(distance, distance, distance);
+  nearer.color = {0, 1, 0, 1};
+  farther.color = {1, 0, 0, 1};
+  for (const bool near_first : {false, true})
+    for (const std::array<float, 3>& color : renderer.draw(near_first ? std::vector{nearer, farther} : std::vector{farther, nearer}).colors)
+      if (color[0] > 0 || color[1] == 0) return false;
+  return true;
+}
+
+// z = 0.1 / distance. Facing the viewer, a relative difference of eps = 2^-23 is at least the step between two floats. Tilted by up to 1.5, each of the two
+// depths is off by at most 2^-24 (2 z0 + 2 |dz/dx x| + 3 |dz/dy y|) <= 2^-24 (2 + 2/3 + 1) times the largest depth of the triangle, which is 1.5 times its
+// smallest: 5.5 eps apart is enough.
+TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
+  constexpr int kMost = 1000;
+  const auto figure = [](double tilt, int distances) {
+    return [tilt, distances](const MakeRenderer& make, bool is_tessera) {
+      const auto renderer = make({.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = true, .cleared_depth = 0});
+      int needed = 1;
+      Dice dice(21);
+      for (int n = 0; n < (is_tessera && long_tests() ? 20 * distances : distances); ++n) {
+        const double distance = n == 0 ? 5e6 : 0.1 * std::pow(5e7, dice.unit()) * 1.01;
+        const CaseDraw draw = sheet(dice, tilt);
+        for (int k = needed; k <= 16; ++k)  // all from the needed one on
+          if (!is_apart(*renderer, draw, draw, distance, k * 0x1p-23)) needed = k + 1;
+        while (needed > 16 && needed < kMost && !is_apart(*renderer, draw, draw, distance, needed * 0x1p-23)) ++needed;
+      }
+      return static_cast<long double>(needed);
+    };
+  };
+  expect_figure("reversed depth, floats, 0.1 .. 5 million away, facing the viewer: apart by", 2, "2^-23", figure(1, 150));
+  expect_figure("reversed depth, floats, 0.1 .. 5 million away, tilted: apart by", 10, "2^-23", figure(1.5, 150));
+}
+
+// depth = 1 - near / distance, exactly; at infinity, where w is 0 before the projection, the far end. What is stored, and that it is drawn at all.
+TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
+  for (const DepthCase& depth : kDepthCases)
+    expect_figure("far = infinity, " + std::string(depth.name) + ", facing the viewer", 0, "levels", [&](const MakeRenderer& make, bool is_tessera) {
+      const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format, .cleared_depth = 0});
+      Dice dice(22);
+      long double worst = 0;
+      for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 100); ++n) {
+        const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * dice.unit()), size = std::isinf(distance) ? 1 : distance;
+        CaseDraw draw{.test_depth = true, .depth_func = Compare::gequal, .transform = perspective(90, 1, 1, kInfinity) * scale(size, size, size)};
+        for (const double c : {-1.5, -1.5, 4.5, -1.5, -1.5, 4.5}) {
+          draw.positions.push_back(static_cast<float>(c));
+          if (draw.positions.size() % 4 == 2) draw.positions.insert(draw.positions.end(), {-1, std::isinf(distance) ? 0.0f : 1.0f});
+        }
+        const CasePicture& picture = renderer->draw({draw});
+        const long double exact = 1 - 1.0L / static_cast<long double>(distance);
+        const std::int64_t expected = depth.is_float() ? std::bit_cast<std::uint32_t>(static_cast<float>(exact)) : static_cast<std::int64_t>(std::floor(exact * static_cast<long double>(depth.levels()) + 0.5L));
+        for (std::size_t i = 0; i < picture.depth.size(); ++i)
+          worst = std::max(worst, picture.colors[i][0] > 0 ? static_cast<long double>(std::abs(picture.depth[i] - expected)) : static_cast<long double>(depth.levels()));
+      }
+      return worst;
+    });
+}
+
+// A floor without end: up to the horizon each pixel shows it, none beyond, and no pixel is nearer than one below it.
+TEST(DepthDistance, AFloorReachesTheHorizon) {
+  for (const bool reversed : {false, true})
+    for (const DepthCase& depth : kDepthCases)
+      expect_figure("far = infinity, " + std::string(depth.name) + (reversed ? ", reversed" : "") + ", a floor up to its horizon", 0, "pixels", [&](const MakeRenderer& make, bool) {
+        const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format, .reversed = reversed, .cleared_depth = reversed ? 1.0 : 0.0});
+        CaseDraw draw{.test_depth = true, .depth_func = reversed ? Compare::lequal : Compare::gequal, .transform = perspective(90, 1, 0.5, kInfinity, reversed)};
+        // From below the window's lower edge to the points at infinity straight ahead.
+        draw.positions = {-8, -1, -0.5f, 1, 8, -1, -0.5f, 1, 4, 0, -1, 0, -8, -1, -0.5f, 1, 4, 0, -1, 0, -4, 0, -1, 0};
+        const CasePicture& picture = renderer->draw({draw});
+        long double wrong = 0;
+        for (std::size_t y = 0; y < kSide; ++y)
+          for (std::size_t x = 0; x < kSide; ++x) {
+            const std::size_t at = y * kSide + x;
+            const bool is_floor = y >= kSide / 2, is_drawn = picture.colors[at][0] > 0;
+            const bool is_nearer = is_floor && y > kSide / 2 && (reversed ? picture.depth[at - kSide] > picture.depth[at] : picture.depth[at - kSide] < picture.depth[at]);
+            wrong += is_drawn != is_floor || is_nearer;
+          }
+        return wrong;
+      });
+}
+
+}  // namespace
+}  // namespace tessera::test

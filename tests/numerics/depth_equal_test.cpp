@@ -1,0 +1,221 @@
+// Depths are a matter of the triangle and nothing else: drawn again, it is equal to itself at every pixel, whatever it is part of, however it is clipped,
+// coloured or tested, on each instruction set, in tiles of any size, with any number of samples. No tolerance.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/case_renderer.h"
+#include "tests/numerics/depth_formats.h"
+#include "tests/numerics/window_triangle.h"
+#include "tests/raster/random_triangles.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kSide = 128;
+
+// Whole ones, and ones that the near plane, the far plane or the guard band cuts. Four vertices for each: a quad.
+std::vector<float> random_corners(Dice& dice) {
+  std::vector<float> positions;
+  const auto add = [&](double x, double y, double z, double w) {
+    for (const double c : {x, y, z, w}) positions.push_back(static_cast<float>(c));
+  };
+  const auto within = [&](double reach) { return reach * (2 * dice.unit() - 1); };
+  if (dice.maybe()) {
+    const WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), kSide, kSide);
+    for (const GridPoint& p : t.at) add(clip_x(p.x, kSide), clip_y(p.y, kSide), within(1), 1);
+    add(within(1), within(1), within(1), 1);
+  } else {
+    const double reach = std::pow(10, 6 * dice.unit());
+    for (int k = 0; k < 4; ++k) {
+      const double w = dice.unit() * 4 - (dice.maybe() ? 1 : 0);
+      add(within(dice.maybe() ? reach : 2), within(2), within(1.5), w);
+    }
+  }
+  return positions;
+}
+
+struct Twice {
+  CaseDraw first, again;
+};
+
+Twice two_triangles(Dice& dice) {
+  Twice twice{.first = {.positions = random_corners(dice), .indices = {0, 1, 2, 0, 2, 3}, .color = {1, 0, 0, 1}, .test_depth = true}, .again = {}};
+  twice.again = twice.first;
+  twice.again.color = {0, 1, 0, 1};
+  twice.again.depth_func = Compare::equal;
+  return twice;
+}
+
+// In the middle of a larger mesh, with everything else in other places; what is added is not seen.
+CaseDraw larger_mesh(Dice& dice, CaseDraw draw) {
+  const std::vector<float> original = draw.positions, more = random_corners(dice);
+  draw.positions.clear();
+  draw.indices.clear();
+  for (int n = 0; n < 40; ++n) {
+    if (n == 23) draw.positions.insert(draw.positions.end(), original.begin(), original.end());
+    for (std::size_t i = 0; i < more.size(); ++i) draw.positions.push_back(i % 4 == 0 ? more[i] + 3 * std::abs(more[i + 3]) + 3e7f : more[i]);
+  }
+  for (std::uint32_t n = 0; n < 41; ++n)
+    for (const std::uint32_t k : {0, 1, 2, 0, 2, 3}) draw.indices.push_back(4 * n + k);
+  return draw;
+}
+
+// Triangles all over the window, farther than what is there.
+CaseDraw others(Dice& dice) {
+  CaseDraw draw{.color = {0, 0, 1, 1}, .test_depth = true, .depth_near = 1, .depth_far = 1};
+  for (int n = 0; n < 20; ++n) {
+    const std::vector<float> corners = random_corners(dice);
+    draw.positions.insert(draw.positions.end(), corners.begin(), corners.begin() + 12);
+  }
+  return draw;
+}
+
+struct Pixels {
+  long double wrong = 0, seen = 0;
+};
+void add_pixels(Pixels& pixels, const CasePicture& picture) {
+  for (const std::array<float, 3>& color : picture.colors) {
+    pixels.wrong += color[0] > 0;
+    pixels.seen += color[1] > 0;
+  }
+}
+
+TEST(DepthEqual, TheSameTriangleAgainIsEqualEverywhere) {
+  for (const DepthCase& depth : kDepthCases)
+    expect_figure("depth, " + std::string(depth.name) + ", the same triangle again", 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
+      const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format});
+      Dice dice(31);
+      Pixels pixels;
+      for (int n = 0; n < (is_tessera && long_tests() ? 10000 : 300); ++n) {
+        const Twice twice = two_triangles(dice);
+        for (const CaseDraw& again : {twice.again, larger_mesh(dice, twice.again)}) add_pixels(pixels, renderer->draw({twice.first, others(dice), again}));
+      }
+      EXPECT_GT(pixels.seen, 1e5);
+      return pixels.wrong;
+    });
+}
+
+// Not a question to Mesa, which splits quads and polygons in ways of its own.
+TEST(DepthEqual, SoItIsAsAPartOfOtherPrimitives) {
+  for (const DepthCase& depth : kDepthCases) {
+    const auto renderer = make_tessera({.width = kSide, .height = kSide, .depth = depth.format});
+    Dice dice(33);
+    Pixels pixels;
+    for (int n = 0; n < (long_tests() ? 10000 : 100); ++n)
+      for (const Primitive primitive : {Primitive::triangle_fan, Primitive::polygon, Primitive::quads})
+        for (const bool first : {false, true}) {
+          Twice twice = two_triangles(dice);
+          CaseDraw& other = first ? twice.first : twice.again;
+          other.primitive = primitive;
+          other.indices.clear();
+          add_pixels(pixels, renderer->draw({twice.first, others(dice), twice.again}));
+        }
+    EXPECT_GT(pixels.seen, 1e5);
+    expect_within("depth, " + std::string(depth.name) + ", the same triangle again, of a fan, a polygon, quads", pixels.wrong, 0, "pixels");
+  }
+}
+
+// States that make a draw take another way through the engine. What they colour does not matter.
+struct Way {
+  const char* name;
+  void (*change)(DrawState& state, const Texture& texture);
+};
+constexpr Way kWays[] = {
+    {"plain", [](DrawState&, const Texture&) {}},
+    {"depth alone", [](DrawState& s, const Texture&) { s.color_mask = {false, false, false, false}; }},
+    {"flat", [](DrawState& s, const Texture&) { s.shading = Shading::flat, s.lighting = true; }},
+    {"gouraud", [](DrawState& s, const Texture&) { s.lighting = true; }},
+    {"phong", [](DrawState& s, const Texture&) { s.shading = Shading::phong, s.lighting = true; }},
+    {"blended", [](DrawState& s, const Texture&) { s.blend = BlendState{}, s.material.diffuse.a = 0.5f; }},
+    {"textured", [](DrawState& s, const Texture& t) { s.texture = &t; }},
+    {"textured and blended", [](DrawState& s, const Texture& t) { s.texture = &t, s.blend = BlendState{}, s.material.diffuse.a = 0.5f; }},
+    {"stencil", [](DrawState& s, const Texture&) { s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }},
+    {"alpha tested", [](DrawState& s, const Texture&) { s.alpha_test = AlphaTest{.ref = 0.25f}; }},
+    {"masked", [](DrawState& s, const Texture&) { s.plane_mask = 0x00ffff; }},
+    {"logic", [](DrawState& s, const Texture&) { s.logic_op = LogicOp::xor_; }},
+    {"cut", [](DrawState& s, const Texture&) { s.scissor = Rect{0, 0, kSide, kSide}; }},
+    {"no offset", [](DrawState& s, const Texture&) { s.polygon_offset = {0, 1e-30f}; }},
+};
+
+// In rectangles that together are the window: cut into other parts, small triangles and large ones go other ways.
+void draw_in_parts(Frame& frame, const Mesh& mesh, DrawState state, int step) {
+  for (int y = 0; y < kSide; y += step)
+    for (int x = 0; x < kSide; x += step) {
+      state.scissor = Rect{x, y, step, step};
+      frame.draw(mesh, state);
+    }
+}
+
+TEST(DepthEqual, HoweverItIsDrawn) {
+  const std::uint8_t texels[4] = {40, 255, 130, 90};
+  const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
+  Dice dice(32);
+  std::size_t compared = 0;
+  for (const DepthCase& depth : kDepthCases)
+    for (const int samples : {1, 4, 8}) {
+      FrameBuffer buffer({.width = kSide, .height = kSide, .depth = depth.format, .samples = samples});
+      for (int round = 0; round < (long_tests() ? 40 : 1); ++round) {
+        std::vector<float> positions, texcoords;
+        for (int n = 0; n < 12; ++n) {
+          const std::vector<float> corners = random_corners(dice);
+          positions.insert(positions.end(), corners.begin(), corners.begin() + 12);
+          texcoords.insert(texcoords.end(), {0, 0, 1, 0, 0, 1});
+        }
+        const Mesh mesh{.positions = positions, .position_components = 4, .texcoords = texcoords};
+        std::optional<std::vector<std::uint32_t>> expected;
+        for (const InstructionSet set : available_instruction_sets())
+          for (const int tile_size : {32, 64, 128}) {
+            Renderer renderer({.threads = 1, .tile_size = tile_size, .instruction_set = set});
+            DrawState last;
+            last.lighting = false;
+            last.material.diffuse = {0, 1, 0, 1};
+            const auto words_of = [&](const auto& first) {
+              Frame frame(buffer);
+              frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .stencil = 0});
+              first(frame);
+              // Only what is equal brings its colour to the end.
+              frame.clear({.color = Color{0, 0, 0, 1}});
+              DrawState again = last;
+              again.depth.test = Compare::equal;
+              frame.draw(mesh, again);
+              renderer.finish(frame);
+              std::vector<std::uint32_t> words(kSide * kSide);
+              buffer.read_color_words(words);
+              return words;
+            };
+            if (!expected) {  // what it covers, without a depth test
+              Frame frame(buffer);
+              frame.clear({.color = Color{0, 0, 0, 1}});
+              DrawState plain = last;
+              plain.depth.enabled = false;
+              frame.draw(mesh, plain);
+              renderer.finish(frame);
+              expected.emplace(kSide * kSide);
+              buffer.read_color_words(*expected);
+              compared += static_cast<std::size_t>(std::count_if(expected->begin(), expected->end(), [](std::uint32_t word) { return word != 0; }));
+            }
+            const auto where = [&](const std::string& way) { return way + ", " + depth.name + ", " + std::to_string(samples) + " samples, " + std::string(name(set)) + ", tiles of " + std::to_string(tile_size); };
+            for (const Way& way : kWays) {
+              const auto words = words_of([&](Frame& frame) {
+                DrawState state = last;
+                way.change(state, texture);
+                frame.draw(mesh, state);
+              });
+              ASSERT_TRUE(words == *expected) << where(way.name);
+            }
+            for (const int step : {4, 13, 64}) ASSERT_TRUE(words_of([&](Frame& frame) { draw_in_parts(frame, mesh, last, step); }) == *expected) << where("in parts of " + std::to_string(step));
+          }
+      }
+    }
+  EXPECT_GT(compared, 10000u);
+}
+
+}  // namespace
+}  // namespace tessera::test

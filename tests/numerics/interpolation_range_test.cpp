@@ -1,0 +1,113 @@
+// Interpolated values before anything is rounded to levels: their error, how far they leave the range of the three vertices, and that constants are
+// constants; from the kernels' barycentric coordinates on each instruction set, whose last step is the twin's.
+//
+// u = 2^-24. A weight is a product of positive factors, each rounded once. Where vertex 0 has none (on the opposite edge), b1 + b2 is off by 4 u at most: two
+// sums, quotient, product, or, without perspective, 1/area, its product, the edge and the multiply-add. So first + b1 (second - first) + b2 (third - first) leaves
+// the range by 4 u of the larger difference, and by one u each of it and of the two sums' results: with M the largest of the three, of one sign, 7 u M, as
+// differences are no larger than M; of both signs, differences are at most 2 M: 12 u M.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shading/interpolate_reference.h"
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/window_triangle.h"
+#include "tests/raster/random_triangles.h"
+#include "tests/shading/interpolate_lanes.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kTile = 32;
+constexpr long double kUnit = 0x1p-24L;
+
+using Corners = std::array<float, 3>;
+
+// Steep and flat ones; two corners alike: constant along an edge.
+Corners random_corners(Dice& dice, bool one_sign) {
+  Corners a{};
+  const int kind = static_cast<int>(dice.between(0, 3));
+  for (float& f : a) {
+    const double part = dice.unit();
+    f = static_cast<float>(kind == 0 ? part : kind == 1 ? 1 + std::floor(8 * part) * 0x1p-23 : kind == 2 ? std::exp(20 * part - 10) : 255 * part);
+    if (!one_sign && dice.maybe()) f = -f;
+  }
+  if (dice.maybe()) a[static_cast<std::size_t>(dice.between(0, 2))] = a[static_cast<std::size_t>(dice.between(0, 2))];
+  return a;
+}
+
+// Calls pixel(triangle, 1/w, barycentric, x, y) for all pixels within, in the window's far corner.
+template <class Pixel>
+void for_each_pixel(std::uint32_t seed, const Pixel& pixel) {
+  Dice dice(seed);
+  std::vector<float> b1(kTile * kTile), b2(kTile * kTile);
+  for (int n = 0; n < (long_tests() ? 200000 : 8000); ++n) {
+    const bool is_wide = n % 4 == 0;
+    const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile, octaves = n % 3 == 0 ? 0 : 20;
+    WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), width, kTile);
+    WindowVertex v[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      t.at[k].x += (16384 - width) * kGrid;
+      v[k] = {static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0, octaves == 0 ? 1.0f : static_cast<float>(std::exp2(-octaves * dice.unit()))};
+    }
+    for (const Isa isa : available_isas()) {
+      if (!tile_barycentrics(isa)(v, tile_x, 0, kTile, b1.data(), b2.data())) continue;
+      for (int y = 0; y < kTile; ++y)
+        for (int x = 0; x < kTile; ++x)
+          if (t.contains(WindowTriangle::center(tile_x + x, y))) pixel(dice, t, v, BarycentricReference{b1[static_cast<std::size_t>(y * kTile + x)], b2[static_cast<std::size_t>(y * kTile + x)]}, WindowTriangle::center(tile_x + x, y));
+    }
+  }
+}
+
+float largest_of(const Corners& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
+
+TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
+  long double worst[2] = {0, 0}, count = 0;
+  for_each_pixel(41, [&](Dice& dice, const WindowTriangle&, const WindowVertex (&)[3], const BarycentricReference& at, const GridPoint&) {
+    for (const bool one_sign : {false, true}) {
+      const Corners a = random_corners(dice, one_sign);
+      const auto [low, high] = std::minmax({a[0], a[1], a[2]});
+      const long double value = at.interpolate(a[0], a[1], a[2]);
+      worst[one_sign] = std::max(worst[one_sign], std::max(low - value, value - high) / (kUnit * largest_of(a)));
+      ++count;
+    }
+  });
+  EXPECT_GT(count, 1e6);
+  expect_within("interpolated, of one sign, beyond the range", worst[1], 7, "2^-24 of the largest");
+  expect_within("interpolated, of both signs, beyond the range", worst[0], 12, "2^-24 of the largest");
+}
+
+// Barycentric coordinates are within 9 u of perspective (interpolate_test.cpp counts them), and count by their differences, which are rounded themselves; each sum
+// once more by what it comes to, and that is no more than the largest.
+TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
+  long double worst = 0;
+  for_each_pixel(42, [&](Dice& dice, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
+    const Corners a = random_corners(dice, false);
+    long double sum = 0, weights = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const long double weight = static_cast<long double>(t.edge(k, p)) * v[k].rw;
+      sum += weight * a[k];
+      weights += weight;
+    }
+    const long double differences = std::abs(static_cast<long double>(a[1]) - a[0]) + std::abs(static_cast<long double>(a[2]) - a[0]);
+    const long double bound = kUnit * (10 * differences + 2.01L * largest_of(a));
+    worst = std::max(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
+  });
+  expect_within("interpolated, w apart by up to 10^6: error", worst, 1, "of 10 roundings of differences and 2 of the largest");
+}
+
+TEST(InterpolationRange, ConstantsAreConstants) {
+  long double wrong = 0;
+  for_each_pixel(43, [&](Dice& dice, const WindowTriangle&, const WindowVertex (&)[3], const BarycentricReference& at, const GridPoint&) {
+    const float c = static_cast<float>((dice.unit() - 0.5) * std::exp2(200 * dice.unit() - 100));
+    wrong += at.interpolate(c, c, c) != c;
+  });
+  expect_within("interpolated constants, changed", wrong, 0, "values");
+}
+
+}  // namespace
+}  // namespace tessera::test
