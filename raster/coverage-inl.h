@@ -90,7 +90,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
     const std::uint32_t in_bounds = (1u << std::min(((x1 - bx) >> 2) + 1, kLanes)) - 1;
     Int e[3];
     for (int k = 0; k < 3; ++k)
-      e[k] = hn::Add(splat(t.e[k] + t.a[k] * bx + t.b[k] * first_y), hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers)));
+      e[k] = hn::Add(splat(t.at(k, bx, first_y)), hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers)));
     for (int by = first_y; by <= y1; by += 4) {
       const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])), hn::Add(e[2], to_highest[2]));
       const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])), hn::Add(e[2], to_lowest[2]));

@@ -58,6 +58,11 @@ struct SampleGroup {
 /// The three edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in the tile.
 struct TileEdges {
   std::int32_t a[3], b[3], e[3];
+  /// Edge k at a pixel of the tile. Sums may wrap on their way there.
+  std::int32_t at(int k, int x, int y) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(e[k]) + static_cast<std::uint32_t>(a[k]) * static_cast<std::uint32_t>(x) +
+                                     static_cast<std::uint32_t>(b[k]) * static_cast<std::uint32_t>(y));
+  }
 };
 
 /// The edges of a wide triangle: doubles hold every value exactly.

@@ -125,8 +125,7 @@ struct TrianglePixels {
   HWY_INLINE std::int32_t pixel_word(int x, int y) const {
     float w[3];
     for (int k = 0; k < 3; ++k) {
-      const std::int32_t e = triangle.edges.e[k] + triangle.edges.a[k] * x + triangle.edges.b[k] * y;
-      w[k] = std::fma(static_cast<float>(e), triangle.scale[k], triangle.shift[k]);
+      w[k] = std::fma(static_cast<float>(triangle.edges.at(k, x, y)), triangle.scale[k], triangle.shift[k]);
     }
     const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
     const float b1 = w[1] * inverse, b2 = w[2] * inverse;

@@ -44,7 +44,7 @@ struct SampledColor {
     layout = &run.frame.layout;
     const int attribute = draw.color_attribute[shaded.back ? 1 : 0];
     r = corners(shaded, attribute), g = corners(shaded, attribute + 1), b = corners(shaded, attribute + 2);
-    for (int k = 0; k < 3; ++k) to_center[k] = splat(shaded.edges.e[k] - run.memory.samples->narrow.highest[k][i]);
+    for (int k = 0; k < 3; ++k) to_center[k] = hn::Sub(splat(shaded.edges.e[k]), splat(run.memory.samples->narrow.highest[k][i]));
   }
   // Centres may lie outside of the triangles that their samples see: colours are extrapolated there, and cut.
   HWY_NOINLINE Int words(Int e0, Int e1, Int e2) const {

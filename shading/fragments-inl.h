@@ -251,7 +251,7 @@ struct SampledBlocks {
     for (int s = 0; s < run.samples; ++s) {
       const TileEdges& t = edges[s];
       const BlockOffsets offsets(t);
-      const BlockEdges at{{t.e[0] + t.a[0] * bx + t.b[0] * by, t.e[1] + t.a[1] * bx + t.b[1] * by, t.e[2] + t.a[2] * bx + t.b[2] * by}, &offsets};
+      const BlockEdges at{{t.at(0, bx, by), t.at(1, bx, by), t.at(2, bx, by)}, &offsets};
       depth[s].block_keys(bx, by, blocks[s].keys);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
         auto mask = at.covered(chunk);

@@ -42,7 +42,7 @@ struct NarrowEdges {
 
   HWY_INLINE NarrowEdges(const ShadedTriangle& t, int bx, int by) : triangle(t) {
     for (int k = 0; k < 3; ++k) {
-      const Int start = splat(t.edges.e[k] + t.edges.a[k] * bx + t.edges.b[k] * by);
+      const Int start = splat(t.edges.at(k, bx, by));
       first[k] = hn::Add(start, hn::Add(hn::Mul(splat(t.edges.a[k]), block_columns(0)), hn::Mul(splat(t.edges.b[k]), block_rows(0))));
     }
   }

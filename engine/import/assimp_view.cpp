@@ -94,7 +94,7 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, 
   }
   const bool has_place = std::isfinite(to.position[0] + to.position[1] + to.position[2]);
   const bool has_direction = light.mType == aiLightSource_POINT || direction.SquareLength() > 0.5f;
-  if (has_place && has_direction) model.lights.push_back(to);
+  if (has_place && has_direction && !std::isnan(to.spot_cutoff)) model.lights.push_back(to);
 }
 
 }  // namespace tessera

@@ -1,5 +1,7 @@
 #include "tests/fuzz/pipeline_state.h"
 
+#include <cmath>
+
 #include "tests/fuzz/target.h"
 
 namespace tessera::fuzz {
@@ -132,6 +134,12 @@ std::optional<Rect> StateReader::scissor() {
   return rect();
 }
 
+// Of points and lines.
+float StateReader::size() {
+  const float x = from_.finite32();
+  return x == 0 ? 1 : std::abs(x);
+}
+
 Material StateReader::material() {
   Material material;
   material.diffuse = any_color();
@@ -216,10 +224,12 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
     state.texture_env = from_.one_of<TextureEnv>(5);
     if (state.texture_env == TextureEnv::blend) state.texture_env_color = any_color();
   }
-  if ((more & 16) != 0) state.point_size = from_.finite32(), state.line_width = from_.finite32();
+  if ((more & 16) != 0) state.point_size = size(), state.line_width = size();
   if ((more & 32) != 0) state.depth_near = from_.unit(), state.depth_far = from_.unit();
   if ((more & 64) != 0) {
     state.viewport = rect();
+    if (state.viewport->width == 0) state.viewport->width = format_.width;
+    if (state.viewport->height == 0) state.viewport->height = format_.height;
     // What a viewport keeps in, a scissor need not.
     if (window_ && from_.coin()) state.viewport = window_, state.scissor.reset();
   }

@@ -34,6 +34,7 @@ class StateReader {
   bool is_index() const { return format_.color_mode == ColorMode::index; }
   /// Nearly always what the buffer can do.
   bool wants(bool possible) { return possible ? from_.byte() % 3 == 0 : from_.rarely(); }
+  float size();
   Material material();
   StencilFace stencil_face();
   std::array<bool, 4> color_mask();
