@@ -31,7 +31,8 @@ class MaterialFiles : public tinyobj::MaterialReader {
   bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning,
                   std::string* error) override {
     const std::string whole = with_spaces(names);
-    if (names == whole || std::filesystem::exists(std::filesystem::path(folder_) / whole)) return read(whole, materials, by_name, warning, error);
+    std::error_code no_name;  // of a file: too long
+    if (names == whole || std::filesystem::exists(std::filesystem::path(folder_) / whole, no_name)) return read(whole, materials, by_name, warning, error);
     bool is_read = false;
     std::istringstream several(whole);
     for (std::string name; several >> name;) is_read |= read(name, materials, by_name, warning, error);

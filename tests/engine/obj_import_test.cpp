@@ -159,6 +159,13 @@ TEST_F(ObjImport, AMissingMaterialFileIsAWarning) {
   EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.r, 0.8f);
 }
 
+TEST_F(ObjImport, AMaterialFileWhoseNameIsTooLongIsAWarning) {
+  const Model model = import_model(write("long.obj", "mtllib " + std::string(300, 'x') + " y.mtl\n" + std::string(kTriangle) + "f 1 2 3\n"));
+  EXPECT_EQ(model.mesh.indices.size(), 3u);
+  ASSERT_FALSE(model.warnings.empty());
+  EXPECT_NE(model.warnings[0].find("File name too long"), std::string::npos) << model.warnings[0];
+}
+
 TEST_F(ObjImport, LineEndsAndSpacesDoNotMatter) {
   const Model model = import_model(write("crlf.obj", "# x\r\nv 0 0 0\r\nv\t1 0 0\r\n  v 0 +1. .0e1\r\nf 1/1 2/2 3\r\n"));
   EXPECT_EQ(model.mesh.triangle_count(), 1u);
