@@ -1,6 +1,7 @@
 // The bins of one batch of elements: for each tile the list of those that it may show.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,7 @@ struct BinCounts {
 /// Bytes that the bins of several batches may take together; batches that are filled at the same time share it.
 class BinBudget {
  public:
-  explicit BinBudget(std::size_t bytes) : left_(static_cast<std::int64_t>(bytes)) {}
+  explicit BinBudget(std::size_t bytes) : left_(static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 62))) {}
   /// False, and nothing is taken, if there are not so many left.
   bool take(std::size_t bytes) {
     if (left_.fetch_sub(static_cast<std::int64_t>(bytes)) >= static_cast<std::int64_t>(bytes)) return true;

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -114,6 +114,11 @@ TEST(BinMemory, ASingleTileTakesABatchAtATime) {
       expect_same(render(scene, in_parts({.threads = 1, .tile_size = 64, .defer_shading = defer})), whole);
     }
   }
+}
+
+TEST(BinMemory, MayBeAsMuchAsThereIs) {
+  const RandomOperations scene({.width = 120, .height = 90});
+  EXPECT_EQ(render(scene, {.threads = 1, .bin_memory = std::numeric_limits<std::size_t>::max()}).stats.bin_passes, 1u);
 }
 
 TEST(BinMemory, ALimitThatIsTooSmallIsAnError) {

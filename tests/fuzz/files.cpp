@@ -10,7 +10,7 @@ namespace tessera {
 
 std::map<std::string, std::string, std::less<>> fuzz::files;
 
-std::string read_text_file(const std::string& path) {
+std::string read_text_file(const std::string& path, std::size_t) {
   const auto found = fuzz::files.find(path);
   if (found == fuzz::files.end()) throw Error("cannot read \"" + path + "\": No such file or directory");
   return found->second;

@@ -95,7 +95,7 @@ inline void add_pixels(Fields& f) {
 inline void add_buffer_and_renderer(Fields& f) {
   [[maybe_unused]] const auto know = [](const FrameBufferFormat& b, const RendererOptions& o) {
     [[maybe_unused]] const auto& [width, height, color_mode, color_bits, palette, depth, stencil_bits, alpha_bits, dither, accumulation_bits, samples] = b;
-    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, defer_shading, count_fragments, executor, progress, log] = o;
+    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, defer_shading, bin_memory, count_fragments, task_order, executor, progress, log] = o;
   };
   constexpr const char *kBuffer = "FrameBuffer", *kRenderer = "Renderer";
   const auto refused = [](double) { return Verdict::refused; };
@@ -115,6 +115,9 @@ inline void add_buffer_and_renderer(Fields& f) {
   f.number("options.threads", kRenderer, [](World& w) { return &w.options.threads; }, within(0, 1024), {-1, 0, 2, 7, 1025, 1 << 30, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()});
   f.number("options.tile_size", kRenderer, [](World& w) { return &w.options.tile_size; }, [](double v) { return v == 0 || v == 32 || v == 64 || v == 128 ? Verdict::fine : Verdict::refused; },
            {-32, 0, 1, 16, 32, 33, 64, 96, 128, 256, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()});
+  f.number("options.bin_memory", kRenderer, [](World& w) { return &w.options.bin_memory; }, [](double v) { return v >= kLeastBinMemory ? Verdict::fine : Verdict::refused; },
+           {0, 1, kLeastBinMemory - 1, kLeastBinMemory, std::size_t{1} << 40, std::numeric_limits<std::size_t>::max()});
+  f.number("options.task_order", kRenderer, [](World& w) { return &w.options.task_order; }, anything, {0, 1, 48, std::numeric_limits<std::uint32_t>::max()});
 }
 
 inline std::vector<Field> all_fields() {
