@@ -30,6 +30,11 @@ struct WindowTriangle {
     return signed_area() < 0 ? -side : side;
   }
   Whole area() const { return signed_area() < 0 ? -signed_area() : signed_area(); }
+  /// The vertex with the least y, of several the one with the least x.
+  std::size_t topmost() const {
+    const auto above = [](const GridPoint& a, const GridPoint& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
+    return static_cast<std::size_t>(std::min_element(at.begin(), at.end(), above) - at.begin());
+  }
   static GridPoint center(int x, int y) { return {std::int64_t{x} * kGrid + kGrid / 2, std::int64_t{y} * kGrid + kGrid / 2}; }
   bool contains(const GridPoint& p) const { return area() > 0 && edge(0, p) >= 0 && edge(1, p) >= 0 && edge(2, p) >= 0; }
 
