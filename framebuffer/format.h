@@ -81,11 +81,6 @@ constexpr std::int32_t depth_key_from_word(DepthKind kind, std::uint32_t word) {
 constexpr std::uint32_t depth_word_from_key(DepthKind kind, std::int32_t key) {
   return kind == DepthKind::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u : static_cast<std::uint32_t>(key);
 }
-/// floor(z levels + 0.5) of that number itself: next to a middle between two levels, a rounded sum would be the level above. @pre z in 0..1, levels below 2^52
-inline double nearest_level(double z, double levels) {
-  const double level = std::floor(std::fma(z, levels, 0.5));
-  return std::fma(z, levels, 0.5 - level) < 0 ? level - 1 : level;  // below 0 is what was rounded up
-}
 /// floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
 inline std::uint32_t depth_word(DepthKind kind, double z) {
   if (kind == DepthKind::float32) {
@@ -95,7 +90,7 @@ inline std::uint32_t depth_word(DepthKind kind, double z) {
     return word;
   }
   const double levels = std::ldexp(1.0, depth_bits(kind)) - 1;
-  return static_cast<std::uint32_t>(nearest_level(z, levels));
+  return static_cast<std::uint32_t>(std::floor(z * levels + 0.5));
 }
 inline double depth_from_word(DepthKind kind, std::uint32_t word) {
   if (kind == DepthKind::float32) {

@@ -18,12 +18,6 @@ HWY_INLINE double row_times_point(const double* row, double x, double y, double 
   return __builtin_fma(row[0], x, __builtin_fma(row[1], y, __builtin_fma(row[2], z, row[3] * w)));
 }
 
-// nearest_level(). Products with the levels of fewer bits have all of their bits wherever z is that of a float.
-HWY_INLINE double exact_level(double z, double levels) {
-  const double level = __builtin_floor(__builtin_fma(z, levels, 0.5));
-  return level - (__builtin_fma(z, levels, 0.5 - level) < 0 ? 1.0 : 0.0);
-}
-
 struct PositionBatch {
   alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
 };
@@ -92,12 +86,10 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
     const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1), fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
-    if (bits == 32) {
-      for (int i = 0; i < kVertexBatch; ++i) depth[i] = exact_level(depth[i], levels);
-    } else {
-      for (int i = 0; i < kVertexBatch; ++i) depth[i] = __builtin_floor((depth[i] * levels + 0.5) * fraction);
+    for (int i = 0; i < kVertexBatch; ++i) {
+      const double value = __builtin_floor((depth[i] * levels + 0.5) * fraction);
+      sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
     }
-    for (int i = 0; i < kVertexBatch; ++i) sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(depth[i] - 2147483648.0)) ^ 0x80000000u;
   } else {
     for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
   }
@@ -212,7 +204,7 @@ WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
     const double levels = std::ldexp(1.0, bits) - 1;
-    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(bits == 32 ? nearest_level(z, levels) : std::floor((z * levels + 0.5) * std::ldexp(1.0, 32 - bits))));
+    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::floor((z * levels + 0.5) * std::ldexp(1.0, 32 - bits))));
   }
   return v;
 }
