@@ -96,7 +96,7 @@ HWY_INLINE void add_light_to_chunk(const LightTerm& term, const ShadingBatch& ba
     if constexpr (kBlinn && !kLocal && !kPositional) {
       const Vector half = splat_vector(term.half_vector);
       base = dot(normal, half);
-      if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, splat(1.0f)));
+      if (kGeneral && HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, splat(1.0f)));
     } else {
       const Vector view = kLocal ? surface.view : Vector{zero, zero, splat(1.0f)};
       const Float n_dot_v = kLocal ? surface.n_dot_v : normal.z;
@@ -104,11 +104,11 @@ HWY_INLINE void add_light_to_chunk(const LightTerm& term, const ShadingBatch& ba
         const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)};
         const Float inverse = inverse_length(dot(half, half));
         base = hn::Mul(hn::Add(n_dot_l, n_dot_v), inverse);
-        if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, inverse));
+        if (kGeneral && HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, inverse));
       } else {  // R = 2 (L.n) n - L
         const Float twice = hn::Add(n_dot_l, n_dot_l);
         base = hn::Sub(hn::Mul(twice, n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
-        if (HWY_UNLIKELY(term.sharp))  // E - R
+        if (kGeneral && HWY_UNLIKELY(term.sharp))  // E - R
           base = cosine_of_units(less_times({hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)}, normal, twice));
       }
     }
@@ -197,12 +197,13 @@ LightKernels light_kernels(HighlightKind highlight, bool general) {
   }
 }
 LightKernels light_kernels(const LightTerm& term) {
+  const bool general = term.general || term.sharp;
   switch (term.kind) {
-    case LightKind::directional: return light_kernels<LightKind::directional>(term.highlight, term.general);
-    case LightKind::point: return light_kernels<LightKind::point>(term.highlight, term.general);
-    case LightKind::attenuated_point: return light_kernels<LightKind::attenuated_point>(term.highlight, term.general);
-    case LightKind::spot: return light_kernels<LightKind::spot>(term.highlight, term.general);
-    default: return light_kernels<LightKind::attenuated_spot>(term.highlight, term.general);
+    case LightKind::directional: return light_kernels<LightKind::directional>(term.highlight, general);
+    case LightKind::point: return light_kernels<LightKind::point>(term.highlight, general);
+    case LightKind::attenuated_point: return light_kernels<LightKind::attenuated_point>(term.highlight, general);
+    case LightKind::spot: return light_kernels<LightKind::spot>(term.highlight, general);
+    default: return light_kernels<LightKind::attenuated_spot>(term.highlight, general);
   }
 }
 
@@ -237,7 +238,7 @@ void store_indices(const LightingProgram& program, ShadingBatch& batch, int coun
 }
 
 void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count) {
-  if (program.terms.size() == 1 && !program.tracked && !program.index && !program.terms.front().general) return light_kernels(program.terms.front()).alone(program, batch, count);
+  if (program.terms.size() == 1 && !program.tracked && !program.index && !program.terms.front().general && !program.terms.front().sharp) return light_kernels(program.terms.front()).alone(program, batch, count);
   prepare_points(program, batch, count);
   for (const LightTerm& term : program.terms) light_kernels(term).add(term, batch, count);
   if (program.index) return store_indices(program, batch, count);

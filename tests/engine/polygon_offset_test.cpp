@@ -143,11 +143,11 @@ double slope_in_units(const Setting& setting, const Camera& camera, const Matrix
   }
 }
 
-TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndAUnitNearer) {
+TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndTheirRoundingNearer) {
   Random random(52);
   const MeshData base = rectangle(-1.5f, -1.5f, 1.5f, 1.5f);
   std::size_t seen = 0;
-  int fights = 0, checked = 0;
+  int fights = 0;
   for (int turn = 0; turn < kCases; ++turn) {
     const MeshData decal = random_decal(random);
     const Matrix transform = random_transform(random, turn);
@@ -163,16 +163,13 @@ TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndAUnitNearer) {
       for (std::size_t i = 0; i < words.size(); ++i) count += alone[i] == kGreenWord && words[i] != kGreenWord;
       return count;
     };
-    // Floats between vertices are rounded: where the slope is less than the step from one to the next, a slope and a step do not help.
+    // Floats between vertices are rounded, in the plane of either by up to two units: each starts from a vertex of its own.
     const double slope = slope_in_units(setting, camera(), transform, base);
-    if (setting.depth != DepthFormat::float32 || slope == 0 || slope >= 1) {
-      ASSERT_EQ(hidden({nearer, nearer}), 0) << "case " << turn << ", a slope of " << slope << " units a pixel";
-      ++checked;
-    }
+    const float units = setting.depth == DepthFormat::float32 ? 5.0f : 1.0f;
+    ASSERT_EQ(hidden({nearer, nearer * units}), 0) << "case " << turn << ", a slope of " << slope << " units a pixel";
     fights += hidden({}) > 0;
     seen += static_cast<std::size_t>(std::count(alone.begin(), alone.end(), kGreenWord));
   }
-  EXPECT_GE(checked, 200);
   EXPECT_GT(seen, std::size_t{50} * kCases);
   EXPECT_GT(fights, kCases * 3 / 4) << "nothing to be prevented";
 }
