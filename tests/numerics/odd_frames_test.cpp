@@ -64,7 +64,7 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
         finished += outcome.refused_by.empty();
       }
   }
-  EXPECT_GT(finished, 4 * rounds);
+  EXPECT_GT(3 * finished, 4 * rounds * available_instruction_sets().size());
 }
 
 }  // namespace
