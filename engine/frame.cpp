@@ -184,7 +184,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
 
 void Frame::keep(std::initializer_list<Buffer> buffers) {
   for (const Buffer buffer : buffers) require_enum({"Frame::keep: a buffer"}, buffer, Buffer::accumulation);
-  with_memory("Frame::keep", [&] { recording_->keep.emplace(buffers); });
+  with_memory("Frame::keep", [&] { recording_->keep = std::vector<Buffer>(buffers); });
 }
 
 void Frame::capture(const Capture& capture) {

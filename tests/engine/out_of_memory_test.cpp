@@ -1,17 +1,18 @@
 // Every allocation of a frame fails once, one after the other: each failure is one Error, and nothing is lost by it.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <new>
 
 #include "tests/engine/api_random_frame.h"
+#include "tests/engine/failing_allocations.h"
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they bring an allocator of their own
+#if TESSERA_CAN_FAIL_ALLOCATIONS
+
+std::atomic<long> tessera::test::allocations_left = -1;
 
 namespace {
-std::atomic<long> allocations_left = -1;  // below 0: as many as anybody likes
+using tessera::test::allocations_left;
 
 void* take(std::size_t size, std::size_t alignment) {
   if (allocations_left.load() >= 0 && allocations_left.fetch_sub(1) == 0) throw std::bad_alloc();
@@ -34,36 +35,6 @@ namespace tessera {
 namespace {
 
 using namespace test;
-
-// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at what is left.
-template <class Act, class AfterFailure>
-int fail_every_allocation(const Act& act, const AfterFailure& after_failure) {
-  for (int at = 0; at < 100000; ++at) {
-    allocations_left = at;
-    std::string message;
-    bool failed = false;
-    try {
-      act();
-    } catch (const Error& error) {
-      allocations_left = -1;
-      failed = true;
-      message = error.what();
-    } catch (const std::bad_alloc&) {
-      allocations_left = -1;
-      failed = true;
-      message = "(a bare bad_alloc)";
-    }
-    const bool was_spent = allocations_left < 0;
-    allocations_left = -1;
-    if (!failed && !was_spent) return at;
-    EXPECT_TRUE(failed) << "allocation " << at << " was lost";
-    EXPECT_THAT(message, testing::HasSubstr("memory")) << "allocation " << at;
-    EXPECT_THAT(message, testing::Not(testing::HasSubstr("bare"))) << "allocation " << at;
-    after_failure(at);
-    if (testing::Test::HasFailure()) return at;
-  }
-  return -1;
-}
 
 TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
   const RandomFrame scene({.width = 150, .height = 90, .accumulation_bits = 16}, 60);

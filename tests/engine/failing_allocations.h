@@ -1,0 +1,64 @@
+// Allocations that fail one after the other: the first, the second, each one there is. The operators that count them stand in out_of_memory_test.cpp.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+#include <string>
+
+#include "engine/tessera/tessera.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // they bring an allocator of their own
+#define TESSERA_CAN_FAIL_ALLOCATIONS 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define TESSERA_CAN_FAIL_ALLOCATIONS 0
+#else
+#define TESSERA_CAN_FAIL_ALLOCATIONS 1
+#endif
+#else
+#define TESSERA_CAN_FAIL_ALLOCATIONS 1
+#endif
+
+#if TESSERA_CAN_FAIL_ALLOCATIONS
+
+namespace tessera::test {
+
+/// How many succeed before one fails, on whatever thread; below 0: as many as anybody likes.
+extern std::atomic<long> allocations_left;
+
+/// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at what is left. Returns how many there were.
+template <class Act, class AfterFailure>
+int fail_every_allocation(const Act& act, const AfterFailure& after_failure) {
+  for (int at = 0; at < 100000; ++at) {
+    allocations_left = at;
+    std::string message;
+    bool failed = false;
+    try {
+      act();
+    } catch (const Error& error) {
+      allocations_left = -1;
+      failed = true;
+      message = error.what();
+    } catch (const std::bad_alloc&) {
+      allocations_left = -1;
+      failed = true;
+      message = "(a bare bad_alloc)";
+    }
+    const bool was_spent = allocations_left < 0;
+    allocations_left = -1;
+    if (!failed && !was_spent) return at;
+    EXPECT_TRUE(failed) << "allocation " << at << " was lost";
+    EXPECT_THAT(message, testing::HasSubstr("memory")) << "allocation " << at;
+    EXPECT_THAT(message, testing::Not(testing::HasSubstr("bare"))) << "allocation " << at;
+    after_failure(at);
+    if (testing::Test::HasFailure()) return at;
+  }
+  return -1;
+}
+
+}  // namespace tessera::test
+
+#endif
