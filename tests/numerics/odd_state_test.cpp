@@ -115,5 +115,36 @@ TEST(OddState, BeginsWithPictures) {
   }
 }
 
+/// Says that it has any number of workers, and does the work itself.
+class Boaster : public Executor {
+ public:
+  explicit Boaster(int workers) : workers_(workers) {}
+  int workers() const noexcept override { return workers_; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    for (int k = 0; k < count; ++k) work(context, k);
+  }
+
+ private:
+  int workers_;
+};
+
+// As many as are asked for are taken, but no more than can be asked for.
+TEST(OddState, OfExecutorsTakesNoMemoryForWorkersBeyondTheMost) {
+  for (const int workers : odd_values<int>()) {
+    std::optional<Renderer> renderer;
+    const auto error = error_of([&] { renderer.emplace(RendererOptions{.executor = std::make_shared<Boaster>(workers)}); });
+    EXPECT_EQ(error.has_value(), workers < 1) << workers;
+    if (!renderer) continue;
+    EXPECT_EQ(renderer->options().threads, std::min(workers, 1024));
+    if (workers == std::numeric_limits<int>::max()) {
+      FrameBuffer buffer({.width = 8, .height = 8});
+      Frame frame(buffer);
+      frame.clear({.color = Color{1, 0, 0, 1}});
+      renderer->finish(frame);
+      EXPECT_EQ(color_words(buffer)[0], 0xff0000u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tessera::test
