@@ -197,8 +197,8 @@ TEST(Functions, Reciprocals) {
   expect_within("1 / sqrt(x x), x in 2^-60 .. 2^60", worst, 0.5, "ulp");
 }
 
-// Half the logarithm of how many texels a pixel spans, squared: the polynomial is off by less than 1/65536, truncating takes as much again, and the last
-// sums round at less than 2^15 with 24 bits.
+// Half the logarithm of how many texels a pixel spans, squared: the polynomial is off by less than 1/65536, its sums round at less than 2^15 with 24 bits,
+// and truncating towards the nearest power of four takes or adds up to another 1/65536.
 TEST(Functions, LevelsOfDetail) {
   long double worst = 0;
   for_floats(bits_of(1) + 1, bits_of(0x1p28f), [&](const std::vector<float>& footprints) {

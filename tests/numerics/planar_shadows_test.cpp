@@ -132,7 +132,8 @@ TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
 // Elements that no double holds are refused, too; what is drawn never is.
 TEST(PlanarShadows, ThatAreTooFarAwayAreRefused) {
   const Light above{.position = {0, 0, 1, 1}};
-  EXPECT_THROW(planar_shadow({0, 0, 1e-310, 1e300}, Light{.position = {0, 0, 1e-30f, 0}}), Error);
+  EXPECT_THROW(planar_shadow({0, 0, 1e-310, 1}, Light{.position = {0, 0, 1, 0}}), Error);
+  EXPECT_THROW(planar_shadow({0, 0, 1e-310, 1e300}, Light{.position = {0, 0, 1, 0}}), Error);
   EXPECT_THROW(planar_shadow({0, 0, 0, 1}, above), Error);
   EXPECT_THROW(planar_shadow({0, 0, 1, -1}, above), Error);
   EXPECT_NO_THROW(planar_shadow({0, 0, 1e308, 1e308}, above));

@@ -79,12 +79,13 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
     if (!(inside > 0.01L) || std::abs(area) < 0.05L) continue;
     // M^-T (0, 0, 1) is m0 x m1 over the determinant: the cross product of the window's edges, turned round by a mirror.
     const Real3 m0 = transformed(transform, {1, 0, 0}), m1 = transformed(transform, {0, 1, 0}), m2 = transformed(transform, {0, 0, 1});
-    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, front = area > 0;
+    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, clockwise = draws.one_in(2), front = (area > 0) != clockwise;
     const Real3 normal = normalized(cross(m0, m1) * (is_mirrored ? -1 : 1));
     const std::array<float, 3> up{0, 0, 1};
     std::vector<float> normals;
     for (int k = 0; k < 3; ++k) normals.insert(normals.end(), up.begin(), up.end());
     DrawState state{.transform = transform, .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}), .depth = {.enabled = false}};
+    state.front_face = clockwise ? FrontFace::cw : FrontFace::ccw;
     state.material = {.ambient = {0, 0, 0, 1}, .diffuse = {1, 0, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
     state.back_material = Material{.ambient = {0, 0, 0, 1}, .diffuse = {0, 1, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
     const std::array<float, 3> l = draws.direction();
