@@ -171,7 +171,7 @@ HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const S
 
 /// Of a texture with levels: what its coordinates in a triangle are made of.
 HWY_INLINE const TextureCoordinates& coordinates_in(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
-  if (surface.coordinates.triangle != &triangle) surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture, run.frame.draws[surface.draw].topology == Topology::lines);
+  if (surface.coordinates.triangle != &triangle) surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture, run.frame.draws[surface.draw].topology == Topology::lines, run.samples);
   return surface.coordinates;
 }
 HWY_INLINE bool has_coordinates(const BatchSurface& surface) { return surface.texture != nullptr && surface.texture->levels != nullptr; }

@@ -291,7 +291,7 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   fragments.pixels.texture = nullptr;  // its texels come about block by block
   fragments.texture = texture_of(draw, triangle.back);
   if (fragments.texture != nullptr && fragments.texture->levels != nullptr && (!draw.deferred || fragments.tests_texels()))
-    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture, draw.topology == Topology::lines);
+    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture, draw.topology == Topology::lines, run.samples);
   blocks(fragments);
   if (draw.deferred && fragments.seen) {
     memory.triangles.push_back(triangle);

@@ -52,7 +52,7 @@ struct TexturedBlocks {
     texels_alone = is_rgb8 && draw.texture->function == TextureFunction::replace;
     at_once = is_rgb8 && (texels_alone || modulates) && !uses_depth && !run.cut && (draw.write_mask & 0xffffff) == 0xffffff;
     depth.set_up(run.frame, draw, run.memory.group, i, run.memory.source[i], run.tile_x, run.tile_y);
-    coordinates.set_up(triangle, run.memory.wide.data(), *draw.texture, false);
+    coordinates.set_up(triangle, run.memory.wide.data(), *draw.texture, false, 1);
     for (int c = 0; c < 3; ++c) {
       const std::size_t face = triangle.back ? 1 : 0;
       color[c] = draw.source == ColorSource::constant ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0} : corners(triangle, draw.color_attribute[face] + c);
@@ -130,10 +130,11 @@ struct TexturedBlocks {
   }
   template <int kChunks>
   HWY_INLINE void find_texels(const Barycentric (&at)[kChunks], Texels (&texels)[kChunks]) const {
+    constexpr bool kKeepsRange = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any;
     constexpr bool kHasSlopes = kFilter == TexelFilter::linear_levels || kFilter == TexelFilter::any;
     Float s[kChunks], t[kChunks], footprint[kChunks];
     for (int i = 0; i < kChunks; ++i)
-      coordinates.at<kHasSlopes>(at[i], [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value; });
+      coordinates.at<kHasSlopes, kKeepsRange>(at[i], [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value; });
     texels_where<kFilter>(*draw.texture->levels, s, t, footprint, texels);
   }
   HWY_INLINE Int words(const Barycentric& at, const Texels& texels) const {

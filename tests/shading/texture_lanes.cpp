@@ -56,7 +56,7 @@ bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&at
     triangle.attributes[k] = attributes[k];
   }
   TextureCoordinates coordinates;
-  coordinates.set_up(triangle, &wide, texture, false);
+  coordinates.set_up(triangle, &wide, texture, false, 1);
   for (int by = 0; by < tile_size; by += 4)
     for (int bx = 0; bx < tile_size; bx += 4)
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
