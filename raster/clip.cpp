@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "raster/exact_cut.h"
+
 namespace tessera {
 namespace {
 
@@ -27,89 +29,154 @@ double distance(const VertexTransform& t, ClipCode plane, const ClipPosition& p)
   }
 }
 
-ClipVertex cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& inner, const ClipVertex& outer, double inner_distance, double outer_distance, int attribute_count) {
-  const double t = inner_distance / (inner_distance - outer_distance);
-  const auto mix = [t](double a, double b) { return std::fma(t, b - a, a); };
-  ClipVertex v;
-  v.position = {mix(inner.position.x, outer.position.x), mix(inner.position.y, outer.position.y), mix(inner.position.z, outer.position.z),
-                mix(inner.position.w, outer.position.w)};
-  // Between ends that are very far away, what is mixed is off by more than the guard band is wide.
-  switch (plane) {
-    case kLeftOfGuardBand: v.position.x = -(transform.guard_x * v.position.w); break;
-    case kRightOfGuardBand: v.position.x = transform.guard_x * v.position.w; break;
-    case kBelowGuardBand: v.position.y = -(transform.guard_y * v.position.w); break;
-    case kAboveGuardBand: v.position.y = transform.guard_y * v.position.w; break;
-    default: break;
+double size(const ClipPosition& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(p.w)}); }
+
+// The polygon as it was, of which things are cut off.
+class Original {
+ public:
+  Original(const VertexTransform& transform, std::span<const ClipVertex> vertices, int attribute_count) : transform_(transform), vertices_(vertices), attribute_count_(attribute_count) {}
+
+  // The point of the edge from `a` to `b` on a plane, one end of which is inside. It is the same whichever end is named first.
+  ClipVertex cut(ClipCode plane, const ClipCorner& a, const ClipVertex& b) const {
+    if (a.edge >= 0) {
+      const auto first = static_cast<std::size_t>(a.edge);
+      if (const auto v = cut_whole(plane, vertices_[first], vertices_[first + 1 == vertices_.size() ? 0 : first + 1])) return *v;
+    }
+    const bool is_inner = distance(transform_, plane, a.vertex.position) >= 0;
+    const ClipVertex& inner = is_inner ? a.vertex : b;
+    const ClipVertex& outer = is_inner ? b : a.vertex;
+    const Mixed mixed = mix(plane, inner, outer);
+    if (mixed.is_good || a.edge >= 0 || vertices_.size() != 3) return on_plane(plane, mixed.vertex);
+    return on_plane(plane, exact_crossing(transform_, plane, a.plane, {vertices_[0], vertices_[1], vertices_[2]}, attribute_count_).value_or(mixed.vertex));
   }
-  for (int k = 0; k < attribute_count; ++k) v.attributes[k] = static_cast<float>(mix(inner.attributes[k], outer.attributes[k]));
-  return v;
-}
+  // The same of a whole edge. Absent if rounding has both ends on one side.
+  std::optional<ClipVertex> cut_whole(ClipCode plane, const ClipVertex& a, const ClipVertex& b) const {
+    const bool a_inside = distance(transform_, plane, a.position) >= 0, b_inside = distance(transform_, plane, b.position) >= 0;
+    if (a_inside == b_inside) return std::nullopt;
+    const ClipVertex& inner = a_inside ? a : b;
+    const ClipVertex& outer = a_inside ? b : a;
+    const Mixed mixed = mix(plane, inner, outer);
+    return on_plane(plane, mixed.is_good ? mixed.vertex : exact_cut(transform_, plane, inner, outer, attribute_count_).value_or(mixed.vertex));
+  }
+
+ private:
+  struct Mixed {
+    ClipVertex vertex;
+    bool is_good;
+  };
+  Mixed mix(ClipCode plane, const ClipVertex& inner, const ClipVertex& outer) const {
+    const bool from_inner = size(inner.position) <= size(outer.position);  // the end that rounds less
+    const ClipVertex &from = from_inner ? inner : outer, &to = from_inner ? outer : inner;
+    const double first = distance(transform_, plane, from.position), apart = first - distance(transform_, plane, to.position);
+    const double t = first / apart;
+    const auto mix = [t](double a, double b) { return std::fma(t, b - a, a); };
+    const ClipPosition &p = from.position, &q = to.position;
+    Mixed mixed{{.position = {mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}}, false};
+    for (int k = 0; k < attribute_count_; ++k) mixed.vertex.attributes[k] = static_cast<float>(mix(from.attributes[k], to.attributes[k]));
+    // What is mixed is off by some 2^-50 of that end, and by as much more as the edge is long for its way through the plane. With less than 2^20 of what is
+    // seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14 pixels.
+    const double guard = (plane & (kBeforeNear | kBehindFar)) != 0 ? 1 : (plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0 ? transform_.guard_x : transform_.guard_y;
+    const ClipPosition way{q.x - p.x, q.y - p.y, q.z - p.z, q.w - p.w};
+    mixed.is_good = size(p) * (1 + guard) * size(way) <= 0x1p20 * mixed.vertex.position.w * std::abs(apart);
+    return mixed;
+  }
+  // Nothing is off in the direction that counts.
+  ClipVertex on_plane(ClipCode plane, ClipVertex v) const {
+    switch (plane) {
+      case kLeftOfGuardBand: v.position.x = -(transform_.guard_x * v.position.w); break;
+      case kRightOfGuardBand: v.position.x = transform_.guard_x * v.position.w; break;
+      case kBelowGuardBand: v.position.y = -(transform_.guard_y * v.position.w); break;
+      case kAboveGuardBand: v.position.y = transform_.guard_y * v.position.w; break;
+      default: break;
+    }
+    return v;
+  }
+
+  const VertexTransform& transform_;
+  std::span<const ClipVertex> vertices_;
+  int attribute_count_;
+};
 
 // False where the eye's plane is touched in a single point, which is no pixel; and where sums of the largest numbers overflowed.
 bool is_usable(const ClipPosition& p) { return p.w > 0 && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w); }
 
 // What of a polygon is inside of one plane, vertex by vertex.
 template <class Keep>
-void keep_inside(const VertexTransform& transform, ClipCode plane, const ClipVertex* vertices, int count, int attribute_count, const Keep& keep) {
-  for (int i = 0; i < count; ++i) {
-    const ClipVertex &a = vertices[i], &b = vertices[i + 1 == count ? 0 : i + 1];
-    const double da = distance(transform, plane, a.position), db = distance(transform, plane, b.position);
-    if (da >= 0) keep(a);
-    if (da >= 0 && db < 0) keep(cut(transform, plane, a, b, da, db, attribute_count));
-    if (da < 0 && db >= 0) keep(cut(transform, plane, b, a, db, da, attribute_count));
+void keep_inside(const VertexTransform& transform, const Original& original, ClipCode plane, std::span<const ClipCorner> corners, const Keep& keep) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ClipCorner &a = corners[i], &b = corners[i + 1 == corners.size() ? 0 : i + 1];
+    const double da = distance(transform, plane, a.vertex.position), db = distance(transform, plane, b.vertex.position);
+    if (da >= 0) keep(da > 0 || db >= 0 ? a : ClipCorner{a.vertex, -1, plane});
+    if (da > 0 && db < 0) keep({original.cut(plane, a, b.vertex), -1, plane});
+    if (da < 0 && db > 0) keep({original.cut(plane, a, b.vertex), a.edge, a.plane});
   }
 }
 
 // Distances, and differences of positions, of the largest doubles would be infinite. A power of two in all positions of a polygon moves none of its points.
 void keep_finite(std::span<ClipVertex> vertices) {
   constexpr double kLarge = 0x1p980, kScale = 0x1p-40;  // sums of two numbers below 2^984, times at most 2^15 of a guard band
-  const auto size = [](const ClipPosition& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(p.w)}); };
   if (std::none_of(vertices.begin(), vertices.end(), [&](const ClipVertex& v) { return size(v.position) > kLarge; })) return;
-  for (ClipVertex& v : vertices) v.position = {v.position.x * kScale, v.position.y * kScale, v.position.z * kScale, v.position.w * kScale};
+  for (ClipVertex& v : vertices) {
+    v.position = {v.position.x * kScale, v.position.y * kScale, v.position.z * kScale, v.position.w * kScale};
+    v.object.reset();
+  }
 }
 
 }  // namespace
 
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3], std::uint8_t codes, int attribute_count) {
-  ClippedPolygon polygon;
-  for (const ClipVertex& v : triangle) polygon.vertices[polygon.count++] = v;
-  keep_finite({polygon.vertices, 3});
+  ClipVertex vertices[3] = {triangle[0], triangle[1], triangle[2]};
+  keep_finite(vertices);
+  const Original original(transform, vertices, attribute_count);
+  struct Polygon {
+    ClipCorner corners[kMaxClippedVertices];
+    std::size_t count = 0;
+    void add(const ClipCorner& corner) {
+      if (count < kMaxClippedVertices) corners[count++] = corner;  // a convex polygon gains one vertex a plane; only rounding could make more
+    }
+  } polygon;
+  for (int i = 0; i < 3; ++i) polygon.add({vertices[i], i});
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
-    ClippedPolygon kept;
-    keep_inside(transform, plane, polygon.vertices, polygon.count, attribute_count, [&kept](const ClipVertex& v) {
-      if (kept.count < kMaxClippedVertices) kept.vertices[kept.count++] = v;  // a convex polygon gains one vertex a plane; only rounding could make more
-    });
+    Polygon kept;
+    keep_inside(transform, original, plane, {polygon.corners, polygon.count}, [&kept](const ClipCorner& corner) { kept.add(corner); });
     polygon = kept;
     if (polygon.count < 3) return {};
   }
-  for (int i = 0; i < polygon.count; ++i)
-    if (!is_usable(polygon.vertices[i].position)) return {};
-  return polygon;
+  ClippedPolygon clipped;
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    const ClipVertex& v = polygon.corners[i].vertex;
+    if (!is_usable(v.position)) return {};
+    clipped.vertices[clipped.count++] = v;
+  }
+  return clipped;
 }
 
-std::vector<ClipVertex> clip_polygon(const VertexTransform& transform, std::vector<ClipVertex> polygon, std::uint8_t codes, int attribute_count) {
+void PolygonClipper::clip(const VertexTransform& transform, std::vector<ClipVertex>& polygon, std::uint8_t codes, int attribute_count) {
   keep_finite(polygon);
+  const Original original(transform, polygon, attribute_count);
+  corners_.clear();
+  for (const ClipVertex& v : polygon) corners_.push_back({v, static_cast<int>(corners_.size())});
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
-    std::vector<ClipVertex> kept;
-    keep_inside(transform, plane, polygon.data(), static_cast<int>(polygon.size()), attribute_count, [&kept](const ClipVertex& v) { kept.push_back(v); });
-    polygon = std::move(kept);
-    if (polygon.size() < 3) return {};
+    kept_.clear();
+    keep_inside(transform, original, plane, corners_, [this](const ClipCorner& corner) { kept_.push_back(corner); });
+    std::swap(corners_, kept_);
   }
-  for (const ClipVertex& v : polygon)
-    if (!is_usable(v.position)) return {};
-  return polygon;
+  polygon.clear();
+  if (corners_.size() < 3 || !std::all_of(corners_.begin(), corners_.end(), [](const ClipCorner& c) { return is_usable(c.vertex.position); })) return;
+  for (const ClipCorner& corner : corners_) polygon.push_back(corner.vertex);
 }
 
 bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t codes, int attribute_count) {
   keep_finite(line);
+  const ClipVertex ends[2] = {line[0], line[1]};
+  const Original original(transform, ends, attribute_count);
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
-    const double d0 = distance(transform, plane, line[0].position), d1 = distance(transform, plane, line[1].position);
-    if (!(d0 >= 0 || d1 >= 0)) return false;
-    if (d0 < 0) line[0] = cut(transform, plane, line[1], line[0], d1, d0, attribute_count);
-    if (d1 < 0) line[1] = cut(transform, plane, line[0], line[1], d0, d1, attribute_count);
+    const bool first_inside = distance(transform, plane, line[0].position) >= 0, second_inside = distance(transform, plane, line[1].position) >= 0;
+    if (!first_inside && !second_inside) return false;
+    if (first_inside != second_inside) line[first_inside ? 1 : 0] = original.cut(plane, {line[0], 0}, line[1]);
   }
   return is_usable(line[0].position) && is_usable(line[1].position);
 }

@@ -1,6 +1,5 @@
 // Polygons whose boundaries or corners are drawn.
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "raster/binning.h"
@@ -12,6 +11,7 @@ namespace {
 struct Boundary {
   std::vector<ClipVertex> vertices;
   std::vector<WindowVertex> window;
+  PolygonClipper clipper;
 
   void set_up(const BinDraw& draw, std::uint32_t first_triangle) {
     const std::size_t corners = draw.modes->triangles + 2;
@@ -25,7 +25,7 @@ struct Boundary {
       window.push_back(draw.vertices[polygon[i]]);
     }
     if (codes == 0) return;
-    vertices = clip_polygon(*draw.transform, std::move(vertices), codes, draw.attribute_count);
+    clipper.clip(*draw.transform, vertices, codes, draw.attribute_count);
     window.clear();
     for (const ClipVertex& v : vertices) window.push_back(project(*draw.transform, v.position));
   }

@@ -8,6 +8,7 @@
 
 #include "engine/parallel.h"
 #include "tests/engine/api_random_operations.h"
+#include "tests/engine/full_tile.h"
 
 namespace tessera {
 namespace {
@@ -74,39 +75,9 @@ TEST(BinMemory, FramesInPartsAreTheSameFrames) {
   }
 }
 
-// Triangles, lines and points of which one tile alone has more than fits; among them many that are clipped, draws that blend,
-// and a clear in between.
-struct FullTile {
-  FrameBufferFormat format;
-  MeshData triangles, lines, points;
-  explicit FullTile(int samples) : format{.width = 60, .height = 50, .samples = samples} {
-    Random random(3);
-    for (MeshData* mesh : {&triangles, &lines, &points}) {
-      mesh->primitive = mesh == &triangles ? Primitive::triangles : mesh == &lines ? Primitive::lines : Primitive::points;
-      for (int i = 0; i < 9000; ++i) {
-        for (int c = 0; c < 3; ++c) mesh->positions.push_back(random.between(-1.2f, 1.2f));
-        for (int c = 0; c < 4; ++c) mesh->colors.push_back(random.between(0, 1));
-      }
-    }
-  }
-  void record(Frame& frame) const {
-    frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-    DrawState state;
-    state.lighting = false;
-    frame.draw(triangles.view(), state);
-    state.shading = Shading::flat;
-    frame.draw(lines.view(), state);
-    frame.clear({.depth = 0.9, .scissor = Rect{10, 10, 20, 20}});
-    state.blend = BlendState{};
-    frame.draw(points.view(), state);
-    state.front_mode = PolygonMode::line;
-    frame.draw(triangles.view(), state);
-  }
-};
-
 TEST(BinMemory, ASingleTileTakesABatchAtATime) {
   for (const int samples : {1, 8}) {
-    const FullTile scene(samples);
+    const FullTile scene({.width = 60, .height = 50, .samples = samples});
     const Outcome whole = render(scene, {.threads = 1, .tile_size = 64});
     ASSERT_EQ(whole.stats.tiles, 1u);
     for (const bool defer : {true, false}) {

@@ -11,6 +11,7 @@
 
 #include "engine/parallel.h"
 #include "tests/engine/api_random_operations.h"
+#include "tests/engine/full_tile.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera {
@@ -30,48 +31,55 @@ std::vector<FrameBufferFormat> formats() {
 
 // Points, lines, polygons in each mode, textures, shadows, bitmaps, images, index lighting, accumulation. A frame that starts with clears may be finished after all; what it adds to is
 // cleared, too.
-void record(const RandomOperations& scene, Frame& frame) {
+template <class Scene>
+void record(const Scene& scene, Frame& frame) {
   if (scene.format.accumulation_bits > 0) frame.clear({.accumulation = Color{0, 0, 0, 0}});
   scene.record(frame);
+}
+
+// Returns how many allocations there were.
+template <class Scene>
+int expect_that_it_can_be_finished_afterwards(const Scene& scene, const RendererOptions& options) {
+  SCOPED_TRACE(describe(scene.format) + ", " + std::to_string(options.threads) + (options.threads > 1 ? " threads" : " thread"));
+  FrameBuffer plain(scene.format);
+  Frame once(plain);
+  record(scene, once);
+  Renderer({.threads = 1}).finish(once);
+  const Fingerprint expected = fingerprint(plain);
+  std::optional<Renderer> renderer;
+  std::optional<FrameBuffer> buffer;
+  std::optional<Frame> frame;
+  const auto start = [&] {
+    frame.reset();
+    buffer.emplace(scene.format);
+    renderer.emplace(options);
+    frame.emplace(*buffer);
+    record(scene, *frame);
+  };
+  start();
+  const std::size_t draws = frame->draw_count();
+  return fail_every_allocation([&] { renderer->finish(*frame); },
+                               [&](int at) {
+                                 EXPECT_EQ(frame->draw_count(), draws) << "still recorded";
+                                 // The same renderer and buffer; now and then another frame in between.
+                                 if (at % 5 == 0) {
+                                   FrameBuffer other({.width = 20, .height = 20});
+                                   Frame small(other);
+                                   small.clear({.color = Color{1, 1, 1, 1}});
+                                   renderer->finish(small);
+                                   EXPECT_EQ(color_words(other)[7], 0xffffffu);
+                                 }
+                                 renderer->finish(*frame);
+                                 EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
+                                 start();
+                               });
 }
 
 void expect_frames_that_can_be_finished_afterwards(int threads, int draws) {
   const ThreadLimit limit(std::max(threads, 2));
   for (const FrameBufferFormat& format : formats()) {
-    SCOPED_TRACE(describe(format) + ", " + std::to_string(threads) + (threads > 1 ? " threads" : " thread"));
     const RandomOperations scene(format, format.samples == 1 && format.color_bits == 24 ? draws : draws / 2);
-    FrameBuffer plain(format);
-    Frame once(plain);
-    record(scene, once);
-    Renderer({.threads = 1}).finish(once);
-    const Fingerprint expected = fingerprint(plain);
-    std::optional<Renderer> renderer;
-    std::optional<FrameBuffer> buffer;
-    std::optional<Frame> frame;
-    const auto start = [&] {
-      frame.reset();
-      buffer.emplace(format);
-      renderer.emplace(RendererOptions{.threads = threads, .tile_size = 32});
-      frame.emplace(*buffer);
-      record(scene, *frame);
-    };
-    start();
-    const int allocations = fail_every_allocation([&] { renderer->finish(*frame); },
-                                                  [&](int at) {
-                                                    EXPECT_GT(frame->draw_count(), static_cast<std::size_t>(draws / 2)) << "still recorded";
-                                                    // The same renderer and buffer; now and then another frame in between.
-                                                    if (at % 5 == 0) {
-                                                      FrameBuffer other({.width = 20, .height = 20});
-                                                      Frame small(other);
-                                                      small.clear({.color = Color{1, 1, 1, 1}});
-                                                      renderer->finish(small);
-                                                      EXPECT_EQ(color_words(other)[7], 0xffffffu);
-                                                    }
-                                                    renderer->finish(*frame);
-                                                    EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
-                                                    start();
-                                                  });
-    EXPECT_GT(allocations, 60);
+    EXPECT_GT(expect_that_it_can_be_finished_afterwards(scene, {.threads = threads, .tile_size = 32}), 60);
     if (testing::Test::HasFailure()) return;
   }
 }
@@ -79,6 +87,19 @@ void expect_frames_that_can_be_finished_afterwards(int threads, int draws) {
 // With so many draws, each of the ten primitives is among them.
 TEST(OutOfMemoryAnywhere, FramesOfEveryKindCanBeFinishedAfterwards) { expect_frames_that_can_be_finished_afterwards(1, long_tests() ? 40 : 21); }
 TEST(OutOfMemoryAnywhere, SoCanThoseOfTwoThreads) { expect_frames_that_can_be_finished_afterwards(2, long_tests() ? 40 : 5); }
+
+TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
+  const FullTile scene({.width = 120, .height = 60}, 510);
+  const RendererOptions options{.threads = 1, .tile_size = 32, .bin_memory = kLeastBinMemory};
+  FrameBuffer buffer(scene.format);
+  Frame frame(buffer);
+  scene.record(frame);
+  ASSERT_GT(Renderer(options).finish(frame).bin_passes, 1u);
+  EXPECT_GT(expect_that_it_can_be_finished_afterwards(scene, options), 200);
+}
+TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewBatchesAtATime) {
+  EXPECT_GT(expect_that_it_can_be_finished_afterwards(FullTile({.width = 60, .height = 50}, 2502), {.threads = 1, .tile_size = 64, .bin_memory = kLeastBinMemory}), 200);
+}
 
 // What was recorded before a call that fails is drawn, and nothing of the call.
 TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {

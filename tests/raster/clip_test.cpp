@@ -177,7 +177,9 @@ TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
     if ((codes & kNonFinite) != 0 || codes == 0) continue;
     const ClippedPolygon polygon = clip_triangle(t, v, codes, 0);
     for (int i = 0; i < polygon.count; ++i) check(polygon.vertices[i].position);
-    for (const ClipVertex& corner : clip_polygon(t, {v[0], v[1], v[2]}, codes, 0)) check(corner.position);
+    std::vector<ClipVertex> outline{v[0], v[1], v[2]};
+    PolygonClipper().clip(t, outline, codes, 0);
+    for (const ClipVertex& corner : outline) check(corner.position);
     ClipVertex line[2] = {v[0], v[1]};
     const std::uint8_t line_codes = clip_code(t, v[0].position) | clip_code(t, v[1].position);
     if (line_codes != 0 && clip_line(t, line, line_codes, 0))

@@ -1,0 +1,15 @@
+// Where clip planes cut what is so large, beside what is seen of it, that doubles have no digits left for that.
+#pragma once
+
+#include <optional>
+
+#include "raster/clip.h"
+
+namespace tessera {
+
+/// The point of an edge on a plane. Absent if there is not just one.
+std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a, const ClipVertex& b, int attribute_count);
+/// The point of a triangle on two planes. Absent if there is not just one.
+std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other, const ClipVertex (&vertices)[3], int attribute_count);
+
+}  // namespace tessera

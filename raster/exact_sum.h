@@ -1,0 +1,70 @@
+// Sums of doubles and of their products without rounding.
+#pragma once
+
+#include <cmath>
+
+namespace tessera {
+
+/// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while nothing overflows and no product is below 2^-960.
+/// Source: J. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997: grow-expansion, compress.
+class ExactSum {
+ public:
+  void add(double term) {
+    if (count_ == kMostParts) compress();
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      const double sum = term + parts_[i], of_term = sum - parts_[i], rounded_off = (parts_[i] - (sum - of_term)) + (term - of_term);
+      if (rounded_off != 0) parts_[kept++] = rounded_off;
+      term = sum;
+    }
+    if (term != 0) parts_[kept++] = term;
+    count_ = kept;
+  }
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(std::fma(a, b, -product));
+    add(product);
+  }
+  void add_product(const ExactSum& a, double b) {
+    for (int i = 0; i < a.count_; ++i) add_product(a.parts_[i], b);
+  }
+  /// The product of two sums times `sign`, 1 or -1.
+  void add_product(const ExactSum& a, const ExactSum& b, double sign) {
+    for (int i = 0; i < b.count_; ++i) add_product(a, b.parts_[i] * sign);
+  }
+  /// Off by less than 2^-52 of itself.
+  double value() const {
+    double sum = 0;
+    for (int i = 0; i < count_; ++i) sum += parts_[i];
+    return sum;
+  }
+
+ private:
+  // Compressed parts have all 53 bits, so 40 of them hold those from 2^1023 to 2^-1074.
+  static constexpr int kMostParts = 64;
+
+  void compress() {
+    double sum = parts_[count_ - 1];
+    int bottom = count_ - 1;
+    for (int i = count_ - 2; i >= 0; --i) {
+      const double larger = sum + parts_[i], rest = parts_[i] - (larger - sum);
+      sum = larger;
+      if (rest == 0) continue;
+      parts_[bottom--] = larger;
+      sum = rest;
+    }
+    int top = 0;
+    for (int i = bottom + 1; i < count_; ++i) {
+      const double larger = parts_[i] + sum, rest = sum - (larger - parts_[i]);
+      sum = larger;
+      if (rest != 0) parts_[top++] = rest;
+    }
+    parts_[top++] = sum;
+    count_ = top;
+  }
+
+  double parts_[kMostParts];
+  int count_ = 0;
+};
+
+}  // namespace tessera
