@@ -93,6 +93,14 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
   }
 }
 
+// Where cutting off leaves another level an interpolated colour, which rounds by less than 12 * 2^-24 of 256, must not come to: then no pixel leaves the range
+// of its triangle's vertices.
+float off_borders(float scaled) {
+  constexpr float kHair = 0x1p-12f;
+  const auto whole = static_cast<float>(static_cast<int>(scaled));
+  return std::min(std::max(scaled, whole + kHair), whole + (1 - kHair));
+}
+
 // The colour of a batch goes where the draw's triangles will look for it.
 void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
   const DrawPlan& plan = *draw.plan;
@@ -107,7 +115,7 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
       const float levels = static_cast<float>((1 << bits[c]) - 1), half = 0.5f;
       for (std::size_t i = 0; i < points.count; ++i) {
         const float color = batch.field[kColorR + c][i];
-        out[i * stride + static_cast<std::size_t>(c)] = plan.scaled_colors ? std::fma(color, levels, half) : color;
+        out[i * stride + static_cast<std::size_t>(c)] = plan.scaled_colors ? off_borders(std::fma(color, levels, half)) : color;
       }
     }
   } else if (!plan.index[face] && !draw.layout->index) {

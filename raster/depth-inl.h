@@ -2,8 +2,8 @@
 //
 // Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel does not depend on
 // tiles or blocks, and a gradient too steep for 64 bits comes right again inside the triangle. Gradients come from doubles,
-// those of needles, where doubles are not enough, from exact quotients. float32: one fused multiply-add for each direction
-// from the anchor, kept within the vertices' range.
+// those of needles, where doubles are not enough, from exact quotients. float32: a plane of doubles from the anchor, rounded once
+// and kept within the vertices' range.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
 #undef TESSERA_RASTER_DEPTH_INL_H_
@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "raster/double_lanes-inl.h"
 #include "raster/lanes-inl.h"
 #include "raster/triangle_setup.h"
 
@@ -109,47 +110,50 @@ struct Unorm32Depth : UnormDepth {
   }
 };
 
+/// A plane of doubles, rounded once: where a wide triangle is tilted against the rows, the shares of x and y are many times the depth itself.
 struct Float32Depth {
-  float z0, dx, dy, first_x, first_y, low, high;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
+  double z0, dx, dy, first_x, first_y;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
+  float low, high;
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthKind) {
-    float z[3];
+    float z[3], at_anchor;
     for (int k = 0; k < 3; ++k) std::memcpy(&z[k], &g.z[k][i], sizeof z[k]);
-    std::memcpy(&z0, &g.anchor_z[i], sizeof z0);
+    std::memcpy(&at_anchor, &g.anchor_z[i], sizeof at_anchor);
+    z0 = at_anchor;
     low = z[0] < z[1] ? (z[0] < z[2] ? z[0] : z[2]) : (z[1] < z[2] ? z[1] : z[2]);
     high = z[0] > z[1] ? (z[0] > z[2] ? z[0] : z[2]) : (z[1] > z[2] ? z[1] : z[2]);
-    dx = static_cast<float>(g.depth_dx[i]);
-    dy = static_cast<float>(g.depth_dy[i]);
-    first_x = static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - g.anchor_x[i]) * (1.0 / 256));  // exact: 24 bits
-    first_y = static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - g.anchor_y[i]) * (1.0 / 256));
+    dx = g.depth_dx[i];
+    dy = g.depth_dy[i];
+    const Anchor first = from_anchor(g, i, {0, 0}, tile_x, tile_y);
+    first_x = first.x;
+    first_y = first.y;
   }
   HWY_INLINE void prepare_blocks() {}
   struct Anchor {
-    float x, y;
+    double x, y;
   };
-  static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at, int tile_x, int tile_y) {
-    return {static_cast<float>((tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256)),
-            static_cast<float>((tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256))};
+  static HWY_INLINE Anchor from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x, int tile_y) {  // exact: 24 bits
+    return {(tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256), (tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256)};
   }
+  static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at, int tile_x, int tile_y) { return from_anchor(g, i, at, tile_x, tile_y); }
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {  // of floats that are not negative: their bits
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));
   }
   HWY_INLINE std::int32_t key(int x, int y) const {
-    const float z = std::fma(dx, first_x + static_cast<float>(x), std::fma(dy, first_y + static_cast<float>(y), z0));
+    const auto z = static_cast<float>((dx * (first_x + x) + dy * (first_y + y)) + z0);
     const float low_cut = z > low ? z : low, cut = (low_cut < high ? low_cut : high) + 0.0f;  // + 0: no negative zero
     std::int32_t bits;
     std::memcpy(&bits, &cut, sizeof bits);
     return bits;
   }
   struct Block {
-    float x, y;
+    double x, y;
   };
-  HWY_INLINE Block block(int bx, int by) const { return {first_x + static_cast<float>(bx), first_y + static_cast<float>(by)}; }
-  HWY_INLINE Block step_to(int bx, int by) const { return {static_cast<float>(bx), static_cast<float>(by)}; }
+  HWY_INLINE Block block(int bx, int by) const { return {first_x + bx, first_y + by}; }
+  HWY_INLINE Block step_to(int bx, int by) const { return {static_cast<double>(bx), static_cast<double>(by)}; }
   static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample.x + step.x, sample.y + step.y}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
-    const Float x = hn::Add(splat(block.x), hn::ConvertTo(kFloat, block_columns(chunk)));
-    const Float y = hn::Add(splat(block.y), hn::ConvertTo(kFloat, block_rows(chunk)));
-    const Float z = mul_add(splat(dx), x, mul_add(splat(dy), y, splat(z0)));
+    const Doubles x = plus(to_doubles(block_columns(chunk)), block.x), y = plus(to_doubles(block_rows(chunk)), block.y);
+    const Float z = to_floats(plus(plus(times(x, dx), times(y, dy)), z0));
     const Float low_cut = hn::IfThenElse(hn::Gt(z, splat(low)), z, splat(low));
     const Float cut = hn::Add(hn::IfThenElse(hn::Lt(low_cut, splat(high)), low_cut, splat(high)), hn::Zero(kFloat));
     return hn::BitCast(kInt, cut);

@@ -30,7 +30,8 @@ struct BatchSurface {
   // Which attributes of its triangles' vertices go into which arrays of the batch.
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
-  bool adjacent = false;  // the arrays follow each other
+  bool adjacent = false;     // the arrays follow each other
+  bool keeps_range = false;  // of the triangles' vertices
   const DrawTexture* texture = nullptr;  // or none
   TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
 
@@ -152,6 +153,12 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
 /// The texture of a draw's faces: where indices are drawn, none has a say.
 HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) { return draw.index[back ? 1 : 0] ? nullptr : draw.texture; }
 
+/// Whether a draw's attributes stay within those of a triangle's vertices: where pixels' centres may be outside; and colours, unless they keep away from the
+/// borders of levels already (scaled_colors). What lies beyond a line's end is as equation 3.6 has it.
+HWY_INLINE bool attributes_keep_range(const TileRun& run, const TileDraw& draw) {
+  return draw.topology != Topology::lines && (run.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
+}
+
 /// Makes the batch one of another surface. @pre it is empty
 HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
   const TileDraw& draw = run.frame.draws[triangle.draw];
@@ -165,6 +172,7 @@ HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const S
     surface.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
     surface.adjacent &= surface.target[j] == surface.target[0] + j * kBatchPoints;
   }
+  surface.keeps_range = attributes_keep_range(run, draw);
   surface.texture = texture_of(draw, back);
   surface.coordinates.triangle = nullptr;
 }
@@ -191,11 +199,15 @@ inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& su
 }
 
 /// Adds the pixels of one triangle in one block to the batch's next slot; `taken`: those that triangles before it have there. Lanes
-/// that no triangle fills hold anything. kCount: attributes in adjacent arrays, where known; else 0, and there may be texture coordinates.
+/// that no triangle fills hold anything. kCount: attributes in adjacent arrays that need not be kept within a range, where known; else 0, and there may be
+/// texture coordinates.
 template <int kCount>
 HWY_INLINE void gather_counted(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
   const int count = kCount > 0 ? kCount : pixels.attribute_count;
   const CornerArrays values(triangle, pixels.first_attribute, count);
+  const auto value_of = [&](const Barycentric& at, int j) HWY_ATTR {
+    return kCount == 0 && pixels.keeps_range ? interpolate_within(at, corners(triangle, pixels.first_attribute + j, true)) : interpolate(at, values[j]);
+  };
   const NarrowEdges edges(triangle, bx, by);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     if (chunk_bits(covered, chunk) == 0) continue;
@@ -203,18 +215,18 @@ HWY_INLINE void gather_counted(const TileRun& run, PixelBatch& pixels, const Sha
     const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
     const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
     if (chunk_bits(taken, chunk) == 0) {  // the first triangle of a chunk may fill all of it
-      for (int j = 0; j < count; ++j) hn::Store(interpolate(at, values[j]), kFloat, target(j));
+      for (int j = 0; j < count; ++j) hn::Store(value_of(at, j), kFloat, target(j));
     } else {
       const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
       const auto store = [&](Float value, float* to) HWY_ATTR { hn::Store(hn::IfThenElse(mask, value, hn::Load(kFloat, to)), kFloat, to); };
-      for (int j = 0; j < count; ++j) store(interpolate(at, values[j]), target(j));
+      for (int j = 0; j < count; ++j) store(value_of(at, j), target(j));
     }
     if (kCount == 0 && has_coordinates(pixels))
       gather_coordinates(run, pixels, triangle, at, chunk_bits(taken, chunk) == 0 ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : mask_from_bits(chunk_bits(covered, chunk)), point);
   }
 }
 HWY_INLINE void gather_attributes(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
-  switch (pixels.adjacent && !has_coordinates(pixels) ? pixels.attribute_count : 0) {
+  switch (pixels.adjacent && !pixels.keeps_range && !has_coordinates(pixels) ? pixels.attribute_count : 0) {
     case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
     case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
     case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);

@@ -54,8 +54,7 @@ HWY_INLINE void shade_points(TileRun& run, const SampledBatch& points, std::int3
   const int whole = (points.count + kLanes - 1) / kLanes * kLanes;
   if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, whole);
   if (draw.source == ColorSource::constant) fill_colors(draw, points.back, batch);
-  // Centres may lie outside of the triangles that their samples see.
-  if (draw.source == ColorSource::interpolated) clamp_colors(batch, points.count);
+  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated) clamp_colors(batch, points.count);  // pixels may lie beyond the ends
   if (points.texture != nullptr) texture_points(*points.texture, batch, whole);
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);
@@ -100,7 +99,8 @@ HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const Sha
     const auto packing = packing_of(kFloat, bits);
     for (int j = 0; j < count; ++j) {
       float* const target = kCount > 0 ? points.target[0] + j * kBatchPoints : points.target[j];
-      hn::StoreU(hn::TableLookupLanes(interpolate(at, values[j]), packing), kFloat, target + points.count);
+      const Float value = points.keeps_range ? interpolate_within(at, corners(triangle, points.first_attribute + j, true)) : interpolate(at, values[j]);
+      hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, target + points.count);
     }
     if (kCount == 0 && has_coordinates(points)) add_coordinates(run, points, triangle, at, bits);
     SampledPixels& pixels = points.piece[points.pieces++];

@@ -43,13 +43,12 @@ struct SampledColor {
     triangle = &shaded;
     layout = &run.frame.layout;
     const int attribute = draw.color_attribute[shaded.back ? 1 : 0];
-    r = corners(shaded, attribute), g = corners(shaded, attribute + 1), b = corners(shaded, attribute + 2);
+    r = corners(shaded, attribute, true), g = corners(shaded, attribute + 1, true), b = corners(shaded, attribute + 2, true);
     for (int k = 0; k < 3; ++k) to_center[k] = hn::Sub(splat(shaded.edges.e[k]), splat(run.memory.samples->narrow.highest[k][i]));
   }
-  // Centres may lie outside of the triangles that their samples see: colours are extrapolated there, and cut.
   HWY_NOINLINE Int words(Int e0, Int e1, Int e2) const {
     const Barycentric at = barycentric_from_edges(*triangle, hn::Add(e0, to_center[0]), hn::Add(e1, to_center[1]), hn::Add(e2, to_center[2]));
-    return words_of(*layout, {{clamped_unit(interpolate(at, r)), clamped_unit(interpolate(at, g)), clamped_unit(interpolate(at, b)), splat(1.0f)}}, splat(0.5f));
+    return words_of(*layout, {{interpolate_within(at, r), interpolate_within(at, g), interpolate_within(at, b), splat(1.0f)}}, splat(0.5f));
   }
 };
 

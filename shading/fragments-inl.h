@@ -42,6 +42,7 @@ struct FragmentTriangle {
   TextureCoordinates coordinates{};      // of a texture with levels
 
   HWY_INLINE int face() const { return triangle.back ? 1 : 0; }
+  HWY_INLINE bool keeps_range() const { return attributes_keep_range(run, draw); }
 
   HWY_INLINE Barycentric at(int bx, int by, int chunk) const { return barycentric(triangle, run.memory.wide.data(), bx, by, chunk); }
 
@@ -49,7 +50,7 @@ struct FragmentTriangle {
     if (colors_given != nullptr) return hn::Load(kFloat, colors_given + 3 * kBlockPixels + chunk * kLanes);
     if (flat != nullptr) return splat(flat[3]);
     const int attribute = draw.alpha_attribute[face()];
-    return attribute < 0 ? splat(draw.alpha[face()]) : clamped_unit(interpolate(at(bx, by, chunk), corners(triangle, attribute)));
+    return attribute < 0 ? splat(draw.alpha[face()]) : clamped_unit(interpolate_within(at(bx, by, chunk), corners(triangle, attribute, keeps_range())));
   }
 
   /// Alpha under the texture.
@@ -116,7 +117,7 @@ struct FragmentTriangle {
       for (int c = 0; c < 3; ++c) out.c[c] = hn::Load(kFloat, run.memory.batch.field[kColorR + c] + chunk * kLanes);
     } else {
       const Barycentric weights = at(bx, by, chunk);
-      for (int c = 0; c < 3; ++c) out.c[c] = clamped_unit(interpolate(weights, corners(triangle, draw.color_attribute[face()] + c)));
+      for (int c = 0; c < 3; ++c) out.c[c] = clamped_unit(interpolate_within(weights, corners(triangle, draw.color_attribute[face()] + c, keeps_range())));
     }
     out.c[3] = alpha(bx, by, chunk);
     return out;
@@ -127,7 +128,7 @@ struct FragmentTriangle {
     if (draw.source == ColorSource::constant) return splat(draw.color[face()][0]);
     if (flat != nullptr) return splat(flat[0]);
     if (draw.source == ColorSource::per_pixel) return hn::Load(kFloat, run.memory.batch.field[kColorR] + chunk * kLanes);
-    return interpolate(at(bx, by, chunk), corners(triangle, draw.color_attribute[face()]));
+    return interpolate_within(at(bx, by, chunk), corners(triangle, draw.color_attribute[face()], keeps_range()));
   }
 
   HWY_INLINE Float thresholds(int bx, int by, int chunk) const {

@@ -7,6 +7,9 @@
 #define TESSERA_SHADING_INTERPOLATE_INL_H_
 #endif
 
+#include <algorithm>
+#include <limits>
+
 #include "raster/lanes-inl.h"
 #include "raster/clip.h"
 #include "shading/interpolate.h"
@@ -68,16 +71,28 @@ HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wid
   return t.wide < 0 ? NarrowEdges(t, bx, by).barycentric(chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
 }
 
-/// One attribute at the three vertices.
+/// One attribute at the three vertices, and what it is kept within.
 struct Corners {
   float first, to_second, to_third;
+  float low = -std::numeric_limits<float>::infinity(), high = std::numeric_limits<float>::infinity();
 };
-HWY_INLINE Corners corners(const ShadedTriangle& t, int attribute) {
-  const float a0 = t.attributes[0][attribute];
-  return {a0, t.attributes[1][attribute] - a0, t.attributes[2][attribute] - a0};
+/// `keeps_range`: within the vertices' own.
+HWY_INLINE Corners corners(const ShadedTriangle& t, int attribute, bool keeps_range = false) {
+  const float a = t.attributes[0][attribute], b = t.attributes[1][attribute], c = t.attributes[2][attribute];
+  Corners corners{a, b - a, c - a};
+  if (!keeps_range) return corners;
+  corners.low = std::min(std::min(a, b), c);
+  corners.high = std::max(std::max(a, b), c);
+  return corners;
 }
 HWY_INLINE Float interpolate(const Barycentric& b, const Corners& c) {
   return mul_add(b.b1, splat(c.to_second), mul_add(b.b2, splat(c.to_third), splat(c.first)));
+}
+/// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of the triangle.
+HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
+  const Float value = interpolate(b, c);
+  const Float raised = hn::IfThenElse(hn::Gt(value, splat(c.low)), value, splat(c.low));
+  return hn::IfThenElse(hn::Lt(raised, splat(c.high)), raised, splat(c.high));
 }
 
 /// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.

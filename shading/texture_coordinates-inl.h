@@ -10,8 +10,6 @@
 #define TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
 #endif
 
-#include <algorithm>
-
 #include "shading/interpolate-inl.h"
 #include "shading/lighting.h"
 #include "shading/texture.h"
@@ -25,12 +23,9 @@ struct TextureAxis {
   Corners corner;
   float dx, dy;          // of the sum of weighted differences
   float sum_dx, sum_dy;  // of the weights' sum
-  float low, high;       // of the corners
 
-  HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, float texels, const float (&weight_dx)[3], const float (&weight_dy)[3]) {
-    corner = corners(t, attribute);
-    low = std::min({t.attributes[0][attribute], t.attributes[1][attribute], t.attributes[2][attribute]});
-    high = std::max({t.attributes[0][attribute], t.attributes[1][attribute], t.attributes[2][attribute]});
+  HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, bool keeps_range, float texels, const float (&weight_dx)[3], const float (&weight_dy)[3]) {
+    corner = corners(t, attribute, keeps_range);
     dx = texels * std::fma(weight_dx[1], corner.to_second, weight_dx[2] * corner.to_third);
     dy = texels * std::fma(weight_dy[1], corner.to_second, weight_dy[2] * corner.to_third);
     sum_dx = t.affine ? 0.0f : texels * (weight_dx[0] + weight_dx[1] + weight_dx[2]);
@@ -42,11 +37,11 @@ struct TextureCoordinates {
   const ShadedTriangle* triangle = nullptr;
   TextureAxis s, t;
   bool has_slopes = false, is_line = false;
-  bool keeps_range = false;  // a hair beyond the corners is another texel
 
   HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture, bool of_line, int samples) {
     triangle = &of;
-    keeps_range = !of_line && samples == 1 && !(texture.levels->mag_linear && texture.levels->min_linear);  // elsewhere pixels may lie beyond
+    // Of nearest texels a hair beyond the vertices is another one; and with several samples centres may be far beyond.
+    const bool keeps_range = !of_line && (samples > 1 || !(texture.levels->mag_linear && texture.levels->min_linear));
     is_line = of_line;
     float weight_dx[3], weight_dy[3];
     for (int k = 0; k < 3; ++k) {
@@ -54,22 +49,21 @@ struct TextureCoordinates {
       weight_dy[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.b[k]) : static_cast<float>(wide[of.wide].b[k]));
     }
     const TextureLevel& level = texture.levels->level[0];
-    s.set_up(of, texture.attribute, static_cast<float>(level.width), weight_dx, weight_dy);
-    t.set_up(of, texture.attribute + 1, level.height > 1 ? static_cast<float>(level.height) : 0.0f, weight_dx, weight_dy);  // of a single row t has no say
+    s.set_up(of, texture.attribute, keeps_range, static_cast<float>(level.width), weight_dx, weight_dy);
+    t.set_up(of, texture.attribute + 1, keeps_range, level.height > 1 ? static_cast<float>(level.height) : 0.0f, weight_dx, weight_dy);  // of a single row t has no say
     has_slopes = texture.levels->needs_footprint();
   }
 
   /// Calls store(field, value) for the coordinates and, where they are needed, the texels gone by.
   template <class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
-    if (keeps_range) return has_slopes ? at<true, true>(where, store) : at<false, true>(where, store);
-    has_slopes ? at<true, false>(where, store) : at<false, false>(where, store);
+    has_slopes ? at<true, true>(where, store) : at<false, true>(where, store);
   }
+  /// kKeepsRange: where set_up() has found that they are to be kept.
   template <bool kHasSlopes, bool kKeepsRange, class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     const auto coordinate = [&](const TextureAxis& axis) HWY_ATTR {
-      const Float value = interpolate(where, axis.corner);
-      return kKeepsRange ? hn::Min(hn::Max(value, splat(axis.low)), splat(axis.high)) : value;
+      return kKeepsRange ? interpolate_within(where, axis.corner) : interpolate(where, axis.corner);
     };
     const Float at_s = coordinate(s), at_t = coordinate(t);
     store(kTextureS, at_s);

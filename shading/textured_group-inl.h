@@ -55,7 +55,7 @@ struct TexturedBlocks {
     coordinates.set_up(triangle, run.memory.wide.data(), *draw.texture, false, 1);
     for (int c = 0; c < 3; ++c) {
       const std::size_t face = triangle.back ? 1 : 0;
-      color[c] = draw.source == ColorSource::constant ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0} : corners(triangle, draw.color_attribute[face] + c);
+      color[c] = draw.source == ColorSource::constant ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0} : corners(triangle, draw.color_attribute[face] + c, true);
     }
   }
   HWY_INLINE std::uint64_t shaded_pixels() const { return std::uint64_t{kBlockPixels} * blocks + count_of(seen); }
@@ -143,7 +143,7 @@ struct TexturedBlocks {
     return words_of(run.frame.layout, textured_lanes(*draw.texture, own_colors(at), colors_of(texels)), splat(0.5f));
   }
   HWY_INLINE Int modulated_words(const Barycentric& at, const Texels& texels) const { return words_of_rgb8(modulated(own_colors(at), colors_of(texels))); }
-  HWY_INLINE Colors own_colors(const Barycentric& at) const { return {{interpolate(at, color[0]), interpolate(at, color[1]), interpolate(at, color[2]), splat(1.0f)}}; }
+  HWY_INLINE Colors own_colors(const Barycentric& at) const { return {{interpolate_within(at, color[0]), interpolate_within(at, color[1]), interpolate_within(at, color[2]), splat(1.0f)}}; }
 };
 
 inline void draw_textured(TileRun& run, std::uint32_t draw_number) {

@@ -110,8 +110,9 @@ struct FrameBufferFormat {
   Dither dither = Dither::none;
   int accumulation_bits = 0;                ///< 0, 16 or 32 for each of red, green, blue, alpha; signed. RGB buffers
   /// Coverage samples a pixel: 1, 4 or 8. With several, coverage, depth and stencil belong to each sample, and a triangle's colour
-  /// comes about once for each pixel, at its centre. They are kept until the frame is finished; what it stores and shows is their
-  /// mean, and depth and stencil of the first; a frame that goes on from there starts from these. RGB buffers.
+  /// comes about once for each pixel, at its centre, within the range of its vertices even where that is outside. They are kept until the
+  /// frame is finished; what it stores and shows is their mean, and depth and stencil of the first; a frame that goes on from there
+  /// starts from these. RGB buffers.
   int samples = 1;
 };
 

@@ -31,40 +31,58 @@ CaseDraw sheet(Dice& dice, double tilt) {
   return draw;
 }
 
-bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, double distance, double part) {
-  const Matrix projection = perspective(90, 1, 0.1, kInfinity, true);
+// Where one of them is drawn, it is the nearer one, whichever comes first.
+bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const Matrix& turn, double distance, double part) {
+  const Matrix projection = perspective(90, 1, 0.1, kInfinity, true) * turn;
   nearer.transform = projection * scale(distance * (1 - part), distance * (1 - part), distance * (1 - part));
   farther.transform = projection * scale(distance, distance, distance);
   nearer.color = {0, 1, 0, 1};
   farther.color = {1, 0, 0, 1};
+  int seen = 0;
   for (const bool near_first : {false, true})
-    for (const std::array<float, 3>& color : renderer.draw(near_first ? std::vector{nearer, farther} : std::vector{farther, nearer}).colors)
-      if (color[0] > 0 || color[1] == 0) return false;
-  return true;
+    for (const std::array<float, 3>& color : renderer.draw(near_first ? std::vector{nearer, farther} : std::vector{farther, nearer}).colors) {
+      if (color[0] > 0) return false;
+      seen += color[1] > 0 ? 1 : 0;
+    }
+  return seen > kSide;
 }
 
-// z = 0.1 / distance. Facing the viewer, a relative difference of eps = 2^-23 is at least the step between two floats. Tilted by up to 1.5, each of the two
-// depths is off by at most 2^-24 (2 z0 + 2 |dz/dx x| + 3 |dz/dy y|) <= 2^-24 (2 + 2/3 + 1) times the largest depth of the triangle, which is 1.5 times its
-// smallest: 5.5 eps apart is enough.
+// A floor below the viewer, `height` times what it is in `positions`, from straight below to 6 heights ahead and `sides` to the left and right.
+CaseDraw floor(double sides) {
+  CaseDraw draw{.test_depth = true, .depth_func = Compare::greater};
+  for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, -6.0}, {-1.0, -1.0}, {1.0, -6.0}, {-1.0, -6.0}})
+    for (const double c : {x * sides, -1.0, z, 1.0}) draw.positions.push_back(static_cast<float>(c));
+  return draw;
+}
+
+// z = 0.1 / distance. A relative difference of eps = 2^-23 is at least the step between two floats. Each of the two depths is off by the roundings of the
+// vertices' depths, whose shares are positive and sum up to the depth, and by its own: by 2^-23 of itself. Twice that and a step are 3 eps; the vertices' places
+// are snapped, all four alike.
 TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
   constexpr int kMost = 1000;
-  const auto figure = [](double tilt, int distances) {
-    return [tilt, distances](const MakeRenderer& make, bool is_tessera) {
+  const auto figure = [](const auto& make_draw, const Matrix& turn, double farthest, int distances) {
+    return [=](const MakeRenderer& make, bool is_tessera) {
       const auto renderer = make({.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = true, .cleared_depth = 0});
       int needed = 1;
       Dice dice(21);
       for (int n = 0; n < (is_tessera && long_tests() ? 20 * distances : distances); ++n) {
-        const double distance = n == 0 ? 5e6 : 0.1 * std::pow(5e7, dice.unit()) * 1.01;
-        const CaseDraw draw = sheet(dice, tilt);
+        const double distance = n == 0 ? farthest : 0.1 * std::pow(10 * farthest, dice.unit()) * 1.01;
+        const CaseDraw draw = make_draw(dice);
         for (int k = needed; k <= 16; ++k)  // all from the needed one on
-          if (!is_apart(*renderer, draw, draw, distance, k * 0x1p-23)) needed = k + 1;
-        while (needed > 16 && needed < kMost && !is_apart(*renderer, draw, draw, distance, needed * 0x1p-23)) ++needed;
+          if (!is_apart(*renderer, draw, draw, turn, distance, k * 0x1p-23)) needed = k + 1;
+        while (needed > 16 && needed < kMost && !is_apart(*renderer, draw, draw, turn, distance, needed * 0x1p-23)) ++needed;
       }
       return static_cast<long double>(needed);
     };
   };
-  expect_figure("reversed depth, floats, 0.1 .. 5 million away, facing the viewer: apart by", 2, "2^-23", figure(1, 150));
-  expect_figure("reversed depth, floats, 0.1 .. 5 million away, tilted: apart by", 10, "2^-23", figure(1.5, 150));
+  const auto sheets = [](double tilt) { return [tilt](Dice& dice) { return sheet(dice, tilt); }; };
+  const auto floors = [](double sides) { return [sides](Dice&) { return floor(sides); }; };
+  expect_figure("reversed depth, floats, 0.1 .. 5 million away, facing the viewer: apart by", 2, "2^-23", figure(sheets(1), Matrix(), 5e6, 150));
+  expect_figure("reversed depth, floats, 0.1 .. 5 million away, tilted: apart by", 4, "2^-23", figure(sheets(1.5), Matrix(), 5e6, 150));
+  for (const double roll : {0.0, 30.0, 45.0, 120.0})
+    for (const double sides : {10.0, 1000.0, 100000.0})
+      expect_figure("reversed depth, floats, floors 1:" + std::to_string(static_cast<int>(sides)) + ", rolled by " + std::to_string(static_cast<int>(roll)) + ": apart by", 4, "2^-23",
+                    figure(floors(sides), rotate(roll, 0, 0, 1), 8e5, 30));
 }
 
 // depth = 1 - near / distance, exactly; at infinity, where w is 0 before the projection, the far end. What is stored, and that it is drawn at all.

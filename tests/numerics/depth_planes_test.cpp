@@ -136,12 +136,11 @@ TEST(DepthPlanes, AreWithinTheirLevelsInNarrowedAndReversedRanges) {
     });
 }
 
-// Planes start from the topmost vertex, the leftmost of those. Gradients are floats, each off by 2^-24 of itself (2^-52 of their terms come on top, which only
-// needles feel); the inner multiply-add rounds by 2^-24 of |z0 + gy Y|, the outer by 2^-24 of the sum. So a depth is off by at most 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never by more than the vertices'
-// range, to which it is cut.
+// The plane is one of doubles, off by 2^-52 of its gradients' terms and of its own, which only needles feel; the depth is rounded once, and cut to the
+// vertices' range.
 TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
   for (const WindowShape shape : kWindowShapes)
-    expect_figure("depth, floats, triangles " + kNames[static_cast<std::size_t>(shape)], 1, "of four roundings", [&](const MakeRenderer& make, bool is_tessera) {
+    expect_figure("depth, floats, triangles " + kNames[static_cast<std::size_t>(shape)], 1, "of one rounding", [&](const MakeRenderer& make, bool is_tessera) {
       long double worst = 0;
       for_each_pixel(make, kFloat32, shape, rounds_of(is_tessera), [&](const Tilted& t, int x, int y, std::uint32_t stored) {
         const std::size_t anchor = t.triangle.topmost();
@@ -154,11 +153,10 @@ TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
           return std::array<long double, 2>{along_x * (depth(k) - depth(anchor)) / area, along_y * (depth(k) - depth(anchor)) / area};
         };
         const auto of_second = gains((anchor + 1) % 3), of_third = gains((anchor + 2) % 3);
-        const long double across = std::abs(of_second[0] + of_third[0]), down = std::abs(of_second[1] + of_third[1]);
         const long double terms = std::abs(of_second[0]) + std::abs(of_third[0]) + std::abs(of_second[1]) + std::abs(of_third[1]);
         const auto [low, high] = std::minmax({depth(0), depth(1), depth(2)});
-        const long double bound = std::min(1.01L * 0x1p-24L * (2 * depth(anchor) + 2 * across + 3 * down) + 0x1p-50L * terms, high - low);
-        const long double exact = static_cast<long double>(depth_numerator(t, at)) / area * 0x1p-24L, error = std::abs(float_of(stored) - exact);
+        const long double exact = static_cast<long double>(depth_numerator(t, at)) / area * 0x1p-24L, bound = std::min(0x1p-24L * exact + 0x1p-50L * (depth(anchor) + terms), high - low);
+        const long double error = std::abs(float_of(stored) - exact);
         if (error > bound || bound > 0) worst = std::max(worst, bound > 0 ? error / bound : 0x1p24L * error);  // all the same: exactly that
       });
       return worst;

@@ -1,5 +1,7 @@
 #include "primitive_shader.h"
 
+#include <algorithm>
+
 #include "pixel_format.h"
 #include "texture_env.h"
 
@@ -12,6 +14,25 @@ auto mix(const Share& share, const Of& of) {
   auto sum = share[0] * of(0);
   for (std::size_t i = 1; i < share.size(); ++i) sum = sum + share[i] * of(i);
   return sum;
+}
+
+double lower(double a, double b) { return std::min(a, b); }
+double higher(double a, double b) { return std::max(a, b); }
+TexCoord lower(TexCoord a, TexCoord b) { return {std::min(a.s, b.s), std::min(a.t, b.t)}; }
+TexCoord higher(TexCoord a, TexCoord b) { return {std::max(a.s, b.s), std::max(a.t, b.t)}; }
+Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 higher(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+Vec4 lower(Vec4 a, Vec4 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z), std::min(a.w, b.w)}; }
+Vec4 higher(Vec4 a, Vec4 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)}; }
+
+/// The same, of a polygon within the range of its corners: a pixel's centre may lie outside where only samples are covered.
+template <class Of>
+auto mix_within(const Share& share, const Of& of) {
+  const auto mixed = mix(share, of);
+  if (share.size() < 3) return mixed;
+  auto low = of(0), high = of(0);
+  for (std::size_t i = 1; i < share.size(); ++i) low = lower(low, of(i)), high = higher(high, of(i));
+  return lower(higher(mixed, low), high);
 }
 
 Material with_vertex_color(Material material, ColorMaterial mode, Vec4 color) {
@@ -56,13 +77,13 @@ PrimitiveShader::PrimitiveShader(const Corners& corners, bool is_back, const Dra
 Shade PrimitiveShader::shade(const Fragment& fragment) const {
   const Share& share = fragment.share;
   if (is_lit_at_pixels(colors_.draw)) {
-    const auto mixed = [&](auto member) { return mix(share, [&](std::size_t i) { return corners_.all[i].*member; }); };
+    const auto mixed = [&](auto member) { return mix_within(share, [&](std::size_t i) { return corners_.all[i].*member; }); };
     const SurfacePoint point{mixed(&Corner::position_eye), normalize(mixed(&Corner::normal_eye)), mixed(&Corner::color)};
     if (has_index_) return {{}, index(point)};
     return {textured(clamp01(color(point)), fragment), {}};
   }
   const auto interpolated = [&](const auto& values) {
-    return values.size() == 1 ? values[0] : mix(share, [&](std::size_t i) { return values[i]; });
+    return values.size() == 1 ? values[0] : mix_within(share, [&](std::size_t i) { return values[i]; });
   };
   if (has_index_) return {{}, interpolated(corner_indices_)};
   return {textured(clamp01(interpolated(corner_colors_)), fragment), {}};
@@ -71,9 +92,9 @@ Shade PrimitiveShader::shade(const Fragment& fragment) const {
 Vec4 PrimitiveShader::textured(Vec4 color, const Fragment& fragment) const {
   if (colors_.texture == nullptr) return color;
   const TextureSampler& texture = *colors_.texture;
-  const auto mixed = [&](const Share& share) { return mix(share, [&](std::size_t i) { return corners_.all[i].texcoord; }); };
-  const double level = texture.level_of_detail(mixed(fragment.share_dx), mixed(fragment.share_dy));
-  return reference::textured(colors_.draw.texture_env, color, texture.sample(mixed(fragment.share), level), texture.channels(),
+  const auto texcoord = [&](std::size_t i) { return corners_.all[i].texcoord; };
+  const double level = texture.level_of_detail(mix(fragment.share_dx, texcoord), mix(fragment.share_dy, texcoord));
+  return reference::textured(colors_.draw.texture_env, color, texture.sample(mix_within(fragment.share, texcoord), level), texture.channels(),
                              colors_.draw.texture_env_color);
 }
 
