@@ -124,11 +124,11 @@ TEST(DepthPlanes, AreWithinTheirLevelsInNarrowedAndReversedRanges) {
     expect_figure("depth, " + std::string(depth.name) + ", ranges narrowed and reversed", depth.bits == 32 ? 4 : 1, "levels", [&](const MakeRenderer& make, bool is_tessera) {
       std::int64_t worst = 0;
       for (const Range& range : kRanges) {
-        const auto [low, high] = std::minmax({exact_level(depth, range.near, 8), exact_level(depth, range.far, 8)});
-        const auto check = [&, low = low, high = high](const Tilted& t, int x, int y, std::uint32_t stored) {
+        const auto ends = std::minmax({exact_level(depth, range.near, 8), exact_level(depth, range.far, 8)});
+        const auto check = [&](const Tilted& t, int x, int y, std::uint32_t stored) {
           const Whole denominator = t.triangle.area() << kFraction;
           const Whole moved = denominator * range.near + depth_numerator(t, WindowTriangle::center(x, y)) * (range.far - range.near);
-          worst = std::max(worst, stored < low || stored > high ? depth.levels() : std::abs(stored - exact_level(depth, moved, denominator * 8)));
+          worst = std::max(worst, stored < ends.first || stored > ends.second ? depth.levels() : std::abs(stored - exact_level(depth, moved, denominator * 8)));
         };
         for_each_pixel(make, depth, WindowShape::any, rounds_of(is_tessera), check, range);
       }
