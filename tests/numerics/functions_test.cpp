@@ -1,5 +1,5 @@
 // Our own powers, logarithms, roots, sines and normalization against results of long double: the largest error in units in the last place (ulp) of
-// what is exact. Powers, logarithms and roots have the same bits on every instruction set: the fastest is measured, and all are compared.
+// what is exact. Powers, logarithms and roots have the same bits on every instruction set, which other tests compare: the fastest is measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,9 +30,11 @@ long double ulps(float found, long double exact) {
   return std::abs(found - exact) / std::ldexp(1.0L, exponent - 23);
 }
 
-/// Floats from the bits `first` to `last`, each or so many that every exponent has 2^12, evenly; sixteen at a time.
-void for_floats(std::uint32_t first, std::uint32_t last, const std::function<void(const std::vector<float>&)>& chunk) {
-  const std::uint32_t step = long_tests() ? 1 : 2039;  // a prime: no bit of the mantissa stays what it is
+constexpr std::uint32_t kSampled = 2039;  // a prime: no bit of the mantissa stays what it is
+
+/// Floats from the bits `first` to `last`, one in `step` (of 2039: every exponent has some 4100, evenly), and in long runs each; sixteen at a time.
+void for_floats(std::uint32_t first, std::uint32_t last, const std::function<void(const std::vector<float>&)>& chunk, std::uint32_t step = kSampled) {
+  if (long_tests()) step = 1;
   std::vector<float> floats;
   const auto run = [&] {
     while (floats.size() % 16 != 0) floats.push_back(floats.back());
@@ -49,44 +51,104 @@ void for_floats(std::uint32_t first, std::uint32_t last, const std::function<voi
 
 using Exact = std::function<long double(float)>;
 
-long double largest_error(PowerFunction function, float exponent, std::uint32_t first, std::uint32_t last, const Exact& exact) {
-  long double worst = 0;
+/// The largest of errors in ulp, and relative to what is exact.
+struct Errors {
+  long double ulp = 0, relative = 0;
+  void add(float found, long double exact) {
+    ulp = std::max(ulp, ulps(found, exact));
+    relative = std::max(relative, std::abs(found / exact - 1) * 0x1p24L);
+  }
+};
+
+std::vector<float> evaluated(PowerFunction function, float exponent, const std::vector<float>& arguments) {
+  std::vector<float> results(arguments.size());
+  evaluate_power(available_isas().front())(function, arguments.data(), exponent, results.data(), arguments.size());
+  return results;
+}
+
+void measure(Errors& errors, PowerFunction function, std::uint32_t first, std::uint32_t last, const Exact& exact) {
   for_floats(first, last, [&](const std::vector<float>& arguments) {
-    std::vector<float> results(arguments.size());
-    evaluate_power(available_isas().front())(function, arguments.data(), exponent, results.data(), arguments.size());
-    for (std::size_t i = 0; i < arguments.size(); ++i) worst = std::max(worst, ulps(results[i], exact(arguments[i])));
+    const std::vector<float> results = evaluated(function, 1, arguments);
+    for (std::size_t i = 0; i < arguments.size(); ++i) errors.add(results[i], exact(arguments[i]));
   });
-  return worst;
 }
 
 std::uint32_t bits_of(float f) { return std::bit_cast<std::uint32_t>(f); }
 
 TEST(Functions, Logarithms) {
-  const auto exact = [](float x) { return static_cast<long double>(std::log2(static_cast<double>(x))); };
+  const auto exact = [](float x) { return std::log2(static_cast<long double>(x)); };
+  Errors errors;
   // 1 apart: log2(1) is 0, and comes out so.
-  const long double below = largest_error(PowerFunction::log2, 1, bits_of(kSmallestNormal), bits_of(1) - 1, exact);
-  const long double above = largest_error(PowerFunction::log2, 1, bits_of(1) + 1, bits_of(3.4028234e38f), exact);
-  expect_within("log2(x), every normal x", std::max(below, above), 1.6, "ulp");
+  measure(errors, PowerFunction::log2, bits_of(kSmallestNormal), bits_of(1) - 1, exact);
+  measure(errors, PowerFunction::log2, bits_of(1) + 1, bits_of(3.4028234e38f), exact);
+  expect_within("log2(x), normal x", errors.ulp, 1.6, "ulp");
+  expect_within("log2(x), normal x, relative", errors.relative, 2, "2^-24");
 }
 
 TEST(Functions, PowersOfTwo) {
-  const auto exact = [](float x) { return static_cast<long double>(std::exp2(static_cast<double>(x))); };
-  const long double positive = largest_error(PowerFunction::exp2, 1, 0, bits_of(kLargestLog2), exact);
-  const long double negative = largest_error(PowerFunction::exp2, 1, bits_of(-0.0f), bits_of(-126.0f), exact);
-  expect_within("2^x, x in -126 .. 96", std::max(positive, negative), 1.2, "ulp");
+  const auto exact = [](float x) { return std::exp2(static_cast<long double>(x)); };
+  Errors errors;
+  measure(errors, PowerFunction::exp2, 0, bits_of(kLargestLog2), exact);
+  measure(errors, PowerFunction::exp2, bits_of(-0.0f), bits_of(-126.0f), exact);
+  expect_within("2^x, x in -126 .. 96", errors.ulp, 1.2, "ulp");
 }
 
-// p = y log2 x is off by the error of the logarithm and half an ulp of its own: 2^p by ln 2 times that, times |p|, and by its own error.
+/// Errors of powers of x in 0 .. 1, of those of at least 1/256 and of all that are normal floats.
+struct PowerErrors {
+  Errors visible, any;
+  void add(float y, const std::vector<float>& arguments) {
+    const std::vector<float> results = evaluated(PowerFunction::power, y, arguments);
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      const long double exact = std::pow(static_cast<long double>(arguments[i]), static_cast<long double>(y));
+      if (exact < 0x1.02p-126L) continue;  // cut off there
+      any.add(results[i], exact);
+      if (exact >= 0x1p-8L) visible.add(results[i], exact);
+    }
+  }
+  // p = y log2 x is off by what the logarithm is, 2 u of it (u = 2^-24), and by half an ulp of its own, 64 u where |p| is between 64 and 128, 4 u between 4 and 8.
+  // 2^p is off by ln 2 times that, and by its own 1.2 ulp, which are no more than 2.4 u: (2 * 126 + 64) ln 2 + 2.4 = 221.5, and (2 * 8 + 4) ln 2 + 2.4 = 16.3. An ulp
+  // is between u and 2 u; where it is u, the share of 2^p's error is 1.2: 220.3 and 15.1.
+  void expect(const std::string& power) const {
+    expect_within(power + " of at least 1/256, relative", visible.relative, 16.3L, "2^-24");
+    expect_within(power + " of at least 1/256", visible.ulp, 15.1L, "ulp");
+    expect_within(power + ", relative", any.relative, 221.5L, "2^-24");
+    expect_within(power, any.ulp, 220.3L, "ulp");
+  }
+};
+
+// Exponents are 0 .. 16384. Of the large ones every float near enough to 1 to have a power.
 TEST(Functions, Powers) {
-  for (const float y : {0.5f, 2.0f, 20.0f, 128.0f, 10000.0f}) {
-    const auto exact = [y](float x) { return static_cast<long double>(std::pow(static_cast<double>(x), static_cast<double>(y))); };
-    // Where the power is at least 2^-8, one level of eight bits, and where it is a normal float at all.
-    const auto least = [y](double p) { return std::nextafter(static_cast<float>(std::exp2(std::max(-126.0, p / static_cast<double>(y)))), 2.0f); };
-    const long double visible = largest_error(PowerFunction::power, y, bits_of(least(-8)), bits_of(1), exact);
-    const long double any = largest_error(PowerFunction::power, y, bits_of(least(-125.9)), bits_of(1), exact);
-    const std::string power = "x^" + std::to_string(static_cast<int>(y * 10) / 10) + (y < 1 ? ".5" : "");
-    expect_within(power + " of at least 1/256", visible, 14, "ulp");
-    expect_within(power + ", x in 0 .. 1", any, 160, "ulp");
+  for (const float y : {0.5f, 2.0f, 20.0f, 128.0f, 1000.0f, 7661.0f, 10000.0f, 16384.0f}) {
+    PowerErrors errors;
+    const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kSmallestNormal);
+    for_floats(bits_of(least), bits_of(1), [&](const std::vector<float>& arguments) { errors.add(y, arguments); }, y > 5000 ? 1 : y > 500 ? 7 : kSampled);
+    errors.expect("x^" + std::to_string(y).substr(0, 5));
+  }
+}
+
+// Exponents evenly in 0 .. 16384 and in their logarithms, and the powers evenly in theirs.
+TEST(Functions, PowersOfAnyExponent) {
+  std::mt19937 random(9);
+  const auto unit = [&] { return static_cast<double>(random()) * 0x1p-32; };
+  PowerErrors errors;
+  for (int n = 0; n < (long_tests() ? 1000000 : 10000); ++n) {
+    const auto y = static_cast<float>(n % 2 == 0 ? 16384 * unit() : std::exp2(28 * unit() - 14));
+    std::vector<float> arguments(48);
+    for (float& x : arguments) x = std::clamp(static_cast<float>(std::exp2((random() % 4 == 0 ? -8 : -126) * unit() / static_cast<double>(y))), kSmallestNormal, 1.0f);
+    errors.add(y, arguments);
+  }
+  errors.expect("x^y, y in 0 .. 16384");
+}
+
+// They have no logarithm of ours: each counts as the smallest normal float. Nothing has the power 0.
+TEST(Functions, PowersOfSubnormalFloats) {
+  std::vector<float> subnormal{0x1p-149f};
+  while (subnormal.size() < 16) subnormal.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(0x7fffff * subnormal.size() / 15)));
+  for (const float y : {0x1p-10f, 0.5f, 0.75f, 1.0f, 16384.0f}) {
+    const float smallest = evaluated(PowerFunction::power, y, std::vector<float>(16, kSmallestNormal))[0];
+    EXPECT_LE(ulps(smallest, std::exp2(std::max(-126.0L * y, -126.0L))), 220.3L) << y;
+    EXPECT_EQ(evaluated(PowerFunction::power, y, subnormal), std::vector<float>(16, smallest)) << y;
+    EXPECT_EQ(evaluated(PowerFunction::power, y, std::vector<float>(16, 0.0f)), std::vector<float>(16, 0.0f)) << y;
   }
 }
 

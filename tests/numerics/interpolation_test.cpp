@@ -148,8 +148,9 @@ TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
   constexpr int kTexels = 16, kSide = 256;
   CaseFormat format{.width = kSide, .height = kSide, .texture_width = kTexels, .texture_height = 2, .nearest_texel = true};
   for (int i = 0; i < 2 * kTexels; ++i) format.texture.push_back(static_cast<std::uint8_t>(16 * (i % kTexels) + 8));
-  for (const auto& [borders, octaves] : {std::pair{false, 0}, {false, 20}, {true, 0}, {true, 20}})
-    expect_figure(std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") + (borders ? ", of vertices on their borders" : "") + ", beside the range", 0, "texels", [&, borders = borders, octaves = octaves](const MakeRenderer& make, bool is_tessera) {
+  for (const bool borders : {false, true})
+    for (const int octaves : {0, 20})
+    expect_figure(std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") + (borders ? ", of vertices on their borders" : "") + ", beside the range", 0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
       const auto renderer = make(format);
       Dice dice(90);
       long double worst = 0, seen = 0;

@@ -1,0 +1,172 @@
+// The vertex stage's sums in double, beside what they are exactly: products of matrices, positions in clip space and in eye space, and the codes of what lies
+// beside a clip plane. Elements of all sizes at once, and some that cancel out.
+//
+// w = 2^-53, u = 2^-24. Exact is __float128: it has 113 bits, so that a product of two doubles is exact and sums round 2^-60 times as finely as theirs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/tessera/tessera.hpp"
+#include "raster/vertex_transform.h"
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/window_triangle.h"
+#include "tests/raster/random_triangles.h"
+
+namespace tessera::test {
+namespace {
+
+__extension__ typedef __float128 Quad;
+
+constexpr long double kDouble = 0x1p-53L, kFloat = 0x1p-24L;
+
+/// Products of four numbers each, and their sum; with the sum of their sizes.
+struct Sum {
+  Quad exact = 0, sizes = 0;
+  template <class A, class B>
+  Sum(const A& a, const B& b) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Quad product = Quad{a(k)} * Quad{b(k)};
+      exact += product;
+      sizes += product < 0 ? -product : product;
+    }
+  }
+  /// How far `found` is off, of the sum of the sizes.
+  long double error(double found) const { return sizes == 0 ? 0 : std::abs(static_cast<long double>((Quad{found} - exact) / sizes)); }
+};
+
+double any_number(Dice& dice, int octaves) {
+  const double size = std::exp2(octaves * (2 * dice.unit() - 1));
+  return dice.between(0, 9) == 0 ? 0 : dice.maybe() ? size : -size;
+}
+
+/// Elements within 2^20 of each other, of one size, or whole.
+std::array<double, 16> any_matrix(Dice& dice) {
+  std::array<double, 16> m;
+  const int octaves = static_cast<int>(dice.between(0, 2)) * 10;
+  for (double& element : m) element = any_number(dice, octaves) * (octaves == 0 ? dice.unit() : 1);
+  return m;
+}
+
+/// Some of them make a row's products cancel out but for what their roundings to floats leave.
+std::array<float, 4> any_point(Dice& dice, const std::array<double, 16>& m) {
+  std::array<float, 4> p;
+  for (float& c : p) c = static_cast<float>(any_number(dice, 10));
+  const double* row = m.data() + 4 * dice.between(0, 3);
+  if (dice.maybe() && row[0] != 0) p[0] = static_cast<float>(-(row[1] * p[1] + row[2] * p[2] + row[3] * p[3]) / row[0]);
+  return p;
+}
+
+Sum row_times(const std::array<double, 16>& m, std::size_t row, const std::array<float, 4>& p) {
+  return {[&](std::size_t k) { return m[4 * row + k]; }, [&](std::size_t k) { return double{p[k]}; }};
+}
+
+int rounds(int usual) { return long_tests() ? 100 * usual : usual; }
+
+TEST(TransformRounding, ProductsOfMatrices) {
+  Dice dice(71);
+  long double worst = 0;
+  for (int n = 0; n < rounds(20000); ++n) {
+    Matrix a{any_matrix(dice)}, b{any_matrix(dice)};
+    if (dice.maybe() && a.m[1] != 0) b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];  // cancels out in element 0
+    const Matrix product = a * b;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        worst = std::max(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; }, [&](std::size_t j) { return b.m[4 * j + k]; }).error(product.m[4 * i + k]));
+  }
+  expect_within("product of matrices, of the sum of sizes", worst / kDouble, 4, "2^-53");
+}
+
+TEST(TransformRounding, PositionsInClipSpace) {
+  Dice dice(72);
+  long double worst = 0;
+  for (int n = 0; n < rounds(50000); ++n) {
+    const std::array<double, 16> m = any_matrix(dice);
+    const std::array<float, 4> p = any_point(dice, m);
+    VertexTransform t;
+    std::copy(m.begin(), m.end(), t.clip_from_object);
+    const ClipPosition found = clip_position(t, p[0], p[1], p[2], p[3]);
+    const double coordinates[] = {found.x, found.y, found.z, found.w};
+    for (std::size_t row = 0; row < 4; ++row) worst = std::max(worst, row_times(m, row, p).error(coordinates[row]));
+  }
+  expect_within("clip coordinates, of the sum of sizes", worst / kDouble, 4, "2^-53");
+}
+
+TEST(TransformRounding, PositionsInEyeSpace) {
+  Dice dice(73);
+  long double worst = 0;
+  for (int n = 0; n < rounds(1500); ++n) {
+    const std::array<double, 16> m = any_matrix(dice);
+    EyeTransform t;
+    std::copy_n(m.begin(), 12, t.eye_from_object);
+    std::vector<std::array<float, 4>> points(kVertexBatch);
+    for (std::array<float, 4>& p : points) p = any_point(dice, m), p[3] = 1;
+    for (const Isa isa : available_isas()) {
+      float found[3][kVertexBatch];
+      eye_positions(isa)(t, {points[0].data(), 4}, 3 + n % 2, kVertexBatch, found[0], found[1], found[2]);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t row = 0; row < 3; ++row) {
+          const Sum sum = row_times(m, row, points[i]);
+          const long double exact = static_cast<long double>(sum.exact), bound = kFloat * std::abs(exact) + 4 * kDouble * static_cast<long double>(sum.sizes) + 0x1p-149L;
+          worst = std::max(worst, std::abs(found[row][i] - exact) / bound);
+        }
+    }
+  }
+  expect_within("eye-space positions, of u of each and 4 w of the sum of sizes", worst, 1, "");
+}
+
+/// Signed distances from the clip planes, positive inside, in the order of their bits; each with the size of what it is the difference of.
+struct PlaneDistance {
+  std::uint8_t bit;
+  Quad distance, size;
+};
+std::array<PlaneDistance, 7> plane_distances(const VertexTransform& t, const ClipPosition& p) {
+  const auto of = [](std::uint8_t bit, Quad a, Quad b) { return PlaneDistance{bit, a + b, (a < 0 ? -a : a) + (b < 0 ? -b : b)}; };
+  const Quad gx = Quad{t.guard_x} * p.w, gy = Quad{t.guard_y} * p.w, x = p.x, y = p.y, z = p.z, w = p.w;
+  return {of(kLeftOfGuardBand, gx, x),  of(kRightOfGuardBand, gx, -x), of(kBelowGuardBand, gy, y),    of(kAboveGuardBand, gy, -y),
+          t.reversed ? of(kBeforeNear, w, -z) : of(kBeforeNear, w, z), t.reversed ? of(kBehindFar, z, 0) : of(kBehindFar, w, -z), of(kNoPositiveW, w, 0)};
+}
+
+// Coordinates within 8 steps of the planes, which the last column of a matrix gives to the vertex 0 0 0 1: codes may be wrong within 2 w of a plane only.
+TEST(TransformRounding, ClipCodes) {
+  Dice dice(74);
+  long double worst = 0, right = 0;
+  for (int n = 0; n < rounds(40000); ++n) {
+    VertexTransform t;
+    const auto width = static_cast<double>(dice.between(1, 16384)), height = static_cast<double>(dice.between(1, 16384));
+    t.half_width = width / 2, t.half_height = height / 2;
+    t.guard_x = kGuardBandPixels / t.half_width, t.guard_y = kGuardBandPixels / t.half_height;
+    t.reversed = dice.maybe();
+    const double w = any_number(dice, 20);
+    const auto beside = [&](double plane) {
+      for (std::int64_t steps = dice.between(0, 8); steps > 0; --steps) plane = std::nextafter(plane, dice.maybe() ? HUGE_VAL : -HUGE_VAL);
+      return plane;
+    };
+    const auto sign = [&] { return dice.maybe() ? 1.0 : -1.0; };
+    const double at[4] = {beside(sign() * t.guard_x * w), beside(sign() * t.guard_y * w), t.reversed && dice.maybe() ? 0 : beside(sign() * w), w};
+    for (std::size_t row = 0; row < 4; ++row) t.clip_from_object[4 * row + 3] = at[row];
+    const ClipPosition position{at[0], at[1], at[2], at[3]};
+    const float vertex[4] = {0, 0, 0, 1};
+    std::vector<std::uint8_t> codes{clip_code(t, position)};
+    for (const Isa isa : available_isas()) {
+      WindowVertex window;
+      std::uint8_t code = 0;
+      transform_vertices(isa)(t, {vertex, 4}, 4, 1, &window, &code);
+      codes.push_back(code);
+    }
+    for (const PlaneDistance& plane : plane_distances(t, position))
+      for (const std::uint8_t code : codes) {
+        const bool outside = plane.bit == kNoPositiveW ? !(plane.distance > 0) : plane.distance < 0;
+        if (outside == ((code & plane.bit) != 0)) ++right;
+        else worst = std::max(worst, plane.size == 0 ? HUGE_VALL : std::abs(static_cast<long double>(plane.distance / plane.size)));
+      }
+  }
+  EXPECT_GT(right, 1e5L);
+  expect_within("distance from a clip plane of vertices on its wrong side, of the sum of sizes", worst / kDouble, 2, "2^-53");
+}
+
+}  // namespace
+}  // namespace tessera::test
