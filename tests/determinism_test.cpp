@@ -225,7 +225,7 @@ TEST(PictureHashes, EverySceneComesToItsHash) {
     if (!expected.contains(name))
       ADD_FAILURE() << name << " has no hash in " << kHashes;
     else
-      EXPECT_EQ(to_text(hash), to_text(expected[name])) << name << ": colour and depth";
+      EXPECT_EQ(to_text(hash), to_text(expected[name])) << name << ": colour, depth, stencil and accumulation";
     expected.erase(name);
   }
   for (const auto& [name, hash] : expected) ADD_FAILURE() << kHashes << " has a hash of " << name << ", which is no scene";
