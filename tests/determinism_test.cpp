@@ -1,5 +1,6 @@
 // The same frame gives the same bits: for any number of threads, tile size and instruction set, shaded early or late, whole or in
-// parts, in any order of tiles, scanned out or read back, and on any machine: tests/picture_hashes.txt holds what every scene must come to.
+// parts, in any order of tiles, scanned out or read back, and on any machine: tests/picture_hashes.txt holds what every scene must come to, random_frame_hashes.txt
+// what some random frames must.
 //
 // After a change that means to change pictures: TESSERA_WRITE_HASHES=1 engine_tests --gtest_filter='PictureHashes.*'
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ namespace {
 using namespace test;
 
 const char* const kBuiltin = "builtin";                   // the scene that is drawn when none is named
-const std::string kHashes = TESSERA_SOURCE_DIR "/tests/picture_hashes.txt";
+const std::string kHashes = TESSERA_SOURCE_DIR "/tests/picture_hashes.txt", kRandomHashes = TESSERA_SOURCE_DIR "/tests/random_frame_hashes.txt";
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names{kBuiltin};
@@ -202,7 +203,7 @@ TEST(Determinism, EveryOperationHasTheSameBitsInPaletteColors) {
   expect_same_bits_of_operations({.width = 173, .height = 107, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm32, .dither = Dither::bayer2}, 200, 60);
 }
 
-PictureHashes hashes_now() {
+PictureHashes hashes_of_scenes() {
   PictureHashes hashes;
   for (const std::string& name : scene_names()) {
     const Scene scene = scene_of(name);
@@ -211,25 +212,41 @@ PictureHashes hashes_now() {
   return hashes;
 }
 
-TEST(PictureHashes, EverySceneComesToItsHash) {
-  const PictureHashes now = hashes_now();
+PictureHashes hashes_of_random_frames() {
+  PictureHashes hashes;
+  const auto add = [&](const char* name, const auto& random) { hashes[name] = picture_hash(stored(random.format, [&](Frame& frame) { random.record(frame); }, renderer({}))); };
+  add("triangles_unorm24", RandomFrame({.width = 150, .height = 90, .depth = DepthFormat::unorm24}, 500));
+  add("triangles_palette_unorm32", RandomFrame({.width = 150, .height = 90, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm32}, 500));
+  add("triangles_16_bits_float32_samples_4", RandomFrame({.width = 150, .height = 90, .color_bits = 16, .depth = DepthFormat::float32, .samples = 4}, 500));
+  add("operations_unorm24", RandomOperations(full_format(1)));
+  add("operations_unorm24_samples_8", RandomOperations(full_format(8)));
+  add("operations_palette_unorm32", RandomOperations({.width = 133, .height = 71, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm32}));
+  add("operations_grey_unorm16", RandomOperations({.width = 133, .height = 71, .color_bits = 2, .depth = DepthFormat::unorm16, .stencil_bits = 3, .accumulation_bits = 32}));
+  return hashes;
+}
+
+// Writes the list instead where that is asked for.
+void expect_hashes_of(const std::string& list, const PictureHashes& now) {
   const char* const write = std::getenv("TESSERA_WRITE_HASHES");
   if (write != nullptr && std::string(write) == "1") {
-    std::ofstream out(kHashes);
+    std::ofstream out(list);
     for (const auto& [name, hash] : now) out << name << ' ' << to_text(hash) << '\n';
-    ASSERT_TRUE(out.flush()) << kHashes << " cannot be written";
-    GTEST_SKIP() << "wrote " << kHashes;
+    ASSERT_TRUE(out.flush()) << list << " cannot be written";
+    GTEST_SKIP() << "wrote " << list;
   }
-  PictureHashes expected = parse_picture_hashes(read_text_file(kHashes), kHashes);
+  PictureHashes expected = parse_picture_hashes(read_text_file(list), list);
   for (const auto& [name, hash] : now) {
     if (!expected.contains(name))
-      ADD_FAILURE() << name << " has no hash in " << kHashes;
+      ADD_FAILURE() << name << " has no hash in " << list;
     else
-      EXPECT_EQ(to_text(hash), to_text(expected[name])) << name << ": colour and depth";
+      EXPECT_EQ(to_text(hash), to_text(expected[name])) << name << ": colour, depth, stencil and accumulation";
     expected.erase(name);
   }
-  for (const auto& [name, hash] : expected) ADD_FAILURE() << kHashes << " has a hash of " << name << ", which is no scene";
+  for (const auto& [name, hash] : expected) ADD_FAILURE() << list << " has a hash of " << name << ", which nothing comes to";
 }
+
+TEST(PictureHashes, EverySceneComesToItsHash) { expect_hashes_of(kHashes, hashes_of_scenes()); }
+TEST(PictureHashes, EveryRandomFrameComesToItsHash) { expect_hashes_of(kRandomHashes, hashes_of_random_frames()); }
 
 }  // namespace
 }  // namespace tessera

@@ -32,6 +32,9 @@ struct SceneReport {
 
 std::string count(std::size_t number, const char* what) { return std::to_string(number) + " " + what + (number == 1 ? "" : "s"); }
 
+// Colours and depths: as much as a row of a terminal holds.
+std::string short_text(const PictureHash& hash) { return to_text(hash).substr(0, 33); }
+
 // One row of the tables.
 std::string row(const std::string& what, const std::string& found, bool good, const char* otherwise) {
   char text[256];
@@ -59,11 +62,11 @@ Fingerprint rendered(const Scene& scene, Renderer& renderer) {
   return fingerprint(buffer);
 }
 
-/// What is wrong with a fingerprint; empty: nothing. The list has hashes of colours and depths: all else has to be as it was by the first way.
+/// What is wrong with a fingerprint; empty: nothing. The list has no hashes of planes: they have to be as they were by the first way.
 std::string difference(const Fingerprint& f, const SceneReport& scene) {
   const PictureHash hash = picture_hash(f);
-  if (hash != scene.expected) return "colours and depths come to " + to_text(hash) + ", expected " + to_text(scene.expected);
-  return f == scene.found ? "" : "stencil, accumulation or planes are not what they were by the first way";
+  if (hash != scene.expected) return "colours, depths, stencil and accumulation come to " + to_text(hash) + ", expected " + to_text(scene.expected);
+  return f == scene.found ? "" : "planes are not what they were by the first way";
 }
 
 void render_by(const RendererOptions& way, Renderer& renderer, SceneReport& scene) {
@@ -96,7 +99,7 @@ Tally run_scenes(std::vector<SceneReport>& scenes, const Ways& ways) {
   for (const SceneReport& each : scenes) {
     const bool right = each.wrong_ways == 0;
     tally.right += right ? 1 : 0;
-    std::cout << row(each.scene.name, each.found ? to_text(picture_hash(*each.found)) : "", right, "DIFFERS");
+    std::cout << row(each.scene.name, each.found ? short_text(picture_hash(*each.found)) : "", right, "DIFFERS");
     if (!right) std::cout << "  " << each.about << ": " << wrong_text(each.wrong_ways, ways.size(), each.first_wrong);
   }
   return tally;

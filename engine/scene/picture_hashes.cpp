@@ -20,8 +20,12 @@ bool take_hash(std::string_view& line, std::uint64_t& hash) {
 }  // namespace
 
 std::string to_text(const PictureHash& hash) {
-  char text[2 * kDigits + 2];
-  std::snprintf(text, sizeof text, "%016llx %016llx", static_cast<unsigned long long>(hash.color), static_cast<unsigned long long>(hash.depth));
+  std::string text;
+  for (const std::uint64_t each : {hash.color, hash.depth, hash.stencil, hash.accumulation}) {
+    char digits[kDigits + 1];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(each));
+    text += (text.empty() ? "" : " ") + std::string(digits);
+  }
   return text;
 }
 
@@ -33,8 +37,9 @@ PictureHashes parse_picture_hashes(std::string_view text, const std::string& fil
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     PictureHash hash;
     const auto fail = [&](const std::string& message) { throw Error(file + ":" + std::to_string(number) + ": " + message); };
-    if (!take_hash(name, hash.depth) || !take_hash(name, hash.color) || name.empty() || name.find(' ') != std::string_view::npos)
-      fail("expected a scene's name and two hashes of 16 hexadecimal digits, one blank between");
+    const bool taken = take_hash(name, hash.accumulation) && take_hash(name, hash.stencil) && take_hash(name, hash.depth) && take_hash(name, hash.color);
+    if (!taken || name.empty() || name.find(' ') != std::string_view::npos)
+      fail("expected a scene's name and four hashes of 16 hexadecimal digits, one blank between");
     if (!hashes.emplace(name, hash).second) fail("\"" + std::string(name) + "\" occurs twice");
   }
   return hashes;

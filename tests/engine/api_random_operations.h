@@ -183,7 +183,8 @@ struct RandomOperations {
     if (coin(random)) s.color_material = ColorMaterial::ambient_and_diffuse;
     if (i % 8 == 6) s.cull = coin(random) ? Cull::back : Cull::front;
     if (i % 9 == 7) s.front_face = FrontFace::cw;
-    s.transform = translate(random.between(-0.6f, 0.6f), random.between(-0.4f, 0.4f), random.between(-0.5f, 0.5f)) * rotate(random.between(0, 360), 0, 0, 1);
+    const float x = random.between(-0.6f, 0.6f), y = random.between(-0.4f, 0.4f), z = random.between(-0.5f, 0.5f);  // in an order that all compilers keep
+    s.transform = translate(x, y, z) * rotate(random.between(0, 360), 0, 0, 1);
     if (i % 3 == 2) s.scissor = part(random);
     choose_tests(random, i, s);
     choose_writes(random, i, s);

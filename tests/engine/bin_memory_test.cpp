@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "engine/parallel.h"
+#include "raster/bins.h"
 #include "tests/engine/api_random_operations.h"
+#include "tests/engine/failing_allocations.h"
 #include "tests/engine/full_tile.h"
 
 namespace tessera {
@@ -86,6 +88,45 @@ TEST(BinMemory, ASingleTileTakesABatchAtATime) {
     }
   }
 }
+
+#if TESSERA_CAN_FAIL_ALLOCATIONS
+
+/// The most bytes that are allocated while a new renderer finishes a frame of `count` layers, above those before. The layers share their vertices, and half of
+/// them are cut by the near plane: what more of them take is entries of bins and pieces. No layers: a triangle without area.
+long most_bytes(int count, RendererOptions options, int tile_size) {
+  MeshData layers;
+  layers.positions = {-1, -1, 0, 2, -1, 0, -1, 2, 0, -1, -1, 0.5f, 2, -1, -3, -1, 2, 0.5f};
+  for (int i = 0; i < count; ++i) layers.indices.insert(layers.indices.end(), {0, 1, 2, 3, 4, 5});
+  if (count == 0) layers.indices = {0, 0, 0};
+  FrameBuffer buffer({.width = 160, .height = 120});
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+  frame.draw(layers.view(), {.lighting = false});
+  options.tile_size = tile_size;
+  Renderer renderer(options);
+  const long before = live_bytes;
+  most_live_bytes = before;
+  renderer.finish(frame);
+  return most_live_bytes - before;
+}
+
+TEST(BinMemory, IsTheMostThatTheBinsTake) {
+  ThreadLimit limit(4);
+  constexpr int kLayers = 2500;
+  // What each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow the ends of its tiles' lists, 16 bytes each, and one
+  // piece with its attributes.
+  constexpr long kBatches = 2 * kLayers / 1024, kTiles = 20, kAllowance = kBatches * static_cast<long>(sizeof(Bins::Block) + 16 * kTiles + sizeof(Piece) + 64 * sizeof(float));
+  for (const int threads : {1, 4})
+    for (const int tile_size : {32, 128}) {
+      SCOPED_TRACE(std::to_string(threads) + " threads, tiles of " + std::to_string(tile_size));
+      const RendererOptions whole{.threads = threads};
+      const long empty = most_bytes(0, whole, tile_size);
+      EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kLeastBinMemory)) << "a frame that is to be in parts";
+      EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty, static_cast<long>(kLeastBinMemory) + kAllowance);
+    }
+}
+
+#endif
 
 TEST(BinMemory, MayBeAsMuchAsThereIs) {
   const RandomOperations scene({.width = 120, .height = 90});

@@ -1,4 +1,5 @@
-// Allocations that fail one after the other: the first, the second, each one there is. The operators that count them stand in out_of_memory_test.cpp.
+// Allocations that fail one after the other: the first, the second, each one there is; and how many bytes are allocated. The operators that count them stand in
+// out_of_memory_test.cpp.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -28,6 +29,8 @@ namespace tessera::test {
 
 /// How many succeed before one fails, on whatever thread; below 0: as many as anybody likes.
 extern std::atomic<long> allocations_left;
+/// Bytes that are allocated now, and the most that were at any time since it was set; with what the allocator rounds them up to.
+extern std::atomic<long> live_bytes, most_live_bytes;
 
 /// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at what is left. Returns how many there were.
 template <class Act, class AfterFailure>

@@ -1,6 +1,8 @@
 // Every allocation of a frame fails once, one after the other: each failure is one Error, and nothing is lost by it.
 #include <gtest/gtest.h>
 
+#include <malloc.h>
+
 #include <cstdlib>
 #include <new>
 
@@ -10,26 +12,37 @@
 #if TESSERA_CAN_FAIL_ALLOCATIONS
 
 std::atomic<long> tessera::test::allocations_left = -1;
+std::atomic<long> tessera::test::live_bytes = 0, tessera::test::most_live_bytes = 0;
 
 namespace {
-using tessera::test::allocations_left;
+using tessera::test::allocations_left, tessera::test::live_bytes, tessera::test::most_live_bytes;
+
+void* counted(void* memory) noexcept {
+  const long bytes = live_bytes += static_cast<long>(malloc_usable_size(memory));
+  for (long most = most_live_bytes; most < bytes && !most_live_bytes.compare_exchange_weak(most, bytes);) {}
+  return memory;
+}
+void release(void* memory) noexcept {
+  live_bytes -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
+}
 
 void* take(std::size_t size, std::size_t alignment) {
   if (allocations_left.load() >= 0 && allocations_left.fetch_sub(1) == 0) throw std::bad_alloc();
   void* const memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (memory == nullptr) throw std::bad_alloc();
-  return memory;
+  return counted(memory);
 }
 }  // namespace
 
 void* operator new(std::size_t size) { return take(size == 0 ? 1 : size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return take(size == 0 ? 1 : size, static_cast<std::size_t>(alignment)); }
 // Who asks this way can do without: std::stable_sort.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size == 0 ? 1 : size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(std::malloc(size == 0 ? 1 : size)); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 namespace tessera {
 namespace {

@@ -10,8 +10,8 @@ namespace {
 using test::error_of;
 
 TEST(PictureHashLists, AreReadAsTheyAreWritten) {
-  const PictureHash a{0x0123456789abcdef, 0}, b{1, 0xffffffffffffffff};
-  EXPECT_EQ(to_text(a), "0123456789abcdef 0000000000000000");
+  const PictureHash a{0x0123456789abcdef, 0, 2, 3}, b{1, 0xffffffffffffffff, 0, 0};
+  EXPECT_EQ(to_text(a), "0123456789abcdef 0000000000000000 0000000000000002 0000000000000003");
   const PictureHashes list = parse_picture_hashes("a " + to_text(a) + "\nb_2 " + to_text(b), "list");
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list.at("a"), a);
@@ -20,21 +20,24 @@ TEST(PictureHashLists, AreReadAsTheyAreWritten) {
 }
 
 TEST(PictureHashLists, LinesOfAnotherFormAreErrors) {
-  const std::string good = "a 0123456789abcdef 0123456789abcdef\n";
+  const std::string two = "0123456789abcdef 0123456789abcdef", four = two + " " + two, good = "a " + four + "\n";
   const struct {
     std::string text, message;
   } kBad[] = {
-      {"\n", "list:1: expected a scene's name"},
-      {good + "b 0123456789abcdef\n", "list:2: expected a scene's name"},
-      {good + "0123456789abcdef 0123456789abcdef\n", "list:2: expected a scene's name"},
-      {good + " 0123456789abcdef 0123456789abcdef\n", "list:2: expected a scene's name"},
-      {good + "b 0123456789abcdef 0123456789abcdefa\n", "list:2: expected"},
-      {good + "b 0123456789abcdeg 0123456789abcdef\n", "list:2: expected"},
-      {good + "b 0123456789abcdef  0123456789abcdef\n", "list:2: expected"},
-      {good + "b -123456789abcdef 0123456789abcdef\n", "list:2: expected"},
-      {good + "b 0123456789abcdef 0123456789abcdef\r\n", "list:2: expected"},
-      {good + "b 0123456789abcdef 0123456789abcdef \n", "list:2: expected"},
-      {good + "b c 0123456789abcdef 0123456789abcdef\n", "list:2: expected"},
+      {"\n", "list:1: expected a scene's name and four hashes"},
+      {good + "b " + two + "\n", "list:2: expected a scene's name"},
+      {good + "b " + two + " 0123456789abcdef\n", "list:2: expected a scene's name"},
+      {good + four + "\n", "list:2: expected a scene's name"},
+      {good + " " + four + "\n", "list:2: expected a scene's name"},
+      {good + "b " + four + "a\n", "list:2: expected"},
+      {good + "b 0123456789abcdeg " + two + " 0123456789abcdef\n", "list:2: expected"},
+      {good + "b " + two + " 0123456789abcdeg 0123456789abcdef\n", "list:2: expected"},
+      {good + "b " + two + "  " + two + "\n", "list:2: expected"},
+      {good + "b -123456789abcdef " + two + " 0123456789abcdef\n", "list:2: expected"},
+      {good + "b " + two + " 0123456789abcdef -123456789abcdef\n", "list:2: expected"},
+      {good + "b " + four + "\r\n", "list:2: expected"},
+      {good + "b " + four + " \n", "list:2: expected"},
+      {good + "b c " + four + "\n", "list:2: expected"},
       {good + good, "list:2: \"a\" occurs twice"},
       {std::string("\0\xff\x80", 3), "list:1: expected"},
   };

@@ -139,7 +139,7 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
       {"render fine.json -o x.ppm --compare bad.json", "cannot read \"bad.json\""},
       {"render fine.json -o x.ppm --compare small.ppm", "the reference 1x1"},
       {"selftest --expect nothing.txt", "cannot read \"nothing.txt\": No such file or directory"},
-      {"selftest --expect notes.txt", "notes.txt:1: expected a scene's name and two hashes"},
+      {"selftest --expect notes.txt", "notes.txt:1: expected a scene's name and four hashes"},
       {"selftest --expect empty.txt", "empty.txt: there is no hash of the scene \"terms_together\""},
       {"selftest --expect /dev/zero", "cannot read \"/dev/zero\": it holds more than 1048576 bytes"},
   };
@@ -359,10 +359,10 @@ TEST_F(Program, TheSelfTestTellsWhatDiffers) {
   for (std::size_t at = 0, end; (end = hashes.find('\n', at)) != std::string::npos; at = end + 1, ++lines) EXPECT_TRUE(contains("\n" + kept, "\n" + hashes.substr(at, end + 1 - at))) << hashes.substr(at, end - at);
   EXPECT_GE(lines, 12u);
 
-  // A digit of one scene's colours and a digit of another one's depths.
-  const std::string colors = "terms_together", depths = "tex_rows_in_scene";
+  // A digit of one scene's colours, of another one's depths, of a third one's stencil, of a fourth one's accumulation.
+  const std::string colors = "terms_together", depths = "tex_rows_in_scene", stencil = "fx_shadow_volumes_zfail_plain", accumulation = "ops_accum_motion_blur";
   std::string other = "\n" + kept;
-  for (const auto& [scene, digit] : {std::pair{colors, 3}, std::pair{depths, 20}}) {
+  for (const auto& [scene, digit] : {std::pair{colors, 3}, std::pair{depths, 20}, std::pair{stencil, 37}, std::pair{accumulation, 54}}) {
     const std::size_t at = other.find("\n" + scene + " ");
     ASSERT_NE(at, std::string::npos);
     char& changed = other[at + scene.size() + 2 + digit];
@@ -373,17 +373,19 @@ TEST_F(Program, TheSelfTestTellsWhatDiffers) {
   EXPECT_EQ(run("selftest --threads 1 --expect kept.txt").code, 0) << "more scenes than are rendered";
   const Result result = run("selftest --threads 1 --expect other.txt");
   EXPECT_EQ(result.code, 3) << result.out;
-  EXPECT_EQ(result.err, "tessera: error: the self-test failed: " + std::to_string(lines - 2) + " of " + std::to_string(lines) + " scenes and 3 of 3 oracles are right\n");
+  EXPECT_EQ(result.err, "tessera: error: the self-test failed: " + std::to_string(lines - 4) + " of " + std::to_string(lines) + " scenes and 3 of 3 oracles are right\n");
   EXPECT_TRUE(contains(result.out, "verdict            NOT WELL: ")) << result.out;
   std::vector<std::string> told;
   std::istringstream said(result.out);
   for (std::string line, before; std::getline(said, line); before = line)
     if (before.ends_with("DIFFERS")) told.push_back(before.substr(0, before.find(' ')) + line);
-  ASSERT_EQ(told.size(), 2u) << result.out;
+  ASSERT_EQ(told.size(), 4u) << result.out;
   EXPECT_TRUE(told[0].starts_with(colors + "  each term of light")) << told[0];
-  EXPECT_TRUE(told[1].starts_with(depths + "  textures")) << told[1];
+  EXPECT_TRUE(told[1].starts_with(stencil + "  shadow volumes")) << told[1];
+  EXPECT_TRUE(told[2].starts_with(accumulation + "  accumulation")) << told[2];
+  EXPECT_TRUE(told[3].starts_with(depths + "  textures")) << told[3];
   const std::string times = result.out.substr(result.out.find("each scene         ") + 19), number = times.substr(0, times.find(' '));
-  for (const std::string& line : told) EXPECT_TRUE(contains(line, number + " of " + number + " renderings are wrong; the first: colours and depths come to ")) << line;
+  for (const std::string& line : told) EXPECT_TRUE(contains(line, number + " of " + number + " renderings are wrong; the first: colours, depths, stencil and accumulation come to ")) << line;
 }
 
 // Things that are no models, and models that are too much: one line, in time, and in little memory.

@@ -1,11 +1,12 @@
 // Whole frames through the public interface, each drawn in two ways: by the scalar path, and by a fast one with tiles of another
-// size. Both refuse the same, store the same bits, tell the same, and touch nothing outside of viewports, scissors and image parts.
+// size, on other threads, in parts. Both refuse the same, store the same bits, tell the same, and touch nothing outside of viewports, scissors and image parts.
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 
+#include "engine/parallel.h"
 #include "tests/fuzz/pipeline_case.h"
 #include "tests/fuzz/target.h"
 
@@ -243,6 +244,7 @@ Outcome draw(const PipelineCase& from, int way) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tessera::fuzz;
+  static const tessera::ThreadLimit limit(3);
   Bytes bytes(data, size);
   const PipelineCase from(bytes);
   const Outcome scalar = draw(from, 0), fast = draw(from, 1);

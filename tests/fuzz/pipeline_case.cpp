@@ -22,6 +22,11 @@ FrameBufferFormat read_format(Bytes& from) {
   format.stencil_bits = more % 9;
   format.dither = static_cast<Dither>((more & 0x80) != 0 ? more >> 4 & 3 : 0);
   const int extras = from.byte();
+  if ((extras & 0xe0) == 0xe0) {  // of many tiles; not often, for they take long
+    constexpr int kLarge[][2] = {{300, 60}, {60, 300}, {2080, 8}, {8, 2080}};
+    const auto& large = kLarge[from.below(4)];
+    format.width = large[0], format.height = large[1];
+  }
   if (!is_index) {
     format.alpha_bits = (extras & 1) != 0 ? 8 : 0;
     format.accumulation_bits = (extras & 2) != 0 ? (extras & 4) != 0 ? 32 : 16 : 0;
@@ -43,7 +48,7 @@ FrameBufferFormat spoilt(FrameBufferFormat format, Bytes& from) {
   return format;
 }
 
-// The first is the scalar path in whole, the other one of the fast ones.
+// The first is the scalar path in whole, on one thread; the other one of the fast ones, on some threads, in some order, maybe in parts.
 void read_options(Bytes& from, RendererOptions (&options)[2]) {
   constexpr int kTileSizes[] = {32, 64, 128, 0};
   const std::vector<InstructionSet> sets = available_instruction_sets();
@@ -54,6 +59,10 @@ void read_options(Bytes& from, RendererOptions (&options)[2]) {
     options[way].defer_shading = (bits >> (4 + way) & 1) == 0;
     options[way].count_fragments = (bits >> (6 + way) & 1) != 0;
   }
+  const int work = from.byte();
+  options[1].threads = 1 + (work & 0x3f) % 3;
+  options[1].task_order = work & 0x3f;
+  if ((work & 0x40) != 0) options[1].bin_memory = kLeastBinMemory;
   options[0].instruction_set = InstructionSet::scalar;
   options[1].instruction_set = sets[static_cast<std::size_t>(from.below(static_cast<int>(std::max<std::size_t>(sets.size() - 1, 1))))];
 }

@@ -150,34 +150,34 @@ TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
   for (int i = 0; i < 2 * kTexels; ++i) format.texture.push_back(static_cast<std::uint8_t>(16 * (i % kTexels) + 8));
   for (const bool borders : {false, true})
     for (const int octaves : {0, 20})
-    expect_figure(std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") + (borders ? ", of vertices on their borders" : "") + ", beside the range", 0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
-      const auto renderer = make(format);
-      Dice dice(90);
-      long double worst = 0, seen = 0;
-      for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
-        const WindowTriangle t = random_triangle(dice, WindowShape::centers, kSide, kSide);
-        CaseDraw draw{.textured = true};
-        std::array<std::int64_t, 3> texel{};
-        for (std::size_t k = 0; k < 3; ++k) {
-          texel[k] = k > 0 && dice.maybe() ? texel[k - 1] : dice.between(2, kTexels - 2);
-          const double w = random_w(dice, octaves);
-          for (const double c : {clip_x(t.at[k].x, kSide), clip_y(t.at[k].y, kSide), 0.0, 1.0}) draw.positions.push_back(static_cast<float>(c * w));
-          draw.texcoords.insert(draw.texcoords.end(), {static_cast<float>(texel[k]) / kTexels + (borders ? 0 : 0x1p-20f), 0.25f});
-        }
-        const auto [low, high] = std::minmax({texel[0], texel[1], texel[2]});
-        const CasePicture& picture = renderer->draw({draw});
-        for (int y = 0; y < kSide; ++y)
-          for (int x = 0; x < kSide; ++x) {
-            const float color = picture.colors[static_cast<std::size_t>(y * kSide + x)][0];
-            if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
-            const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
-            worst = std::max({worst, static_cast<long double>(low - taken), static_cast<long double>(taken - high)});
-            seen += 1;
+      expect_figure(std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") + (borders ? ", of vertices on their borders" : "") + ", beside the range", 0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
+        const auto renderer = make(format);
+        Dice dice(90);
+        long double worst = 0, seen = 0;
+        for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
+          const WindowTriangle t = random_triangle(dice, WindowShape::centers, kSide, kSide);
+          CaseDraw draw{.textured = true};
+          std::array<std::int64_t, 3> texel{};
+          for (std::size_t k = 0; k < 3; ++k) {
+            texel[k] = k > 0 && dice.maybe() ? texel[k - 1] : dice.between(2, kTexels - 2);
+            const double w = random_w(dice, octaves);
+            for (const double c : {clip_x(t.at[k].x, kSide), clip_y(t.at[k].y, kSide), 0.0, 1.0}) draw.positions.push_back(static_cast<float>(c * w));
+            draw.texcoords.insert(draw.texcoords.end(), {static_cast<float>(texel[k]) / kTexels + (borders ? 0 : 0x1p-20f), 0.25f});
           }
-      }
-      EXPECT_GT(seen, 1000);
-      return worst;
-    });
+          const auto [low, high] = std::minmax({texel[0], texel[1], texel[2]});
+          const CasePicture& picture = renderer->draw({draw});
+          for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+              const float color = picture.colors[static_cast<std::size_t>(y * kSide + x)][0];
+              if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
+              const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
+              worst = std::max({worst, static_cast<long double>(low - taken), static_cast<long double>(taken - high)});
+              seen += 1;
+            }
+        }
+        EXPECT_GT(seen, 1000);
+        return worst;
+      });
 }
 
 }  // namespace
