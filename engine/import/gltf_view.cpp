@@ -134,7 +134,8 @@ bool add_gltf_view(const std::string& path, Model& model) {
 
 bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   const Json file = Json::parse(json_text(bytes), nullptr, false);
-  const Json version = file.is_object() ? file.value("/asset/version"_json_pointer, Json()) : Json();
+  const auto place = "/asset/version"_json_pointer;
+  const Json version = file.contains(place) ? file.at(place) : Json();  // value() would throw where "asset" is an array
   if (!version.is_string() || !version.get<std::string>().starts_with("2")) return false;
   try {
     ViewReader(file, model).read();

@@ -69,6 +69,13 @@ TEST_F(GltfImport, NodesCamerasAndLights) {
 }
 
 // glTF's v runs downwards, t upwards.
+// The first "asset" counts for assimp, the last one for whom reads cameras and lights: not of glTF 2, so there are none.
+TEST_F(GltfImport, AnAssetThatIsAnArrayHasNoVersion) {
+  const Model model = imported(R"("asset": [{"version": "2.0"}], "scenes": [{"nodes": [0, 1]}], "materials": [{"name": "m"}], "nodes": [{"mesh": 0}, {"camera": 0}],
+    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}])");
+  EXPECT_EQ(model.mesh.vertex_count(), 3u);
+}
+
 TEST_F(GltfImport, TextureCoordinatesAreTurned) {
   const Model model = imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "materials": [{"name": "m"}])", ModelUse::mesh, R"("POSITION": 0, "TEXCOORD_0": 1)");
   ASSERT_EQ(model.mesh.vertex_count(), 3u);
