@@ -77,7 +77,7 @@ class Original {
     // seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14 pixels.
     const double guard = (plane & (kBeforeNear | kBehindFar)) != 0 ? 1 : (plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0 ? transform_.guard_x : transform_.guard_y;
     const ClipPosition way{q.x - p.x, q.y - p.y, q.z - p.z, q.w - p.w};
-    mixed.is_good = size(p) * (1 + guard) * size(way) <= 0x1p20 * mixed.vertex.position.w * std::abs(apart);
+    mixed.is_good = size(p) / std::abs(apart) * (1 + guard) <= 0x1p20 * (mixed.vertex.position.w / size(way));  // doubles hold quotients of coordinates, but not all their products
     return mixed;
   }
   // Nothing is off in the direction that counts.

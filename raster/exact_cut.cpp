@@ -18,7 +18,7 @@ struct ExactVertex {
   void set_up(const VertexTransform& t, const ClipVertex& v, int exponent) {
     for (std::size_t row = 0; row < 4; ++row) {
       if (!v.object) coordinates[row].add(std::scalbn(v.position.*kCoordinates[row], exponent));
-      for (std::size_t column = 0; v.object && column < 4; ++column) coordinates[row].add_product(t.clip_from_object[4 * row + column], std::scalbn((*v.object)[column], exponent));
+      for (std::size_t column = 0; v.object && column < 4; ++column) coordinates[row].add_product(t.clip_from_object[4 * row + column], (*v.object)[column], exponent);
     }
   }
   /// From a plane, to the inside.
@@ -61,7 +61,9 @@ struct ExactVertices {
     for (std::size_t c = 0; c < 4; ++c) {
       ExactSum sum;
       for (std::size_t k = 0; k < kCount; ++k) sum.add_product(shares[k], exact[k].coordinates[c], 1);
-      mixed.position.*kCoordinates[c] = std::scalbn(sum.value() / all, exponent);
+      const double value = std::scalbn(sum.value() / all, exponent);
+      if (!std::isfinite(value)) return std::nullopt;
+      mixed.position.*kCoordinates[c] = value;
     }
     for (int j = 0; j < attribute_count; ++j) {
       double value = vertices[0]->attributes[j];

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 
-/// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while nothing overflows and no product is below 2^-960.
+/// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while no product is below 2^-960; NaN once anything overflows.
 /// Source: J. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997: grow-expansion, compress.
 class ExactSum {
  public:
@@ -17,6 +18,7 @@ class ExactSum {
       if (rounded_off != 0) parts_[kept++] = rounded_off;
       term = sum;
     }
+    if (!std::isfinite(term)) kept = 0, term = std::numeric_limits<double>::quiet_NaN();  // what was rounded off is NaN, and does not compress
     if (term != 0) parts_[kept++] = term;
     count_ = kept;
   }
@@ -24,6 +26,15 @@ class ExactSum {
     const double product = a * b;
     add(std::fma(a, b, -product));
     add(product);
+  }
+  /// a b 2^exponent, which alone has to be within a double's range.
+  void add_product(double a, double b, int exponent) {
+    int of_a, of_b;
+    a = std::frexp(a, &of_a);
+    b = std::frexp(b, &of_b);
+    const double product = a * b;
+    add(std::scalbn(std::fma(a, b, -product), of_a + of_b + exponent));
+    add(std::scalbn(product, of_a + of_b + exponent));
   }
   void add_product(const ExactSum& a, double b) {
     for (int i = 0; i < a.count_; ++i) add_product(a.parts_[i], b);

@@ -46,13 +46,17 @@ void expect_ground_planes(const std::string& what, bool reversed) {
       mesh.shuffle(random);
       CaseDraw draw = counting(mesh);
       draw.transform = perspective(90, 1, near, std::numeric_limits<double>::infinity(), reversed) * eye;
+      // Clip coordinates of any size are the same places.
+      const int scale = random.between(-8, 8) * 100;
+      if (is_tessera)
+        for (double& element : draw.transform->m) element = std::ldexp(element, scale);
       const auto is_seen = [&](long double x, long double y) {
         const long double to[] = {x, y, -1};  // in eye space, and how far down that is in the plane's
         const long double down = -(eye.m[1] * to[0] + eye.m[5] * to[1] + eye.m[9] * to[2]);
         return down > 0 && 1 / down >= near;
       };
       // The far sides meet on the horizon, where snapping may cross them.
-      count({draw}, "plane " + std::to_string(n), {seen_pixels(is_seen), [] { return true; }});
+      count({draw}, "plane " + std::to_string(n) + " scale " + std::to_string(scale), {seen_pixels(is_seen), [] { return true; }});
     }
   });
 }

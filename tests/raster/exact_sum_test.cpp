@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -71,6 +73,33 @@ TEST(ExactSum, HasItsValueToTheLastBit) {
     }
     const double expected = static_cast<double>(exact);
     ASSERT_NEAR(sum.value(), expected, std::abs(expected) * 0x1p-52) << "round " << round;
+  }
+}
+
+TEST(ExactSum, OfProductsTimesPowersOfTwo) {
+  for (unsigned round = 0; round < 2000; ++round) {
+    Terms terms(round);
+    const double a = terms.term(-900, 900, 52);
+    const double b = terms.term(-30, 30, 52);
+    const int exponent = static_cast<int>(round % 200) - 100 - std::ilogb(a);
+    ExactSum sum;
+    sum.add_product(a, b, exponent);
+    sum.add_product(-std::scalbn(a, exponent), b);
+    ASSERT_EQ(sum.value(), 0) << "round " << round;
+  }
+}
+
+// Whatever overflows, and however much is added to it.
+TEST(ExactSum, IsNoNumberOnceItOverflows) {
+  for (const double large : {0x1p1023, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    ExactSum sum, product;
+    for (int i = 0; i < 300; ++i) {
+      sum.add(std::ldexp(1, i % 2 == 0 ? -3 * i : 3 * i));
+      if (i % 50 == 49) sum.add(large), sum.add(large), sum.add(-large);
+    }
+    EXPECT_TRUE(std::isnan(sum.value())) << large;
+    product.add_product(sum, sum, 1);
+    EXPECT_TRUE(std::isnan(product.value())) << large;
   }
 }
 
