@@ -124,7 +124,7 @@ OwnMesh read_mesh(Bytes& from) {
     std::vector<float>* const lists[] = {&own.positions, &own.normals, &own.colors, &own.texcoords, &own.color_indices};
     std::vector<float>& list = *lists[from.below(5)];
     if (!list.empty() && own.stride_floats == 0) list = std::vector<float>(list.begin(), list.end() - 1);
-    else own.mesh.position_components = from.integer(0, 8);
+    else if (const int odd = from.integer(0, 8); odd != 4 || own.stride_floats == 0) own.mesh.position_components = odd;  // with a stride, nobody could tell that the last vertex has three only
   }
   return own;
 }

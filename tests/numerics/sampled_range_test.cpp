@@ -1,8 +1,10 @@
-// With several samples a pixel's centre may lie outside of the triangle that its samples see, of a sliver by many times its width: what is shaded there
-// stays within the range of the vertices all the same. The mean of samples that are within a range, and of a clear that is, is within it too.
+// With several samples a pixel's centre may lie outside of the triangle that its samples see, of a sliver by many times its width: what is
+// shaded there stays within the range of the vertices all the same. The mean of samples that are within a range, and of a clear that is, is
+// within it too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -34,10 +36,29 @@ MeshData any_triangles(Random& random) {
   return mesh;
 }
 
-void expect_range(const std::string& what, bool textured, const std::function<void(DrawState&)>& set_up, Dither dither = Dither::none) {
-  std::vector<std::uint8_t> texels(256);
-  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(i);
-  const Texture nearest({.pixels = texels.data(), .width = 256, .height = 1, .channels = 1}, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest});
+// Lit at each pixel, from cosines and distances that give levels from kLow to kHigh.
+constexpr float kLit = kHigh / 255.0f, kDepths = 30, kAttenuation = 0.0005f;  // 153 / (1 + 0.0005 (30² + 2² + 2²)) = 105
+
+// Normals of any length around z, by cosines from 0.675.
+void tilt(MeshData& mesh, Random& random) {
+  for (std::size_t i = 0; i < mesh.positions.size() / 4; ++i) {
+    const float z = random.between(0.675f, 1), around = random.between(0, 6.2831853f), length = random.between(0.1f, 10),
+                side = std::sqrt(1 - z * z);
+    for (const float c : {side * std::cos(around), side * std::sin(around), z}) mesh.normals.push_back(length * c);
+  }
+}
+// Planes at any angle to the screen, kDepths to both sides of the light.
+void deepen(MeshData& mesh, Random& random) {
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 4)
+    mesh.positions[i + 2] = mesh.positions[i + 3] * random.between(-kDepths, kDepths);
+}
+
+struct Subject {
+  std::function<void(MeshData&, Random&)> shape;  // or none
+  std::function<void(Frame&, DrawState&)> set_up;
+};
+
+void expect_range(const std::string& what, const Subject& subject) {
   int worst = 0;
   std::size_t seen = 0;
   for (const int samples : {1, 4, 8})
@@ -45,16 +66,15 @@ void expect_range(const std::string& what, bool textured, const std::function<vo
       Random random(7);
       Renderer renderer({.threads = 1, .defer_shading = defer});
       for (int n = 0; n < (long_tests() ? 2000 : 40); ++n) {
-        FrameBuffer buffer({.width = kSide, .height = kSide, .dither = dither, .samples = samples});
+        FrameBuffer buffer({.width = kSide, .height = kSide, .samples = samples});
         Frame frame(buffer);
         constexpr float kBetween = 127 / 255.0f;
         frame.clear({.color = Color{kBetween, kBetween, kBetween, 1}, .depth = 1.0});
         DrawState state;
-        state.lighting = false;
-        if (textured) state.texture = &nearest;
         state.texture_env = TextureEnv::replace;
-        set_up(state);
-        const MeshData mesh = any_triangles(random);
+        subject.set_up(frame, state);
+        MeshData mesh = any_triangles(random);
+        if (subject.shape) subject.shape(mesh, random);
         frame.draw(mesh.view(), state);
         renderer.finish(frame);
         for (const std::uint32_t word : color_words(buffer))
@@ -69,14 +89,62 @@ void expect_range(const std::string& what, bool textured, const std::function<vo
   expect_within("1, 4 and 8 samples, " + what + ": beyond the vertices' own", worst, 0, "levels");
 }
 
+const AlphaTest kAlwaysPasses{.func = Compare::gequal, .ref = 0};
+
+void unlit(const std::string& what, const std::function<void(DrawState&)>& set_up) {
+  expect_range(what, {.shape = {}, .set_up = [&](Frame&, DrawState& s) {
+                        s.lighting = false;
+                        set_up(s);
+                      }});
+}
+void of_texels(const std::string& what, const std::function<void(DrawState&)>& set_up) {
+  std::vector<std::uint8_t> texels(256);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(i);
+  const Texture nearest({.pixels = texels.data(), .width = 256, .height = 1, .channels = 1},
+                        {.mag = TextureFilter::nearest, .min = TextureFilter::nearest});
+  unlit(what, [&](DrawState& s) {
+    s.texture = &nearest;
+    set_up(s);
+  });
+}
+
 TEST(SampledRange, OfColors) {
-  expect_range("colours", false, [](DrawState&) {});
-  expect_range("colours that are blended", false, [](DrawState& s) { s.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_src_alpha}; });
-  expect_range("colours under an alpha test", false, [](DrawState& s) { s.alpha_test = AlphaTest{.func = Compare::gequal, .ref = 0}; });
+  unlit("colours", [](DrawState&) {});
+  unlit("colours that are blended",
+        [](DrawState& s) { s.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_src_alpha}; });
+  unlit("colours under an alpha test", [](DrawState& s) { s.alpha_test = kAlwaysPasses; });
 }
 TEST(SampledRange, OfTexels) {
-  expect_range("nearest texels", true, [](DrawState&) {});
-  expect_range("nearest texels under an alpha test", true, [](DrawState& s) { s.alpha_test = AlphaTest{.func = Compare::gequal, .ref = 0}; });
+  of_texels("nearest texels", [](DrawState&) {});
+  of_texels("nearest texels under an alpha test", [](DrawState& s) { s.alpha_test = kAlwaysPasses; });
+}
+
+void lit_by(const Light& light, Frame& frame, DrawState& state) {
+  frame.set_lights({light});
+  frame.set_light_model({.ambient = {0, 0, 0, 1}});
+  frame.set_camera({.view = {}, .projection = orthographic(-1, 1, -1, 1, -100, 100)});
+  state.shading = Shading::phong;
+  state.material = {.ambient = {kLit, kLit, kLit, 1}, .diffuse = {kLit, kLit, kLit, 1}};
+}
+void tilted(Frame& frame, DrawState& state) { lit_by({.position = {0, 0, 1, 0}}, frame, state); }
+void deep(Frame& frame, DrawState& state) {
+  lit_by({.ambient = {1, 1, 1, 1}, .diffuse = {0, 0, 0, 1}, .position = {0, 0, 0, 1}, .attenuation_quadratic = kAttenuation}, frame, state);
+}
+
+// Normals within a cone whose cosines are above 0 are so in every mixture of theirs, and positions within a sphere.
+TEST(SampledRange, OfNormals) {
+  expect_range("normals", {.shape = tilt, .set_up = tilted});
+  expect_range("normals under an alpha test", {.shape = tilt, .set_up = [](Frame& f, DrawState& s) {
+                                                 tilted(f, s);
+                                                 s.alpha_test = kAlwaysPasses;
+                                               }});
+}
+TEST(SampledRange, OfPositions) {
+  expect_range("positions", {.shape = deepen, .set_up = deep});
+  expect_range("positions under an alpha test", {.shape = deepen, .set_up = [](Frame& f, DrawState& s) {
+                                                   deep(f, s);
+                                                   s.alpha_test = kAlwaysPasses;
+                                                 }});
 }
 
 }  // namespace
