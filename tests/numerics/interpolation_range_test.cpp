@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shading/interpolate_reference.h"
@@ -81,7 +82,23 @@ TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
   expect_within("interpolated, of both signs, beyond the range", worst[0], 12, "2^-24 of the largest");
 }
 
-// Barycentric coordinates are within 9 u of perspective (interpolate_test.cpp counts them), and count by their differences, which are rounded themselves; each sum
+// Of what is linear in the window: 1/area, its product with what is left of an edge, and the multiply-add of the edge. Under perspective 1/area is the same in all
+// weights, and each has a ratio of 1/w besides and that ratio's product: four apart from it, so that two weights are eight apart; two sums, quotient, product.
+// None is a difference, so zero is exactly that.
+TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
+  long double worst[2] = {0, 0};
+  for_each_pixel(44, [&](Dice&, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
+    long double weights[3], sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * v[k].rw;
+    const bool is_affine = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
+    for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
+      worst[is_affine] = std::max(worst[is_affine], exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
+  });
+  expect_within("barycentric coordinates, linear in the window", worst[1], 3, "2^-24 of themselves");
+  expect_within("barycentric coordinates, w apart by up to 10^6", worst[0], 12, "2^-24 of themselves");
+}
+
+// Barycentric coordinates are within 9 u of perspective, and count by their differences, which are rounded themselves; each sum
 // once more by what it comes to, and that is no more than the largest.
 TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
   long double worst = 0;
