@@ -43,13 +43,18 @@ struct RealLight {
   Real spot_exponent = 0, spot_cutoff = 180;
   Real3 attenuation{1, 0, 0};
 };
-/// Of a scene whose camera stands where the world's origin is.
-inline RealLight real_light(const Light& l) {
-  const Real3 xyz{l.position[0], l.position[1], l.position[2]};
+/// Of a light in the world, whose eye space is where `view`, which neither stretches nor bends, puts it.
+inline RealLight real_light(const Light& l, const Matrix& view = {}) {
+  const auto seen = [&](const Real3& v, Real w) {
+    Real3 s;
+    for (std::size_t i = 0; i < 3; ++i) s[i] = dot({view.m[4 * i], view.m[4 * i + 1], view.m[4 * i + 2]}, v) + view.m[4 * i + 3] * w;
+    return s;
+  };
+  const Real3 xyz = seen({l.position[0], l.position[1], l.position[2]}, l.position[3]);
   RealLight r{real3(l.ambient), real3(l.diffuse), real3(l.specular)};
   r.directional = l.position[3] == 0;
   r.position = r.directional ? normalized(xyz) : xyz * (1 / Real{l.position[3]});
-  r.spot_direction = normalized(real3(l.spot_direction));
+  r.spot_direction = normalized(seen(real3(l.spot_direction), 0));
   r.spot_exponent = l.spot_exponent;
   r.spot_cutoff = l.spot_cutoff;
   r.attenuation = {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic};
@@ -98,13 +103,14 @@ struct LightAtPoint {
 };
 
 /// The colour of a point of a front face (else of a back face), clamped to 0..1.
-inline std::array<RealRange, 3> lit_color(const Material& material, std::span<const Light> lights, const LightModel& model, RealPoint point, Real slack, bool front = true) {
+inline std::array<RealRange, 3> lit_color(const Material& material, std::span<const Light> lights, const LightModel& model, RealPoint point, Real slack, bool front = true,
+                                          const Matrix& view = {}) {
   if (!front) point.normal = point.normal * -1;
   std::array<RealRange, 3> sum;
   const Real3 emission = real3(material.emission), scene = real3(model.ambient), ambient = real3(material.ambient), diffuse = real3(material.diffuse), specular = real3(material.specular);
   for (std::size_t c = 0; c < 3; ++c) sum[c].low = sum[c].high = emission[c] + scene[c] * ambient[c];
   for (const Light& given : lights) {
-    const RealLight light = real_light(given);
+    const RealLight light = real_light(given, view);
     const LightAtPoint at(light, point, model.local_viewer, model.specular, material.shininess, slack);
     for (std::size_t c = 0; c < 3; ++c) {
       const Real even = light.ambient[c] * ambient[c] + std::max<Real>(at.n_dot_l, 0) * light.diffuse[c] * diffuse[c], shine = light.specular[c] * specular[c];

@@ -55,6 +55,27 @@ class LitPatches {
   double extent = 1;                   ///< the frame shows -extent .. extent, a power of two
   Real slack = kCosineSlack;
   std::array<Patch, kCount> patches{};
+  Matrix view{}, world_from_eye{};     ///< of the camera; patches are where it sees them, lights are in the world
+
+  /// A camera turned any way, up to 10^4 frames from the world's origin; each light as it was from there, but for its rounding to floats.
+  void move_camera(Draws& draws) {
+    const auto [ax, ay, az] = draws.direction();
+    const auto [ex, ey, ez] = draws.direction();
+    const double angle = draws.between(0, 360), far = extent * std::exp2(draws.between(-4, 13.28));
+    view = rotate(angle, ax, ay, az) * translate(-far * ex, -far * ey, -far * ez);
+    world_from_eye = translate(far * ex, far * ey, far * ez) * rotate(-angle, ax, ay, az);
+    const auto moved = [&](const std::array<float, 3>& v, double w) {
+      std::array<float, 3> to{};
+      for (std::size_t i = 0; i < 3; ++i)
+        to[i] = static_cast<float>(world_from_eye.m[4 * i] * v[0] + world_from_eye.m[4 * i + 1] * v[1] + world_from_eye.m[4 * i + 2] * v[2] + world_from_eye.m[4 * i + 3] * w);
+      return to;
+    };
+    for (Light& l : lights) {
+      const auto [x, y, z] = moved({l.position[0], l.position[1], l.position[2]}, l.position[3]);
+      l.position = {x, y, z, l.position[3]};
+      l.spot_direction = moved(l.spot_direction, 0);
+    }
+  }
 
   /// Of a patch's corners 0 to 3, counter-clockwise as seen.
   std::array<float, 3> corner(int patch, int k) const {
@@ -91,11 +112,12 @@ class LitPatches {
       }
     Frame frame(buffer_);
     frame.clear({.color = Color{0, 0, 0, 1}});
-    frame.set_camera({.view = {}, .projection = orthographic(-extent, extent, -extent, extent, -4 * extent, 4 * extent)});
+    frame.set_camera({.view = view, .projection = orthographic(-extent, extent, -extent, extent, -4 * extent, 4 * extent)});
     frame.set_lights(lights);
     frame.set_light_model(model);
     DrawState state;
     state.material = material;
+    state.transform = world_from_eye;
     state.back_material = back_material;
     state.shading = shading;
     state.normalize = normalize;
@@ -115,11 +137,11 @@ class LitPatches {
   std::array<RealRange, 3> color(int p) const {
     const bool front = patches[static_cast<std::size_t>(p)].front || !model.two_sided;
     const Material& used = front ? material : back_material;
-    if (shading == Shading::flat) return lit_color(used, lights, model, point(p, 3), slack, front);
+    if (shading == Shading::flat) return lit_color(used, lights, model, point(p, 3), slack, front, view);
     const RealPoint a = point(p, 0), b = point(p, 2);
-    if (shading == Shading::phong) return lit_color(used, lights, model, {normalized(a.normal + b.normal), (a.position + b.position) * 0.5L}, slack, front);
+    if (shading == Shading::phong) return lit_color(used, lights, model, {normalized(a.normal + b.normal), (a.position + b.position) * 0.5L}, slack, front, view);
     std::array<RealRange, 3> mean;
-    const auto of_a = lit_color(used, lights, model, a, slack, front), of_b = lit_color(used, lights, model, b, slack, front);
+    const auto of_a = lit_color(used, lights, model, a, slack, front, view), of_b = lit_color(used, lights, model, b, slack, front, view);
     for (std::size_t c = 0; c < 3; ++c) mean[c] = 0.5L * (of_a[c] + of_b[c]);
     return mean;
   }
