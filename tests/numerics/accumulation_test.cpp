@@ -5,6 +5,8 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/exact.h"
@@ -45,10 +47,14 @@ class Commands {
  public:
   Commands(int color_bits, int bits) : buffer_(format_of(color_bits, bits)), frame_(buffer_), split_(buffer_.format()), bits_(bits) {}
 
-  void paint(const Picture& picture) { picture.draw(frame_); }
+  void paint(Picture picture) {
+    painted_.push_back(std::move(picture));  // borrowed until the frame is finished
+    painted_.back().draw(frame_);
+  }
   /// Runs it and adds to the largest distance from what it is to leave.
   void run(const Accum& accum, const Exact& exact, long double& worst) {
     renderer_.finish(frame_);
+    painted_.clear();
     const auto before = accumulation_levels(buffer_);
     frame_.accumulate(accum);
     renderer_.finish(frame_);
@@ -71,6 +77,7 @@ class Commands {
 
  private:
   FrameBuffer buffer_;
+  std::vector<Picture> painted_;
   Renderer renderer_{{.threads = 1}};
   Frame frame_;
   Split split_;
