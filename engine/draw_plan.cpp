@@ -47,6 +47,7 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   t.half_height = viewport.height / 2.0;
   t.guard_x = kGuardBandPixels / t.half_width;
   t.guard_y = kGuardBandPixels / t.half_height;
+  t.set_roughness();
   t.center_x = kSubpixelScale * viewport.x + kHalfPixel * viewport.width;
   t.center_y = kSubpixelScale * (format.height - viewport.y) - kHalfPixel * viewport.height;
   t.reversed = camera.reversed;

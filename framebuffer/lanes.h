@@ -44,3 +44,8 @@
 #endif
 /// The address of `fn` compiled for `isa`.
 #define TESSERA_KERNEL(isa, fn) (TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
+
+// Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before fast.
+#if HWY_TARGET == HWY_SCALAR && HWY_TARGETS != HWY_SCALAR && defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("Os")
+#endif

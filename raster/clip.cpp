@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "raster/exact_cut.h"
+#include "raster/exact_vertex.h"
 
 namespace tessera {
 namespace {
@@ -31,32 +32,42 @@ double distance(const VertexTransform& t, ClipCode plane, const ClipPosition& p)
 
 double size(const ClipPosition& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(p.w)}); }
 
+// Of the sums that the coordinates are.
+double size_of_terms(const VertexTransform& t, const ClipVertex& v) {
+  if (!v.object || v.is_rough) return size(v.position);
+  const auto& [x, y, z, w] = *v.object;
+  return std::max(size(v.position), std::scalbn(t.largest_row * std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)}), v.object_exponent));
+}
+
+// -1, 0 or 1: outside, on the plane, inside.
+int side(const VertexTransform& t, ClipCode plane, const ClipVertex& v) {
+  const double d = v.is_rough && v.object ? ExactVertex(t, *v.object, v.object_exponent).distance(t, plane).value() : distance(t, plane, v.position);
+  return d > 0 ? 1 : d < 0 ? -1 : 0;
+}
+
 // The polygon as it was, of which things are cut off.
 class Original {
  public:
   Original(const VertexTransform& transform, std::span<const ClipVertex> vertices, int attribute_count) : transform_(transform), vertices_(vertices), attribute_count_(attribute_count) {}
 
-  // The point of the edge from `a` to `b` on a plane, one end of which is inside. It is the same whichever end is named first.
-  ClipVertex cut(ClipCode plane, const ClipCorner& a, const ClipVertex& b) const {
+  // The point of the edge from `a` to `b` on a plane, of which one is inside. It is the same whichever end is named first.
+  ClipVertex cut(ClipCode plane, const ClipCorner& a, const ClipVertex& b, bool a_is_inside) const {
     if (a.edge >= 0) {
       const auto first = static_cast<std::size_t>(a.edge);
       if (const auto v = cut_whole(plane, vertices_[first], vertices_[first + 1 == vertices_.size() ? 0 : first + 1])) return *v;
     }
-    const bool is_inner = distance(transform_, plane, a.vertex.position) >= 0;
-    const ClipVertex& inner = is_inner ? a.vertex : b;
-    const ClipVertex& outer = is_inner ? b : a.vertex;
-    const Mixed mixed = mix(plane, inner, outer);
-    if (mixed.is_good || a.edge >= 0 || vertices_.size() != 3) return on_plane(plane, mixed.vertex);
-    return on_plane(plane, exact_crossing(transform_, plane, a.plane, {vertices_[0], vertices_[1], vertices_[2]}, attribute_count_).value_or(mixed.vertex));
+    const Mixed mixed = a_is_inside ? mix(plane, a.vertex, b) : mix(plane, b, a.vertex);
+    if (mixed.is_good || a.edge >= 0) return on_plane(plane, mixed.vertex);
+    for (std::size_t i = 2; i < vertices_.size(); ++i)  // the triangles from the first vertex to all others
+      if (const auto v = exact_crossing(transform_, plane, a.plane, vertices_[0], vertices_[i - 1], vertices_[i], attribute_count_)) return on_plane(plane, *v);
+    return on_plane(plane, mixed.vertex);
   }
-  // The same of a whole edge. Absent if rounding has both ends on one side.
+  // The same of a whole edge. Absent if both ends are on one side.
   std::optional<ClipVertex> cut_whole(ClipCode plane, const ClipVertex& a, const ClipVertex& b) const {
-    const bool a_inside = distance(transform_, plane, a.position) >= 0, b_inside = distance(transform_, plane, b.position) >= 0;
+    const bool a_inside = side(transform_, plane, a) >= 0, b_inside = side(transform_, plane, b) >= 0;
     if (a_inside == b_inside) return std::nullopt;
-    const ClipVertex& inner = a_inside ? a : b;
-    const ClipVertex& outer = a_inside ? b : a;
-    const Mixed mixed = mix(plane, inner, outer);
-    return on_plane(plane, mixed.is_good ? mixed.vertex : exact_cut(transform_, plane, inner, outer, attribute_count_).value_or(mixed.vertex));
+    const Mixed mixed = a_inside ? mix(plane, a, b) : mix(plane, b, a);
+    return on_plane(plane, mixed.is_good ? mixed.vertex : exact_cut(transform_, plane, a_inside ? a : b, a_inside ? b : a, attribute_count_).value_or(mixed.vertex));
   }
 
  private:
@@ -67,17 +78,22 @@ class Original {
   Mixed mix(ClipCode plane, const ClipVertex& inner, const ClipVertex& outer) const {
     const bool from_inner = size(inner.position) <= size(outer.position);  // the end that rounds less
     const ClipVertex &from = from_inner ? inner : outer, &to = from_inner ? outer : inner;
-    const double first = distance(transform_, plane, from.position), apart = first - distance(transform_, plane, to.position);
-    const double t = first / apart;
+    const double first = distance(transform_, plane, from.position), second = distance(transform_, plane, to.position), apart = first - second;
+    const bool is_crossed = (first < 0) != (second < 0);  // rounding may have both ends on one side
+    const double t = is_crossed ? first / apart : 0;
     const auto mix = [t](double a, double b) { return std::fma(t, b - a, a); };
     const ClipPosition &p = from.position, &q = to.position;
     Mixed mixed{{.position = {mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}}, false};
-    for (int k = 0; k < attribute_count_; ++k) mixed.vertex.attributes[k] = static_cast<float>(mix(from.attributes[k], to.attributes[k]));
-    // What is mixed is off by some 2^-50 of that end, and by as much more as the edge is long for its way through the plane. With less than 2^20 of what is
-    // seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14 pixels.
+    for (int k = 0; k < attribute_count_; ++k) {
+      const float a = from.attributes[k], b = to.attributes[k];
+      mixed.vertex.attributes[k] = std::clamp(static_cast<float>(mix(a, b)), std::min(a, b), std::max(a, b));
+    }
+    // What is mixed is off by some 2^-50 of what that end is the sum of, and by as much more as the edge is long for its way through the plane; by its share, also of
+    // the other end's. With less than 2^20 of what is seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14 pixels.
     const double guard = (plane & (kBeforeNear | kBehindFar)) != 0 ? 1 : (plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0 ? transform_.guard_x : transform_.guard_y;
     const ClipPosition way{q.x - p.x, q.y - p.y, q.z - p.z, q.w - p.w};
-    mixed.is_good = size(p) / std::abs(apart) * (1 + guard) <= 0x1p20 * (mixed.vertex.position.w / size(way));  // doubles hold quotients of coordinates, but not all their products
+    const double rounded = std::max(size_of_terms(transform_, from), t * size_of_terms(transform_, to));
+    mixed.is_good = is_crossed && rounded / std::abs(apart) * (1 + guard) <= 0x1p20 * (mixed.vertex.position.w / size(way));  // doubles hold quotients of coordinates, but not all their products
     return mixed;
   }
   // Nothing is off in the direction that counts.
@@ -105,20 +121,22 @@ template <class Keep>
 void keep_inside(const VertexTransform& transform, const Original& original, ClipCode plane, std::span<const ClipCorner> corners, const Keep& keep) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ClipCorner &a = corners[i], &b = corners[i + 1 == corners.size() ? 0 : i + 1];
-    const double da = distance(transform, plane, a.vertex.position), db = distance(transform, plane, b.vertex.position);
-    if (da >= 0) keep(da > 0 || db >= 0 ? a : ClipCorner{a.vertex, -1, plane});
-    if (da > 0 && db < 0) keep({original.cut(plane, a, b.vertex), -1, plane});
-    if (da < 0 && db > 0) keep({original.cut(plane, a, b.vertex), a.edge, a.plane});
+    const int of_a = side(transform, plane, a.vertex), of_b = side(transform, plane, b.vertex);
+    if (of_a >= 0) keep(of_a > 0 || of_b >= 0 ? a : ClipCorner{a.vertex, -1, plane});
+    if (of_a > 0 && of_b < 0) keep({original.cut(plane, a, b.vertex, true), -1, plane});
+    if (of_a < 0 && of_b > 0) keep({original.cut(plane, a, b.vertex, false), a.edge, a.plane});
   }
 }
 
 // Distances, and differences of positions, of the largest doubles would be infinite. A power of two in all positions of a polygon moves none of its points.
 void keep_finite(std::span<ClipVertex> vertices) {
-  constexpr double kLarge = 0x1p980, kScale = 0x1p-40;  // sums of two numbers below 2^984, times at most 2^15 of a guard band
+  constexpr double kLarge = 0x1p980;  // sums of two numbers below 2^984, times at most 2^15 of a guard band
   if (std::none_of(vertices.begin(), vertices.end(), [&](const ClipVertex& v) { return size(v.position) > kLarge; })) return;
+  constexpr int kExponent = -40;
   for (ClipVertex& v : vertices) {
-    v.position = {v.position.x * kScale, v.position.y * kScale, v.position.z * kScale, v.position.w * kScale};
-    v.object.reset();
+    const auto scaled = [](double c) { return std::scalbn(c, kExponent); };
+    v.position = {scaled(v.position.x), scaled(v.position.y), scaled(v.position.z), scaled(v.position.w)};
+    v.object_exponent = kExponent;
   }
 }
 
@@ -174,9 +192,9 @@ bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uin
   const Original original(transform, ends, attribute_count);
   for (const ClipCode plane : kPlanes) {
     if (!is_looked_at(plane, codes)) continue;
-    const bool first_inside = distance(transform, plane, line[0].position) >= 0, second_inside = distance(transform, plane, line[1].position) >= 0;
+    const bool first_inside = side(transform, plane, line[0]) >= 0, second_inside = side(transform, plane, line[1]) >= 0;
     if (!first_inside && !second_inside) return false;
-    if (first_inside != second_inside) line[first_inside ? 1 : 0] = original.cut(plane, {line[0], 0}, line[1]);
+    if (first_inside != second_inside) line[first_inside ? 1 : 0] = original.cut(plane, {line[0], 0}, line[1], first_inside);
   }
   return is_usable(line[0].position) && is_usable(line[1].position);
 }

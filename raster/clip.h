@@ -17,7 +17,9 @@ inline constexpr int kAttributePadding = 16;
 
 struct ClipVertex {
   ClipPosition position;
-  std::optional<std::array<float, 4>> object{};  ///< a mesh's own vertex, of which the position is the rounded transform
+  std::optional<std::array<float, 4>> object{};  ///< a mesh's own vertex, of which the position is the rounded transform, times 2^object_exponent
+  int object_exponent = 0;
+  bool is_rough = false;                         ///< see TransformedVertex
   float attributes[kMaxAttributes] = {};
 };
 

@@ -7,9 +7,9 @@
 
 namespace tessera {
 
-/// The point of an edge on a plane. Absent if there is not just one.
+/// The point of an edge on a plane. Absent if there is not just one. Attributes are within those of the ends.
 std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a, const ClipVertex& b, int attribute_count);
-/// The point of a triangle on two planes. Absent if there is not just one.
-std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other, const ClipVertex (&vertices)[3], int attribute_count);
+/// The point of a triangle on two planes, likewise.
+std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other, const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, int attribute_count);
 
 }  // namespace tessera

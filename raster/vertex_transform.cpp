@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/exact_vertex.h"
 #include "raster/vertex_transform.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,6 +18,8 @@ namespace HWY_NAMESPACE {
 HWY_INLINE double row_times_point(const double* row, double x, double y, double z, double w) {
   return __builtin_fma(row[0], x, __builtin_fma(row[1], y, __builtin_fma(row[2], z, row[3] * w)));
 }
+
+HWY_INLINE double larger(double a, double b) { return a > b ? a : b; }
 
 struct PositionBatch {
   alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
@@ -46,7 +49,7 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     cz[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
     cw[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
   }
-  alignas(64) std::int32_t code[kVertexBatch];
+  alignas(64) std::int32_t code[kVertexBatch], rough[kVertexBatch];
   for (int i = 0; i < kVertexBatch; ++i) {
     const double gx = t.guard_x * cw[i], gy = t.guard_y * cw[i];
     const double near_z = t.reversed ? cw[i] - cz[i] : cz[i] + cw[i];
@@ -61,6 +64,21 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     c |= !(cw[i] > 0) ? kNoPositiveW : 0;
     c |= !(probe == 0) ? kNonFinite : 0;
     code[i] = c;
+    const double xy = larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), zw = larger(__builtin_fabs(p.z[i]), __builtin_fabs(p.w[i])), largest = larger(xy, zw);
+    int r = __builtin_fabs(near_z) <= t.rough_depth * largest ? 1 : 0;
+    r |= __builtin_fabs(far_z) <= t.rough_depth * largest ? 1 : 0;
+    r |= __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.rough_x * largest ? 1 : 0;
+    r |= __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.rough_y * largest ? 1 : 0;
+    r |= __builtin_fabs(cw[i]) <= t.rough_w * largest ? 1 : 0;
+    rough[i] = r;
+  }
+  int any_rough = 0;
+  for (int i = 0; i < kVertexBatch; ++i) any_rough |= rough[i];
+  for (std::size_t i = 0; any_rough != 0 && i < count; ++i) {
+    if (rough[i] == 0) continue;
+    const TransformedVertex exact = transform_vertex(t, {static_cast<float>(p.x[i]), static_cast<float>(p.y[i]), static_cast<float>(p.z[i]), static_cast<float>(p.w[i])});
+    cx[i] = exact.position.x, cy[i] = exact.position.y, cz[i] = exact.position.z, cw[i] = exact.position.w;
+    code[i] = exact.code;
   }
   alignas(64) std::int32_t sx[kVertexBatch], sy[kVertexBatch];
   alignas(64) float rw[kVertexBatch];
@@ -181,6 +199,41 @@ std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
   if ((t.reversed ? p.z : p.w - p.z) < 0) code |= kBehindFar;
   if (!(p.w > 0)) code |= kNoPositiveW;
   return code;
+}
+
+// With u = 2^-53, S the largest sum of a row's sizes and L the largest coordinate, a coordinate is off by 4 u S L (its four roundings), a distance z + w by twice that and by its
+// own rounding, one from the guard band by 1 + guard times it: 2^-48 is twice as much, and more. A w that is off by 2^-20 of itself moves what is seen by no more than a
+// guard band is wide.
+void VertexTransform::set_roughness() {
+  largest_row = 0;
+  for (int row = 0; row < 4; ++row) {
+    const double* const m = clip_from_object + 4 * row;
+    largest_row = std::max(largest_row, std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) + std::abs(m[3]));
+  }
+  rough_depth = largest_row * 0x1p-48;
+  rough_x = largest_row * (1 + guard_x) * 0x1p-49;
+  rough_y = largest_row * (1 + guard_y) * 0x1p-49;
+  rough_w = largest_row * 0x1p-30;
+}
+
+static bool is_rough(const VertexTransform& t, const ClipPosition& p, double largest) {
+  const double near_z = t.reversed ? p.w - p.z : p.z + p.w, far_z = t.reversed ? p.z : p.w - p.z;
+  return std::abs(near_z) <= t.rough_depth * largest || std::abs(far_z) <= t.rough_depth * largest || std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.rough_x * largest ||
+         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.rough_y * largest || std::abs(p.w) <= t.rough_w * largest;
+}
+
+TransformedVertex transform_vertex(const VertexTransform& t, const std::array<float, 4>& object) {
+  TransformedVertex v{.position = clip_position(t, object[0], object[1], object[2], object[3])};
+  v.code = clip_code(t, v.position);
+  v.is_rough = v.code != kNonFinite && is_rough(t, v.position, std::max({std::abs(object[0]), std::abs(object[1]), std::abs(object[2]), std::abs(object[3])}));
+  if (!v.is_rough) return v;
+  const double size = std::max({std::abs(v.position.x), std::abs(v.position.y), std::abs(v.position.z), std::abs(v.position.w)});
+  const int exponent = size > 0 ? std::ilogb(size) : 0;  // of what is about 1 no distance overflows
+  const ExactVertex exact(t, object, -exponent);
+  const ClipPosition p = exact.position();
+  v.position = {std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
+  v.code = exact.code(t);
+  return v;
 }
 
 // 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what was cut at the guard band

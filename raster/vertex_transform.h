@@ -1,6 +1,7 @@
 // Object space -> clip space -> raster space, for batches of vertices; and what the lighting of a vertex needs in eye space.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -50,8 +51,24 @@ struct VertexTransform {
   bool reversed = false;                           ///< z runs 0..w, else -w..w
   double depth_near = 0, depth_far = 1;
   DepthKind depth = DepthKind::none;
+  /// Distances from the near and far planes, from the guard band's, and w, that roundings may have made, of a vertex whose largest coordinate is 1.
+  double rough_depth = 0, rough_x = 0, rough_y = 0, rough_w = 0;
+  double largest_row = 0;                          ///< of the matrix: the sum of its elements' sizes
+
+  /// Once the matrix and the guard band are there.
+  void set_roughness();
 };
 
+/// A vertex in clip space. Each coordinate is rounded four times, beside sums of sizes that may be far larger than itself; where that might be on the wrong side
+/// of a plane, or w too small beside them for the place in the window, `is_rough`: then coordinates are rounded once, and the code is that of the exact ones.
+struct TransformedVertex {
+  ClipPosition position;
+  std::uint8_t code = 0;
+  bool is_rough = false;
+};
+TransformedVertex transform_vertex(const VertexTransform& transform, const std::array<float, 4>& object);
+
+/// The four roundings.
 ClipPosition clip_position(const VertexTransform& transform, double x, double y, double z, double w);
 std::uint8_t clip_code(const VertexTransform& transform, const ClipPosition& position);
 /// The scalar twin of the kernel, and the way for single vertices that clipping makes; what lies beyond the guard band is put onto its border.

@@ -23,7 +23,7 @@ struct Tally {
     for (std::size_t i = 0; i < counts.size(); ++i) {
       const Cover cover = expected.pixels.empty() ? Cover::once : expected.pixels[i];
       const bool crack = cover == Cover::once && counts[i] == 0, stray = cover == Cover::never && counts[i] > 0;
-      bool again = cover != Cover::never && counts[i] > 1;
+      bool again = cover != Cover::never && counts[i] > 1 && !(expected.folds_along_cuts && cover == Cover::at_most_once);
       if (again && expected.overlaps) {
         if (!overlaps) overlapping += *(overlaps = expected.overlaps());
         again = !*overlaps;

@@ -83,6 +83,7 @@ enum class Cover : std::uint8_t { never, once, at_most_once };
 struct Expected {
   std::vector<Cover> pixels{};         ///< rows from the top; empty: all of them once
   std::function<bool()> overlaps{};    ///< asked where something is covered again: whether that is in the mesh itself, once it is snapped
+  bool folds_along_cuts = false;       ///< where at most once is expected it may be again: slivers between an edge and a cut, thinner than what snapping moves them by, turn over
 };
 /// Counts a frame's pixels; `name` is that of the mesh in messages.
 using Count = std::function<void(const std::vector<CaseDraw>& draws, const std::string& name, const Expected& expected)>;

@@ -55,8 +55,7 @@ void expect_ground_planes(const std::string& what, bool reversed) {
         const long double down = -(eye.m[1] * to[0] + eye.m[5] * to[1] + eye.m[9] * to[2]);
         return down > 0 && 1 / down >= near;
       };
-      // The far sides meet on the horizon, where snapping may cross them.
-      count({draw}, "plane " + std::to_string(n) + " scale " + std::to_string(scale), {seen_pixels(is_seen), [] { return true; }});
+      count({draw}, "plane " + std::to_string(n) + " scale " + std::to_string(scale), {.pixels = seen_pixels(is_seen), .folds_along_cuts = true});  // along the horizon, too
     }
   });
 }
@@ -82,7 +81,7 @@ TEST(HugeClipping, LeavesEdgesWhereTheyPass) {
       const bool both = random.coin();
       if (both) mesh.add_triangle(b, right, a);
       mesh.shuffle(random);
-      count({counting(mesh)}, "edge " + std::to_string(n), {seen_pixels([&](long double px, long double py) { return both || x * py - y * px > 0; })});
+      count({counting(mesh)}, "edge " + std::to_string(n), {.pixels = seen_pixels([&](long double px, long double py) { return both || x * py - y * px > 0; })});
     }
   });
 }

@@ -1,0 +1,41 @@
+#include "raster/exact_vertex.h"
+
+#include <cmath>
+
+namespace tessera {
+
+ExactVertex::ExactVertex(const VertexTransform& t, const std::array<float, 4>& object, int exponent) {
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t column = 0; column < 4; ++column) coordinates_[row].add_product(t.clip_from_object[4 * row + column], object[column], exponent);
+}
+
+ExactVertex::ExactVertex(const ClipPosition& position, int exponent) {
+  const double given[] = {position.x, position.y, position.z, position.w};
+  for (std::size_t row = 0; row < 4; ++row) coordinates_[row].add(std::scalbn(given[row], exponent));
+}
+
+ExactSum ExactVertex::distance(const VertexTransform& t, ClipCode plane) const {
+  const auto& [x, y, z, w] = coordinates_;
+  ExactSum sum;
+  switch (plane) {
+    case kLeftOfGuardBand: sum.add_product(x, 1), sum.add_product(w, t.guard_x); break;
+    case kRightOfGuardBand: sum.add_product(x, -1), sum.add_product(w, t.guard_x); break;
+    case kBelowGuardBand: sum.add_product(y, 1), sum.add_product(w, t.guard_y); break;
+    case kAboveGuardBand: sum.add_product(y, -1), sum.add_product(w, t.guard_y); break;
+    case kBeforeNear: sum.add_product(z, t.reversed ? -1 : 1), sum.add_product(w, 1); break;
+    case kBehindFar: sum.add_product(z, t.reversed ? 1 : -1), sum.add_product(w, t.reversed ? 0 : 1); break;
+    default: sum.add_product(w, 1); break;
+  }
+  return sum;
+}
+
+ClipPosition ExactVertex::position() const { return {coordinates_[0].value(), coordinates_[1].value(), coordinates_[2].value(), coordinates_[3].value()}; }
+
+std::uint8_t ExactVertex::code(const VertexTransform& t) const {
+  std::uint8_t code = coordinates_[3].value() > 0 ? 0 : kNoPositiveW;
+  for (const ClipCode plane : {kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand, kBeforeNear, kBehindFar})
+    if (distance(t, plane).value() < 0) code |= plane;
+  return code;
+}
+
+}  // namespace tessera
