@@ -92,12 +92,12 @@ TEST(Clipping, ThroughAVertexOrAlongAnEdge) {
 }
 
 TEST(Clipping, OfHugeTriangles) {
-  expect_exact("triangles of 10^30", [](MeshRandom& random) {
+  expect_exact("triangles of 10^30, and w", [](MeshRandom& random) {
     DrawnTriangle t = any_triangle(random);
     t.scale = 0x1p100f;
     return t;
   });
-  expect_exact("triangles of 10^-30", [](MeshRandom& random) {
+  expect_exact("triangles of 10^-30, and w", [](MeshRandom& random) {
     DrawnTriangle t = any_triangle(random);
     t.scale = 0x1p-100f;
     return t;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSide = 64;
 
-// What is seen at a point of the window; of what may be off by 1/64 pixel both ways count.
+// What is seen at a point of the window; of what may be off by 1/256 pixel, of which snapping is half, both ways count.
 template <class IsSeen>
 std::vector<Cover> seen_pixels(const IsSeen& is_seen) {
   std::vector<Cover> covers;
@@ -24,7 +24,7 @@ std::vector<Cover> seen_pixels(const IsSeen& is_seen) {
     for (int x = 0; x < kSide; ++x) {
       int seen = 0;
       for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}})
-        seen += is_seen((x + 0.5L + dx / 64.0L) * 2 / kSide - 1, 1 - (y + 0.5L + dy / 64.0L) * 2 / kSide) ? 1 : 0;
+        seen += is_seen((x + 0.5L + dx / 256.0L) * 2 / kSide - 1, 1 - (y + 0.5L + dy / 256.0L) * 2 / kSide) ? 1 : 0;
       covers.push_back(seen == 4 ? Cover::once : seen == 0 ? Cover::never : Cover::at_most_once);
     }
   return covers;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "tests/engine/api_support.h"
+#include "tests/numerics/bounds.h"
+#include "tests/numerics/case_renderer.h"
 
 namespace tessera::test {
 namespace {
@@ -50,6 +53,23 @@ TEST(HugePositions, TrianglesCoverTheirHalfOfTheWindow) {
                   ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)], (sign < 0) == (along < kSide / 2) ? kRed : 0) << far << ", side " << side << ", pixel " << x << ", " << y;
                 }
             }
+}
+
+// The same halves, counted, for Mesa's row.
+TEST(HugePositions, NoPixelIsInTheWrongHalf) {
+  expect_figure("pixels wrong behind an edge with ends at 10^6 to 3 10^38", 0, "pixels", [](const MakeRenderer& make, bool) {
+    const std::unique_ptr<CaseRenderer> renderer = make({.width = kSide, .height = kSide});
+    long double wrong = 0;
+    for (const float far : {1e6f, 1e15f, 1e17f, 1e30f, 3e38f})
+      for (const float sign : {-1.0f, 1.0f}) {
+        const CasePicture& picture = renderer->draw({{.positions = {-far, 0, 0, 1, far, 0, 0, 1, 0, sign * far, 0, 1}}});
+        for (std::size_t i = 0; i < picture.colors.size(); ++i) {
+          const bool is_seen = picture.colors[i][0] > 0.5f;
+          wrong += is_seen == ((sign > 0) == (i < picture.colors.size() / 2)) ? 0 : 1;
+        }
+      }
+    return wrong;
+  });
 }
 
 TEST(HugePositions, TrianglesAroundTheWindowCoverAllOfIt) {
