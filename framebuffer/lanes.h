@@ -45,7 +45,8 @@
 /// The address of `fn` compiled for `isa`.
 #define TESSERA_KERNEL(isa, fn) (TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
 
-// Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before fast.
-#if HWY_TARGET == HWY_SCALAR && HWY_TARGETS != HWY_SCALAR && defined(__GNUC__) && !defined(__clang__)
+// Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before fast. So is what follows the kernels in
+// their files, which runs once for many vertices or pixels.
+#if HWY_TARGET == HWY_SCALAR && HWY_TARGETS != HWY_SCALAR && defined(__OPTIMIZE__) && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("Os")
 #endif

@@ -36,7 +36,7 @@ double size(const ClipPosition& p) { return std::max({std::abs(p.x), std::abs(p.
 double size_of_terms(const VertexTransform& t, const ClipVertex& v) {
   if (!v.object || v.is_rough) return size(v.position);
   const auto& [x, y, z, w] = *v.object;
-  return std::max(size(v.position), std::scalbn(t.largest_row * std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)}), v.object_exponent));
+  return std::max(size(v.position), std::scalbn(t.size_of_terms(x, y, z, w), v.object_exponent));
 }
 
 // -1, 0 or 1: outside, on the plane, inside.
@@ -58,7 +58,7 @@ class Original {
     }
     const Mixed mixed = a_is_inside ? mix(plane, a.vertex, b) : mix(plane, b, a.vertex);
     if (mixed.is_good || a.edge >= 0) return on_plane(plane, mixed.vertex);
-    for (std::size_t i = 2; i < vertices_.size(); ++i)  // the triangles from the first vertex to all others
+    for (std::size_t i = 2; i < vertices_.size() && tries_left_ > 0; ++i, --tries_left_)  // the triangles from the first vertex to all others
       if (const auto v = exact_crossing(transform_, plane, a.plane, vertices_[0], vertices_[i - 1], vertices_[i], attribute_count_)) return on_plane(plane, *v);
     return on_plane(plane, mixed.vertex);
   }
@@ -111,6 +111,8 @@ class Original {
   const VertexTransform& transform_;
   std::span<const ClipVertex> vertices_;
   int attribute_count_;
+  // Each plane cuts what is left of a convex polygon in two places. Of others, which it may cut in any number of them, the rest is as doubles have it.
+  mutable std::size_t tries_left_ = 2 * std::size(kPlanes) * vertices_.size();
 };
 
 // False where the eye's plane is touched in a single point, which is no pixel; and where sums of the largest numbers overflowed.

@@ -5,7 +5,9 @@
 #include "framebuffer/lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "raster/exact_vertex.h"
 #include "raster/vertex_transform.h"
@@ -64,12 +66,13 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     c |= !(cw[i] > 0) ? kNoPositiveW : 0;
     c |= !(probe == 0) ? kNonFinite : 0;
     code[i] = c;
-    const double xy = larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), zw = larger(__builtin_fabs(p.z[i]), __builtin_fabs(p.w[i])), largest = larger(xy, zw);
-    int r = __builtin_fabs(near_z) <= t.rough_depth * largest ? 1 : 0;
-    r |= __builtin_fabs(far_z) <= t.rough_depth * largest ? 1 : 0;
-    r |= __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.rough_x * largest ? 1 : 0;
-    r |= __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.rough_y * largest ? 1 : 0;
-    r |= __builtin_fabs(cw[i]) <= t.rough_w * largest ? 1 : 0;
+    const double xyz = larger(larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), __builtin_fabs(p.z[i]));
+    const double size = __builtin_fma(t.largest_linear, xyz, t.largest_offset * __builtin_fabs(p.w[i]));
+    int r = __builtin_fabs(near_z) <= t.rough_near * size ? 1 : 0;
+    r |= __builtin_fabs(far_z) <= t.rough_far * size ? 1 : 0;
+    r |= __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.rough_x * size ? 1 : 0;
+    r |= __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.rough_y * size ? 1 : 0;
+    r |= __builtin_fabs(cw[i]) <= t.rough_w * size ? 1 : 0;
     rough[i] = r;
   }
   int any_rough = 0;
@@ -201,39 +204,59 @@ std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
   return code;
 }
 
-// With u = 2^-53, S the largest sum of a row's sizes and L the largest coordinate, a coordinate is off by 4 u S L (its four roundings), a distance z + w by twice that and by its
-// own rounding, one from the guard band by 1 + guard times it: 2^-48 is twice as much, and more. A w that is off by 2^-20 of itself moves what is seen by no more than a
-// guard band is wide.
-void VertexTransform::set_roughness() {
-  largest_row = 0;
-  for (int row = 0; row < 4; ++row) {
-    const double* const m = clip_from_object + 4 * row;
-    largest_row = std::max(largest_row, std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) + std::abs(m[3]));
+// Whether all of a row's products with floats, and their sum, are exact: one product, of no more than 29 digits and far from what doubles end with.
+static bool is_exact(const double* row) {
+  int terms = 0;
+  for (int column = 0; column < 4; ++column) {
+    const double size = std::abs(row[column]);
+    if (size == 0) continue;
+    ++terms;
+    if (size < 0x1p-800 || size > 0x1p800 || std::bit_cast<std::uint64_t>(size) % (1 << 24) != 0) return false;
   }
-  rough_depth = largest_row * 0x1p-48;
-  rough_x = largest_row * (1 + guard_x) * 0x1p-49;
-  rough_y = largest_row * (1 + guard_y) * 0x1p-49;
-  rough_w = largest_row * 0x1p-30;
+  return terms <= 1;
 }
 
-static bool is_rough(const VertexTransform& t, const ClipPosition& p, double largest) {
+// With u = 2^-53 and S the sum of a coordinate's sizes, it is off by 4 u S (its four roundings), a distance z + w by twice that and by its own rounding, one from the
+// guard band by 1 + guard times it: 2^-49 of S is twice as much. A distance of two exact coordinates has the right sign; that of equal rows is 0 as it should be.
+// A w that is off by 2^-20 of itself moves what is seen by no more than that share of a guard band's width.
+void VertexTransform::set_roughness() {
+  const double* const m = clip_from_object;
+  largest_linear = largest_offset = 0;
+  for (int row = 0; row < 16; row += 4) {
+    largest_linear = std::max(largest_linear, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
+    largest_offset = std::max(largest_offset, std::abs(m[row + 3]));
+  }
+  constexpr double kOfDepth = 0x1p-48, kNever = -1;
+  const bool has_exact_z = is_exact(m + 8), has_exact_both = has_exact_z && is_exact(m + 12);
+  const auto alike = [&](double sign) { return std::equal(m + 8, m + 12, m + 12, [sign](double of_z, double of_w) { return of_z == sign * of_w; }); };
+  rough_near = has_exact_both || alike(reversed ? 1 : -1) ? kNever : kOfDepth;
+  rough_far = has_exact_both || (reversed ? has_exact_z : alike(1)) ? kNever : kOfDepth;
+  rough_x = (1 + guard_x) * 0x1p-49;
+  rough_y = (1 + guard_y) * 0x1p-49;
+  rough_w = 0x1p-30;
+}
+
+static bool is_rough(const VertexTransform& t, const ClipPosition& p, double size) {
   const double near_z = t.reversed ? p.w - p.z : p.z + p.w, far_z = t.reversed ? p.z : p.w - p.z;
-  return std::abs(near_z) <= t.rough_depth * largest || std::abs(far_z) <= t.rough_depth * largest || std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.rough_x * largest ||
-         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.rough_y * largest || std::abs(p.w) <= t.rough_w * largest;
+  return std::abs(near_z) <= t.rough_near * size || std::abs(far_z) <= t.rough_far * size || std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.rough_x * size ||
+         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.rough_y * size || std::abs(p.w) <= t.rough_w * size;
+}
+
+// Whether doubles hold a position: with all digits of what others are divided by.
+static bool is_held(const ClipPosition& p, bool has_w) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) && (!has_w || std::abs(p.w) >= std::numeric_limits<double>::min());
 }
 
 TransformedVertex transform_vertex(const VertexTransform& t, const std::array<float, 4>& object) {
   TransformedVertex v{.position = clip_position(t, object[0], object[1], object[2], object[3])};
   v.code = clip_code(t, v.position);
-  v.is_rough = v.code != kNonFinite && is_rough(t, v.position, std::max({std::abs(object[0]), std::abs(object[1]), std::abs(object[2]), std::abs(object[3])}));
-  if (!v.is_rough) return v;
+  if (v.code == kNonFinite || !is_rough(t, v.position, t.size_of_terms(object[0], object[1], object[2], object[3]))) return v;
   const double size = std::max({std::abs(v.position.x), std::abs(v.position.y), std::abs(v.position.z), std::abs(v.position.w)});
-  const int exponent = size > 0 ? std::ilogb(size) : 0;  // of what is about 1 no distance overflows
+  const int exponent = size > 0 ? std::ilogb(size) : 0;  // of what is about 1 no distance overflows, unless its terms are 2^1000 times as large
   const ExactVertex exact(t, object, -exponent);
-  const ClipPosition p = exact.position();
-  v.position = {std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
-  v.code = exact.code(t);
-  return v;
+  const ClipPosition p = exact.position(), scaled{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
+  if (!is_held(scaled, p.w != 0)) return v;
+  return {.position = scaled, .code = exact.code(t), .is_rough = true};
 }
 
 // 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what was cut at the guard band

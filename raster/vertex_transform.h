@@ -1,7 +1,9 @@
 // Object space -> clip space -> raster space, for batches of vertices; and what the lighting of a vertex needs in eye space.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -51,16 +53,22 @@ struct VertexTransform {
   bool reversed = false;                           ///< z runs 0..w, else -w..w
   double depth_near = 0, depth_far = 1;
   DepthKind depth = DepthKind::none;
-  /// Distances from the near and far planes, from the guard band's, and w, that roundings may have made, of a vertex whose largest coordinate is 1.
-  double rough_depth = 0, rough_x = 0, rough_y = 0, rough_w = 0;
-  double largest_row = 0;                          ///< of the matrix: the sum of its elements' sizes
+  /// Distances from the near and far planes, from the guard band's, and w, that roundings may have made, of a vertex whose terms have a size of 1. Negative: they make none.
+  double rough_near = 0, rough_far = 0, rough_x = 0, rough_y = 0, rough_w = 0;
+  /// Of the matrix's rows the largest: the sizes of x's, y's and z's elements together, and that of w's.
+  double largest_linear = 0, largest_offset = 0;
 
   /// Once the matrix and the guard band are there.
   void set_roughness();
+  /// No sum of sizes that a coordinate of a vertex comes from is larger.
+  double size_of_terms(double x, double y, double z, double w) const {
+    return std::fma(largest_linear, std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)), largest_offset * std::abs(w));
+  }
 };
 
 /// A vertex in clip space. Each coordinate is rounded four times, beside sums of sizes that may be far larger than itself; where that might be on the wrong side
-/// of a plane, or w too small beside them for the place in the window, `is_rough`: then coordinates are rounded once, and the code is that of the exact ones.
+/// of a plane, or w too small beside them for the place in the window, `is_rough`: then coordinates are rounded once, and the code is that of the exact ones; but not where those
+/// leave the range of doubles with all their digits, or their terms do.
 struct TransformedVertex {
   ClipPosition position;
   std::uint8_t code = 0;

@@ -45,7 +45,10 @@ Matrix matrix_of(const ClipPlane& plane, int exponent) {
 constexpr int kMostInOracle = 38;
 
 void expect_planes(const std::string& what, bool reversed) {
-  expect_coverage(what, {.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = reversed}, [reversed](const Count& count, bool is_tessera) {
+  int folded = 0;
+  expect_coverage(what, {.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = reversed}, [reversed, &folded](const Count& count, bool is_tessera) {
+    // In a fan's sliver that snapping folds, which is thinner than 1/256 pixel, a pixel may be covered again.
+    const std::function<bool()> may_fold = [&folded, is_tessera] { return folded += is_tessera ? 1 : 0, true; };
     for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 3000); ++n) {
       MeshRandom random(n);
       ClipPlane plane = random_plane(random);
@@ -76,9 +79,10 @@ void expect_planes(const std::string& what, bool reversed) {
       CaseDraw draw = counting(mesh);
       draw.transform = matrix_of(plane, exponent);
       count({draw}, "plane " + std::to_string(n) + " of 2^" + std::to_string(size) + " times 2^" + std::to_string(exponent),
-            {.pixels = covers_of(plane.region(*seen, std::int64_t{1} << std::min(size_v, kMostInOracle), reversed), kSide, kSide, view), .overlaps = is_fan ? [] { return true; } : std::function<bool()>(), .folds_along_cuts = true});
+            {.pixels = covers_of(plane.region(*seen, std::int64_t{1} << std::min(size_v, kMostInOracle), reversed), kSide, kSide, view), .overlaps = is_fan ? may_fold : std::function<bool()>(), .folds_along_cuts = true});
     }
   });
+  EXPECT_LE(folded, long_tests() ? 10 : 0);  // rare
 }
 
 TEST(HugePlanes, AreSeenWhereTheirNumbersSay) {

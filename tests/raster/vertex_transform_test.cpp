@@ -111,7 +111,74 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
   EXPECT_GT(rough, 1000u);
 }
 
-// Small whole numbers beside others 2^60 times as large, of which often nothing is left but the small ones.
+VertexTransform transform_of(const std::array<double, 16>& rows, bool reversed) {
+  VertexTransform t;
+  std::copy(rows.begin(), rows.end(), t.clip_from_object);
+  t.half_width = t.half_height = 512;
+  t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
+  t.reversed = reversed;
+  t.depth = DepthKind::float32;
+  t.set_roughness();
+  return t;
+}
+
+// Exact sums take far longer: what everybody draws is without them, also on a plane.
+TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
+  struct Case {
+    const char* what;
+    std::array<double, 16> rows;
+    bool reversed;
+    float at, spread, z;  // z: 1 for `at` as x and y have it
+  };
+  constexpr double kFar = 4e6;
+  const Case cases[] = {{"on the far plane", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, 0, 1, 1},
+                        {"on the near plane", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, 0, 1, -1},
+                        {"on the far plane, reversed", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true, 0, 1, 0},
+                        {"a sky, as far as its w", {1, 0, 0.3, 0, 0, 1, 0.1, 0, 0.6, 0.8, 0.7, 3, 0.6, 0.8, 0.7, 3}, false, 0, 1, 1},
+                        // Turned by 0.6 and 0.8, away from 4 10^6 by as much again: sums of 10^7, of which some 1,000 are left.
+                        {"a world far from its origin", {0.6, 0.8, 0, -1.4 * kFar, -0.48, 0.36, 0.8, -0.68 * kFar, 0, 0, 0, 0.1, -0.64, 0.48, -0.6, 0.76 * kFar + 2000}, true, static_cast<float>(kFar), 1000, static_cast<float>(kFar)}};
+  std::mt19937 random(3);
+  const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-23f - 1; };
+  for (const Case& c : cases) {
+    const VertexTransform t = transform_of(c.rows, c.reversed);
+    for (int n = 0; n < 1000; ++n) {
+      const float z = c.at == 0 ? c.z : c.z + c.spread * unit();
+      ASSERT_FALSE(transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).is_rough) << c.what << ", vertex " << n;
+    }
+  }
+}
+
+// Where exact coordinates are not doubles, or their terms not, vertices are as the four roundings have them.
+TEST(VertexTransform, RoundsWhereDoublesEnd) {
+  constexpr double kTiny = 0x1p-1000, kBig = 0x1p700, kLargest = std::numeric_limits<double>::max();
+  struct Case {
+    std::array<double, 16> rows;
+    std::array<float, 4> object;
+  };
+  const Case cases[] = {{{kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny}, {0x1p-74f, 0, 0, 0.3f * 0x1p-74f}},
+                        {{kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny}, {0x1p-74f, 0, 0, 1.4f * 0x1p-74f}},
+                        {{kLargest, -0x1p1023, 0x1p970, 0x1p1023, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x1p1023}, {1, 1, 1, 1}},
+                        {{0, 0x1p-400, kBig, -kBig, 0, 0, kBig, -kBig, 0, 0, kBig, -kBig, 0x1p-400, 0, kBig, -kBig}, {1, 0.5f, 1, 1}}};
+  for (const Case& c : cases) {
+    const VertexTransform t = transform_of(c.rows, false);
+    const ClipPosition rounded = clip_position(t, c.object[0], c.object[1], c.object[2], c.object[3]);
+    const TransformedVertex v = transform_vertex(t, c.object);
+    EXPECT_FALSE(v.is_rough);
+    EXPECT_EQ(v.code, clip_code(t, rounded));
+    EXPECT_EQ(v.position.x, rounded.x);
+    EXPECT_EQ(v.position.w, rounded.w);
+    for (const Isa isa : available_isas()) {
+      WindowVertex vertex;
+      std::uint8_t code = 0;
+      transform_vertices(isa)(t, {c.object.data(), 4}, 4, 1, &vertex, &code);
+      EXPECT_EQ(code, v.code) << name_of(isa);
+      EXPECT_LE(std::abs(vertex.x), kGuardBandPixels * kSubpixelScale) << name_of(isa);
+    }
+  }
+  EXPECT_EQ(transform_vertex(transform_of(cases[3].rows, false), cases[3].object).code, 0);  // it is seen
+}
+
+// Small whole numbers beside others 2^58 times as large, of which often nothing is left but the small ones.
 TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
   __extension__ using Whole = __int128;
   std::mt19937 random(5);
