@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -175,6 +177,24 @@ TEST(Floors, HighwayComesThroughLanes) {
 
 TEST(Floors, ImageLibrariesStayInTheirModule) {
   EXPECT_THAT(offenders(kImageFiles, [](const std::string& file) { return file.starts_with("engine/imageio"); }), testing::IsEmpty());
+}
+
+// One namespace holds all floors: of two constants with one name, which a linker takes for one, half of the code reads the other.
+TEST(Floors, ConstantsOfHeadersHaveNamesOfTheirOwn) {
+  static const std::regex kConstant(R"(^\s*inline constexpr [^=;{]*\b(k[A-Z]\w*)(\[[^\]]*\])?\s*[={;].*)");
+  std::map<std::string, std::string> headers;
+  for (const std::string& floor : kFloors)
+    for (const std::string& file : sources_below(kRoot / floor)) {
+      if (!file.ends_with(".h") && !file.ends_with(".hpp")) continue;
+      std::ifstream stream(kRoot / file);
+      std::smatch found;
+      for (std::string line; std::getline(stream, line);)
+        if (std::regex_match(line, found, kConstant)) {
+          const auto [first, is_new] = headers.emplace(found[1].str(), file);
+          EXPECT_TRUE(is_new) << found[1] << " is in " << first->second << " and in " << file;
+        }
+    }
+  EXPECT_GT(headers.size(), 50u);
 }
 
 TEST(Floors, ThePublicHeaderBringsTheStandardLibraryAlone) {

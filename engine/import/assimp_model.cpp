@@ -47,7 +47,7 @@ class Converter {
       textures += wants_texture(*scene_.mMaterials[material]) ? 1 : 0;
       transparent += wants_transparency(*scene_.mMaterials[material]) ? 1 : 0;
     }
-    if (model_.parts.empty()) throw Error(std::string(kNoTriangle));
+    if (model_.parts.empty()) throw Error(std::string(kHoldsNoTriangle));
     if (textures > 0) model_.warnings.push_back("textures of models are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
     if (transparent > 0) model_.warnings.push_back("transparency is not supported: materials with it, " + std::to_string(transparent) + " here, are drawn opaque");
     return std::move(model_);

@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-inline constexpr std::string_view kNoTriangle = "holds no triangle";
+inline constexpr std::string_view kHoldsNoTriangle = "holds no triangle";
 
 /// All nodes of a scene, in world space, as one mesh, a part for each material; normals that are missing are 0 0 0.
 /// @param with_view   also cameras and lights

@@ -30,7 +30,7 @@ bool contains(const std::string& path, const std::string& word) {
 
 [[noreturn]] void refuse(const std::string& reason) {
   if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp caught it
-  throw Error(reason == "No meshes remaining" ? std::string(kNoTriangle) : reason);
+  throw Error(reason == "No meshes remaining" ? std::string(kHoldsNoTriangle) : reason);
 }
 
 Model read(const std::string& path) {
