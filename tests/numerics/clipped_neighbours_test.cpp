@@ -139,7 +139,8 @@ TEST(ClippedNeighbours, OfSurfacesAroundTheEye) {
       MeshRandom random(n);
       const int cells = random.between(1, 6);
       const double spread = random.one_of({0, random.between(0, 4), 30});  // decades
-      const Matrix turn = rotate(360 * random.unit(), random.unit() - 0.5, random.unit() - 0.5, random.unit() + 0.1);
+      const double degrees = 360 * random.unit(), x = random.unit() - 0.5, y = random.unit() - 0.5, z = random.unit() + 0.1;
+      const Matrix turn = rotate(degrees, x, y, z);
       const Matrix view = perspective(random.one_of({5.0, 40.0, 90.0, 150.0}), 1, 1e-18, 1e18) * turn;
       CountedMesh mesh;
       std::vector<std::array<int, 3>> keys;  // corners of a cube's cells, in whole numbers: the same on all faces that meet there

@@ -39,8 +39,10 @@ void expect_ground_planes(const std::string& what, bool reversed) {
       const Matrix eye = looks_ahead ? Matrix() : rotate(roll, 0, 0, 1) * rotate(pitch, 1, 0, 0);
       const int size = random.between(20, 100);
       CountedMesh mesh;
-      for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-        mesh.add_vertex(std::ldexp(x * (1 + 0.5 * random.unit()), size), -1, std::ldexp(z * (1 + 0.5 * random.unit()), size), 1);
+      for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        const double far_x = std::ldexp(x * (1 + 0.5 * random.unit()), size), far_z = std::ldexp(z * (1 + 0.5 * random.unit()), size);
+        mesh.add_vertex(far_x, -1, far_z, 1);
+      }
       mesh.add_triangle(0, 1, 2);
       mesh.add_triangle(0, 2, 3);
       mesh.shuffle(random);

@@ -7,7 +7,9 @@
 
 namespace tessera::test {
 
-/// Clips and snaps the triangles in long double and by rules of its own. True if one is turned over, or its edges cross.
-bool snapping_folds(const CountedMesh& mesh, const SquareView& view, bool reversed = false);
+/// Clips and snaps the triangles in fractions of whole numbers of any size, and by rules of its own. True if one is turned over, or its edges cross.
+///
+/// @param transform  carries the mesh's positions to clip space
+bool snapping_folds(const CountedMesh& mesh, const SquareView& view, bool reversed = false, const Matrix& transform = {});
 
 }  // namespace tessera::test
