@@ -60,6 +60,14 @@ LightKind kind_of(const EyeLight& light) {
   return attenuated ? LightKind::attenuated_spot : LightKind::spot;
 }
 
+// What no float holds is the largest one: where no light arrives, nothing times it is still nothing.
+Rgb product(const Rgb& a, const Rgb& b) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  Rgb c = a * b;
+  for (float& component : c) component = std::clamp(component, -kMost, kMost);
+  return c;
+}
+
 }  // namespace
 
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights,
@@ -77,10 +85,10 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
     LightTerm term;
     const std::string label = "light " + std::to_string(number++) + ": ";
     const float factor = light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
-    (tracked.ambient ? term.tracked_ambient : term.ambient) = tracked.ambient ? light.ambient * factor : light.ambient * material.ambient * factor;
-    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = tracked.diffuse ? light.diffuse * factor : light.diffuse * material.diffuse * factor;
+    (tracked.ambient ? term.tracked_ambient : term.ambient) = tracked.ambient ? light.ambient * factor : product(light.ambient, material.ambient) * factor;
+    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = tracked.diffuse ? light.diffuse * factor : product(light.diffuse, material.diffuse) * factor;
     (tracked.specular ? term.tracked_specular : term.specular) =
-        tracked.specular ? light.specular * factor : light.specular * material.specular * factor;
+        tracked.specular ? light.specular * factor : product(light.specular, material.specular) * factor;
     const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
     const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
     const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);

@@ -32,7 +32,9 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
   std::vector<Field> fields = all_fields();
   std::erase_if(fields, [](const Field& f) { return f.name.starts_with("format.") || f.name.starts_with("options.") || f.name.starts_with("target.") || f.name.starts_with("texture."); });
   std::size_t finished = 0, rounds = long_tests() ? 40000 : 600;
-  for (std::size_t round = 0; round < rounds; ++round) {
+  constexpr std::size_t kWrongOnce = 26531;
+  for (std::size_t n = 0; n <= rounds; ++n) {
+    const std::size_t round = n < rounds ? n : kWrongOnce;
     Random random(1000 + round);
     World world = all[random.next() % all.size()];
     SCOPED_TRACE("round " + std::to_string(round) + ", " + world.name);

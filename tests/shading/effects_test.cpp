@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,18 @@ TEST(Effects, TrackedColorsStandForTheMaterialsOwn) {
   EXPECT_FALSE(none.tracked);
   EXPECT_EQ(none.tracked_base, kBlack);
   EXPECT_EQ(none.terms[0].tracked_diffuse, kBlack);
+}
+
+// Where no light arrives, 0 times it is added: an infinity would make a NaN of that.
+TEST(Effects, ProductsBeyondFloatsAreTheLargest) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  Scene s;
+  s.material.diffuse = s.material.specular = {1e30f, -1e30f, 0.5f};
+  s.light.diffuse = s.light.specular = {1e30f, 1e30f, 0.5f};
+  const LightingProgram program = s.plan();
+  ASSERT_EQ(program.terms.size(), 1u);
+  EXPECT_EQ(program.terms[0].diffuse, (Rgb{kMost, -kMost, 0.25f}));
+  EXPECT_EQ(program.terms[0].specular, (Rgb{kMost, -kMost, 0.25f}));
 }
 
 TEST(Effects, NoLightsMakeAConstant) {
