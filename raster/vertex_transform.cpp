@@ -107,8 +107,10 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
     const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1), fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
+    // To the nearest fraction, but never to another level: so a depth in the middle of one, which roundings have moved a little, is that middle again.
     for (int i = 0; i < kVertexBatch; ++i) {
-      const double value = __builtin_floor((depth[i] * levels + 0.5) * fraction);
+      const double level = depth[i] * levels + 0.5, nearest = __builtin_floor(level * fraction + 0.5), highest = __builtin_floor(level) * fraction + (fraction - 1);
+      const double value = nearest < highest ? nearest : highest;
       sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
     }
   } else {
@@ -280,7 +282,8 @@ WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
     const double levels = std::ldexp(1.0, bits) - 1;
-    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::floor((z * levels + 0.5) * std::ldexp(1.0, 32 - bits))));
+    const double fraction = std::ldexp(1.0, 32 - bits), level = z * levels + 0.5;
+    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::min(std::floor(level * fraction + 0.5), std::floor(level) * fraction + (fraction - 1))));
   }
   return v;
 }

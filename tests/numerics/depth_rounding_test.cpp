@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 
+#include "raster/vertex_transform.h"
 #include "tests/engine/api_support.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/exact.h"
@@ -39,7 +40,7 @@ std::vector<double> telling_depths(DepthFormat format, Random& random, int count
   for (int i = 0; i < count; ++i) {
     const double level = i < 40 ? i : i < 80 ? levels - (i - 40) : std::floor((random.next() + random.next() * 0x1p-32) * 0x1p-32 * levels), half = i % 2 == 0 ? 0.5 : 0.0;
     const double at = std::min((level + half) / levels, 1.0);
-    for (const double z : {std::nextafter(at, 0.0), at, std::nextafter(at, 2.0)}) depths.push_back(std::min(z, 1.0));
+    for (const double z : {std::nextafter(at, 0.0), at, at == 0 ? 0x1p-46 : std::nextafter(at, 2.0)}) depths.push_back(std::min(z, 1.0));
   }
   return depths;
 }
@@ -72,6 +73,33 @@ TEST(DepthRounding, OfClearsAndBitmapsIsToTheNearestLevel) {
     long double worst = 0;
     for (std::size_t i = 0; i < depths.size(); ++i) worst = std::max(worst, beyond(format, depths[i], clears[i]));
     expect_within("depth of clears, " + name_of(format) + ", beyond half a level", worst, beyond_half(format), "levels");
+  }
+}
+
+// Roundings on the way take a vertex that is stored as the middle of a level, and one that is moved from there by a level, to the very middles.
+TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
+  Random random(2);
+  for (const int bits : {16, 24}) {
+    const std::uint32_t levels = (1u << bits) - 1;
+    VertexTransform t;
+    t.reversed = true;  // z is the depth
+    t.depth = bits == 16 ? DepthKind::unorm16 : DepthKind::unorm24;
+    t.half_width = t.half_height = t.guard_x = t.guard_y = 32;
+    const double rows[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.0 / levels, 1.0 / levels, 0, 0, 0, 1};
+    std::copy(std::begin(rows), std::end(rows), t.clip_from_object);
+    t.set_roughness();
+    for (std::uint32_t n = 0; n < 65535; ++n) {
+      const std::uint32_t level = bits == 16 ? n : random.next() % levels;
+      const float position[] = {0, 0, static_cast<float>(level), 1};
+      const std::uint32_t expected = ((level + 1) << (32 - bits)) + (1u << (31 - bits));
+      ASSERT_EQ(project(t, clip_position(t, 0, 0, position[2], 1)).z, expected) << level << " of " << levels;
+      for (const Isa isa : available_isas()) {
+        WindowVertex vertex;
+        std::uint8_t code = 0;
+        transform_vertices(isa)(t, {position, 4}, 4, 1, &vertex, &code);
+        ASSERT_EQ(vertex.z, expected) << level << " of " << levels << ", " << static_cast<int>(isa);
+      }
+    }
   }
 }
 
