@@ -93,14 +93,6 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
   }
 }
 
-// Where cutting off leaves another level an interpolated colour, which rounds by less than 12 * 2^-24 of 256, must not come to: then no pixel leaves the range
-// of its triangle's vertices.
-float off_borders(float scaled) {
-  constexpr float kHair = 0x1p-12f;
-  const auto whole = static_cast<float>(static_cast<int>(scaled));
-  return std::min(std::max(scaled, whole + kHair), whole + (1 - kHair));
-}
-
 // The colour of a batch goes where the draw's triangles will look for it.
 void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
   const DrawPlan& plan = *draw.plan;
@@ -109,15 +101,10 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
   if (as_floats && plan.index[face]) return store_indices(draw, batch, points, face);
   if (plan.has_ops) return store_rgba(draw, batch, points, face);
   if (as_floats) {
-    const int bits[3] = {draw.layout->r_bits, draw.layout->g_bits, draw.layout->b_bits};
-    const auto [out, stride] = float_colors(draw, points, face);
-    for (int c = 0; c < 3; ++c) {
-      const float levels = static_cast<float>((1 << bits[c]) - 1), half = 0.5f;
-      for (std::size_t i = 0; i < points.count; ++i) {
-        const float color = batch.field[kColorR + c][i];
-        out[i * stride + static_cast<std::size_t>(c)] = plan.scaled_colors ? off_borders(std::fma(color, levels, half)) : color;
-      }
-    }
+    if (plan.scaled_colors) scale_colors(isa)(*draw.layout, batch, static_cast<int>(points.count));
+    auto [out, stride] = float_colors(draw, points, face);
+    for (std::size_t i = 0; i < points.count; ++i, out += stride)
+      for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
   } else if (!plan.index[face] && !draw.layout->index) {
     vertex_words(isa)(*draw.layout, batch, static_cast<int>(points.count), draw.buffers->words[face].data() + points.first);
   } else {

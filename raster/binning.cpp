@@ -3,9 +3,11 @@
 #include "framebuffer/lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include "raster/binning.h"
+#include "raster/lanes-inl.h"
 
 namespace tessera {
 #ifndef TESSERA_BINNING_SHARED
@@ -29,94 +31,122 @@ namespace HWY_NAMESPACE {
 
 // A group of triangles as arrays, so that bounds and areas become lanes.
 inline constexpr int kGroup = 16;
-struct Bounds {
+struct Group {
+  int count = 0;
+  std::uint32_t ids[kGroup];
   alignas(64) std::int32_t x[3][kGroup], y[3][kGroup];
   alignas(64) double area[kGroup];
+  alignas(64) std::int32_t turn[kGroup];  // the area's sign
   alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup], py1[kGroup];  // pixels whose centres the bounds hold, inclusive
+  alignas(64) std::int32_t kept[kGroup];  // 1: the side that is seen is
+  alignas(64) std::int32_t tile[kGroup];  // of the first pixel
+  alignas(64) std::int32_t fate[kGroup];
+
+  HWY_INLINE void add(const BinDraw& draw, std::uint32_t triangle, std::uint32_t i0, std::uint32_t i1, std::uint32_t i2) {
+    const WindowVertex &v0 = draw.vertices[i0], &v1 = draw.vertices[i1], &v2 = draw.vertices[i2];
+    x[0][count] = v0.x, y[0][count] = v0.y;
+    x[1][count] = v1.x, y[1][count] = v1.y;
+    x[2][count] = v2.x, y[2][count] = v2.y;
+    ids[count++] = triangle;
+  }
 };
 
-HWY_INLINE void compute_bounds(Bounds& b, const PixelRect& rect, std::int32_t reach) {
+// What becomes of a triangle: the first of these that is true.
+enum Fate : std::int32_t { kWithoutArea = 1, kCulled = 2, kOutside = 4, kInOneTile = 8, kInSeveralTiles = 16 };
+
+HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int columns) {
+  for (int k = g.count; k < kGroup; ++k)
+    for (int corner = 0; corner < 3; ++corner) g.x[corner][k] = g.y[corner][k] = 0;
   for (int k = 0; k < kGroup; ++k) {
-    const double dx1 = b.x[1][k] - b.x[0][k], dy1 = b.y[1][k] - b.y[0][k], dx2 = b.x[2][k] - b.x[0][k], dy2 = b.y[2][k] - b.y[0][k];
-    b.area[k] = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
+    const double dx1 = g.x[1][k] - g.x[0][k], dy1 = g.y[1][k] - g.y[0][k], dx2 = g.x[2][k] - g.x[0][k], dy2 = g.y[2][k] - g.y[0][k];
+    const double area = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
+    g.area[k] = area;
+    g.turn[k] = (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
   }
+  if (draw.facing != nullptr) {
+    for (int k = 0; k < g.count; ++k) g.kept[k] = (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
+  } else {
+    const std::int32_t of_negative = is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back, of_positive = is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
+    for (int k = 0; k < kGroup; ++k) g.kept[k] = g.turn[k] < 0 ? of_negative : of_positive;
+  }
+  const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
+  const std::int32_t reach = draw.sample_reach;
   for (int k = 0; k < kGroup; ++k) {
-    const std::int32_t low_x = std::min(b.x[0][k], std::min(b.x[1][k], b.x[2][k])), high_x = std::max(b.x[0][k], std::max(b.x[1][k], b.x[2][k]));
-    const std::int32_t low_y = std::min(b.y[0][k], std::min(b.y[1][k], b.y[2][k])), high_y = std::max(b.y[0][k], std::max(b.y[1][k], b.y[2][k]));
-    b.px0[k] = std::max(first_pixel(low_x - reach), rect.x0);
-    b.py0[k] = std::max(first_pixel(low_y - reach), rect.y0);
-    b.px1[k] = std::min(last_pixel(high_x + reach), rect.x1 - 1);
-    b.py1[k] = std::min(last_pixel(high_y + reach), rect.y1 - 1);
+    g.px0[k] = greatest(first_pixel(least(g.x[0][k], g.x[1][k], g.x[2][k]) - reach), rect.x0);
+    g.py0[k] = greatest(first_pixel(least(g.y[0][k], g.y[1][k], g.y[2][k]) - reach), rect.y0);
+    g.px1[k] = least(last_pixel(greatest(g.x[0][k], g.x[1][k], g.x[2][k]) + reach), rect.x1 - 1);
+    g.py1[k] = least(last_pixel(greatest(g.y[0][k], g.y[1][k], g.y[2][k]) + reach), rect.y1 - 1);
+    const std::int32_t first_column = g.px0[k] >> shift, first_row = g.py0[k] >> shift;
+    g.tile[k] = first_row * columns + first_column;
+    const std::int32_t apart = ((g.px1[k] >> shift) ^ first_column) | ((g.py1[k] >> shift) ^ first_row);
+    const std::int32_t of_seen = apart == 0 ? kInOneTile : kInSeveralTiles;
+    const std::int32_t of_kept = (g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k]) ? kOutside : of_seen;
+    g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;
   }
+}
+
+HWY_INLINE std::uint32_t bits_of(const Group& g, Fate fate) {
+  std::uint32_t bits = 0;
+  for (int k = 0; k < kGroup; k += kLanes) bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.fate + k), splat(std::int32_t{fate}))) << k;
+  return bits & ((1u << g.count) - 1);
+}
+
+HWY_INLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, Group& g) {
+  if (g.count == 0) return;
+  const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7, columns = grid.columns();
+  decide_fates(g, draw, shift, columns);
+  const std::uint32_t in_one = bits_of(g, kInOneTile), in_several = bits_of(g, kInSeveralTiles), binned = in_one | in_several;
+  BinCounts& counts = bins.counts;
+  const auto count_of = [](std::uint32_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); };
+  counts.zero_area += count_of(bits_of(g, kWithoutArea));
+  counts.culled += count_of(bits_of(g, kCulled));
+  counts.outside += count_of(bits_of(g, kOutside));
+  counts.binned += count_of(binned);
+  for (std::uint32_t left = binned; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    if ((in_one >> k & 1) != 0) {
+      bins.push(g.tile[k], draw.draw, g.ids[k]);
+      continue;
+    }
+    const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
+    bin_large_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift, g.px1[k] >> shift, g.py1[k] >> shift);
+  }
+  g.count = 0;
+}
+
+/// What is to be done with a triangle of which some vertex has a code.
+enum class Coded { unusable, outside, clipped };
+HWY_INLINE Coded coded(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0, std::uint8_t c1, std::uint8_t c2) {
+  if (((c0 | c1 | c2) & kNonFinite) != 0 || (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped)) return Coded::unusable;
+  return (c0 & c1 & c2) != 0 ? Coded::outside : Coded::clipped;
 }
 
 void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
-  const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7;
-  const int columns = grid.columns();
-  Bounds b;
-  std::uint32_t ids[kGroup];
-  for (std::uint32_t next = first; next < last;) {
-    int n = 0;
-    while (n < kGroup && next < last) {
-      const std::uint32_t triangle = next++;
-      const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1), i2 = vertex_index<3>(draw, triangle, 2);
-      if (draw.any_code) {
-        const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
-        if (((c0 | c1 | c2) & kNonFinite) != 0 || (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped)) {
-          ++counts.non_finite;
-          continue;
-        }
-        if (c0 & c1 & c2) {
-          ++counts.outside;
-          continue;
-        }
-        if (c0 | c1 | c2) {
-          // Order within a tile is submission order: what was gathered so far goes first.
-          if (n > 0) {
-            --next;
+  Group group;
+  for (std::uint32_t triangle = first; triangle < last; ++triangle) {
+    const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1), i2 = vertex_index<3>(draw, triangle, 2);
+    if (draw.any_code) {
+      const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
+      const bool is_dropped = draw.facing != nullptr && draw.facing[triangle] == Facing::dropped;
+      if ((c0 | c1 | c2) != 0 || is_dropped) {
+        switch (coded(draw, triangle, c0, c1, c2)) {
+          case Coded::unusable: ++counts.non_finite; break;
+          case Coded::outside: ++counts.outside; break;
+          case Coded::clipped:
+            bin_group(bins, grid, draw, group);  // order within a tile is submission order
+            ++counts.clipped;
+            bin_clipped_triangle(bins, grid, draw, triangle, c0 | c1 | c2);
             break;
-          }
-          ++counts.clipped;
-          bin_clipped_triangle(bins, grid, draw, triangle, c0 | c1 | c2);
-          continue;
         }
-      }
-      const WindowVertex &v0 = draw.vertices[i0], &v1 = draw.vertices[i1], &v2 = draw.vertices[i2];
-      b.x[0][n] = v0.x, b.y[0][n] = v0.y;
-      b.x[1][n] = v1.x, b.y[1][n] = v1.y;
-      b.x[2][n] = v2.x, b.y[2][n] = v2.y;
-      ids[n++] = triangle;
-    }
-    if (n == 0) continue;
-    for (int k = n; k < kGroup; ++k)
-      for (int corner = 0; corner < 3; ++corner) b.x[corner][k] = b.y[corner][k] = 0;
-    compute_bounds(b, draw.rect, draw.sample_reach);
-    for (int k = 0; k < n; ++k) {
-      if (b.area[k] == 0) {
-        ++counts.zero_area;
         continue;
-      }
-      if (!keeps(draw, ids[k], b.area[k])) {
-        ++counts.culled;
-        continue;
-      }
-      if (b.px0[k] > b.px1[k] || b.py0[k] > b.py1[k]) {
-        ++counts.outside;
-        continue;
-      }
-      ++counts.binned;
-      const int tx0 = b.px0[k] >> shift, ty0 = b.py0[k] >> shift, tx1 = b.px1[k] >> shift, ty1 = b.py1[k] >> shift;
-      if (tx0 == tx1 && ty0 == ty1) {
-        bins.push(ty0 * columns + tx0, draw.draw, ids[k]);
-      } else {
-        const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, ids[k], 0)], &draw.vertices[vertex_index<3>(draw, ids[k], 1)],
-                                          &draw.vertices[vertex_index<3>(draw, ids[k], 2)]};
-        bin_large_triangle(bins, grid, v, b.area[k], draw, ids[k], tx0, ty0, tx1, ty1);
       }
     }
+    group.add(draw, triangle, i0, i1, i2);
+    if (group.count == kGroup) bin_group(bins, grid, draw, group);
   }
+  bin_group(bins, grid, draw, group);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -113,6 +113,17 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
   }
 }
 
+/// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most.
+HWY_INLINE std::uint32_t small_triangles(const TriangleGroup& g) {
+  std::uint32_t bits = 0;
+  for (int first = 0; first < kGroupSize; first += kLanes) {
+    const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first)), height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));
+    const auto narrow = hn::Eq(hn::Load(kInt, g.wide + first), hn::Zero(kInt)), fits = hn::And(hn::Lt(width, splat(4)), hn::Lt(height, splat(4)));
+    bits |= mask_bits(kInt, hn::And(narrow, fits)) << first;
+  }
+  return bits & g.mask;
+}
+
 /// Triangles whose bounds are at most 4x4 pixels: one triangle a lane, all sample points at once. hits[i] gets a bit for each
 /// covered pixel of triangle i: bit 4 dy + dx for pixel (x0 + dx, y0 + dy).
 inline HWY_NOINLINE void cover_small(const TriangleGroup& g, int first, std::uint32_t* hits) {

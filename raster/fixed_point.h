@@ -52,6 +52,12 @@ struct WindowVertex {
 };
 static_assert(sizeof(WindowVertex) == 16);
 
+// By value, unlike std::min and max, of whose references no lanes are made.
+constexpr std::int32_t least(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
+constexpr std::int32_t least(std::int32_t a, std::int32_t b, std::int32_t c) { return least(a, least(b, c)); }
+constexpr std::int32_t greatest(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
+constexpr std::int32_t greatest(std::int32_t a, std::int32_t b, std::int32_t c) { return greatest(a, greatest(b, c)); }
+
 // Pixels whose centres lie in [low, high], in 1/256 pixel.
 constexpr int first_pixel(std::int32_t low) { return (low + kHalfPixel - 1) >> kSubpixelBits; }
 constexpr int last_pixel(std::int32_t high) { return (high - kHalfPixel) >> kSubpixelBits; }

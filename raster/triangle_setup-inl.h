@@ -57,15 +57,16 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
     }
   }
   alignas(64) std::int32_t visible[kGroupSize];
+  const PixelRect bounds = rect;
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::int32_t low_x = std::min(g.x[0][i], std::min(g.x[1][i], g.x[2][i])), high_x = std::max(g.x[0][i], std::max(g.x[1][i], g.x[2][i]));
-    const std::int32_t low_y = std::min(g.y[0][i], std::min(g.y[1][i], g.y[2][i])), high_y = std::max(g.y[0][i], std::max(g.y[1][i], g.y[2][i]));
-    g.x0[i] = std::max(first_pixel(low_x - reach) - tile_x, rect.x0);
-    g.y0[i] = std::max(first_pixel(low_y - reach) - tile_y, rect.y0);
-    g.x1[i] = std::min(last_pixel(high_x + reach) - tile_x, rect.x1 - 1);
-    g.y1[i] = std::min(last_pixel(high_y + reach) - tile_y, rect.y1 - 1);
-    g.wide[i] = std::max(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
-    visible[i] = g.x0[i] <= g.x1[i] && g.y0[i] <= g.y1[i] ? 1 : 0;
+    const std::int32_t low_x = least(g.x[0][i], g.x[1][i], g.x[2][i]), high_x = greatest(g.x[0][i], g.x[1][i], g.x[2][i]);
+    const std::int32_t low_y = least(g.y[0][i], g.y[1][i], g.y[2][i]), high_y = greatest(g.y[0][i], g.y[1][i], g.y[2][i]);
+    g.x0[i] = greatest(first_pixel(low_x - reach) - tile_x, bounds.x0);
+    g.y0[i] = greatest(first_pixel(low_y - reach) - tile_y, bounds.y0);
+    g.x1[i] = least(last_pixel(high_x + reach) - tile_x, bounds.x1 - 1);
+    g.y1[i] = least(last_pixel(high_y + reach) - tile_y, bounds.y1 - 1);
+    g.wide[i] = greatest(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
+    visible[i] = (g.x0[i] <= g.x1[i]) & (g.y0[i] <= g.y1[i]) ? 1 : 0;
   }
   g.mask = 0;
   for (int i = 0; i < g.count; ++i) g.mask |= static_cast<std::uint32_t>(visible[i]) << i;
@@ -268,12 +269,13 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
 inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
   for (int i = 0; i < kGroupSize; ++i) {
     const float r0 = g.rw[0][i], r1 = g.rw[1][i], r2 = g.rw[2][i];
-    const float largest = r0 > r1 ? (r0 > r2 ? r0 : r2) : (r1 > r2 ? r1 : r2);
-    const bool affine = (r0 == r1 && r1 == r2) || !(largest > 0x1p-120f && largest < 0x1p120f);
+    const float of_two = r0 > r1 ? r0 : r1, largest = of_two > r2 ? of_two : r2;
+    const bool affine = ((r0 == r1) & (r1 == r2)) | !((largest > 0x1p-120f) & (largest < 0x1p120f));
     g.affine[i] = affine ? 1 : 0;
+    const float divisor = affine ? 1.0f : largest;
     const float inverse = static_cast<float>(1.0 / g.area[i]);
     for (int k = 0; k < 3; ++k) {
-      const float relative = affine ? 1.0f : g.rw[k][i] / largest;
+      const float relative = (affine ? 1.0f : g.rw[k][i]) / divisor;
       g.unit_scale[k][i] = inverse * relative;
       g.scale[k][i] = 256.0f * (inverse * relative);
       g.shift[k][i] = g.rest[k][i] * (inverse * relative);

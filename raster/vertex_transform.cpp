@@ -51,32 +51,35 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     cz[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
     cw[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
   }
-  alignas(64) std::int32_t code[kVertexBatch], rough[kVertexBatch];
+  // Numbers of one width become lanes: codes are sums of their bits, in doubles.
+  alignas(64) double code[kVertexBatch], rough[kVertexBatch];
+  const auto bit = [](ClipCode plane) HWY_ATTR { return static_cast<double>(std::uint8_t{plane}); };
+  // Branches do not: what depends on the depth's direction is a factor of 1, -1 or 0.
+  const double near_of_z = t.reversed ? -1 : 1, far_of_z = -near_of_z, far_of_w = t.reversed ? 0 : 1;
   for (int i = 0; i < kVertexBatch; ++i) {
     const double gx = t.guard_x * cw[i], gy = t.guard_y * cw[i];
-    const double near_z = t.reversed ? cw[i] - cz[i] : cz[i] + cw[i];
-    const double far_z = t.reversed ? cz[i] : cw[i] - cz[i];
+    const double near_z = __builtin_fma(near_of_z, cz[i], cw[i]), far_z = __builtin_fma(far_of_z, cz[i], far_of_w * cw[i]);
     const double probe = cx[i] * 0 + cy[i] * 0 + cz[i] * 0 + cw[i] * 0;  // NaN where any is not finite
-    int c = cx[i] < -gx ? kLeftOfGuardBand : 0;
-    c |= cx[i] > gx ? kRightOfGuardBand : 0;
-    c |= cy[i] < -gy ? kBelowGuardBand : 0;
-    c |= cy[i] > gy ? kAboveGuardBand : 0;
-    c |= near_z < 0 ? kBeforeNear : 0;
-    c |= far_z < 0 ? kBehindFar : 0;
-    c |= !(cw[i] > 0) ? kNoPositiveW : 0;
-    c |= !(probe == 0) ? kNonFinite : 0;
+    double c = cx[i] < -gx ? bit(kLeftOfGuardBand) : 0.0;
+    c += cx[i] > gx ? bit(kRightOfGuardBand) : 0.0;
+    c += cy[i] < -gy ? bit(kBelowGuardBand) : 0.0;
+    c += cy[i] > gy ? bit(kAboveGuardBand) : 0.0;
+    c += near_z < 0 ? bit(kBeforeNear) : 0.0;
+    c += far_z < 0 ? bit(kBehindFar) : 0.0;
+    c += cw[i] > 0 ? 0.0 : bit(kNoPositiveW);
+    c += probe == 0 ? 0.0 : bit(kNonFinite);
     code[i] = c;
     const double xyz = larger(larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), __builtin_fabs(p.z[i]));
     const double size = __builtin_fma(t.largest_linear, xyz, t.largest_offset * __builtin_fabs(p.w[i]));
-    int r = __builtin_fabs(near_z) <= t.rough_near * size ? 1 : 0;
-    r |= __builtin_fabs(far_z) <= t.rough_far * size ? 1 : 0;
-    r |= __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.rough_x * size ? 1 : 0;
-    r |= __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.rough_y * size ? 1 : 0;
-    r |= __builtin_fabs(cw[i]) <= t.rough_w * size ? 1 : 0;
+    double r = __builtin_fabs(near_z) <= t.rough_near * size ? 1.0 : 0.0;
+    r += __builtin_fabs(far_z) <= t.rough_far * size ? 1.0 : 0.0;
+    r += __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.rough_x * size ? 1.0 : 0.0;
+    r += __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.rough_y * size ? 1.0 : 0.0;
+    r += __builtin_fabs(cw[i]) <= t.rough_w * size ? 1.0 : 0.0;
     rough[i] = r;
   }
-  int any_rough = 0;
-  for (int i = 0; i < kVertexBatch; ++i) any_rough |= rough[i];
+  std::int32_t any_rough = 0;
+  for (int i = 0; i < kVertexBatch; ++i) any_rough |= static_cast<std::int32_t>(rough[i]);
   for (std::size_t i = 0; any_rough != 0 && i < count; ++i) {
     if (rough[i] == 0) continue;
     const TransformedVertex exact = transform_vertex(t, {static_cast<float>(p.x[i]), static_cast<float>(p.y[i]), static_cast<float>(p.z[i]), static_cast<float>(p.w[i])});
@@ -86,15 +89,14 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   alignas(64) std::int32_t sx[kVertexBatch], sy[kVertexBatch];
   alignas(64) float rw[kVertexBatch];
   alignas(64) double depth[kVertexBatch];
+  const double unit_of_z = t.reversed ? 1 : 0.5, first_unit = t.reversed ? 0 : 0.5;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const bool usable = code[i] == 0;
-    const double w = usable ? cw[i] : 1.0, x = usable ? cx[i] : 0.0, y = usable ? cy[i] : 0.0, z = usable ? cz[i] : 0.0;
+    const double w = code[i] == 0 ? cw[i] : 1.0, x = code[i] == 0 ? cx[i] : 0.0, y = code[i] == 0 ? cy[i] : 0.0, z = code[i] == 0 ? cz[i] : 0.0;
     const double inverse_w = 1.0 / w;
     sx[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
     sy[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
     rw[i] = static_cast<float>(inverse_w);
-    const double unit = t.reversed ? z / w : __builtin_fma(z / w, 0.5, 0.5);
-    const double ranged = __builtin_fma(unit, t.depth_far - t.depth_near, t.depth_near);
+    const double ranged = __builtin_fma(__builtin_fma(z / w, unit_of_z, first_unit), t.depth_far - t.depth_near, t.depth_near);
     const double low = ranged > 0 ? ranged : 0;
     depth[i] = low < 1 ? low : 1;
   }
@@ -117,10 +119,12 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
   }
   int all_codes = 0;
+  alignas(64) std::int32_t bits[kVertexBatch];
+  for (int i = 0; i < kVertexBatch; ++i) bits[i] = static_cast<std::int32_t>(code[i]);
   for (std::size_t i = 0; i < count; ++i) {
     vertices[i] = {t.center_x + sx[i], t.center_y - sy[i], sz[i], rw[i]};
-    codes[i] = static_cast<std::uint8_t>(code[i]);
-    all_codes |= code[i];
+    codes[i] = static_cast<std::uint8_t>(bits[i]);
+    all_codes |= bits[i];
   }
   return static_cast<std::uint8_t>(all_codes);
 }

@@ -15,15 +15,28 @@
 #include "shading/deferred-inl.h"
 #include "shading/fragment_ops-inl.h"
 #include "shading/fragment_word.h"
+#include "shading/small_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// What happens to a pixel that is seen.
-enum class Seen { nothing, word, interpolate, collect };
+enum class Seen { nothing, word, interpolate, unit, collect };
+inline constexpr bool is_interpolated(Seen seen) { return seen == Seen::interpolate || seen == Seen::unit; }
+/// Its colour, where it is interpolated.
+template <Seen kSeen>
+struct ColorOf {
+  using Type = ScaledColor;
+};
+template <>
+struct ColorOf<Seen::unit> {
+  using Type = UnitColor;
+};
 /// `less` has code of its own, since nearly everybody uses it.
 enum class Test { less, any };
+/// Draws with operations have no words, and colours of their own.
+inline constexpr bool may_test_stencil(Test test, Seen seen) { return test == Test::any && (seen == Seen::nothing || seen == Seen::unit || seen == Seen::collect); }
 
 struct NoDepth {
   struct Block {};
@@ -51,47 +64,75 @@ HWY_INLINE std::uint64_t count_of(Int negative) {
 /// One triangle's way through the blocks of a tile.
 template <class Depth, Test kTest, Seen kSeen>
 struct TrianglePixels {
+  static constexpr bool kMayTestStencil = may_test_stencil(kTest, kSeen);
   TileRun& run;
   const TileDraw& draw;
   const TileEdges& edges;
   BlockOffsets offsets;
   const ShadedTriangle& triangle;
   Depth depth;
-  ScaledColor color;
+  typename ColorOf<kSeen>::Type color;
   std::int32_t word = 0;
   std::int32_t id = 0;
+  const bool tests_stencil;
+  std::int32_t* const stencil_values;
+  StencilSteps stencil{};
   Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
 
-  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded)
+  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
-        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut) {}
+        tests_stencil(kMayTestStencil && tile_draw.ops != nullptr && tile_draw.ops->stencil), stencil_values(tile_run.sample[0].stencil),
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut) {
+    if (kMayTestStencil && tests_stencil) stencil = stencil_steps(tile_draw.ops->faces[back ? 1 : 0], tile_draw.ops->stencil_most);
+  }
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
+    if constexpr (kSeen == Seen::unit) rare_block(bx, by, block_edges);
+    else draw_block<kFull>(bx, by, block_edges);
+  }
+  /// Once for blocks of all kinds, where code is long and the rest of it takes longer.
+  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_block<false>(bx, by, block_edges); }
+  template <bool kFull>
+  HWY_INLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
     const int block = run.block_index(bx, by);
     const auto block_depth = depth.block(bx, by);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
       auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : block_edges.covered(chunk);
       if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+      [[maybe_unused]] Int stencil_before = hn::Zero(kInt);
+      [[maybe_unused]] LaneMask failed = no_lanes(), passed = mask;
+      if (kMayTestStencil && tests_stencil) {
+        stencil_before = hn::Load(kInt, stencil_values + index);
+        passed = hn::And(mask, stencil_passes(stencil, stencil_before));
+        failed = hn::AndNot(passed, mask);
+        mask = passed;
+      }
       if constexpr (kHasDepth<Depth>) {
         std::int32_t* stored_at = run.memory.depth + index;
         const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
         mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : comparing(key, draw.depth_test, stored));
         hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
       }
+      if (kMayTestStencil && tests_stencil && stencil.writes())
+        hn::Store(stencil_result(stencil, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt, stencil_values + index);
       // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
       if constexpr (kSeen == Seen::collect) {
         auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
         hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
         seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
       } else if constexpr (kSeen != Seen::nothing) {
-        if (kSeen == Seen::interpolate && hn::AllFalse(kInt, mask)) continue;
+        if (is_interpolated(kSeen) && hn::AllFalse(kInt, mask)) continue;
         seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
-        const Int words = kSeen == Seen::word ? splat(word) : color.words(barycentric_at(block_edges, bx, by, chunk));
-        store_words(run.memory.color + index, words, mask, writable);
+        std::uint32_t* const stored_at = run.memory.color + index;
+        Int words;
+        if constexpr (kSeen == Seen::word) words = splat(word);
+        else if constexpr (kSeen == Seen::unit) words = color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, reinterpret_cast<const std::int32_t*>(stored_at)));
+        else words = color.words(barycentric_at(block_edges, bx, by, chunk));
+        store_words(stored_at, words, mask, writable);
       }
     }
   }
@@ -106,31 +147,50 @@ struct TrianglePixels {
   /// One pixel of a small triangle.
   HWY_INLINE void pixel(int x, int y) {
     const int index = run.pixel_index(x, y);
+    const bool is_tested = kMayTestStencil && tests_stencil;
+    if (is_tested && !passes_stencil(index)) return;
     if constexpr (kHasDepth<Depth>) {
       const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
-      if (!(kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored))) return;
+      const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
+      if (is_tested) store_stencil(index, passes ? stencil.zpass : stencil.zfail);
+      if (!passes) return;
       if (draw.depth_write) run.memory.depth[index] = key;
+    } else if (is_tested) {
+      store_stencil(index, stencil.zpass);
     }
     if constexpr (kSeen == Seen::collect) {
       run.memory.ids[index] = static_cast<std::uint32_t>(id);
       seen = splat(-1);  // how many does not matter here
     } else if constexpr (kSeen != Seen::nothing) {
       ++run.counts.shaded_pixels;
-      const auto new_word = static_cast<std::uint32_t>(kSeen == Seen::word ? word : pixel_word(x, y));
+      const std::uint32_t new_word = pixel_word(x, y, run.memory.color[index]);
       run.memory.color[index] = (new_word & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
     }
   }
 
+  HWY_INLINE void store_stencil(int index, const StencilStep& step) {
+    std::int32_t& stored = stencil_values[index];
+    stored = (stored & ~stencil.write_mask) | (step(stored) & stencil.write_mask);
+  }
+  HWY_INLINE bool passes_stencil(int index) {
+    const bool passes = compares(stencil.reference, stencil.func, stencil_values[index] & stencil.mask);
+    if (!passes) store_stencil(index, stencil.fail);
+    return passes;
+  }
+
   /// color.words() for a single pixel, step by step the same.
-  HWY_INLINE std::int32_t pixel_word(int x, int y) const {
-    float w[3];
-    for (int k = 0; k < 3; ++k) {
-      w[k] = std::fma(static_cast<float>(triangle.edges.at(k, x, y)), triangle.scale[k], triangle.shift[k]);
+  HWY_INLINE std::uint32_t pixel_word(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
+    if constexpr (kSeen != Seen::unit) {  // those that are interpolated and nothing else stand in SmallPixels
+      return static_cast<std::uint32_t>(word);
+    } else {
+      float w[3];
+      for (int k = 0; k < 3; ++k) {
+        w[k] = std::fma(static_cast<float>(triangle.edges.at(k, x, y)), triangle.scale[k], triangle.shift[k]);
+      }
+      const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
+      const float b1 = w[1] * inverse, b2 = w[2] * inverse;
+      return color.word(b1, b2, stored);
     }
-    const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
-    const float b1 = w[1] * inverse, b2 = w[2] * inverse;
-    const auto level = [&](const Corners& c) { return static_cast<std::int32_t>(std::fma(b1, c.to_second, std::fma(b2, c.to_third, c.first))); };
-    return level(color.r) << color.r_shift | level(color.g) << color.g_shift | level(color.b);
   }
 };
 
@@ -146,6 +206,13 @@ HWY_INLINE std::uint32_t triangle_word(const TileRun& run, const TileDraw& draw,
   return draw.words[back ? 1 : 0][provoking_vertex(draw, run.memory.source[i])];
 }
 
+/// The colour of a flat triangle: its own, or that of its provoking vertex.
+HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
+  const int face = back ? 1 : 0;
+  if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;
+  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
+}
+
 /// Whether triangle i of the group shows its back: by its own area, or as its polygon does.
 HWY_INLINE bool is_back(const TileRun& run, const TileDraw& draw, int i) {
   if (draw.facing != nullptr) return draw.facing[run.memory.source[i]] == Facing::back;
@@ -158,6 +225,7 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
   const TriangleGroup& g = run.memory.group;
   pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
   if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
+  if constexpr (kSeen == Seen::unit) pixels.color.set_up(pixels.triangle, draw, draw.flat ? flat_color(draw, run.memory.source[i], back) : nullptr);
   if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
   if constexpr (kSeen == Seen::word) pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
 }
@@ -182,6 +250,34 @@ HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory&
   memory.wide.push_back(edges);
 }
 
+/// The small triangles that were added, whose colours are interpolated.
+template <class Depth, Test kTest>
+HWY_INLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
+  const TileWorkspace::Memory& memory = run.memory;
+  const TriangleGroup& g = memory.group;
+  pixels.set_up_coordinates(g);
+  const PixelColor color(run.frame.layout);
+  const std::uint32_t mask = draw.write_mask;
+  const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1];
+  std::uint64_t seen = 0;
+  Depth depth;
+  for (int p = 0; p < pixels.count; ++p) {
+    const int i = pixels.triangle[p], x = pixels.x[p], y = pixels.y[p], index = run.pixel_index(x, y);
+    if constexpr (kHasDepth<Depth>) {
+      depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+      const std::int32_t key = depth.key(x, y), stored = memory.depth[index];
+      if (!(kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored))) continue;
+      if (draw.depth_write) run.memory.depth[index] = key;
+    }
+    const int attribute = draw.color_attribute[has_faces && is_back(run, draw, i) ? 1 : 0];
+    const std::uint32_t word = color.word(memory.attributes[0][i] + attribute, memory.attributes[1][i] + attribute, memory.attributes[2][i] + attribute, pixels.b1[p], pixels.b2[p]);
+    run.memory.color[index] = (word & mask) | (run.memory.color[index] & ~mask);
+    ++seen;
+  }
+  run.counts.shaded_pixels += seen;
+  pixels.count = 0;
+}
+
 template <class Depth, Test kTest, Seen kSeen>
 void draw_group(TileRun& run, std::uint32_t draw_number) {
   TileWorkspace::Memory& memory = run.memory;
@@ -190,38 +286,47 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
   set_up_edges(g, run.tile_x, run.tile_y, run.rect);
   if (g.mask == 0) return;
   if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
-  if constexpr (kSeen == Seen::interpolate || kSeen == Seen::collect) set_up_weights(g);
+  if constexpr (is_interpolated(kSeen) || kSeen == Seen::collect) set_up_weights(g);
 
   alignas(64) std::uint32_t hits[kGroupSize];
-  bool hits_known = false;
-  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    const bool wide = g.wide[i] != 0;
-    const bool small = !wide && g.x1[i] - g.x0[i] < 4 && g.y1[i] - g.y0[i] < 4;
-    if (small && !hits_known) {
-      for (int first = 0; first < kGroupSize; first += kLanes) cover_small(g, first, hits + first);
-      hits_known = true;
+  const std::uint32_t small_ones = small_triangles(g);
+  std::uint32_t without_pixel = 0;
+  if (small_ones != 0)
+    for (int first = 0; first < kGroupSize; first += kLanes) {
+      cover_small(g, first, hits + first);
+      without_pixel |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first), hn::Zero(kInt))) << first;
     }
-    if (small && hits[i] == 0) continue;
+  [[maybe_unused]] SmallPixels small_pixels;
+  for (std::uint32_t left = g.mask & ~(small_ones & without_pixel); left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const bool wide = g.wide[i] != 0, small = (small_ones >> i & 1) != 0;
+    if constexpr (kSeen == Seen::interpolate) {
+      if (small) {
+        small_pixels.add(g, i, hits[i]);
+        continue;
+      }
+      draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
+    }
     const bool back = is_back(run, draw, i);
     TileEdges edges = tile_edges(g, i);
     WideEdges wide_edges;
     if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
 
     ShadedTriangle triangle;
-    if constexpr (kSeen == Seen::interpolate) {
+    if constexpr (is_interpolated(kSeen)) {
       fill_shaded_triangle(triangle, run, draw_number, i, back);
       if (wide) keep_wide_edges(triangle, memory, wide_edges);
     }
-    TrianglePixels<Depth, kTest, kSeen> pixels(run, draw, edges, triangle);
+    TrianglePixels<Depth, kTest, kSeen> pixels(run, draw, edges, triangle, back);
     set_up_pixels(pixels, run, draw, i, back);
-    if (small) {
+    if (kSeen != Seen::interpolate && small) {
       for (std::uint32_t hit = hits[i]; hit != 0; hit &= hit - 1) {
         const int p = std::countr_zero(hit);
         pixels.pixel(g.x0[i] + (p & 3), g.y0[i] + (p >> 2));
       }
     } else {
       if constexpr (kHasDepth<Depth>) pixels.depth.prepare_blocks();
+      if constexpr (kSeen == Seen::unit) pixels.color.prepare_lanes();
       for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kSeen == Seen::collect) {
@@ -235,9 +340,10 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
         memory.wide.clear();
       }
     }
-    if constexpr (kSeen == Seen::interpolate) memory.wide.clear();
-    if constexpr (kSeen == Seen::interpolate || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels();
+    if constexpr (is_interpolated(kSeen)) memory.wide.clear();
+    if constexpr (is_interpolated(kSeen) || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels();
   }
+  if constexpr (kSeen == Seen::interpolate) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);
 }
 
 }  // namespace HWY_NAMESPACE

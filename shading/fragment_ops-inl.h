@@ -9,6 +9,7 @@
 #include "framebuffer/format.h"
 #include "raster/lanes-inl.h"
 #include "shading/fragment_ops.h"
+#include "shading/stencil_steps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -33,30 +34,22 @@ HWY_INLINE auto comparing(Vector a, CompareOp op, Vector b) {
   }
 }
 
-HWY_INLINE Int stencil_value(StencilAction action, Int stored, const StencilSide& face, std::int32_t most) {
-  switch (action) {
-    case StencilAction::zero: return hn::Zero(kInt);
-    case StencilAction::replace: return splat(face.reference);
-    case StencilAction::incr: return hn::Min(hn::Add(stored, splat(1)), splat(most));
-    case StencilAction::decr: return hn::Max(hn::Sub(stored, splat(1)), hn::Zero(kInt));
-    case StencilAction::invert: return hn::Not(stored);
-    case StencilAction::incr_wrap: return hn::Add(stored, splat(1));
-    case StencilAction::decr_wrap: return hn::Sub(stored, splat(1));
-    default: return stored;
-  }
+/// What passes the stencil test.
+HWY_INLINE LaneMask stencil_passes(const StencilSteps& stencil, Int stored) {
+  return comparing(splat(stencil.reference), stencil.func, hn::And(stored, splat(stencil.mask)));
 }
 
-/// What passes the stencil test.
-HWY_INLINE LaneMask stencil_passes(const StencilSide& face, Int stored) {
-  return comparing(splat(face.reference & face.mask), face.func, hn::And(stored, splat(face.mask)));
+HWY_INLINE Int stencil_after(const StencilStep& step, Int stored) {
+  const Int value = hn::Add(hn::Xor(hn::And(stored, splat(step.keep)), splat(step.flip)), splat(step.add));
+  return hn::Min(hn::Max(value, splat(step.least)), splat(step.most));
 }
 
 /// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what passed both.
-HWY_INLINE Int stencil_result(const StencilSide& face, std::int32_t most, Int stored, LaneMask failed, LaneMask zfailed, LaneMask zpassed) {
-  Int value = hn::IfThenElse(failed, stencil_value(face.fail, stored, face, most), stored);
-  value = hn::IfThenElse(zfailed, stencil_value(face.zfail, stored, face, most), value);
-  value = hn::IfThenElse(zpassed, stencil_value(face.zpass, stored, face, most), value);
-  const Int mask = splat(face.write_mask & most);
+HWY_INLINE Int stencil_result(const StencilSteps& stencil, Int stored, LaneMask failed, LaneMask zfailed, LaneMask zpassed) {
+  Int value = hn::IfThenElse(failed, stencil_after(stencil.fail, stored), stored);
+  value = hn::IfThenElse(zfailed, stencil_after(stencil.zfail, stored), value);
+  value = hn::IfThenElse(zpassed, stencil_after(stencil.zpass, stored), value);
+  const Int mask = splat(stencil.write_mask);
   return hn::Or(hn::AndNot(mask, stored), hn::And(value, mask));
 }
 

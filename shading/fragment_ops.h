@@ -20,7 +20,7 @@ struct StencilSide {
   StencilAction fail = StencilAction::keep, zfail = StencilAction::keep, zpass = StencilAction::keep;
   std::int32_t write_mask = 0xff;
 
-  bool writes() const { return write_mask != 0 && (fail != StencilAction::keep || zfail != StencilAction::keep || zpass != StencilAction::keep); }
+  constexpr bool writes() const { return write_mask != 0 && (fail != StencilAction::keep || zfail != StencilAction::keep || zpass != StencilAction::keep); }
 };
 
 enum class Factor : std::uint8_t {

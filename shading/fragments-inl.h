@@ -31,6 +31,7 @@ struct FragmentTriangle {
   const FragmentOps& ops;
   const ShadedTriangle& triangle;
   bool has_depth;
+  StencilSteps stencil{};         // of this face, where there is a test
   std::int32_t id = 0;            // for draws that are shaded later
   bool has_word = false;          // there is no colour to be made: it is a word already
   std::uint32_t word = 0;
@@ -73,7 +74,6 @@ struct FragmentTriangle {
   /// Tests of one sample, and what they change. Returns the pixels that are seen, 16 bits.
   HWY_INLINE std::uint32_t test(const TilePixels& sample, int bx, int by, const BlockFragments& block) {
     const int index = run.block_index(bx, by);
-    const StencilSide& stencil = ops.faces[face()];
     std::uint32_t bits = 0;
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       LaneMask mask = hn::MaskFromVec(block.covered[chunk]);
@@ -93,8 +93,8 @@ struct FragmentTriangle {
         zpassed = hn::And(passed, comparing(block.keys[chunk], draw.depth_test, before));
         if (draw.depth_write) hn::Store(hn::IfThenElse(zpassed, block.keys[chunk], before), kInt, depth);
       }
-      if (ops.stencil)
-        hn::Store(stencil_result(stencil, ops.stencil_most, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt, sample.stencil + index + chunk * kLanes);
+      if (stencil.writes())
+        hn::Store(stencil_result(stencil, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt, sample.stencil + index + chunk * kLanes);
       bits |= mask_bits(kInt, zpassed) << (chunk * kLanes);
     }
     return bits;
@@ -264,13 +264,6 @@ struct SampledBlocks {
   }
 };
 
-/// The colour of a flat triangle: its own, or that of its provoking vertex.
-HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
-  const int face = back ? 1 : 0;
-  if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;
-  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
-}
-
 /// Of draws that have no operations and come here all the same.
 inline constexpr FragmentOps kNoOperations{};
 HWY_INLINE bool has_words(const TileDraw& draw) {
@@ -284,6 +277,7 @@ HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i
   TileWorkspace::Memory& memory = run.memory;
   const TileDraw& draw = run.frame.draws[draw_number];
   FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth(run.frame, draw), .pixels = {}};
+  if (fragments.ops.stencil) fragments.stencil = stencil_steps(fragments.ops.faces[fragments.face()], fragments.ops.stencil_most);
   fragments.id = static_cast<std::int32_t>(memory.triangles.size());
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
   if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles : triangle_word(run, draw, i, triangle.back);

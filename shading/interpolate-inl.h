@@ -88,6 +88,16 @@ HWY_INLINE Corners corners(const ShadedTriangle& t, int attribute, bool keeps_ra
 HWY_INLINE Float interpolate(const Barycentric& b, const Corners& c) {
   return mul_add(b.b1, splat(c.to_second), mul_add(b.b2, splat(c.to_third), splat(c.first)));
 }
+/// Corners in all lanes, for triangles of many pixels.
+struct CornerLanes {
+  Float first, to_second, to_third;
+  HWY_INLINE void set(const Corners& c) {
+    first = splat(c.first);
+    to_second = splat(c.to_second);
+    to_third = splat(c.to_third);
+  }
+};
+HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) { return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first)); }
 /// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of the triangle.
 HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
   const Float value = interpolate(b, c);

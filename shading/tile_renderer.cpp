@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "framebuffer/check.h"
 #include "shading/tile_renderer.h"
@@ -33,8 +34,29 @@ DrawGroup pick_by_color(Seen seen, bool sampled) {
     case Seen::nothing: return &draw_group<Depth, kTest, Seen::nothing>;
     case Seen::word: return &draw_group<Depth, kTest, Seen::word>;
     case Seen::interpolate: return &draw_group<Depth, kTest, Seen::interpolate>;
+    case Seen::unit: return &draw_group<Depth, Test::any, Seen::unit>;
     default: return &draw_group<Depth, kTest, Seen::collect>;
   }
+}
+
+/// What happens to the pixels of a draw whose operations draw_group knows: a stencil test, and of colours that it makes a mix by their alpha.
+std::optional<Seen> seen_with_operations(const TileFrame& frame, const TileDraw& draw) {
+  const FragmentOps& ops = *draw.ops;
+  if (frame.samples > 1 || ops.alpha_test || draw.number != TileDraw::Number::none || draw.offset_factor != 0 || draw.offset_units != 0 || draw.depth_offsets != nullptr) return std::nullopt;
+  if (draw.source == ColorSource::none) return Seen::nothing;
+  if (draw.deferred) return Seen::collect;
+  const ColorLayout& layout = frame.layout;
+  const bool is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8 && layout.alpha_bits == 0 && !layout.luminance && !layout.index;
+  if (!is_rgb8 || ops.dither || ops.logic != Logic::copy || draw.texture != nullptr || (draw.source != ColorSource::interpolated && draw.source != ColorSource::constant)) return std::nullopt;
+  const bool is_plain_mix = ops.equation == Equation::add && ops.src_color == Factor::src_alpha && ops.dst_color == Factor::one_minus_src_alpha;
+  return ops.blend && !is_plain_mix ? std::nullopt : std::optional(Seen::unit);
+}
+
+/// What happens to those of a draw without operations.
+Seen seen_without_operations(const TileDraw& draw) {
+  if (draw.source == ColorSource::none) return Seen::nothing;
+  if (draw.source == ColorSource::per_pixel || draw.deferred) return Seen::collect;
+  return draw.source == ColorSource::interpolated ? Seen::interpolate : Seen::word;
 }
 
 /// The code that runs for a draw: none of it holds a step that the draw does not have.
@@ -44,12 +66,10 @@ DrawGroup pick_draw_group(const TileFrame& frame, const TileDraw& draw) {
   if constexpr (kLanes > 1) {  // one lane gains nothing
     if (textures_at_once(frame, draw)) return draw_textured;
   }
-  if (draw.ops != nullptr) return frame.samples > 1 ? &draw_fragments_samples : &draw_fragments;
-  const Seen seen = draw.source == ColorSource::none                                     ? Seen::nothing
-                    : draw.source == ColorSource::per_pixel || draw.deferred             ? Seen::collect
-                    : draw.source == ColorSource::interpolated                           ? Seen::interpolate
-                                                                                         : Seen::word;
-  const bool less = draw.depth_test == CompareOp::less, sampled = frame.samples > 1;
+  const std::optional<Seen> with_operations = draw.ops != nullptr ? seen_with_operations(frame, draw) : std::nullopt;
+  if (draw.ops != nullptr && !with_operations) return frame.samples > 1 ? &draw_fragments_samples : &draw_fragments;
+  const Seen seen = with_operations.value_or(seen_without_operations(draw));
+  const bool less = draw.depth_test == CompareOp::less && draw.ops == nullptr, sampled = frame.samples > 1;
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::per_pixel);
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::interpolated ||
                  (draw.write_mask == 0xffffffffu && !draw.scaled_colors && !frame.layout.index && !frame.layout.luminance));
@@ -159,7 +179,10 @@ struct GroupBuilder {
   // Points and lines are so small that waiting for their vertices would be most of the work: while a group is drawn, those of the next come.
   std::uint32_t fetched[2 * kGroupSize];
   int fetched_count = 0;
+  std::uint32_t waiting[kGroupSize];  // triangles
+  int waiting_count = 0;
 
+  HWY_INLINE bool is_in(std::uint32_t number) const { return draw != nullptr && draw_number == number; }
   HWY_INLINE void begin_draw(std::uint32_t number) {
     const TileFrame& frame = run.frame;
     const TileDraw& next = frame.draws[number];
@@ -177,12 +200,22 @@ struct GroupBuilder {
   }
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
     if (draw->topology != Topology::triangles) return add_small(bins, id);
-    load<3>(bins, id);
-    if (run.memory.group.count == kGroupSize) draw_all();
+    if ((id & kPiece) == 0) {
+      waiting[waiting_count++] = id;
+    } else {
+      load_waiting();
+      load<3>(bins, id);
+    }
+    if (run.memory.group.count + waiting_count < kGroupSize) return;
+    load_waiting();
+    draw_all();
   }
-  /// Draws what was added; `bins` held it.
+  /// What was added needs these bins no longer, but for pieces' attributes.
+  HWY_INLINE void leave(const Bins& bins) { draw_fetched(bins, 0); }
+  /// Draws what was added; `bins` held the last of it.
   HWY_INLINE void flush(const Bins& bins) {
-    draw_fetched(bins, 0);
+    leave(bins);
+    load_waiting();
     draw_all();
   }
 
@@ -225,19 +258,64 @@ struct GroupBuilder {
     g.count = 0;
     if (run.memory.triangles.size() >= kMaxCollected) shade_whole_tile(run);
   }
+  HWY_NOINLINE void load_waiting() {
+    int loaded = 0;
+    for (; loaded + 4 <= waiting_count; loaded += 4) load_four(waiting + loaded);
+    for (; loaded < waiting_count; ++loaded) load_own<3>(waiting[loaded]);
+    waiting_count = 0;
+  }
+  HWY_INLINE void load_four(const std::uint32_t* ids) {
+    TileWorkspace::Memory& memory = run.memory;
+    const int i = memory.group.count;
+    memory.group.count += 4;
+    for (int k = 0; k < 3; ++k) {
+      const WindowVertex* v[4];
+      for (int t = 0; t < 4; ++t) {
+        const std::size_t vertex = vertex_of(std::size_t{ids[t]} * 3 + static_cast<std::size_t>(k));
+        v[t] = draw->vertices + vertex;
+        memory.attributes[k][i + t] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
+      }
+      load_four_vertices(i, k, v);
+    }
+    for (int t = 0; t < 4; ++t) memory.source[i + t] = ids[t];
+  }
+#if HWY_TARGET == HWY_SCALAR
+  HWY_INLINE void load_four_vertices(int i, int k, const WindowVertex* const (&v)[4]) {
+    for (int t = 0; t < 4; ++t) load_vertex(i + t, k, *v[t]);
+  }
+#else
+  // Four rows of x y z rw become columns.
+  HWY_INLINE void load_four_vertices(int i, int k, const WindowVertex* const (&v)[4]) {
+    constexpr hn::CappedTag<std::int32_t, 4> four;
+    constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
+    TriangleGroup& g = run.memory.group;
+    const auto row = [&](int t) HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const std::int32_t*>(v[t])); };
+    const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)), xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // x x y y
+    const auto zw01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)), zw23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
+    const auto store = [&](auto column, void* to) HWY_ATTR { hn::StoreU(hn::BitCast(four, column), four, static_cast<std::int32_t*>(to)); };
+    store(hn::InterleaveLower(pairs, xy01, xy23), g.x[k] + i);
+    store(hn::InterleaveUpper(pairs, xy01, xy23), g.y[k] + i);
+    store(hn::InterleaveLower(pairs, zw01, zw23), g.z[k] + i);
+    store(hn::InterleaveUpper(pairs, zw01, zw23), g.rw[k] + i);
+  }
+#endif
   template <int kCorners>
   HWY_INLINE void load(const Bins& bins, std::uint32_t id) {
+    if ((id & kPiece) == 0) return load_own<kCorners>(id);
     const int i = run.memory.group.count++;
-    if ((id & kPiece) != 0) {
-      const Piece& piece = bins.piece(id);
-      const float* const attributes = bins.attributes(piece);
-      for (int k = 0; k < kCorners; ++k) {
-        load_vertex(i, k, piece.vertices[k]);
-        run.memory.attributes[k][i] = attributes + k * draw->attribute_stride;
-      }
-      run.memory.source[i] = piece.source;
-      return;
+    const Piece& piece = bins.piece(id);
+    const float* const attributes = bins.attributes(piece);
+    for (int k = 0; k < kCorners; ++k) {
+      load_vertex(i, k, piece.vertices[k]);
+      run.memory.attributes[k][i] = attributes + k * draw->attribute_stride;
     }
+    run.memory.source[i] = piece.source;
+  }
+  /// One of the mesh's own.
+  template <int kCorners>
+  HWY_INLINE void load_own(std::uint32_t id) {
+    const int i = run.memory.group.count++;
     for (int k = 0; k < kCorners; ++k) {
       const std::size_t vertex = vertex_of(std::size_t{id} * kCorners + static_cast<std::size_t>(k));
       load_vertex(i, k, draw->vertices[vertex]);
@@ -297,6 +375,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
         const std::uint32_t entry = block.entries[e];
         if ((entry & kDrawMarker) != 0) {
           const std::uint32_t draw = entry & ~kDrawMarker;
+          if (builder.is_in(draw)) continue;
           builder.flush(bins);
           commands_before(draw);
           builder.begin_draw(draw);
@@ -305,8 +384,8 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
         }
       }
     }
-    // Clipped elements of the next batch are another list.
-    builder.flush(bins);
+    // Groups go on in the next batch, if this one is still there.
+    frame.batches->one_by_one() || b + 1 == frame.batches->count() ? builder.flush(bins) : builder.leave(bins);
   }
   commands_before(frame.draw_count);
   shade_whole_tile(run);

@@ -36,7 +36,7 @@ struct TileDraw {
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
-  const float* attributes = nullptr;       ///< attribute_stride floats for each vertex
+  const float* attributes = nullptr;       ///< attribute_stride floats for each vertex; kAttributePadding may be read from each
   int attribute_stride = 0, attribute_count = 0;
   int provoking = 2;                       ///< corner of each element: point, line or triangle
   int element_corners = 3;                 ///< edges and corners of polygons are parts of triangles

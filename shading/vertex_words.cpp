@@ -21,6 +21,19 @@ void vertex_words_lanes(const ColorLayout& layout, const ShadingBatch& batch, in
   }
 }
 
+void scale_colors_lanes(const ColorLayout& layout, ShadingBatch& batch, int count) {
+  constexpr float kHair = 0x1p-12f;
+  const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits};
+  for (int c = 0; c < 3; ++c) {
+    const Float levels = splat(static_cast<float>((1 << bits[c]) - 1));
+    for (int first = 0; first < count; first += kLanes) {
+      float* const color = batch.field[kColorR + c] + first;
+      const Float scaled = mul_add(hn::Load(kFloat, color), levels, splat(0.5f)), whole = hn::ConvertTo(kFloat, truncate(scaled));
+      hn::Store(hn::Min(hn::Max(scaled, hn::Add(whole, splat(kHair))), hn::Add(whole, splat(1 - kHair))), kFloat, color);
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera
 HWY_AFTER_NAMESPACE();
@@ -28,5 +41,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera {
 VertexWords* vertex_words(Isa isa) { return TESSERA_KERNEL(isa, vertex_words_lanes); }
+ScaleColors* scale_colors(Isa isa) { return TESSERA_KERNEL(isa, scale_colors_lanes); }
 }  // namespace tessera
 #endif

@@ -82,6 +82,7 @@ std::array<Corner, 3> random_corners(RandomTriangles& source, bool with_halves) 
 
 CaseDraw draw_of(const std::array<Corner, 3>& corners, int place) {
   CaseDraw draw{.color = {0, 0, 1 / 255.0f, 1}, .add = true, .viewport = Rect{place % kRow * kPitch, place / kRow * kPitch, kView, kView}};
+  draw.positions.reserve(4 * corners.size());
   for (const Corner& c : corners) draw.positions.insert(draw.positions.end(), {c.x, c.y, 0, c.w});
   return draw;
 }

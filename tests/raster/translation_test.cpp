@@ -61,7 +61,7 @@ TEST(Translation, ByWholePixelsChangesNothing) {
       if (reference_of(t.corners).area == 0) continue;
       if (i % 2 == 0)
         for (WindowVertex& v : t.corners) v.rw = static_cast<float>(std::exp2(20 * source.unit() - 10));
-      std::vector<float> colors(9);
+      std::vector<float> colors(9 + kAttributePadding);
       for (float& c : colors) c = 0.5f + 255 * static_cast<float>(source.unit());
       const Isa isa = available_isas()[static_cast<std::size_t>(i) % available_isas().size()];
       const Seen here = draw_moved(t, colors, kind, isa, 64, 0, 0);

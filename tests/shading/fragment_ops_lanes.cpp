@@ -21,11 +21,12 @@ void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout, co
 }
 
 void test_stencil_lanes(const StencilSide& side, std::int32_t most, const test::FragmentArrays& arrays) {
+  const StencilSteps steps = stencil_steps(side, most);
   for (std::size_t i = 0; i < arrays.count; i += kLanes) {
     const Int stored = hn::LoadU(kInt, arrays.stored + i), outcome = hn::LoadU(kInt, arrays.outcome + i);
     const LaneMask covered = hn::Gt(outcome, hn::Zero(kInt)), deep = hn::Gt(outcome, splat(1));
-    const LaneMask passed = hn::And(covered, stencil_passes(side, stored)), zpassed = hn::And(passed, deep);
-    const Int value = stencil_result(side, most, stored, hn::AndNot(passed, covered), hn::AndNot(zpassed, passed), zpassed);
+    const LaneMask passed = hn::And(covered, stencil_passes(steps, stored)), zpassed = hn::And(passed, deep);
+    const Int value = stencil_result(steps, stored, hn::AndNot(passed, covered), hn::AndNot(zpassed, passed), zpassed);
     hn::StoreU(hn::Or(value, hn::And(hn::VecFromMask(kInt, passed), splat(256))), kInt, arrays.words + i);
   }
 }

@@ -1,0 +1,119 @@
+// Pixels of triangles so small that each has but a few: those of a whole group stand side by side in lanes, and are stored one after the other.
+#if defined(TESSERA_SHADING_SMALL_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_SMALL_PIXELS_INL_H_
+#undef TESSERA_SHADING_SMALL_PIXELS_INL_H_
+#else
+#define TESSERA_SHADING_SMALL_PIXELS_INL_H_
+#endif
+
+#include <bit>
+
+#include "raster/lanes-inl.h"
+#include "shading/tile_run-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// One element for each of kGroupSize triangles, picked by their numbers in the lanes.
+struct PickByTriangle {
+#if HWY_TARGET == HWY_SCALAR
+  Int triangle;
+  HWY_INLINE explicit PickByTriangle(Int of) : triangle(of) {}
+  HWY_INLINE Int operator()(const std::int32_t* array) const { return Int(array[triangle.raw]); }
+  HWY_INLINE Float operator()(const float* array) const { return Float(array[triangle.raw]); }
+#else
+  using Indices = decltype(hn::IndicesFromVec(kInt, Int()));
+  Indices place;
+  hn::Mask<IntTag> is_second;  // with 8 lanes half of the array is another vector
+  HWY_INLINE explicit PickByTriangle(Int triangle) : place(hn::IndicesFromVec(kInt, hn::And(triangle, splat(kLanes - 1)))), is_second(hn::Gt(triangle, splat(kLanes - 1))) {}
+  HWY_INLINE Int operator()(const std::int32_t* array) const {
+    const Int first = hn::TableLookupLanes(hn::Load(kInt, array), place);
+    return kLanes == kGroupSize ? first : hn::IfThenElse(is_second, hn::TableLookupLanes(hn::Load(kInt, array + kGroupSize - kLanes), place), first);
+  }
+  HWY_INLINE Float operator()(const float* array) const { return hn::BitCast(kFloat, (*this)(reinterpret_cast<const std::int32_t*>(array))); }
+#endif
+};
+
+/// Pixels of a group's small triangles, in the order in which they are drawn, and their barycentric coordinates.
+struct SmallPixels {
+  static constexpr int kMost = kGroupSize * kBlockPixels;
+  int count = 0;
+  alignas(64) std::int32_t triangle[kMost + kLanes], x[kMost + kLanes], y[kMost + kLanes];  // of the group; in the tile
+  alignas(64) float b1[kMost + kLanes], b2[kMost + kLanes];
+
+  HWY_INLINE void add(const TriangleGroup& g, int i, std::uint32_t hits) {
+    for (; hits != 0; hits &= hits - 1) {
+      const int p = std::countr_zero(hits);
+      triangle[count] = i;
+      x[count] = g.x0[i] + (p & 3);
+      y[count] = g.y0[i] + (p >> 2);
+      ++count;
+    }
+  }
+  /// As barycentric_from_edges() has them. @pre set_up_weights
+  HWY_INLINE void set_up_coordinates(const TriangleGroup& g) {
+    for (int l = 0; l < kLanes; ++l) triangle[count + l] = x[count + l] = y[count + l] = 0;
+    for (int first = 0; first < count; first += kLanes) {
+      const PickByTriangle pick(hn::LoadU(kInt, triangle + first));
+      const Int at_x = hn::LoadU(kInt, x + first), at_y = hn::LoadU(kInt, y + first);
+      Float w[3];
+      for (int k = 0; k < 3; ++k) {
+        const Int edge = hn::Add(pick(g.e[k]), hn::Add(hn::Mul(pick(g.a[k]), at_x), hn::Mul(pick(g.b[k]), at_y)));
+        w[k] = mul_add(hn::ConvertTo(kFloat, edge), pick(g.scale[k]), pick(g.shift[k]));
+      }
+      const auto affine = hn::RebindMask(kFloat, hn::Ne(pick(g.affine), hn::Zero(kInt)));
+      if (!hn::AllTrue(kFloat, affine)) {
+        const Float inverse = hn::IfThenElse(affine, splat(1.0f), hn::Div(splat(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2])));
+        w[1] = hn::Mul(w[1], inverse);
+        w[2] = hn::Mul(w[2], inverse);
+      }
+      hn::StoreU(w[1], kFloat, b1 + first);
+      hn::StoreU(w[2], kFloat, b2 + first);
+    }
+  }
+};
+
+/// ScaledColor's word of one pixel, its components side by side.
+class PixelColor {
+ public:
+#if HWY_TARGET == HWY_SCALAR
+  HWY_INLINE explicit PixelColor(const ColorLayout& layout) : layout_(layout) {}
+  HWY_INLINE std::uint32_t word(const float* first, const float* second, const float* third, float b1, float b2) const {
+    const auto level = [&](int c) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::fma(b1, second[c] - first[c], std::fma(b2, third[c] - first[c], first[c])))); };
+    return level(0) << layout_.r_shift() | level(1) << layout_.g_shift() | level(2);
+  }
+
+ private:
+  const ColorLayout& layout_;
+#else
+  HWY_INLINE explicit PixelColor(const ColorLayout& layout) {
+    alignas(16) const std::int32_t by[4] = {layout.r_shift(), layout.g_shift(), 0, 0};
+    shifts_ = hn::Load(kFour, by);
+  }
+  /// @param first  four floats can be read there, and at the others
+  HWY_INLINE std::uint32_t word(const float* first, const float* second, const float* third, float b1, float b2) const {
+    const auto a = hn::LoadU(kFourFloats, first), to_second = hn::Sub(hn::LoadU(kFourFloats, second), a), to_third = hn::Sub(hn::LoadU(kFourFloats, third), a);
+    const auto value = hn::MulAdd(hn::Set(kFourFloats, b1), to_second, hn::MulAdd(hn::Set(kFourFloats, b2), to_third, a));
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    const hn::Vec<decltype(kFour)> whole{_mm_cvttps_epi32(value.raw)};  // see truncate()
+#else
+    const auto whole = hn::ConvertTo(kFour, value);
+#endif
+    const auto levels = hn::Shl(whole, shifts_);
+    const auto red_green = hn::Or(levels, hn::Shuffle2301(levels));
+    return static_cast<std::uint32_t>(hn::GetLane(hn::Or(red_green, hn::Shuffle1032(levels))));
+  }
+
+ private:
+  static constexpr hn::CappedTag<float, 4> kFourFloats{};
+  static constexpr hn::RebindToSigned<hn::CappedTag<float, 4>> kFour{};
+  hn::Vec<hn::RebindToSigned<hn::CappedTag<float, 4>>> shifts_;
+#endif
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif
