@@ -95,10 +95,11 @@ bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
   for (const Bins& bins : bins_) taken += bins.bytes();
   BinBudget budget(limit_ - std::min(taken, limit_));
   const std::size_t elements = first_element_.back();
-  parallel_.for_each(batch_count_, [&](std::size_t b, int) {
-    bins_[b].reset(tiles.count(), tiles.first(grid_), &budget);
-    bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_);
-    watch.task_done();
+  parallel_.for_each(batch_count_, [&](std::size_t b, int worker) {
+    watch.task(worker, [&] {
+      bins_[b].reset(tiles.count(), tiles.first(grid_), &budget);
+      bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_);
+    });
   });
   bool fits = true;
   counts_ = {};

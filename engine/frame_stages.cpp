@@ -1,6 +1,7 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -14,9 +15,9 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 512;
+constexpr std::size_t kVerticesPerTask = 512, kIndicesPerTask = std::size_t{1} << 14, kTilesPerTask = 8;
 // How much of a frame is done after the stages before the tiles, for a progress bar.
-constexpr double kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
+constexpr double kIndicesDone = 0.02, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
 
 /// Ranges of elements of several draws, cut into tasks.
 struct Range {
@@ -57,6 +58,13 @@ void count_triangles(FrameStats& stats, const BinCounts& counts) {
 
 /// How much of a frame is done after so many of its tiles.
 double done_after(int tiles, const FrameStats& stats) { return std::lerp(kBinsDone, 1.0, static_cast<double>(tiles) / static_cast<double>(stats.tiles)); }
+
+/// What of the frame a strip is, from its lower left corner.
+Rect pixels_of(const TileStrip& strip, const TileGrid& grid) {
+  const int size = grid.tile_size, x0 = strip.first_column * size, y0 = strip.row * size;
+  const int x1 = std::min((strip.last_column + 1) * size, grid.width_px), y1 = std::min(y0 + size, grid.height_px);
+  return {x0, grid.height_px - y1, x1 - x0, y1 - y0};
+}
 
 /// @pre several tiles
 std::array<TileRange, 2> halves(const TileRange& tiles) {
@@ -109,19 +117,40 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
   return pixels / parallel.threads() >= 64 * 128 * 128 / 4 ? 128 : 64;
 }
 
+// Before anything reads what they point to.
+void RendererState::check_indices(const FrameCommands& commands, FrameWatch& watch) {
+  std::vector<Range> ranges;
+  for (std::size_t d = 0; d < commands.geometry.size(); ++d) {
+    const MeshArrays& mesh = *commands.geometry[d].mesh;
+    const std::size_t count = mesh.indexed() ? mesh.corners : 0;
+    for (std::size_t first = 0; first < count; first += kIndicesPerTask) ranges.push_back({d, first, std::min(count, first + kIndicesPerTask)});
+  }
+  std::atomic<std::size_t> wrong_draw = commands.geometry.size();  // the first of them
+  watch.begin_stage(FrameStage::vertices, kIndicesDone, ranges.size());
+  parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
+    const auto [draw, first, last] = ranges[i];
+    watch.task(worker, [&] {
+      if (are_in_bounds(*commands.geometry[draw].mesh, first, last)) return;
+      std::size_t before = wrong_draw;
+      while (draw < before && !wrong_draw.compare_exchange_weak(before, draw)) {
+      }
+    });
+  });
+  if (wrong_draw < commands.geometry.size()) fail_at_index(*commands.geometry[wrong_draw].mesh, commands.plan_draw[wrong_draw]);
+}
+
 void RendererState::process_geometry(FrameCommands& commands, FrameWatch& watch) {
+  check_indices(commands, watch);
   for (const GeometryDraw& draw : commands.geometry) prepare_geometry(draw);
   const std::vector<Range> vertices = cut_into_tasks(commands.geometry, false);
-  watch.begin_stage(kVerticesDone, vertices.size());
-  parallel.for_each(vertices.size(), [&](std::size_t i, int) {
-    process_vertices(commands.geometry[vertices[i].draw], vertices[i].first, vertices[i].last, isa);
-    watch.task_done();
+  watch.begin_stage(FrameStage::vertices, kVerticesDone, vertices.size());
+  parallel.for_each(vertices.size(), [&](std::size_t i, int worker) {
+    watch.task(worker, [&] { process_vertices(commands.geometry[vertices[i].draw], vertices[i].first, vertices[i].last, isa); });
   });
   const std::vector<Range> triangles = cut_into_tasks(commands.geometry, true);
-  watch.begin_stage(kFacesDone, triangles.size());
-  parallel.for_each(triangles.size(), [&](std::size_t i, int) {
-    process_triangles(commands.geometry[triangles[i].draw], triangles[i].first, triangles[i].last, isa);
-    watch.task_done();
+  watch.begin_stage(FrameStage::faces, kFacesDone, triangles.size());
+  parallel.for_each(triangles.size(), [&](std::size_t i, int worker) {
+    watch.task(worker, [&] { process_triangles(commands.geometry[triangles[i].draw], triangles[i].first, triangles[i].last, isa); });
   });
 }
 
@@ -135,14 +164,23 @@ void RendererState::prepare_workspaces(const TileMemory& memory) {
   }
 }
 
+std::vector<TileLoad> RendererState::tile_loads(const TileStage& stage, const TileRange& tiles) {
+  std::vector<TileLoad> loads(static_cast<std::size_t>(tiles.count()));
+  const std::size_t tasks = (loads.size() + kTilesPerTask - 1) / kTilesPerTask;
+  parallel.for_each(tasks, [&](std::size_t task, int) {
+    const std::size_t first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, loads.size());
+    for (std::size_t i = first; i < last; ++i) loads[i] = stage.load_of(tiles.first(stage.grid()) + static_cast<int>(i));
+  });
+  return loads;
+}
+
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
   struct alignas(64) WorkerCounts : StripCounts {};
   std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
-  const std::vector<TileStrip> strips = stage.strips(tiles);
-  watch.begin_stage(done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
+  const std::vector<TileStrip> strips = stage.strips(tiles, tile_loads(stage, tiles));
+  watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
-    stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], counts[static_cast<std::size_t>(worker)]);
-    watch.task_done();
+    watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], counts[static_cast<std::size_t>(worker)]); });
   });
   for (const WorkerCounts& c : counts) {
     stats.shaded_pixels += c.shaded_pixels;
@@ -164,7 +202,7 @@ void RendererState::render_parts(BinStage& bin_stage, bool is_filled, const Tile
     const TileRange tiles = left.back();
     left.pop_back();
     if (!is_filled) {
-      watch.begin_stage(done_after(tiles.first(stage.grid()), stats), bin_stage.batch_count());
+      watch.begin_stage(FrameStage::binning, done_after(tiles.first(stage.grid()), stats), bin_stage.batch_count());
       is_filled = bin_stage.fill(tiles, watch);
       ++stats.bin_passes;
     }
@@ -183,7 +221,8 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   const FloatingPointMode mode;
   StopWatch clock;
   FrameStats stats;
-  FrameWatch watch(options.progress);
+  FrameTrace trace(options.trace ? parallel.threads() : 0);
+  FrameWatch watch(options.progress, trace);
   FrameBufferState& target = *recording.target;
   FrameCommands commands = plan_frame(recording, image != nullptr, draw_buffers);
 
@@ -199,7 +238,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   process_geometry(commands, watch);
   stats.vertex_seconds = clock.lap();
   BinStage bin_stage(commands, grid, target.format.samples, options.bin_memory, bins, parallel, isa);
-  watch.begin_stage(kBinsDone, bin_stage.batch_count());
+  watch.begin_stage(FrameStage::binning, kBinsDone, bin_stage.batch_count());
   const bool is_filled = bin_stage.fill({0, 0, grid.columns(), grid.rows()}, watch);
   count_triangles(stats, bin_stage.counts());
   stats.bin_passes = 1;
@@ -235,6 +274,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
     }
   }
   for (const Buffer which : kBuffers) settle(commands.traffic(which), target.parts(which));
+  if (options.trace) options.trace(trace.tasks());
   return stats;
 }
 

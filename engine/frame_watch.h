@@ -1,4 +1,4 @@
-// Tells the caller how far a frame is, and hears whether to go on.
+// Tells the caller how far a frame is, and hears whether to go on; and what its tasks took, if somebody wants to know.
 #pragma once
 
 #include <atomic>
@@ -7,29 +7,39 @@
 #include <functional>
 #include <mutex>
 
+#include "engine/frame_trace.h"
+
 namespace tessera {
 
 class FrameWatch {
  public:
-  /// `progress` may be empty: then nothing costs anything.
-  explicit FrameWatch(const std::function<bool(double)>& progress) : progress_(progress) {}
+  /// `progress` may be empty: then it costs nothing.
+  FrameWatch(const std::function<bool(double)>& progress, FrameTrace& trace) : progress_(progress), trace_(trace) {}
 
   /// A stage of `tasks` tasks begins, at whose end `end` of the frame is done; the last one's is 1. Between stages only.
-  void begin_stage(double end, std::size_t tasks) {
+  void begin_stage(FrameStage stage, double end, std::size_t tasks) {
+    trace_.begin_stage(stage);
     begin_ = end_;
     end_ = end;
     tasks_ = tasks;
     done_ = 0;
   }
-  /// A task has ended; by any worker. Throws Cancelled, or what the callback throws.
-  void task_done() {
+  /// Runs a task, on any worker. Throws Cancelled, or what the callback throws.
+  template <class Work>
+  void task(int worker, const Rect& pixels, const Work& work) {
+    trace_.task(worker, pixels, work);
     if (progress_) report();
+  }
+  template <class Work>
+  void task(int worker, const Work& work) {
+    task(worker, {}, work);
   }
 
  private:
   void report();
 
   const std::function<bool(double)>& progress_;
+  FrameTrace& trace_;
   double begin_ = 0, end_ = 0;
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;

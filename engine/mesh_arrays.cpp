@@ -1,10 +1,11 @@
 #include "engine/mesh_arrays.h"
 
-#include <algorithm>
+#include <span>
 #include <string>
 
 #include "engine/checks.h"
 #include "raster/binning.h"
+#include "raster/largest_index.h"
 
 namespace tessera {
 namespace {
@@ -64,22 +65,18 @@ void add_colors(const ColorArray& colors, MeshArrays& mesh) {
 }
 
 template <class Index>
-const Index* check_indices(const IndexArray& array, std::size_t vertices) {
+const Index* indices_of(const IndexArray& array) {
   require_address("indices", array.data, alignof(Index));
-  const auto* const indices = static_cast<const Index*>(array.data);
-  Index largest = 0;
-  for (std::size_t i = 0; i < array.count; ++i) largest = std::max(largest, indices[i]);
-  if (largest < vertices) return indices;
-  const auto* const wrong = std::find_if(indices, indices + array.count, [&](Index i) { return i >= vertices; });
-  throw Error("Frame::draw: index " + std::to_string(wrong - indices) + " of the mesh is " + std::to_string(*wrong) + ", must be below the number of vertices, " + std::to_string(vertices));
+  return static_cast<const Index*>(array.data);
 }
 
 void add_indices(const IndexArray& array, MeshArrays& mesh) {
   if (array.empty()) return;
+  if (mesh.vertices == 0) fail("has " + std::to_string(array.count) + " indices, but no vertices");
   if (array.bits == 32)
-    mesh.indices = check_indices<std::uint32_t>(array, mesh.vertices);
+    mesh.indices = indices_of<std::uint32_t>(array);
   else if (array.bits == 16)
-    mesh.short_indices = check_indices<std::uint16_t>(array, mesh.vertices);
+    mesh.short_indices = indices_of<std::uint16_t>(array);
   else
     fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
 }
@@ -111,6 +108,18 @@ MeshArrays check_mesh(const Mesh& mesh) {
     fail("has " + std::to_string(arrays.elements) + (arrays.topology() == Topology::points ? " points" : arrays.topology() == Topology::lines ? " lines" : " triangles") + ", at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
   add_indices(mesh.indices, arrays);
   return arrays;
+}
+
+bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
+  const std::size_t count = last - first;
+  return (mesh.indices ? largest_index(std::span(mesh.indices + first, count)) : largest_index(std::span(mesh.short_indices + first, count))) < mesh.vertices;
+}
+
+void fail_at_index(const MeshArrays& mesh, std::size_t draw) {
+  std::size_t wrong = 0;
+  while (mesh.vertex_at(wrong) < mesh.vertices) ++wrong;
+  throw Error("Renderer::finish: index " + std::to_string(wrong) + " of the mesh of draw " + std::to_string(draw) + " is " + std::to_string(mesh.vertex_at(wrong)) +
+              ", must be below the number of vertices, " + std::to_string(mesh.vertices));
 }
 
 }  // namespace tessera

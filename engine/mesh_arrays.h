@@ -38,8 +38,12 @@ struct MeshArrays {
   }
 };
 
-/// Checks a mesh. Throws Error for arrays that do not fit together, strides and pointers that floats cannot have, and indices
-/// out of bounds.
+/// Checks a mesh but for what its indices are. Throws Error for arrays that do not fit together, and strides and pointers that floats cannot have.
 MeshArrays check_mesh(const Mesh& mesh);
+
+/// Whether indices [first, last) are all in bounds. @pre indexed()
+bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last);
+/// Throws Error that names the first index out of bounds. @pre there is one
+[[noreturn]] void fail_at_index(const MeshArrays& mesh, std::size_t draw);
 
 }  // namespace tessera

@@ -40,10 +40,13 @@ struct RendererState {
   }
 
  private:
+  void check_indices(const FrameCommands& commands, FrameWatch& watch);
   void process_geometry(FrameCommands& commands, FrameWatch& watch);
   void prepare_workspaces(const TileMemory& memory);
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
   void render_parts(BinStage& bin_stage, bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
+  /// What the bins of tiles hold, row by row.
+  std::vector<TileLoad> tile_loads(const TileStage& stage, const TileRange& tiles);
   void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };

@@ -35,9 +35,15 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   scan_out_->row(words.data(), frame.grid.width_px, cleared_row_.data());
 }
 
-std::vector<TileStrip> TileStage::strips(const TileRange& tiles) const {
-  const TileGrid& grid = frame_.grid;
+TileLoad TileStage::load_of(int tile) const {
   const BinBatches& batches = *frame_.batches;
+  const bool cleared = !cleared_row_.empty() && batches.untouched(tile);
+  return {cleared ? 0 : batches.triangles(tile), cleared};
+}
+
+std::vector<TileStrip> TileStage::strips(const TileRange& tiles, const std::vector<TileLoad>& loads) const {
+  const TileGrid& grid = frame_.grid;
+  const auto load_at = [&](int row, int column) -> const TileLoad& { return loads[static_cast<std::size_t>(row * grid.columns() + column - tiles.first(grid))]; };
   // Tiles that share a cache line of a plane belong to one worker.
   const bool planes = commands_.stores();
   const int length = planes ? kPlaneLinePixels / grid.tile_size : 1;
@@ -45,12 +51,9 @@ std::vector<TileStrip> TileStage::strips(const TileRange& tiles) const {
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0; column < tiles.x1; column = strips.back().last_column + 1) {
       TileStrip strip{row, column, std::min(column + length, tiles.x1) - 1};
-      if (!cleared_row_.empty() && batches.untouched(row * grid.columns() + column)) {
-        strip.cleared = true;
-        while (strip.last_column + 1 < tiles.x1 && batches.untouched(row * grid.columns() + strip.last_column + 1)) ++strip.last_column;
-      } else {
-        for (int c = column; c <= strip.last_column; ++c) strip.triangles += batches.triangles(row * grid.columns() + c);
-      }
+      strip.cleared = load_at(row, column).cleared;
+      while (strip.cleared && strip.last_column + 1 < tiles.x1 && load_at(row, strip.last_column + 1).cleared) ++strip.last_column;
+      for (int c = column; c <= strip.last_column; ++c) strip.triangles += load_at(row, c).triangles;
       strips.push_back(strip);
     }
   }

@@ -22,6 +22,12 @@ struct TileStrip {
   std::uint64_t triangles = 0;
 };
 
+/// What there is to do in a tile.
+struct TileLoad {
+  std::uint64_t triangles = 0;
+  bool cleared = false;          ///< as of a strip
+};
+
 struct StripCounts {
   std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
 };
@@ -32,8 +38,12 @@ class TileStage {
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, Isa isa);
 
   const TileGrid& grid() const { return frame_.grid; }
-  /// Tiles whose bins are filled, the strips with most triangles first: nobody waits for one that began last. Their order changes no bit.
-  std::vector<TileStrip> strips(const TileRange& tiles) const;
+  /// Of a tile whose bins are filled. As many look-ups as there are batches.
+  TileLoad load_of(int tile) const;
+  /// Those with most triangles first: nobody waits for one that began last. Their order changes no bit.
+  ///
+  /// @param loads  of these tiles, row by row
+  std::vector<TileStrip> strips(const TileRange& tiles, const std::vector<TileLoad>& loads) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 

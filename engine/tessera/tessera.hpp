@@ -19,7 +19,7 @@
 // no global state. The same frame gives the same bits for any number of threads, tile size and instruction set.
 //
 // Lifetimes. Meshes, textures, bitmaps and images are borrowed: what a draw points to has to stay as it is until Renderer::finish returns;
-// indices are checked in Frame::draw, and trusted then. An object that was moved from may be assigned to or destroyed, and nothing else.
+// indices are looked at there, by all threads. An object that was moved from may be assigned to or destroyed, and nothing else.
 #pragma once
 
 #if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
@@ -586,7 +586,7 @@ class TESSERA_API Frame {
   void clear(const Clear& clear);
   /// Throws Error without an accumulation buffer and for values out of range.
   void accumulate(const Accum& accum);
-  /// Throws Error for spans that do not fit together, indices out of bounds, values out of range, a texture that was moved from, and a shadow
+  /// Throws Error for spans that do not fit together, values out of range, a texture that was moved from, and a shadow
   /// that there is none of.
   void draw(const Mesh& mesh, const DrawState& state = {});
   /// Throw Error without bits or pixels and for sizes and values out of range. They know no camera and no viewport; what reaches beyond the
@@ -634,6 +634,21 @@ TESSERA_API std::shared_ptr<Executor> serial_executor();
 
 enum class LogLevel : std::uint8_t { debug, info, warning };
 
+/// What the work of a frame consists of, in this order; frames with little RendererOptions::bin_memory go back from tiles to binning. Each waits for all of the one before.
+enum class FrameStage : std::uint8_t {
+  vertices,  ///< positions and colours
+  faces,     ///< colours of whole triangles
+  binning,   ///< triangles, in batches, into the lists of the tiles that they may touch
+  tiles      ///< pixels
+};
+/// What one worker did at a stretch.
+struct FrameTask {
+  FrameStage stage = FrameStage::vertices;
+  int worker = 0;                           ///< below RendererOptions::threads
+  double begin = 0, end = 0;                ///< seconds since finish() was called
+  Rect pixels{};                            ///< of tiles: their part of the frame, origin lower left
+};
+
 inline constexpr std::size_t kLeastBinMemory = std::size_t{64} << 10;  ///< bytes
 
 struct RendererOptions {
@@ -656,6 +671,8 @@ struct RendererOptions {
   /// What the library has to say; it never prints. Called by the thread that calls the Renderer. What it throws comes out there;
   /// a frame is then rendered, and still recorded.
   std::function<void(LogLevel level, std::string_view message)> log{};
+  /// For profilers: what a frame's workers did when, in the order in which it began. Called as `log` is, at the end of each frame.
+  std::function<void(std::span<const FrameTask> tasks)> trace{};
 };
 
 /// Owns the working memory of frames in flight and the threads' arena. Create once, use for many frames and frame buffers.
@@ -668,7 +685,7 @@ class TESSERA_API Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Runs the frame. It is empty afterwards and may be recorded anew; camera, lights and light model stay. If this throws, the
-  /// frame is still recorded: it may be finished again, or reset.
+  /// frame is still recorded: it may be finished again, or reset. Throws Error for indices out of bounds, too, before anything changes.
   FrameStats finish(Frame& frame);
   /// Runs the frame and scans the colour buffer out into the caller's memory, straight from the tiles.
   FrameStats finish(Frame& frame, const ImageTarget& target);

@@ -157,7 +157,6 @@ Misuse mesh(const char* what, const std::function<void(Mesh&)>& change, std::vec
 
 TEST(ErrorsOfFrames, NameSpansThatDoNotFitTogether) {
   static const std::vector<float> floats(64, 0.0f);
-  static const std::vector<std::uint32_t> beyond{0, 1, 2, 3, 4, 6}, huge{0, 1, 0xffffffffu};
   const auto first = [](std::size_t n) { return std::span<const float>(floats).first(n); };
   expect_errors(kRgb, {
       mesh("2 components", [](Mesh& m) { m.position_components = 2; }, {"position_components is 2", "3 or 4"}),
@@ -170,9 +169,7 @@ TEST(ErrorsOfFrames, NameSpansThatDoNotFitTogether) {
       mesh("17 floats of normals", [=](Mesh& m) { m.normals = first(17); }, {"17 floats of normals", "6 vertices", "18"}),
       mesh("one normal", [=](Mesh& m) { m.normals = first(3); }, {"3 floats of normals", "18"}),
       mesh("RGB colours", [=](Mesh& m) { m.colors = first(18); }, {"18 floats of colors", "24"}),
-      mesh("index 6 of 6", [](Mesh& m) { m.indices = beyond; }, {"index 5", "is 6", "below", "6"}),
-      mesh("index -1", [](Mesh& m) { m.indices = huge; }, {"index 2", "4294967295", "6"}),
-      mesh("indices without positions", [](Mesh& m) { m.positions = {}; m.indices = kIndices; }, {"index 0", "vertices, 0"}),
+      mesh("indices without positions", [](Mesh& m) { m.positions = {}; m.indices = kIndices; }, {"6 indices", "no vertices"}),
       mesh("normals without positions", [=](Mesh& m) { m.positions = {}; m.normals = first(3); }, {"3 floats of normals", "0"}),
   });
 }

@@ -124,8 +124,6 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
       {"half a colour", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = std::span(n.bytes).first(4 * kVertices - 1); }, "239 bytes of colors, its 60 vertices need 240"},
       {"both", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.floats = n.colors; }, "colors twice"},
       {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; }, "indices of 8 bits, must be 16 or 32"},
-      {"short index", [](Mesh& mesh, const float*, const Meshes& n) { mesh.positions = {n.positions.data(), 3, 12}, mesh.normals = {}, mesh.colors = {}, mesh.indices = n.short_indices; },
-       "must be below the number of vertices, 3"},
   };
   for (const auto& row : rows) {
     FrameBuffer buffer(kFormat);
@@ -135,6 +133,43 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
     EXPECT_THAT(error_of([&] { frame.draw(mesh, {}); }).value_or("(none)"), testing::HasSubstr(row.says)) << row.what;
     EXPECT_EQ(frame.draw_count(), 0u);
   }
+}
+
+// Many tasks look at them; the first wrong one of the first draw that has any is named, and nothing is lost.
+TEST(MeshIndices, AreNamedWhereOutOfBounds) {
+  const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  const auto indices = [](auto first, std::size_t wrong_at, auto wrong) {
+    std::vector<decltype(first)> all;
+    for (std::size_t i = 0; i < 60'000; ++i) all.push_back(static_cast<decltype(first)>(i % 3));
+    if (wrong_at < all.size()) all[wrong_at] = wrong, all.back() = wrong;
+    return all;
+  };
+  const auto good = indices(std::uint32_t{}, 60'000, std::uint32_t{});
+  const auto last = indices(std::uint32_t{}, 59'999, std::uint32_t{3}), middle = indices(std::uint32_t{}, 30'000, 0xffff'ffffu);
+  const auto first = indices(std::uint16_t{}, 0, std::uint16_t{0xffff});
+  const struct {
+    std::vector<IndexArray> draws;
+    const char* says;
+  } rows[] = {
+      {{good, last}, "index 59999 of the mesh of draw 1 is 3, must be below the number of vertices, 3"},
+      {{middle, good, last}, "index 30000 of the mesh of draw 0 is 4294967295, must be below"},
+      {{good, first, middle}, "index 0 of the mesh of draw 1 is 65535, must be below"},
+  };
+  for (const auto& row : rows)
+    for (const int threads : {1, 3}) {
+      FrameBuffer buffer(kFormat);
+      const Fingerprint before = fingerprint(buffer);
+      Renderer renderer({.threads = threads});
+      Frame frame(buffer);
+      frame.clear({.color = Color{1, 1, 1, 1}});
+      for (const IndexArray& array : row.draws) frame.draw({.positions = triangle, .indices = array});
+      EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or("(none)"), testing::HasSubstr(row.says));
+      EXPECT_EQ(fingerprint(buffer), before);
+      EXPECT_EQ(frame.draw_count(), row.draws.size());
+      frame.reset();
+      frame.draw({.positions = triangle, .indices = good});
+      EXPECT_FALSE(error_of([&] { renderer.finish(frame); }));
+    }
 }
 
 }  // namespace

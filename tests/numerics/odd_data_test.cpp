@@ -218,21 +218,25 @@ TEST(OddData, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
     MeshData data = mesh_of(primitive);
     std::vector<std::uint16_t> narrow;
     for (std::uint32_t i = 0; i < kVertices; ++i) data.indices.push_back(i), narrow.push_back(static_cast<std::uint16_t>(i));
-    Frame frame(buffer);
+    Renderer renderer({.threads = 1});
+    const auto error = [&](const Mesh& mesh) {
+      Frame frame(buffer);
+      frame.draw(mesh);
+      return error_of([&] { renderer.finish(frame); }).value_or("");
+    };
     for (const std::size_t place : {std::size_t{0}, std::size_t{1}, std::size_t{13}, std::size_t{kVertices - 1}})
       for (const std::uint32_t wrong : {std::uint32_t{kVertices}, 0x7fffu, 0xffffu, 0x80000000u, 0xffffffffu}) {
         std::vector<std::uint32_t> wide = data.indices;
         wide[place] = wrong;
         Mesh mesh = data.view();
         mesh.indices = wide;
-        EXPECT_THAT(error_of([&] { frame.draw(mesh); }).value_or(""), testing::AllOf(testing::HasSubstr("index " + std::to_string(place) + " "), testing::HasSubstr(std::to_string(wrong)), testing::HasSubstr("24")));
+        EXPECT_THAT(error(mesh), testing::AllOf(testing::HasSubstr("index " + std::to_string(place) + " "), testing::HasSubstr(std::to_string(wrong)), testing::HasSubstr("24")));
         if (wrong > 0xffff) continue;
         std::vector<std::uint16_t> half = narrow;
         half[place] = static_cast<std::uint16_t>(wrong);
         mesh.indices = half;
-        EXPECT_THAT(error_of([&] { frame.draw(mesh); }).value_or(""), testing::HasSubstr(std::to_string(wrong)));
+        EXPECT_THAT(error(mesh), testing::HasSubstr(std::to_string(wrong)));
       }
-    EXPECT_EQ(frame.draw_count(), 0u);
   }
 }
 

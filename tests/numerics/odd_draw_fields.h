@@ -95,7 +95,7 @@ inline void add_pixels(Fields& f) {
 inline void add_buffer_and_renderer(Fields& f) {
   [[maybe_unused]] const auto know = [](const FrameBufferFormat& b, const RendererOptions& o) {
     [[maybe_unused]] const auto& [width, height, color_mode, color_bits, palette, depth, stencil_bits, alpha_bits, dither, accumulation_bits, samples] = b;
-    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, defer_shading, bin_memory, count_fragments, task_order, executor, progress, log] = o;
+    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, defer_shading, bin_memory, count_fragments, task_order, executor, progress, log, trace] = o;
   };
   constexpr const char *kBuffer = "FrameBuffer", *kRenderer = "Renderer";
   const auto refused = [](double) { return Verdict::refused; };

@@ -1,0 +1,26 @@
+#include "engine/frame_trace.h"
+
+#include <algorithm>
+#include <new>
+
+namespace tessera {
+
+void FrameTrace::Tasks::add(const FrameTask& task) noexcept try {
+  list.push_back(task);
+} catch (const std::bad_alloc&) {
+  is_whole = false;
+}
+
+std::vector<FrameTask> FrameTrace::tasks() const noexcept try {
+  std::vector<FrameTask> all;
+  for (const Tasks& of_worker : tasks_) {
+    if (!of_worker.is_whole) return {};
+    all.insert(all.end(), of_worker.list.begin(), of_worker.list.end());
+  }
+  std::stable_sort(all.begin(), all.end(), [](const FrameTask& a, const FrameTask& b) { return a.begin < b.begin; });
+  return all;
+} catch (const std::bad_alloc&) {
+  return {};
+}
+
+}  // namespace tessera

@@ -1,0 +1,126 @@
+// RendererOptions::trace: what the workers of a frame did.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/engine/api_support.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+constexpr FrameBufferFormat kFormat{.width = 300, .height = 170};
+
+/// Many small triangles, in two draws.
+struct Scattered {
+  std::vector<float> positions;
+  Scattered() {
+    Random random(5);
+    for (int i = 0; i < 3000 * 9; i += 9) {
+      const float x = random.between(-1, 1), y = random.between(-1, 1);
+      for (const float offset : {0.0f, 0.1f, 0.0f, 0.1f, 0.1f, 0.0f, 0.0f, 0.0f, 0.1f}) positions.push_back(positions.size() % 3 == 0 ? x + offset : positions.size() % 3 == 1 ? y + offset : 0.5f);
+    }
+  }
+};
+
+using Tasks = std::vector<FrameTask>;
+
+struct Traced {
+  Tasks tasks;
+  int calls = 0;
+  FrameStats stats;
+};
+Traced traced(RendererOptions options) {
+  static const Scattered mesh;
+  Traced result;
+  options.trace = [&](std::span<const FrameTask> tasks) {
+    ++result.calls;
+    result.tasks.assign(tasks.begin(), tasks.end());
+  };
+  FrameBuffer buffer(kFormat);
+  Renderer renderer(options);
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+  for (int i = 0; i < 2; ++i) frame.draw({.positions = mesh.positions}, {.shading = Shading::flat, .lighting = false});
+  result.stats = renderer.finish(frame);
+  return result;
+}
+
+// Of tiles without a bin, which a clear alone fills, several may be one task.
+void expect_each_pixel_once(const Tasks& tasks) {
+  std::vector<int> times(static_cast<std::size_t>(kFormat.width * kFormat.height));
+  for (const FrameTask& task : tasks) {
+    if (task.stage != FrameStage::tiles) continue;
+    EXPECT_GT(task.pixels.width * task.pixels.height, 0);
+    for (int y = task.pixels.y; y < task.pixels.y + task.pixels.height; ++y)
+      for (int x = task.pixels.x; x < task.pixels.x + task.pixels.width; ++x) ++times.at(static_cast<std::size_t>(y * kFormat.width + x));
+  }
+  EXPECT_EQ(std::count(times.begin(), times.end(), 1), std::ssize(times));
+}
+
+void expect_sound_times(const Tasks& tasks, int threads) {
+  EXPECT_TRUE(std::is_sorted(tasks.begin(), tasks.end(), [](const FrameTask& a, const FrameTask& b) { return a.begin < b.begin; }));
+  std::map<int, double> free_at;
+  for (const FrameTask& task : tasks) {
+    EXPECT_GE(task.begin, 0);
+    EXPECT_GE(task.end, task.begin);
+    ASSERT_GE(task.worker, 0);
+    ASSERT_LT(task.worker, threads);
+    EXPECT_GE(task.begin, free_at[task.worker]) << "nobody does two things at once";
+    free_at[task.worker] = task.end;
+  }
+}
+
+TEST(FrameTrace, HoldsEachStageAndEachPixel) {
+  for (const int threads : {1, 2, 3}) {
+    const Traced frame = traced({.threads = threads, .tile_size = 32});
+    EXPECT_EQ(frame.calls, 1);
+    expect_sound_times(frame.tasks, threads);
+    expect_each_pixel_once(frame.tasks);
+    EXPECT_TRUE(std::is_sorted(frame.tasks.begin(), frame.tasks.end(), [](const FrameTask& a, const FrameTask& b) { return a.stage < b.stage; }));
+    for (const FrameStage stage : {FrameStage::vertices, FrameStage::binning, FrameStage::tiles})
+      EXPECT_TRUE(std::any_of(frame.tasks.begin(), frame.tasks.end(), [&](const FrameTask& task) { return task.stage == stage; })) << static_cast<int>(stage);
+  }
+}
+
+TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
+  const Traced frame = traced({.threads = 2, .tile_size = 32, .bin_memory = kLeastBinMemory});
+  expect_sound_times(frame.tasks, 2);
+  expect_each_pixel_once(frame.tasks);
+  const auto is_tile = [](const FrameTask& task) { return task.stage == FrameStage::tiles; };
+  const auto first_tile = std::find_if(frame.tasks.begin(), frame.tasks.end(), is_tile);
+  EXPECT_TRUE(std::any_of(first_tile, frame.tasks.end(), [](const FrameTask& task) { return task.stage == FrameStage::binning; }));
+}
+
+TEST(FrameTrace, OfAFrameThatFailsIsNotTold) {
+  static constexpr float kTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  static constexpr std::uint32_t kWrong[] = {0, 1, 3};
+  int calls = 0;
+  RendererOptions options{.threads = 1};
+  options.trace = [&](std::span<const FrameTask>) { ++calls; };
+  FrameBuffer buffer(kFormat);
+  Renderer renderer(options);
+  Frame frame(buffer);
+  frame.draw({.positions = kTriangle, .indices = kWrong});
+  EXPECT_TRUE(error_of([&] { renderer.finish(frame); }));
+  EXPECT_EQ(calls, 0);
+}
+
+TEST(FrameTrace, LetsOutWhatItsListenerThrows) {
+  RendererOptions options{.threads = 2};
+  options.trace = [](std::span<const FrameTask>) { throw std::runtime_error("enough"); };
+  FrameBuffer buffer(kFormat);
+  Renderer renderer(options);
+  Frame frame(buffer);
+  static constexpr float kTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  frame.clear({.color = Color{1, 1, 1, 1}});
+  frame.draw({.positions = kTriangle});
+  EXPECT_THROW(renderer.finish(frame), std::runtime_error);
+  EXPECT_EQ(frame.draw_count(), 1u) << "it is still recorded";
+  EXPECT_NE(fingerprint(buffer), fingerprint(FrameBuffer(kFormat))) << "the frame was rendered";
+}
+
+}  // namespace
+}  // namespace tessera
