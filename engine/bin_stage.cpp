@@ -13,11 +13,6 @@ constexpr std::size_t kTrianglesPerBatch = 1024;
 /// whose outline is drawn it is one of many that stay together.)
 constexpr std::size_t kMostBytesOfATriangle = 8192;
 
-/// Ranges of triangles of several draws.
-struct Range {
-  std::size_t draw, first, last;
-};
-
 void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
   switch (draw.topology) {
     case Topology::points: return bin_points(bins, grid, draw, first, last);
@@ -30,20 +25,24 @@ void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
 
 }  // namespace
 
-BinStage::BinStage(const FrameCommands& commands, const TileGrid& grid, int samples, std::size_t limit, std::vector<Bins>& bins, Parallel& parallel, Isa isa)
-    : commands_(commands), grid_(grid), limit_(limit), bins_(bins), parallel_(parallel), isa_(isa) {
+void BinStage::begin(const FrameCommands& commands, const TileGrid& grid, int samples) {
+  commands_ = &commands;
+  grid_ = grid;
+  first_element_.assign(1, 0);
   for (const GeometryDraw& draw : commands.geometry) first_element_.push_back(first_element_.back() + (draw.plan->texels ? 1 : draw.mesh->elements));
-  batch_count_ = std::clamp<std::size_t>(first_element_.back() / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel.threads()));
+  batch_count_ = std::clamp<std::size_t>(first_element_.back() / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel_.threads()));
   if (bins_.size() < batch_count_) bins_.resize(batch_count_);
   prepare_draws(samples);
 }
 
 void BinStage::prepare_draws(int samples) {
-  for (std::size_t d = 0; d < commands_.geometry.size(); ++d) {
-    const GeometryDraw& geometry = commands_.geometry[d];
+  draws_.clear();
+  rects_.clear();
+  for (std::size_t d = 0; d < commands_->geometry.size(); ++d) {
+    const GeometryDraw& geometry = commands_->geometry[d];
     const DrawPlan& plan = *geometry.plan;
     BinDraw draw;
-    draw.draw = commands_.first_tile_draw[d];
+    draw.draw = commands_->first_tile_draw[d];
     draw.topology = plan.topology;
     draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
     draw.samples = samples;
@@ -73,14 +72,11 @@ void BinStage::prepare_draws(int samples) {
     draws_.push_back(draw);
     rects_.push_back(draw.rect);
   }
-  std::vector<Range> polygons;
-  for (std::size_t d = 0; d < draws_.size(); ++d) {
-    const std::size_t count = draws_[d].facing != nullptr ? commands_.geometry[d].mesh->elements : 0;
-    for (std::size_t first = 0; first < count; first += kTrianglesPerBatch) polygons.push_back({d, first, std::min(count, first + kTrianglesPerBatch)});
-  }
-  parallel_.for_each(polygons.size(), [&](std::size_t i, int) {
-    const Range& range = polygons[i];
-    const GeometryDraw& geometry = commands_.geometry[range.draw];
+  polygons_.clear();
+  for (std::size_t d = 0; d < draws_.size(); ++d) cut_into_ranges(d, draws_[d].facing != nullptr ? commands_->geometry[d].mesh->elements : 0, kTrianglesPerBatch, polygons_);
+  parallel_.for_each(polygons_.size(), [&](std::size_t i, int) {
+    const DrawRange& range = polygons_[i];
+    const GeometryDraw& geometry = commands_->geometry[range.draw];
     const std::size_t each = geometry.mesh->polygon_triangles();
     face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
     const DrawPlan& plan = *geometry.plan;
@@ -130,7 +126,7 @@ void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
   for (std::size_t d = 0; d < draws_.size(); ++d) {
     const std::size_t low = std::max(begin, first_element_[d]), high = std::min(end, first_element_[d + 1]);
     if (low >= high) continue;
-    if (commands_.plans[d].texels) {
+    if (commands_->plans[d].texels) {
       if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
     } else
       bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]), static_cast<std::uint32_t>(high - first_element_[d]), isa_);

@@ -9,6 +9,7 @@
 #include "engine/frame_commands.h"
 #include "engine/frame_watch.h"
 #include "engine/parallel.h"
+#include "engine/draw_range.h"
 #include "raster/binning.h"
 
 namespace tessera {
@@ -23,12 +24,15 @@ struct TileRange {
 
 class BinStage {
  public:
-  /// All that is given is used as long as this lives; `bins` are kept from frame to frame. Throws std::bad_alloc.
+  /// For one frame after the other, in the same memory.
   ///
   /// @param limit  bytes that the bins may take together
-  BinStage(const FrameCommands& commands, const TileGrid& grid, int samples, std::size_t limit, std::vector<Bins>& bins, Parallel& parallel, Isa isa);
+  BinStage(std::size_t limit, Parallel& parallel, Isa isa) : limit_(limit), parallel_(parallel), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
+
+  /// `commands` are used until the next frame begins. Throws std::bad_alloc.
+  void begin(const FrameCommands& commands, const TileGrid& grid, int samples);
 
   std::size_t batch_count() const { return batch_count_; }
   /// Fills the bins of some tiles. False if there are several and their bins would pass the limit. A single tile is always filled: if its bins
@@ -44,15 +48,16 @@ class BinStage {
   void bin(Bins& bins, std::size_t begin, std::size_t end) const;
   void fill_one_by_one(const TileRange& tile);
 
-  const FrameCommands& commands_;
-  TileGrid grid_;
   std::size_t limit_;
-  std::vector<Bins>& bins_;
   Parallel& parallel_;
   Isa isa_;
+  std::vector<Bins> bins_;
+  const FrameCommands* commands_ = nullptr;
+  TileGrid grid_{};
   std::vector<BinDraw> draws_;
   std::vector<PixelRect> rects_;           ///< of the draws, in the whole frame
-  std::vector<std::size_t> first_element_{0};  ///< of each draw, counted through the frame; a bitmap or an image counts as one
+  std::vector<std::size_t> first_element_;  ///< of each draw, counted through the frame; a bitmap or an image counts as one
+  std::vector<DrawRange> polygons_;        ///< triangles whose polygons are faced together
   std::size_t batch_count_ = 1;
   BinBatches batches_;
   BinCounts counts_;

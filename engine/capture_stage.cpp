@@ -23,6 +23,7 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
       for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
     }
   }
+  if (capture.objects.empty() && capture.primitives.empty() && capture.normals.empty() && !count_fragments) return;
   passes_.reserve(4);  // frames of passes point into them
   if (!capture.objects.empty()) add_pass(What::objects, commands, frame);
   if (!capture.primitives.empty()) add_pass(What::primitives, commands, frame);

@@ -88,20 +88,20 @@ void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const Co
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
   const LightModel& model = draw.surroundings->light_model;
   const glm::dmat4 view = to_glm(draw.surroundings->camera.view);
-  std::vector<EyeLight> lights;
-  for (const Light& light : draw.surroundings->lights) lights.push_back(eye_light(light, view));
+  plan.lights.clear();
+  for (const Light& light : draw.surroundings->lights) plan.lights.push_back(eye_light(light, view));
   const TrackedColors tracked = draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
   const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong, unit_normals};
-  const auto program = [&](const Material& material, bool index) {
-    if (!index) return plan_lighting(surface(material), tracked, lights, lighting, reasons);
-    if (reasons) *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
-    return plan_index_lighting({*material.color_indexes, material.shininess, layout.index_modulus()}, lights, lighting, reasons);
+  const auto set_program = [&](LightingProgram& program, const Material& material, bool index) {
+    if (reasons && index) *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
+    program = index ? plan_index_lighting({*material.color_indexes, material.shininess, layout.index_modulus()}, plan.lights, lighting, reasons, std::move(program.terms))
+                    : plan_lighting(surface(material), tracked, plan.lights, lighting, reasons, std::move(program.terms));
   };
-  plan.front = program(draw.state.material, plan.index[0]);
+  set_program(plan.front, draw.state.material, plan.index[0]);
   if (plan.two_sided) {
     if (reasons) *reasons += "  back faces:\n";
-    plan.back = program(back_material(draw.state), plan.index[1]);
+    set_program(plan.back, back_material(draw.state), plan.index[1]);
     plan.back.negate_normal = true;
   }
   plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
@@ -162,8 +162,8 @@ void plan_texturing(DrawPlan& plan, bool at_vertices) {
 
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled, std::string* reasons) {
   const DrawState& state = draw.state;
-  const auto note = [&](const std::string& line) {
-    if (reasons) *reasons += "  " + line + "\n";
+  const auto note = [&](const char* line) {
+    if (reasons) (*reasons += "  ").append(line) += "\n";
   };
   if (plan.write_mask == 0) {
     plan.source = ColorSource::none;
@@ -281,9 +281,20 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
   return mask == (layout.word_mask() | layout.alpha_mask()) ? 0xffffffffu : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
 }
 
-DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
-  const DrawState& state = draw.state;
+void DrawPlan::start_anew() {
   DrawPlan plan;
+  plan.lights.swap(lights);
+  plan.front.terms.swap(front.terms);
+  plan.back.terms.swap(back.terms);
+  plan.lights.clear();
+  plan.front.terms.clear();
+  plan.back.terms.clear();
+  *this = std::move(plan);
+}
+
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
+  const DrawState& state = draw.state;
+  plan.start_anew();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
   if (draw.pixels) {
     plan_pixel_places(plan, *draw.pixels, target);
@@ -340,7 +351,6 @@ DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capt
   const bool never_seen = (has_depth && state.depth.test == Compare::never) || (plan.ops.alpha_test && plan.ops.alpha_func == CompareOp::never);
   plan.invisible = plan.rect.empty() || (!writes_stencil && (never_seen || (plan.write_mask == 0 && !writes_depth)));
   if (reasons && plan.invisible) *reasons += "  can change no pixel: left out\n";
-  return plan;
 }
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/recording.h"
 #include "engine/texture_plan.h"
@@ -45,6 +46,7 @@ struct DrawPlan {
 
   bool lit = false;               ///< lights run: at vertices, triangles or pixels
   bool two_sided = false;         ///< back faces have a program of their own
+  std::vector<EyeLight> lights;
   LightingProgram front, back;
   Rgb constant_color{};           ///< ColorSource::constant
   bool index[2] = {};             ///< front, back: the colour is an index
@@ -73,11 +75,15 @@ struct DrawPlan {
   int color_floats() const { return only_indices() ? 1 : has_ops ? 4 : 3; }
   /// Colours are made for triangles, not for vertices.
   bool colors_triangles() const { return source == ColorSource::triangle_word || (flat && (face_normals || provoking_apart)); }
+
+  /// As a new one, but that its lists keep their memory.
+  void start_anew();
 };
 
+/// @param plan  is replaced
 /// @param capture_normals  each pixel's normal is wanted besides its colour
 /// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
-DrawPlan plan_draw(const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons);
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons);
 
 /// The bits of colour words that may change; all 32 for all planes.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask, const ColorLayout& layout);

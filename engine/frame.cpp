@@ -87,14 +87,9 @@ const TextureState* check_texture(const DrawState& s, const TextureState* state)
   return state;
 }
 
-// What is recorded already keeps its surroundings.
 template <class Change>
 void change(FrameRecording& recording, const char* function, const Change& edit) {
-  with_memory(function, [&] {
-    auto changed = std::make_shared<Surroundings>(*recording.surroundings);
-    edit(*changed);
-    recording.surroundings = std::move(changed);
-  });
+  with_memory(function, [&] { edit(recording.changeable_surroundings()); });
 }
 
 }  // namespace
@@ -172,7 +167,7 @@ void Frame::accumulate(const Accum& accum) {
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
   const FloatingPointMode mode;
   with_memory("Frame::draw", [&] {
-    RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = recording_->surroundings};
+    RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = &recording_->surroundings()};
     check_state(state);
     check_shape(state, *recording_->target);
     check_fragment_state("Frame::draw", state, *recording_->target);
@@ -184,7 +179,9 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
 
 void Frame::keep(std::initializer_list<Buffer> buffers) {
   for (const Buffer buffer : buffers) require_enum({"Frame::keep: a buffer"}, buffer, Buffer::accumulation);
-  with_memory("Frame::keep", [&] { recording_->keep = std::vector<Buffer>(buffers); });
+  recording_->keeps_chosen = true;
+  recording_->kept = {};
+  for (const Buffer buffer : buffers) recording_->kept[static_cast<std::size_t>(buffer)] = true;
 }
 
 void Frame::capture(const Capture& capture) {
@@ -210,7 +207,8 @@ std::string Frame::explain(std::size_t draw_index) const {
   return with_memory("Frame::explain", [&] {
     const FloatingPointMode mode;
     std::string reasons;
-    plan_draw(recording_->draws[draw_index], *recording_->target, false, &reasons);
+    DrawPlan plan;
+    plan_draw(plan, recording_->draws[draw_index], *recording_->target, false, &reasons);
     return reasons;
   });
 }

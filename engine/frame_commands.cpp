@@ -23,8 +23,7 @@ bool covers(const PixelRect& rect, const PixelRect& whole) {
 }
 
 bool wants(const FrameRecording& recording, Buffer buffer, bool touched, bool presented) {
-  if (!recording.keep) return touched && !presented;
-  return std::find(recording.keep->begin(), recording.keep->end(), buffer) != recording.keep->end();
+  return recording.keeps_chosen ? recording.kept[static_cast<std::size_t>(buffer)] : touched && !presented;
 }
 
 void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target) {
@@ -149,26 +148,41 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
 
 }  // namespace
 
-FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers) {
+void FrameCommands::start_anew() {
+  plans = {};
+  plan_draw.clear();
+  first_tile_draw.clear();
+  geometry.clear();
+  tile_draws.clear();
+  tile_draw_plan.clear();
+  clears.clear();
+  accumulations.clear();
+  first_plan_at.clear();
+  clears_until.clear();
+  color = depth = stencil = accumulation = {};
+}
+
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers) {
   FrameBufferState& target = *recording.target;
   const PixelRect whole = whole_buffer(target);
-  FrameCommands commands;
-  std::vector<std::uint32_t> first_plan_at(recording.draws.size() + 1);
+  commands.start_anew();
   for (std::size_t i = 0; i < recording.draws.size(); ++i) {
-    first_plan_at[i] = static_cast<std::uint32_t>(commands.plans.size());
-    DrawPlan plan = plan_draw(recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
+    const std::size_t number = commands.plan_draw.size();
+    commands.first_plan_at.push_back(static_cast<std::uint32_t>(number));
+    if (number == commands.plan_memory.size()) commands.plan_memory.emplace_back();
+    DrawPlan& plan = commands.plan_memory[number];
+    plan_draw(plan, recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
     if (plan.invisible || (!plan.texels && recording.draws[i].mesh.elements == 0)) continue;
-    commands.plans.push_back(std::move(plan));
     commands.plan_draw.push_back(i);
   }
-  first_plan_at.back() = static_cast<std::uint32_t>(commands.plans.size());
+  commands.plans = {commands.plan_memory.data(), commands.plan_draw.size()};
+  commands.first_plan_at.push_back(static_cast<std::uint32_t>(commands.plans.size()));
 
-  std::vector<std::uint32_t> clears_until;  // how many of the first clears, and their successors, matter
   for (const RecordedClear& recorded : recording.clears) {
-    clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
+    commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
     const Clear& clear = recorded.clear;
     TileClear tile_clear;
-    tile_clear.before_draw = first_plan_at[recorded.before_draw];
+    tile_clear.before_draw = commands.first_plan_at[recorded.before_draw];
     tile_clear.rect = rect_of(clear.scissor, target);
     tile_clear.color = clear.color || clear.index;
     tile_clear.depth = clear.depth.has_value();
@@ -185,12 +199,12 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
     }
     commands.clears.push_back(tile_clear);
   }
-  clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
+  commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
   for (const RecordedAccum& recorded : recording.accums) {
     auto command = plan_accumulation(recorded.accum, target);
     if (!command) continue;
-    command->before_draw = first_plan_at[recorded.before_draw];
-    command->after_clears = clears_until[recorded.after_clears];
+    command->before_draw = commands.first_plan_at[recorded.before_draw];
+    command->after_clears = commands.clears_until[recorded.after_clears];
     commands.accumulations.push_back(*command);
   }
 
@@ -249,14 +263,14 @@ FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<D
     geometry.provoking_vertex = draw.state.provoking_vertex;
     commands.geometry.push_back(geometry);
   }
-  return commands;
 }
 
-std::vector<PolygonStyle> styles_of(const DrawPlan& plan) {
-  std::vector<PolygonStyle> styles;
-  for (const PolygonStyle style : {PolygonStyle::fill, PolygonStyle::line, PolygonStyle::point})
-    if (plan.outlines && (plan.style[0] == style || plan.style[1] == style)) styles.push_back(style);
-  return styles;
+std::span<const PolygonStyle> styles_of(const DrawPlan& plan) {
+  static constexpr PolygonStyle kInOrder[] = {PolygonStyle::fill, PolygonStyle::line, PolygonStyle::point}, kBothEnds[] = {PolygonStyle::fill, PolygonStyle::point};
+  if (!plan.outlines) return {};
+  const auto [first, last] = std::minmax({static_cast<std::size_t>(plan.style[0]), static_cast<std::size_t>(plan.style[1])});
+  if (last - first == 2) return kBothEnds;
+  return {kInOrder + first, last - first + 1};
 }
 
 void connect_draws(FrameCommands& commands) {
@@ -320,7 +334,7 @@ void connect_draws(FrameCommands& commands) {
       commands.tile_draws.push_back(draw);
       commands.tile_draw_plan.push_back(plan_number);
     };
-    const std::vector<PolygonStyle> styles = styles_of(plan);
+    const std::span<const PolygonStyle> styles = styles_of(plan);
     if (styles.empty()) add();
     for (const PolygonStyle style : styles) {
       if (style != PolygonStyle::fill) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "engine/draw_plan.h"
@@ -24,8 +25,10 @@ struct BufferTraffic {
   std::array<std::uint32_t, 4> uniform_words{};  ///< of each of the buffer's parts
 };
 
+/// Used for one frame after the other: its memory is kept.
 struct FrameCommands {
-  std::vector<DrawPlan> plans;
+  std::span<DrawPlan> plans;                ///< of draws that can change something
+  std::vector<DrawPlan> plan_memory;        ///< theirs, and of more draws in frames before
   std::vector<std::size_t> plan_draw;       ///< the recorded draw of each plan
   /// The tiles' first draw of each plan, and one past the last: polygons that are not all filled are several.
   std::vector<std::uint32_t> first_tile_draw;
@@ -34,7 +37,11 @@ struct FrameCommands {
   std::vector<std::size_t> tile_draw_plan;  ///< of each
   std::vector<TileClear> clears;
   std::vector<TileAccumulation> accumulations;
+  std::vector<std::uint32_t> first_plan_at;  ///< of each recorded draw, and one past the last: the first plan from there on
+  std::vector<std::uint32_t> clears_until;   ///< of each recorded clear, likewise
   BufferTraffic color, depth, stencil, accumulation;
+
+  void start_anew();
 
   bool stores() const { return color.store || depth.store || stencil.store || accumulation.store; }
   const BufferTraffic& traffic(Buffer which) const {
@@ -49,10 +56,11 @@ struct FrameCommands {
 
 /// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.
 /// Throws Error where a buffer that the frame needs was not kept by the frame before.
-FrameCommands plan_frame(FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers);
+/// @param commands  are replaced
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers);
 
 /// The styles in which a plan's elements are drawn, in the order of its tile draws; none: as they are.
-std::vector<PolygonStyle> styles_of(const DrawPlan& plan);
+std::span<const PolygonStyle> styles_of(const DrawPlan& plan);
 
 /// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
 void connect_draws(FrameCommands& commands);

@@ -38,7 +38,7 @@ void check_pixels(const char* function, RecordedPixels& pixels, const char* memo
 
 void record(FrameRecording& recording, const char* function, const RecordedPixels& pixels, const FragmentState& state) {
   with_memory(function, [&] {
-    RecordedDraw draw{.mesh = {}, .state = draw_state(state), .surroundings = recording.surroundings, .pixels = pixels};
+    RecordedDraw draw{.mesh = {}, .state = draw_state(state), .surroundings = &recording.surroundings(), .pixels = pixels};
     check_fragment_state(function, draw.state, *recording.target);
     recording.draws.push_back(std::move(draw));
   });

@@ -15,23 +15,9 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 512, kIndicesPerTask = std::size_t{1} << 14, kTilesPerTask = 8;
+constexpr std::size_t kVerticesPerTask = 512, kIndicesPerTask = std::size_t{1} << 14, kElementsPerTask = 4096, kTilesPerTask = 8;
 // How much of a frame is done after the stages before the tiles, for a progress bar.
-constexpr double kIndicesDone = 0.02, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
-
-/// Ranges of elements of several draws, cut into tasks.
-struct Range {
-  std::size_t draw, first, last;
-};
-std::vector<Range> cut_into_tasks(const std::vector<GeometryDraw>& draws, bool triangles) {
-  std::vector<Range> tasks;
-  for (std::size_t d = 0; d < draws.size(); ++d) {
-    if (triangles && !draws[d].plan->colors_triangles()) continue;
-    const std::size_t count = triangles ? draws[d].mesh->elements : draws[d].mesh->vertices;
-    for (std::size_t first = 0; first < count; first += kVerticesPerTask) tasks.push_back({d, first, std::min(count, first + kVerticesPerTask)});
-  }
-  return tasks;
-}
+constexpr double kIndicesDone = 0.02, kElementsDone = 0.05, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
 
 /// Seconds since it was last asked.
 class StopWatch {
@@ -118,13 +104,8 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
 }
 
 // Before anything reads what they point to.
-void RendererState::check_indices(const FrameCommands& commands, FrameWatch& watch) {
-  std::vector<Range> ranges;
-  for (std::size_t d = 0; d < commands.geometry.size(); ++d) {
-    const MeshArrays& mesh = *commands.geometry[d].mesh;
-    const std::size_t count = mesh.indexed() ? mesh.corners : 0;
-    for (std::size_t first = 0; first < count; first += kIndicesPerTask) ranges.push_back({d, first, std::min(count, first + kIndicesPerTask)});
-  }
+void RendererState::check_indices(FrameWatch& watch) {
+  cut_draws([](const GeometryDraw& draw) { return draw.mesh->indexed() ? draw.mesh->corners : 0; }, kIndicesPerTask);
   std::atomic<std::size_t> wrong_draw = commands.geometry.size();  // the first of them
   watch.begin_stage(FrameStage::vertices, kIndicesDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
@@ -139,18 +120,24 @@ void RendererState::check_indices(const FrameCommands& commands, FrameWatch& wat
   if (wrong_draw < commands.geometry.size()) fail_at_index(*commands.geometry[wrong_draw].mesh, commands.plan_draw[wrong_draw]);
 }
 
-void RendererState::process_geometry(FrameCommands& commands, FrameWatch& watch) {
-  check_indices(commands, watch);
+void RendererState::process_geometry(FrameWatch& watch) {
   for (const GeometryDraw& draw : commands.geometry) prepare_geometry(draw);
-  const std::vector<Range> vertices = cut_into_tasks(commands.geometry, false);
-  watch.begin_stage(FrameStage::vertices, kVerticesDone, vertices.size());
-  parallel.for_each(vertices.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, [&] { process_vertices(commands.geometry[vertices[i].draw], vertices[i].first, vertices[i].last, isa); });
+  cut_draws([](const GeometryDraw& draw) { return draw.assembles() ? draw.mesh->elements : 0; }, kElementsPerTask);
+  watch.begin_stage(FrameStage::vertices, kElementsDone, ranges.size());
+  parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
+    watch.task(worker, [&] { assemble_elements(commands.geometry[ranges[i].draw], ranges[i].first, ranges[i].last); });
   });
-  const std::vector<Range> triangles = cut_into_tasks(commands.geometry, true);
-  watch.begin_stage(FrameStage::faces, kFacesDone, triangles.size());
-  parallel.for_each(triangles.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, [&] { process_triangles(commands.geometry[triangles[i].draw], triangles[i].first, triangles[i].last, isa); });
+  for (const GeometryDraw& draw : commands.geometry)
+    if (draw.wants_smooth_normals()) normal_maker.make(*draw.mesh, parallel, draw.buffers->smooth_normals);
+  cut_draws([](const GeometryDraw& draw) { return draw.mesh->vertices; }, kVerticesPerTask);
+  watch.begin_stage(FrameStage::vertices, kVerticesDone, ranges.size());
+  parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
+    watch.task(worker, [&] { process_vertices(commands.geometry[ranges[i].draw], ranges[i].first, ranges[i].last, isa); });
+  });
+  cut_draws([](const GeometryDraw& draw) { return draw.plan->colors_triangles() ? draw.mesh->elements : 0; }, kVerticesPerTask);
+  watch.begin_stage(FrameStage::faces, kFacesDone, ranges.size());
+  parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
+    watch.task(worker, [&] { process_triangles(commands.geometry[ranges[i].draw], ranges[i].first, ranges[i].last, isa); });
   });
 }
 
@@ -164,34 +151,40 @@ void RendererState::prepare_workspaces(const TileMemory& memory) {
   }
 }
 
-std::vector<TileLoad> RendererState::tile_loads(const TileStage& stage, const TileRange& tiles) {
-  std::vector<TileLoad> loads(static_cast<std::size_t>(tiles.count()));
+template <class Count>
+void RendererState::cut_draws(const Count& count, std::size_t each) {
+  ranges.clear();
+  for (std::size_t d = 0; d < commands.geometry.size(); ++d) cut_into_ranges(d, count(commands.geometry[d]), each, ranges);
+}
+
+void RendererState::weigh_tiles(const TileStage& stage, const TileRange& tiles) {
+  loads.resize(static_cast<std::size_t>(tiles.count()));
   const std::size_t tasks = (loads.size() + kTilesPerTask - 1) / kTilesPerTask;
   parallel.for_each(tasks, [&](std::size_t task, int) {
     const std::size_t first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, loads.size());
     for (std::size_t i = first; i < last; ++i) loads[i] = stage.load_of(tiles.first(stage.grid()) + static_cast<int>(i));
   });
-  return loads;
 }
 
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
-  struct alignas(64) WorkerCounts : StripCounts {};
-  std::vector<WorkerCounts> counts(static_cast<std::size_t>(parallel.threads()));
-  const std::vector<TileStrip> strips = stage.strips(tiles, tile_loads(stage, tiles));
+  worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
+  weigh_tiles(stage, tiles);
+  stage.cut_into_strips(tiles, loads, strips);
   watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], counts[static_cast<std::size_t>(worker)]); });
+    watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], worker_counts[static_cast<std::size_t>(worker)]); });
   });
-  for (const WorkerCounts& c : counts) {
+  for (const WorkerCounts& c : worker_counts) {
     stats.shaded_pixels += c.shaded_pixels;
     stats.tiles_touched += c.touched;
     stats.fragments += c.fragments;
   }
 }
 
-void RendererState::render_parts(BinStage& bin_stage, bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch) {
+void RendererState::render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch) {
   StopWatch clock;
-  std::vector<TileRange> left;  // from the last one to the next
+  std::vector<TileRange>& left = parts_left;
+  left.clear();
   const auto split = [&](const TileRange& tiles) {
     const auto [first, second] = halves(tiles);
     left.insert(left.end(), {second, first});
@@ -224,8 +217,9 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   FrameTrace trace(options.trace ? parallel.threads() : 0);
   FrameWatch watch(options.progress, trace);
   FrameBufferState& target = *recording.target;
-  FrameCommands commands = plan_frame(recording, image != nullptr, draw_buffers);
+  plan_frame(commands, recording, image != nullptr, draw_buffers);
 
+  check_indices(watch);
   // Memory for what will be stored is taken before anything changes.
   for (const Buffer which : kBuffers) prepare_planes(commands.traffic(which), target.parts(which));
 
@@ -235,9 +229,9 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   stats.tile_size = grid.tile_size;
   stats.plan_seconds = clock.lap();
 
-  process_geometry(commands, watch);
+  process_geometry(watch);
   stats.vertex_seconds = clock.lap();
-  BinStage bin_stage(commands, grid, target.format.samples, options.bin_memory, bins, parallel, isa);
+  bin_stage.begin(commands, grid, target.format.samples);
   watch.begin_stage(FrameStage::binning, kBinsDone, bin_stage.batch_count());
   const bool is_filled = bin_stage.fill({0, 0, grid.columns(), grid.rows()}, watch);
   count_triangles(stats, bin_stage.counts());
@@ -267,7 +261,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
     prepare_workspaces({capture.needs_normals(), commands.stencil.used, commands.accumulation.used, frame.samples > 1});
     try {
-      render_parts(bin_stage, is_filled, TileStage(commands, frame, target, image, capture, isa), stats, watch);
+      render_parts(is_filled, TileStage(commands, frame, target, image, capture, show_memory, isa), stats, watch);
     } catch (...) {
       for (const Buffer which : kBuffers) settle_interrupted(commands.traffic(which), target.parts(which));
       throw;

@@ -1,9 +1,10 @@
 #include "engine/generated_normals.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include <glm/glm.hpp>
 
@@ -41,60 +42,128 @@ void store_unit(const glm::dvec3& v, float* out) {
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k]);
 }
 
-// For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
-std::vector<std::uint32_t> first_at_position(const MeshArrays& mesh) {
-  const std::size_t count = mesh.vertices;
-  std::size_t slots = 16;
-  while (slots < 2 * count) slots *= 2;
-  constexpr std::uint32_t kEmpty = 0xffffffffu;
-  std::vector<std::uint32_t> table(slots, kEmpty), first(count);
-  using Key = std::array<std::uint32_t, 4>;  // bits: a NaN is no number, not even the same as itself
-  const auto key = [&](std::size_t v) {
-    const float* p = mesh.positions.at(v);
-    return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0: -0 is 0
-  };
-  for (std::size_t v = 0; v < count; ++v) {
-    const Key k = key(v);
-    std::uint64_t hash = 0;
-    for (const std::uint32_t bits : k) {
-      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 29;
-    }
-    std::size_t slot = hash & (slots - 1);
-    while (table[slot] != kEmpty && key(table[slot]) != k) slot = (slot + 1) & (slots - 1);
-    if (table[slot] == kEmpty) table[slot] = static_cast<std::uint32_t>(v);
-    first[v] = table[slot];
+using Key = std::array<std::uint32_t, 4>;  // bits: a NaN is no number, not even the same as itself
+Key key_at(const MeshArrays& mesh, std::size_t vertex) {
+  const float* p = mesh.positions.at(vertex);
+  return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0: -0 is 0
+}
+std::uint64_t hash_of(const Key& key) {
+  std::uint64_t hash = 0;
+  for (const std::uint32_t bits : key) {
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
   }
-  return first;
+  return hash;
+}
+
+constexpr std::size_t kTasks = 64, kMostParts = 64, kVerticesOfAPart = 4096;
+
+/// Calls work(first, last) for kTasks ranges.
+template <class Work>
+void for_each_range(Parallel& parallel, std::size_t count, const Work& work) {
+  parallel.for_each(kTasks, [&](std::size_t task, int) { work(count * task / kTasks, count * (task + 1) / kTasks); });
 }
 
 }  // namespace
 
-std::vector<float> smooth_normals(const MeshArrays& mesh) {
-  if (mesh.topology() != Topology::triangles) return std::vector<float>(3 * mesh.vertices);  // no faces
-  const std::vector<std::uint32_t> first = first_at_position(mesh);
-  std::vector<glm::dvec3> sums(first.size(), glm::dvec3(0));
-  const std::size_t each = mesh.polygon_triangles();
-  for (std::size_t begin = 0; begin < mesh.elements; begin += each) {
-    const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
-    if (!std::isfinite(normal.x + normal.y + normal.z)) continue;  // this polygon will be dropped; its neighbours keep theirs
-    // A polygon's first triangle has three of its vertices, each further one another: the one that those before it have not.
-    for (const std::size_t v : vertices_of(mesh, begin)) sums[first[v]] += normal;
-    for (std::size_t t = begin + 1; t < begin + each; ++t) sums[first[mesh.vertex_at(added_corner(mesh.primitive, t))]] += normal;
-  }
-  std::vector<float> normals(3 * first.size());
-  for (std::size_t v = 0; v < first.size(); ++v) store_unit(sums[first[v]], &normals[3 * v]);
-  return normals;
+/// @param for_each_of_task  calls its second argument with the part and each item of a task; it is called twice
+template <class Item>
+template <class ForEach>
+void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, std::size_t part_count, const ForEach& for_each_of_task) {
+  parts = part_count;
+  std::size_t* const at = ends.resize(kTasks * parts);
+  parallel.for_each(kTasks, [&](std::size_t task, int) {
+    std::size_t* const counts = at + task * parts;
+    std::fill_n(counts, parts, std::size_t{0});
+    for_each_of_task(task, [&](std::size_t part, const Item&) { ++counts[part]; });
+  });
+  std::size_t begin = 0;
+  for (std::size_t part = 0; part < parts; ++part)
+    for (std::size_t task = 0; task < kTasks; ++task) begin += std::exchange(at[task * parts + part], begin);
+  Item* const sorted = items.resize(begin);
+  parallel.for_each(kTasks, [&](std::size_t task, int) {
+    for_each_of_task(task, [&](std::size_t part, const Item& item) { sorted[at[task * parts + part]++] = item; });
+  });
 }
 
-std::vector<float> face_normals(const MeshArrays& mesh) {
-  std::vector<float> normals(3 * mesh.elements);
-  const std::size_t each = mesh.polygon_triangles();
-  for (std::size_t begin = 0; begin < mesh.elements; begin += each) {
-    const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
-    for (std::size_t t = begin; t < begin + each; ++t) store_unit(normal, &normals[3 * t]);
+template <class Item>
+template <class Work>
+void SmoothNormals::Sorted<Item>::for_each_in(std::size_t part, const Work& work) const {
+  const std::size_t* const last_task = ends.data() + (kTasks - 1) * parts;
+  for (std::size_t i = part == 0 ? 0 : last_task[part - 1]; i < last_task[part]; ++i) work(items.data()[i]);
+}
+
+// For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
+void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& parallel) {
+  std::uint8_t* const part = part_.resize(mesh.vertices);
+  for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) part[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % parts_);
+  });
+  vertices_.sort(parallel, parts_, [&](std::size_t task, const auto& add) {
+    for (std::size_t v = mesh.vertices * task / kTasks; v < mesh.vertices * (task + 1) / kTasks; ++v) add(part[v], static_cast<std::uint32_t>(v));
+  });
+  std::size_t begin[kMostParts + 1] = {};
+  for (std::size_t p = 0; p < parts_; ++p) {
+    std::size_t count = 0;
+    vertices_.for_each_in(p, [&](std::uint32_t) { ++count; });
+    begin[p + 1] = begin[p] + std::bit_ceil(2 * count + 1);
   }
-  return normals;
+  std::uint32_t* const tables = table_.resize(begin[parts_]);
+  std::uint32_t* const first_at = first_.resize(mesh.vertices);
+  glm::dvec3* const sums = sums_.resize(mesh.vertices);
+  parallel.for_each(parts_, [&](std::size_t p, int) {
+    constexpr std::uint32_t kEmpty = 0xffffffffu;
+    std::uint32_t* const table = tables + begin[p];
+    const std::size_t slots = begin[p + 1] - begin[p];
+    std::fill_n(table, slots, kEmpty);
+    vertices_.for_each_in(p, [&](std::uint32_t v) {
+      const Key key = key_at(mesh, v);
+      std::size_t slot = hash_of(key) & (slots - 1);
+      while (table[slot] != kEmpty && key_at(mesh, table[slot]) != key) slot = (slot + 1) & (slots - 1);
+      if (table[slot] == kEmpty) table[slot] = v;
+      first_at[v] = table[slot];
+      sums[v] = glm::dvec3(0);
+    });
+  });
+}
+
+void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel) {
+  const std::size_t each = mesh.polygon_triangles(), faces = mesh.elements / each;
+  glm::dvec3* const areas = areas_.resize(faces);
+  for_each_range(parallel, faces, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) areas[f] = area_normal(mesh, f * each, (f + 1) * each);
+  });
+  corners_.sort(parallel, parts_, [&](std::size_t task, const auto& add) {
+    const auto add_corner = [&](std::size_t vertex, std::size_t face) { add(part_.data()[vertex], Corner{first_.data()[vertex], static_cast<std::uint32_t>(face)}); };
+    for (std::size_t f = faces * task / kTasks; f < faces * (task + 1) / kTasks; ++f) {
+      if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z)) continue;  // this polygon will be dropped; its neighbours keep theirs
+      // A polygon's first triangle has three of its vertices, each further one another: the one that those before it have not.
+      for (const std::size_t v : vertices_of(mesh, f * each)) add_corner(v, f);
+      for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t) add_corner(mesh.vertex_at(added_corner(mesh.primitive, t)), f);
+    }
+  });
+  parallel.for_each(parts_, [&](std::size_t part, int) { corners_.for_each_in(part, [&](const Corner& corner) { sums_.data()[corner.vertex] += areas[corner.face]; }); });
+}
+
+void SmoothNormals::make(const MeshArrays& mesh, Parallel& parallel, Scratch<float>& normals) {
+  float* const out = normals.resize(3 * mesh.vertices);
+  const bool has_faces = mesh.topology() == Topology::triangles;
+  if (has_faces) {
+    parts_ = std::clamp(mesh.vertices / kVerticesOfAPart, std::size_t{1}, kMostParts);
+    find_first_at_positions(mesh, parallel);
+    sum_faces(mesh, parallel);
+  }
+  for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) store_unit(has_faces ? sums_.data()[first_.data()[v]] : glm::dvec3(0), out + 3 * v);
+  });
+}
+
+void make_face_normals(const MeshArrays& mesh, std::size_t first, std::size_t last, float* normals) {
+  const std::size_t each = mesh.polygon_triangles();
+  for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
+    const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
+    for (std::size_t t = begin; t < begin + each; ++t) store_unit(normal, normals + 3 * t);
+  }
 }
 
 }  // namespace tessera

@@ -12,7 +12,8 @@ namespace {
 constexpr int kNormalField = kNormalX, kPositionField = kPositionX, kVertexField = kVertexR;
 
 StridedFloats normals_of(const GeometryDraw& draw) {
-  return draw.buffers->normals.empty() ? draw.mesh->normals : StridedFloats{draw.buffers->normals.data(), 3};
+  if (draw.plan->face_normals) return {draw.buffers->face_normals.data(), 3};
+  return draw.plan->smooth_normals ? StridedFloats{draw.buffers->smooth_normals.data(), 3} : draw.mesh->normals;
 }
 
 // Vertex colours of a batch; `vertex(i)` is the vertex of point i.
@@ -167,7 +168,7 @@ void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t co
 
 // What a capture wants: eye-space normals, whatever the shading does with them.
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count, Isa isa) {
-  const StridedFloats normals = draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->captured_normals.data(), 3};
+  const StridedFloats normals = draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
   float eye[3][kVertexBatch];
   eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
@@ -177,24 +178,24 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
 }
 
 // The corners of each element, its provoking vertex where provoking_place() says.
-void assemble_elements(const GeometryDraw& draw) {
+void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const auto each = static_cast<std::size_t>(mesh.topology());
-  std::uint32_t* out = draw.buffers->indices.resize(each * mesh.elements);
-  for (std::size_t e = 0; e < mesh.elements; ++e) {
+  std::uint32_t* out = draw.buffers->indices.data() + each * first;
+  for (std::size_t e = first; e < last; ++e) {
     const auto corners = element_corners(mesh.primitive, draw.provoking_vertex, mesh.corners, e);
     for (std::size_t k = 0; k < each; ++k) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corners[k]));
   }
 }
 
 // Around the first triangle, with what each further one adds before its end. From the same vertex on under both conventions.
-void list_boundaries(const GeometryDraw& draw) {
+void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
-  const std::size_t each = mesh.polygon_triangles(), polygons = mesh.elements / each;
-  std::uint32_t* out = draw.buffers->boundary.resize(polygons * (each + 2));
-  for (std::size_t first = 0; first < mesh.elements; first += each) {
-    for (const std::size_t corner : element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, first)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
-    for (std::size_t t = first + 1; t < first + each; ++t) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
+  const std::size_t each = mesh.polygon_triangles(), first_polygon = (first + each - 1) / each;
+  std::uint32_t* out = draw.buffers->boundary.data() + first_polygon * (each + 2);
+  for (std::size_t begin = first_polygon * each; begin < last; begin += each) {
+    for (const std::size_t corner : element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, begin)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+    for (std::size_t t = begin + 1; t < begin + each; ++t) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
   }
 }
 
@@ -215,16 +216,19 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
-  if (draw.makes_indices()) assemble_elements(draw);
+  if (draw.makes_indices()) buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
   buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
   buffers.depth_offsets.resize(draw.faces_polygons() && plan.has_offset() ? triangles : 0);
-  if (plan.outlines) list_boundaries(draw);
-  buffers.normals.clear();
-  if (plan.smooth_normals) buffers.normals = smooth_normals(*draw.mesh);
-  if (plan.face_normals) buffers.normals = face_normals(*draw.mesh);
-  buffers.captured_normals.clear();
-  if (plan.captured_normal >= 0 && !draw.mesh->normals) buffers.captured_normals = smooth_normals(*draw.mesh);
+  const std::size_t polygon_triangles = draw.mesh->polygon_triangles();
+  if (plan.outlines) buffers.boundary.resize(triangles / polygon_triangles * (polygon_triangles + 2));
+  if (plan.face_normals) buffers.face_normals.resize(3 * triangles);
   buffers.any_code = false;
+}
+
+void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last) {
+  if (draw.makes_indices()) list_corners(draw, first, last);
+  if (draw.plan->outlines) list_boundaries(draw, first, last);
+  if (draw.plan->face_normals) make_face_normals(*draw.mesh, first, last, draw.buffers->face_normals.data());
 }
 
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {

@@ -24,8 +24,8 @@ struct DrawBuffers {
   Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
   Scratch<double> depth_offsets;         ///< of each triangle's polygon, likewise
   PolygonModes modes;
-  std::vector<float> normals;            ///< generated
-  std::vector<float> captured_normals;   ///< generated, where a capture wants normals
+  Scratch<float> smooth_normals;         ///< generated, for the plan or for a capture
+  Scratch<float> face_normals;           ///< generated, of each triangle
   std::atomic<bool> any_code = false;    ///< some vertex has a clip code
 };
 
@@ -48,11 +48,16 @@ struct GeometryDraw {
   const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
   /// Of each triangle's polygon, or null: each has its own, or there are none. @pre offset_polygons
   const double* depth_offsets() const { return faces_polygons() && plan->has_offset() ? buffers->depth_offsets.data() : nullptr; }
+  /// It has elements whose corners or normals are not there yet. @see assemble_elements
+  bool assembles() const { return makes_indices() || plan->outlines || plan->face_normals; }
+  bool wants_smooth_normals() const { return plan->smooth_normals || (plan->captured_normal >= 0 && !mesh->normals); }
   bool faces_polygons() const { return plan->outlines || mesh->polygon_triangles() > 1; }
 };
 
-/// Takes the memory and makes normals where the mesh has none. Throws std::bad_alloc.
+/// Takes the memory. Throws std::bad_alloc.
 void prepare_geometry(const GeometryDraw& draw);
+/// Corners of elements [first, last), and what belongs to polygons that begin among them; distinct ranges may run at the same time.
+void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last);
 /// Vertices [first, last); distinct ranges may run at the same time.
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa);
 /// Face colours of triangles [first, last), for plans that color triangles.

@@ -117,7 +117,7 @@ bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) 
 
 void fail_at_index(const MeshArrays& mesh, std::size_t draw) {
   std::size_t wrong = 0;
-  while (mesh.vertex_at(wrong) < mesh.vertices) ++wrong;
+  while (wrong + 1 < mesh.corners && mesh.vertex_at(wrong) < mesh.vertices) ++wrong;
   throw Error("Renderer::finish: index " + std::to_string(wrong) + " of the mesh of draw " + std::to_string(draw) + " is " + std::to_string(mesh.vertex_at(wrong)) +
               ", must be below the number of vertices, " + std::to_string(mesh.vertices));
 }

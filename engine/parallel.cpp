@@ -63,9 +63,11 @@ class TaskOrder {
   std::size_t count_, step_ = 1;
 };
 
+}  // namespace
+
 /// Tasks of one call, taken in order by whichever worker is free, so that callers can put the long ones first.
-struct TaskQueue {
-  const std::function<void(std::size_t, int)>& task;
+struct Parallel::Queue {
+  const AnyTask& task;
   const std::size_t count;
   const TaskOrder order;
   std::vector<char>& seen;
@@ -73,7 +75,7 @@ struct TaskQueue {
   std::atomic<bool> failed{false};
   std::exception_ptr failure{};
 
-  static void work(void* queue, int worker) noexcept { static_cast<TaskQueue*>(queue)->run(worker); }
+  static void work(void* queue, int worker) noexcept { static_cast<Queue*>(queue)->run(worker); }
   void run(int worker) noexcept {
     const FloatingPointMode mode;
     bool idle = true;
@@ -81,7 +83,7 @@ struct TaskQueue {
       if (idle) seen[static_cast<std::size_t>(worker)] = 1;
       idle = false;
       try {
-        task(order(i), worker);
+        task.call(task.self, order(i), worker);
       } catch (...) {
         if (!failed.exchange(true)) failure = std::current_exception();
       }
@@ -89,8 +91,6 @@ struct TaskQueue {
     }
   }
 };
-
-}  // namespace
 
 std::shared_ptr<Executor> serial_executor() { return std::make_shared<SerialExecutor>(); }
 
@@ -109,10 +109,10 @@ Parallel::~Parallel() = default;
 Parallel::Parallel(Parallel&&) noexcept = default;
 Parallel& Parallel::operator=(Parallel&&) noexcept = default;
 
-void Parallel::for_each(std::size_t count, const std::function<void(std::size_t, int)>& task) {
+void Parallel::run(std::size_t count, const AnyTask& task) {
   if (count == 0) return;
-  TaskQueue queue{task, count, TaskOrder(order_, count), seen_};
-  executor_->run(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count)), &TaskQueue::work, &queue);
+  Queue queue{task, count, TaskOrder(order_, count), seen_};
+  executor_->run(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count)), &Queue::work, &queue);
   if (queue.failure) std::rethrow_exception(queue.failure);
   if (queue.done.load(std::memory_order_acquire) != count)
     throw Error("Renderer: the executor returned before its work was done; run() must call work for each worker and wait for all of them");

@@ -26,11 +26,22 @@ class Parallel {
   /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below threads(); no two
   /// tasks that run at the same time share one. Each task runs in the default floating-point mode: rounding to nearest,
   /// denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not start.
-  void for_each(std::size_t count, const std::function<void(std::size_t task, int worker)>& task);
+  template <class Task>
+  void for_each(std::size_t count, const Task& task) {
+    run(count, {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); }, &task});
+  }
   /// How many distinct workers have run tasks since the last call: what tests of thread counts assert.
   int distinct_workers_seen();
 
  private:
+  /// A task that lives as long as it is called: unlike a std::function it needs no memory.
+  struct AnyTask {
+    void (*call)(const void* self, std::size_t i, int worker);
+    const void* self;
+  };
+  struct Queue;
+  void run(std::size_t count, const AnyTask& task);
+
   int threads_;
   std::shared_ptr<Executor> executor_;
   std::uint32_t order_ = 0;

@@ -1,9 +1,11 @@
 // What a frame has recorded.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <cstddef>
+#include <deque>
 #include <optional>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include "engine/frame_buffer_state.h"
@@ -13,7 +15,7 @@
 
 namespace tessera {
 
-/// Camera, lights and light model as they were when a draw was recorded; shared by the draws between two changes.
+/// Camera, lights and light model as they were when a draw was recorded.
 struct Surroundings {
   Camera camera;
   std::vector<Light> lights{Light{}};
@@ -30,7 +32,7 @@ struct RecordedPixels {
 struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
-  std::shared_ptr<const Surroundings> surroundings;
+  const Surroundings* surroundings = nullptr;  ///< the draws' between two changes
   const TextureState* texture = nullptr;  ///< of the state's, wherever that moves
   std::optional<RecordedPixels> pixels{};  ///< in place of the mesh, which is empty then
 };
@@ -46,21 +48,36 @@ struct RecordedAccum {
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
-  std::shared_ptr<const Surroundings> surroundings = std::make_shared<Surroundings>();
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::vector<RecordedAccum> accums;
-  std::optional<std::vector<Buffer>> keep;
+  bool keeps_chosen = false;             ///< else by what the frame changes
+  std::array<bool, 4> kept{};            ///< if it is chosen: of each Buffer
   Capture capture;
 
-  /// Camera, lights and light model stay.
+  /// Of what is drawn next.
+  const Surroundings& surroundings() const { return surroundings_[last_surroundings_]; }
+  /// The same, to be changed: what is recorded already keeps its own. Throws std::bad_alloc.
+  Surroundings& changeable_surroundings() {
+    if (draws.empty() || draws.back().surroundings != &surroundings()) return surroundings_[last_surroundings_];
+    if (last_surroundings_ + 1 == surroundings_.size()) surroundings_.emplace_back();
+    surroundings_[last_surroundings_ + 1] = surroundings_[last_surroundings_];
+    return surroundings_[++last_surroundings_];
+  }
+  /// Camera, lights and light model stay, and so does the memory.
   void clear() noexcept {
     draws.clear();
     clears.clear();
     accums.clear();
-    keep.reset();
+    std::swap(surroundings_.front(), surroundings_[last_surroundings_]);
+    last_surroundings_ = 0;
+    keeps_chosen = false;
     capture = {};
   }
+
+ private:
+  std::deque<Surroundings> surroundings_{1};  // from one change to the next; they stay where they are
+  std::size_t last_surroundings_ = 0;
 };
 
 }  // namespace tessera

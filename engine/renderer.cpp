@@ -57,10 +57,10 @@ Renderer::Renderer(RendererOptions options) try {
   if (options.executor && options.executor->workers() < 1)
     throw Error("Renderer: the executor has " + std::to_string(options.executor->workers()) + " workers, must have at least 1");
   if (options.threads == 0) options.threads = std::min(options.executor ? options.executor->workers() : available_cores(), kMostThreads);
-  state_ = std::make_unique<RendererState>(std::move(options));
+  const Isa isa = internal_name(options.instruction_set);
+  state_ = std::make_unique<RendererState>(std::move(options), isa);
   RendererState& state = *state_;
   state.options.threads = state.parallel.threads();
-  state.isa = internal_name(state.options.instruction_set);
   state.log(LogLevel::info, [&] { return "tessera " TESSERA_VERSION ": " + std::to_string(state.options.threads) + (state.options.threads == 1 ? " thread, " : " threads, ") + std::string(name(state.options.instruction_set)); });
 } catch (const std::bad_alloc&) {
   throw Error("Renderer: not enough memory");

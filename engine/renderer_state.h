@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "engine/bin_stage.h"
+#include "engine/draw_range.h"
 #include "engine/frame_commands.h"
 #include "engine/frame_watch.h"
+#include "engine/generated_normals.h"
 #include "engine/parallel.h"
 #include "engine/tile_stage.h"
 #include "shading/tile_renderer.h"
@@ -18,15 +20,25 @@ struct TileMemory {
   bool normals = false, stencil = false, accumulation = false, samples = false;
 };
 
+struct alignas(64) WorkerCounts : StripCounts {};
+
 struct RendererState {
   RendererOptions options;
   Isa isa = Isa::scalar;
   Parallel parallel;
+  FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
-  std::vector<Bins> bins;
+  std::vector<DrawRange> ranges;          // of the tasks that run
+  SmoothNormals normal_maker;
+  BinStage bin_stage;
+  std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
+  std::vector<TileLoad> loads;
+  std::vector<TileStrip> strips;
+  ShowMemory show_memory;
   std::vector<TileWorkspace> workspaces;  // one for each worker
+  std::vector<WorkerCounts> worker_counts;
 
-  explicit RendererState(RendererOptions o) : options(std::move(o)), parallel(options.threads, options.executor, options.task_order) {}
+  RendererState(RendererOptions o, Isa i) : options(std::move(o)), isa(i), parallel(options.threads, options.executor, options.task_order), bin_stage(options.bin_memory, parallel, isa) {}
 
   FrameStats run(FrameRecording& recording, const ImageTarget* image);
 
@@ -40,13 +52,16 @@ struct RendererState {
   }
 
  private:
-  void check_indices(const FrameCommands& commands, FrameWatch& watch);
-  void process_geometry(FrameCommands& commands, FrameWatch& watch);
+  /// Makes `ranges` of as many as `count(draw)` of each draw.
+  template <class Count>
+  void cut_draws(const Count& count, std::size_t each);
+  void check_indices(FrameWatch& watch);
+  void process_geometry(FrameWatch& watch);
   void prepare_workspaces(const TileMemory& memory);
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
-  void render_parts(BinStage& bin_stage, bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
-  /// What the bins of tiles hold, row by row.
-  std::vector<TileLoad> tile_loads(const TileStage& stage, const TileRange& tiles);
+  void render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
+  /// Makes `loads`: what the bins of tiles hold, row by row.
+  void weigh_tiles(const TileStage& stage, const TileRange& tiles);
   void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };

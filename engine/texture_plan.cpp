@@ -52,8 +52,8 @@ bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_
 
 TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, std::string* reasons) {
   TexturePlan plan;
-  const auto note = [&](const std::string& line) {
-    if (reasons) *reasons += "  texture" + line + "\n";
+  const auto note = [&](const char* line) {
+    if (reasons) (*reasons += "  texture").append(line) += "\n";
   };
   if (draw.texture == nullptr) return plan;
   const TextureState& state = *draw.texture;
@@ -77,8 +77,9 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, st
   }
   plan.use = TexturePlan::Use::texels;
   texture.levels = &state.levels;
-  note(" " + described(state) + ", " + name_of(draw.state.texture_env) + ", " + name_of(state.sampler.mag) + " and " + name_of(state.sampler.min) +
-       (state.levels.needs_footprint() ? ", level of detail from derivatives" : ""));
+  if (reasons)
+    note((" " + described(state) + ", " + name_of(draw.state.texture_env) + ", " + name_of(state.sampler.mag) + " and " + name_of(state.sampler.min) +
+          (state.levels.needs_footprint() ? ", level of detail from derivatives" : "")).c_str());
   return plan;
 }
 

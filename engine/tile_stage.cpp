@@ -17,37 +17,43 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
 }  // namespace
 
 TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture,
-                     Isa isa)
-    : commands_(commands), frame_(frame), target_(target), image_(image), capture_(capture), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
+                     ShowMemory& show, Isa isa)
+    : commands_(commands), frame_(frame), target_(target), image_(image), capture_(capture), show_(show), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
       load_planes_(load_planes_for(isa)) {
   if (image == nullptr) return;
   shown_ = shown_part(*image);
-  scan_out_.emplace(target.layout, target.layout.index ? &target.palette : nullptr, image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8, isa);
+  const Palette* const palette = target.layout.index ? &target.palette : nullptr;
+  const ByteOrder order = image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8;
+  if (show.scan_out)
+    show.scan_out->set(target.layout, palette, order);
+  else
+    show.scan_out.emplace(target.layout, palette, order, isa);
   // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles need not go
   // through tile memory.
-  const bool uniform = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() && commands.accumulations.empty() &&
+  shows_clears_ = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() && commands.accumulations.empty() &&
                        std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
-  if (!uniform) return;
+  if (!shows_clears_) return;
   std::uint32_t word = 0;
   for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
-  const std::vector<std::uint32_t> words(static_cast<std::size_t>(frame.grid.width_px), word);
-  cleared_row_.resize(4 * words.size());
-  scan_out_->row(words.data(), frame.grid.width_px, cleared_row_.data());
+  std::uint32_t words[kMaxTileSize];
+  std::fill(std::begin(words), std::end(words), word);
+  show.cleared_row.resize(4 * static_cast<std::size_t>(frame.grid.width_px));
+  for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize) show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x), show.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
 TileLoad TileStage::load_of(int tile) const {
   const BinBatches& batches = *frame_.batches;
-  const bool cleared = !cleared_row_.empty() && batches.untouched(tile);
+  const bool cleared = shows_clears_ && batches.untouched(tile);
   return {cleared ? 0 : batches.triangles(tile), cleared};
 }
 
-std::vector<TileStrip> TileStage::strips(const TileRange& tiles, const std::vector<TileLoad>& loads) const {
+void TileStage::cut_into_strips(const TileRange& tiles, const std::vector<TileLoad>& loads, std::vector<TileStrip>& strips) const {
   const TileGrid& grid = frame_.grid;
   const auto load_at = [&](int row, int column) -> const TileLoad& { return loads[static_cast<std::size_t>(row * grid.columns() + column - tiles.first(grid))]; };
   // Tiles that share a cache line of a plane belong to one worker.
   const bool planes = commands_.stores();
   const int length = planes ? kPlaneLinePixels / grid.tile_size : 1;
-  std::vector<TileStrip> strips;
+  strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0; column < tiles.x1; column = strips.back().last_column + 1) {
       TileStrip strip{row, column, std::min(column + length, tiles.x1) - 1};
@@ -57,8 +63,8 @@ std::vector<TileStrip> TileStage::strips(const TileRange& tiles, const std::vect
       strips.push_back(strip);
     }
   }
-  std::stable_sort(strips.begin(), strips.end(), [](const TileStrip& a, const TileStrip& b) { return a.triangles > b.triangles; });
-  return strips;
+  const auto place = [](const TileStrip& strip) { return std::pair(strip.row, strip.first_column); };
+  std::sort(strips.begin(), strips.end(), [&](const TileStrip& a, const TileStrip& b) { return a.triangles != b.triangles ? a.triangles > b.triangles : place(a) < place(b); });
 }
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {
@@ -99,12 +105,12 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
   const PixelRect part = intersect(in_frame, shown_);
   const int width = in_frame.x1 - x0, height = in_frame.y1 - y0;
   if (part == in_frame) {
-    scan_out_->tile(workspace.color(), size, width, height, shown_at(x0, y0), image_->stride_bytes);
+    show_.scan_out->tile(workspace.color(), size, width, height, shown_at(x0, y0), image_->stride_bytes);
     return;
   }
   // The image's edge runs through the tile: by way of a picture of the whole tile.
   std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
-  scan_out_->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
+  show_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
   for (int y = part.y0; y < part.y1; ++y)
     std::memcpy(shown_at(part.x0, y), pixels + 4 * ((y - y0) * size + part.x0 - x0), 4 * static_cast<std::size_t>(part.x1 - part.x0));
 }
@@ -131,7 +137,7 @@ void TileStage::fill_cleared(const TileStrip& strip) const {
   const int size = frame_.grid.tile_size;
   const PixelRect part = intersect(shown_, {strip.first_column * size, strip.row * size, (strip.last_column + 1) * size, (strip.row + 1) * size});
   if (part.empty()) return;
-  for (int y = part.y0; y < part.y1; ++y) std::memcpy(shown_at(part.x0, y), cleared_row_.data(), 4 * static_cast<std::size_t>(part.x1 - part.x0));
+  for (int y = part.y0; y < part.y1; ++y) std::memcpy(shown_at(part.x0, y), show_.cleared_row.data(), 4 * static_cast<std::size_t>(part.x1 - part.x0));
 }
 
 std::uint8_t* TileStage::shown_at(int x, int y) const {

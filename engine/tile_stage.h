@@ -32,10 +32,18 @@ struct StripCounts {
   std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
 };
 
+/// What one frame after the other is shown by.
+struct ShowMemory {
+  std::optional<ScanOut> scan_out;
+  std::vector<std::uint8_t> cleared_row;  ///< a row of the picture after the last clear
+};
+
 class TileStage {
  public:
   /// All but the image's pixels and the target's planes is only read. `image` may be null.
-  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, Isa isa);
+  ///
+  /// @param show  used as long as this lives
+  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa);
 
   const TileGrid& grid() const { return frame_.grid; }
   /// Of a tile whose bins are filled. As many look-ups as there are batches.
@@ -43,7 +51,8 @@ class TileStage {
   /// Those with most triangles first: nobody waits for one that began last. Their order changes no bit.
   ///
   /// @param loads  of these tiles, row by row
-  std::vector<TileStrip> strips(const TileRange& tiles, const std::vector<TileLoad>& loads) const;
+  /// @param strips  are replaced
+  void cut_into_strips(const TileRange& tiles, const std::vector<TileLoad>& loads, std::vector<TileStrip>& strips) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
@@ -61,11 +70,11 @@ class TileStage {
   const ImageTarget* image_;
   const CaptureStage& capture_;
   PixelRect shown_;                        ///< of the image
-  std::optional<ScanOut> scan_out_;
+  ShowMemory& show_;
   RenderTile* render_;
   StorePlanesFn* store_planes_;
   LoadPlanesFn* load_planes_;
-  std::vector<std::uint8_t> cleared_row_;  ///< a row of the picture after the last clear; empty: tiles differ without triangles
+  bool shows_clears_ = false;              ///< a tile without triangles is part of show_.cleared_row
 };
 
 }  // namespace tessera

@@ -182,6 +182,12 @@ static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int 
 
 ScanOut::ScanOut(const ColorLayout& layout, const Palette* palette, ByteOrder order, [[maybe_unused]] Isa isa)
     : tile_fn_(TESSERA_KERNEL(isa, scan_out_tile)), row_fn_(TESSERA_KERNEL(isa, scan_out_row)) {
+  set(layout, palette, order);
+}
+
+void ScanOut::set(const ColorLayout& layout, const Palette* palette, ByteOrder order) {
+  rule_ = {};
+  pixels_.clear();
   const int r_byte = order == ByteOrder::rgba8 ? 0 : 16, b_byte = 16 - r_byte;
   if (layout.alpha_bits == 8) rule_.alpha_shift = 24 - layout.bits;
   if (layout.index) {

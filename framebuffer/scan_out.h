@@ -37,12 +37,14 @@ using ScanOutTileFn = void(const ScanOutRule& rule, const std::uint32_t* tile, i
                            std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept;
 using ScanOutRowFn = void(const ScanOutRule& rule, const std::uint32_t* words, int width_px, std::uint8_t* row) noexcept;
 
-/// Made once a frame; const use is thread-safe.
+/// Set once a frame; const use is thread-safe.
 class ScanOut {
  public:
   /// @param palette  for index layouts, with layout.bits bits; copied. Ignored (may be null) for the others.
   /// Throws std::bad_alloc only.
   ScanOut(const ColorLayout& layout, const Palette* palette, ByteOrder order, Isa isa);
+  /// For another frame, in the same memory. Throws std::bad_alloc only; then it may but be set again.
+  void set(const ColorLayout& layout, const Palette* palette, ByteOrder order);
   ScanOut(ScanOut&&) noexcept = default;
   ScanOut& operator=(ScanOut&&) noexcept = default;
 

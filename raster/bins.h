@@ -50,6 +50,13 @@ class BinBudget {
   std::atomic<std::int64_t> left_;
 };
 
+/// The boundary of what clipping leaves of a polygon.
+struct ClippedBoundary {
+  std::vector<ClipVertex> vertices;
+  std::vector<WindowVertex> window;
+  PolygonClipper clipper;
+};
+
 /// For each tile of a range a list of blocks of entries. Where they would take more than the budget has left, what was stored is lost and
 /// nothing more is stored; they still count.
 class Bins {
@@ -104,6 +111,7 @@ class Bins {
   const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
 
   BinCounts counts;
+  ClippedBoundary boundary;  ///< memory for one polygon after the other
 
  private:
   struct Tail {

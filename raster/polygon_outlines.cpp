@@ -7,37 +7,31 @@
 namespace tessera {
 namespace {
 
-/// The boundary of what clipping leaves of a polygon. Its memory is used for one after the other.
-struct Boundary {
-  std::vector<ClipVertex> vertices;
-  std::vector<WindowVertex> window;
-  PolygonClipper clipper;
-
-  void set_up(const BinDraw& draw, std::uint32_t first_triangle) {
-    const std::size_t corners = draw.modes->triangles + 2;
-    const std::uint32_t* const polygon = draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
-    vertices.clear();
-    window.clear();
-    std::uint8_t codes = 0;
-    for (std::size_t i = 0; i < corners; ++i) {
-      if (draw.any_code) codes |= draw.codes[polygon[i]];
-      vertices.push_back(clip_vertex(draw, polygon[i], draw.attribute_count));
-      window.push_back(draw.vertices[polygon[i]]);
-    }
-    if (codes == 0) return;
-    clipper.clip(*draw.transform, vertices, codes, draw.attribute_count);
-    window.clear();
-    for (const ClipVertex& v : vertices) window.push_back(project(*draw.transform, v.position));
+void set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
+  auto& [vertices, window, clipper] = boundary;
+  const std::size_t corners = draw.modes->triangles + 2;
+  const std::uint32_t* const polygon = draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
+  vertices.clear();
+  window.clear();
+  std::uint8_t codes = 0;
+  for (std::size_t i = 0; i < corners; ++i) {
+    if (draw.any_code) codes |= draw.codes[polygon[i]];
+    vertices.push_back(clip_vertex(draw, polygon[i], draw.attribute_count));
+    window.push_back(draw.vertices[polygon[i]]);
   }
-};
+  if (codes == 0) return;
+  clipper.clip(*draw.transform, vertices, codes, draw.attribute_count);
+  window.clear();
+  for (const ClipVertex& v : vertices) window.push_back(project(*draw.transform, v.position));
+}
 
-void add_corner(Bins& bins, const BinDraw& draw, Piece& piece, int k, const Boundary& boundary, std::size_t corner) {
+void add_corner(Bins& bins, const BinDraw& draw, Piece& piece, int k, const ClippedBoundary& boundary, std::size_t corner) {
   piece.vertices[k] = boundary.window[corner];
   std::copy_n(boundary.vertices[corner].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
 }
 
 // Of triangle `source`'s polygon. Returns whether any of it is seen.
-bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Boundary& boundary, std::uint32_t source) {
+bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary, std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
     Piece& piece = bins.add_piece(source, 2, draw.attribute_count);
@@ -49,7 +43,7 @@ bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Boun
   }
   return any;
 }
-bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Boundary& boundary, std::uint32_t source) {
+bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary, std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
     if (!is_between_sides(boundary.vertices[i].position)) continue;
@@ -72,7 +66,6 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
   lines.size = modes.line_width;
   corners.draw = modes.draw[static_cast<int>(PolygonStyle::point)];
   corners.size = modes.point_size;
-  Boundary boundary;
   BinCounts& counts = bins.counts;
   for (std::uint32_t t = (first + each - 1) / each * each; t < last; t += each) {
     const Facing facing = draw.facing[t];
@@ -86,8 +79,8 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
       bin_triangles(bins, grid, filled, t, t + each, isa);
       continue;
     } else {
-      boundary.set_up(draw, t);
-      const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, boundary, t) : bin_corners(bins, grid, corners, boundary, t);
+      set_up(bins.boundary, draw, t);
+      const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, bins.boundary, t) : bin_corners(bins, grid, corners, bins.boundary, t);
       (is_seen ? counts.binned : counts.outside) += each;
     }
     counts.triangles_in += each;

@@ -27,10 +27,6 @@ float directional_spot_factor(const EyeLight& light) {
   return light.spot_exponent == 0 ? 1.0f : power_reference(static_cast<float>(cosine), light.spot_exponent);
 }
 
-void note(std::string* reasons, const std::string& line) {
-  if (reasons) *reasons += "  " + line + "\n";
-}
-
 const char* kind_name(LightKind kind) {
   switch (kind) {
     case LightKind::directional: return "directional";
@@ -68,11 +64,25 @@ Rgb product(const Rgb& a, const Rgb& b) {
   return c;
 }
 
-}  // namespace
+EyeLight as_it_is(const EyeLight& light) { return light; }
+EyeLight as_grey(const EyeLight& light) {
+  const auto grey = [](const Rgb& c) {
+    const float luminance = std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]));
+    return Rgb{luminance, luminance, luminance};
+  };
+  EyeLight changed = light;
+  changed.ambient = {};
+  changed.diffuse = grey(light.diffuse);
+  changed.specular = grey(light.specular);
+  return changed;
+}
 
-LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights,
-                              const LightingModel& model, std::string* reasons) {
+/// @param seen  what counts of each light
+LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights, EyeLight (&seen)(const EyeLight&), const LightingModel& model,
+                           std::string* reasons, std::vector<LightTerm> room) {
   LightingProgram program;
+  program.terms = std::move(room);
+  program.terms.clear();
   program.tracked = tracked.any();
   const Rgb white{1, 1, 1};
   if (tracked.emission) program.tracked_base = program.tracked_base + white;
@@ -80,10 +90,14 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
   if (!tracked.emission) program.base = program.base + material.emission;
   if (!tracked.ambient) program.base = program.base + model.scene_ambient * material.ambient;
 
-  int number = 0;
-  for (const EyeLight& light : lights) {
+  for (std::size_t number = 0; number < lights.size(); ++number) {
+    const EyeLight light = seen(lights[number]);
+    const auto note = [&](const auto&... parts) {
+      if (!reasons) return;
+      *reasons += "  light " + std::to_string(number) + ": ";
+      (*reasons += ... += parts) += "\n";
+    };
     LightTerm term;
-    const std::string label = "light " + std::to_string(number++) + ": ";
     const float factor = light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
     (tracked.ambient ? term.tracked_ambient : term.ambient) = tracked.ambient ? light.ambient * factor : product(light.ambient, material.ambient) * factor;
     (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = tracked.diffuse ? light.diffuse * factor : product(light.diffuse, material.diffuse) * factor;
@@ -93,7 +107,7 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
     const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
     const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
     if (!has_ambient && !has_diffuse && !has_specular) {
-      note(reasons, label + "left out, it adds black");
+      note("left out, it adds black");
       continue;
     }
     term.kind = kind_of(light);
@@ -103,7 +117,7 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
       program.tracked_base = program.tracked_base + term.tracked_ambient;
       term.ambient = term.tracked_ambient = {};
       if (!has_diffuse && !has_specular) {
-        note(reasons, label + "a constant ambient part");
+        note("a constant ambient part");
         continue;
       }
     }
@@ -125,32 +139,29 @@ LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColo
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-    note(reasons, label + kind_name(term.kind) + "; " + highlight_name(term.highlight) + (term.general ? "; ambient part or vertex colours" : ""));
+    note(kind_name(term.kind), "; ", highlight_name(term.highlight), term.general ? "; ambient part or vertex colours" : "");
     program.terms.push_back(term);
   }
   program.needs_position |= program.needs_view;
   return program;
 }
 
-LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons) {
+}  // namespace
+
+LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons,
+                              std::vector<LightTerm> room) {
+  return plan_terms(material, tracked, lights, as_it_is, model, reasons, std::move(room));
+}
+
+LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons, std::vector<LightTerm> room) {
   const auto [ambient, diffuse, specular] = material.indexes;
-  const auto grey = [](const Rgb& c) {
-    const float luminance = std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]));
-    return Rgb{luminance, luminance, luminance};
-  };
-  std::vector<EyeLight> greys = lights;
-  for (EyeLight& light : greys) {
-    light.ambient = {};
-    light.diffuse = grey(light.diffuse);
-    light.specular = grey(light.specular);
-  }
   // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not matter.
   SurfaceMaterial surface{.ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
   if (diffuse != ambient) surface.diffuse = {1, 0, 0};
   if (diffuse != ambient || specular != ambient) surface.specular = {0, 1, 0};
   LightingModel dark = model;
   dark.scene_ambient = {};
-  LightingProgram program = plan_lighting(surface, {}, greys, dark, reasons);
+  LightingProgram program = plan_terms(surface, {}, lights, as_grey, dark, reasons, std::move(room));
   program.index = true;
   program.indexes = material.indexes;
   program.index_modulus = material.modulus;

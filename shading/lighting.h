@@ -111,8 +111,10 @@ struct LightingProgram {
 
 /// Plans a surface: what its lights and material cannot need is not in the program. `reasons`, if given, receives a line for
 /// each term and each thing left out.
-LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights,
-                              const LightingModel& model, std::string* reasons);
+///
+/// @param room  where the terms will stand; what it holds goes
+LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons,
+                              std::vector<LightTerm> room = {});
 
 /// The material of a surface whose colour is an index.
 struct IndexMaterial {
@@ -121,7 +123,7 @@ struct IndexMaterial {
   float modulus = 2;                      ///< 2^bits of the buffer
 };
 /// The same for indices.
-LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons);
+LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons, std::vector<LightTerm> room = {});
 
 /// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names, leaves the colour or index.
 /// Bit-identical to light_points_reference() on every instruction set.

@@ -636,7 +636,7 @@ enum class LogLevel : std::uint8_t { debug, info, warning };
 
 /// What the work of a frame consists of, in this order; frames with little RendererOptions::bin_memory go back from tiles to binning. Each waits for all of the one before.
 enum class FrameStage : std::uint8_t {
-  vertices,  ///< positions and colours
+  vertices,  ///< indices, and what they make; positions and colours
   faces,     ///< colours of whole triangles
   binning,   ///< triangles, in batches, into the lists of the tiles that they may touch
   tiles      ///< pixels
@@ -671,7 +671,8 @@ struct RendererOptions {
   /// What the library has to say; it never prints. Called by the thread that calls the Renderer. What it throws comes out there;
   /// a frame is then rendered, and still recorded.
   std::function<void(LogLevel level, std::string_view message)> log{};
-  /// For profilers: what a frame's workers did when, in the order in which it began. Called as `log` is, at the end of each frame.
+  /// For profilers: what a frame's workers did when, in the order in which it began. Called as `log` is, at the end of each frame; with nothing where there
+  /// is no memory for it.
   std::function<void(std::span<const FrameTask> tasks)> trace{};
 };
 
@@ -685,7 +686,8 @@ class TESSERA_API Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Runs the frame. It is empty afterwards and may be recorded anew; camera, lights and light model stay. If this throws, the
-  /// frame is still recorded: it may be finished again, or reset. Throws Error for indices out of bounds, too, before anything changes.
+  /// frame is still recorded: it may be finished again, or reset. Throws Error for indices out of bounds, too, of draws that can change
+  /// something, before anything changes.
   FrameStats finish(Frame& frame);
   /// Runs the frame and scans the colour buffer out into the caller's memory, straight from the tiles.
   FrameStats finish(Frame& frame, const ImageTarget& target);
