@@ -5,8 +5,6 @@
 
 namespace tessera::cli {
 
-/// Lines of what a picture might depend on, and must not.
-std::string machine_text();
 std::string info_text();
 std::string formats_text();
 

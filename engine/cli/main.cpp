@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/cli/bench_command.h"
 #include "engine/cli/command_docs.h"
 #include "engine/cli/info_command.h"
 #include "engine/cli/parse_overrides.h"
@@ -194,7 +195,7 @@ std::string unexpected_argument(const CLI::App& program) {
   if (command != nullptr) return message;
   std::error_code error;
   if (std::filesystem::exists(word, error)) return message + "; did you mean \"tessera render " + word + "\"?";
-  return "unknown command \"" + word + "\"" + did_you_mean(word, Names{"render", "info", "selftest", "formats", "completion", "man"});
+  return "unknown command \"" + word + "\"" + did_you_mean(word, Names{"render", "info", "selftest", "bench", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -241,12 +242,16 @@ int run(int argument_count, char** arguments) {
   CLI::App* info = program.add_subcommand("info", "Say what this machine is and what is used of it");
   SelftestRequest selftest_request;
   CLI::App* selftest_command = add_selftest(program, selftest_request);
+  CLI::App* bench = program.add_subcommand("bench", "Measure what frames cost on this machine; tessera bench --help has its options");
+  bench->set_help_flag();
+  bench->prefix_command();
   CLI::App* formats = program.add_subcommand("formats", "List the formats of scenes, models and pictures");
   CLI::App* completion = program.add_subcommand("completion", "Print a completion script for a shell");
   std::string shell;
   completion->add_option("shell", shell, "bash, zsh or fish")->option_text("bash|zsh|fish")->required()->check(one_of({"bash", "zsh", "fish"}));
   CLI::App* man = program.add_subcommand("man", "Print the manual page, for man -l -");
   info->footer("Examples:\n  tessera info");
+  bench->footer("Examples:\n  tessera bench fill grid-2M\n  tessera bench --json before.json\n  tessera bench --compare before.json");
   formats->footer("Examples:\n  tessera formats");
   completion->footer("Examples:\n  tessera completion bash > /etc/bash_completion.d/tessera\n  tessera completion zsh > /usr/share/zsh/vendor-completions/_tessera\n"
                      "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
@@ -263,6 +268,7 @@ int run(int argument_count, char** arguments) {
   if (int* const threads = render_command->parsed() ? &request.options.threads : selftest_command->parsed() ? &selftest_request.threads : nullptr; threads != nullptr)
     if (const std::string wrong = threads_of_environment(*threads); !wrong.empty()) return usage_error("TESSERA_THREADS: " + wrong, program);
   if (selftest_command->parsed()) return selftest(selftest_request);
+  if (bench->parsed()) become_bench(bench->remaining());
   if (render_command->parsed()) {
     if (!request.stats_name.empty()) request.stats = request.stats_name == "json" ? StatsFormat::json : StatsFormat::text;
     return render(std::move(request));

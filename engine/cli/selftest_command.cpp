@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/cli/info_command.h"
+#include "engine/cli/machine_text.h"
 #include "engine/cli/printable.h"
 #include "engine/cli/progress.h"
 #include "engine/cli/selftest_oracles.h"

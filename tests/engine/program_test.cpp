@@ -17,37 +17,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/engine/program.h"
+
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
-
-class Program : public testing::Test {
- protected:
-  Program() : folder_(fs::temp_directory_path() / ("tessera_program_" + std::to_string(::getpid()))) { fs::create_directories(folder_); }
-  ~Program() override { fs::remove_all(folder_); }
-
-  Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" TESSERA_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("out.txt"), content("err.txt")};
-  }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
-  std::string content(const std::string& name) const {
-    std::ifstream stream(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
-
-  fs::path folder_;
-};
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(Program, AloneItPrintsHelp) {
   const Result alone = run(""), help = run("--help"), version = run("--version"), render_help = run("render --help");

@@ -1,0 +1,84 @@
+#include "perf/bench/bench_options.h"
+
+#include <charconv>
+#include <string_view>
+
+namespace tessera::bench {
+namespace {
+
+// All of a text as an integer within bounds.
+bool parse_integer(std::string_view text, int least, int most, int& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number >= least && number <= most;
+}
+
+bool parse_size(std::string_view text, BenchOptions& options) {
+  const std::size_t x = text.find('x');
+  return x != std::string_view::npos && parse_integer(text.substr(0, x), 1, kMaxFrameBufferSize, options.width) && parse_integer(text.substr(x + 1), 1, kMaxFrameBufferSize, options.height);
+}
+
+bool parse_cores(std::string_view text, std::vector<int>& cores) {
+  constexpr int kMostCores = 1023;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    int core = 0;
+    if (!parse_integer(text.substr(0, comma), 0, kMostCores, core)) return false;
+    cores.push_back(core);
+    if (comma == std::string_view::npos) return true;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+// Makes parse(text) out of the option, which says what it expects where that is false.
+template <class Parse>
+CLI::Option* add_text(CLI::App& program, const std::string& name, const std::string& form, const std::string& what, const Parse& parse) {
+  const auto take = [name, form, parse](const std::string& text) {
+    if (!parse(text)) throw CLI::ValidationError(name, "found \"" + text + "\", expected " + form);
+  };
+  return program.add_option_function<std::string>(name, take, what)->option_text(form);
+}
+
+}  // namespace
+
+void add_options(CLI::App& program, BenchOptions& options) {
+  program.option_defaults()->take_last();
+  CLI::Option* const names = program.add_option("workloads", options.names, "those to run, or the beginnings of their names; default: all")->option_text("[WORKLOAD...]")->take_all();
+  program.add_flag("--list", options.list, "say what workloads there are");
+  add_text(program, "--size", "WIDTHxHEIGHT", "size of the frames; default: 1920x1080", [&options](const std::string& text) { return parse_size(text, options); });
+  add_text(program, "--threads", "N", "threads; default: one for each core", [&options](const std::string& text) { return parse_integer(text, 1, 1024, options.renderer.threads); });
+  add_text(program, "--cores", "N[,N...]", "cores that everything is kept on; default: all", [&options](const std::string& text) { return parse_cores(text, options.cores); });
+  add_text(program, "--tile-size", "32|64|128", "pixels of a tile's side; default: chosen by the frame",
+           [&options](const std::string& text) { return parse_integer(text, 32, 128, options.renderer.tile_size) && (options.renderer.tile_size & (options.renderer.tile_size - 1)) == 0; });
+  add_text(program, "--isa", "scalar|avx2|avx512", "instruction set; default: the best that this machine has", [&options](const std::string& text) {
+    for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512})
+      if (name(set) == text) return options.renderer.instruction_set = set, true;
+    return false;
+  });
+  add_text(program, "--repeats", "N", "frames of each workload; default: a second of them, 15 at least", [&options](const std::string& text) { return parse_integer(text, 1, 1000000, options.measure.repeats); });
+  program.add_option("--seconds", options.measure.seconds, "of frames for each workload; default: 1")->option_text("S")->check(CLI::Range(0.001, 3600.0));
+  program.add_option("--seed", options.measure.seed, "of what is random in workloads, and of the order of turns; default: 1")->option_text("N");
+  CLI::Option* const rivals = program.add_flag("--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");
+  CLI::Option* const driver = add_text(program, "--driver", "llvmpipe|softpipe", "Mesa's, of --rivals; default: llvmpipe", [&options](const std::string& text) {
+    options.driver = text == "softpipe" ? rivals::MesaDriver::softpipe : rivals::MesaDriver::llvmpipe;
+    return text == "llvmpipe" || text == "softpipe";
+  });
+  driver->needs(rivals);
+  CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost");
+  CLI::Option* const growth = program.add_option("--growth", options.growth_file, "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured")->option_text("FILE");
+  CLI::Option* const trace = program.add_option("--trace", options.trace_file, "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured")->option_text("FILE");
+  CLI::Option* const heatmap = program.add_option("--heatmap", options.heatmap_file, "picture of what each tile of a workload costs; nothing else is measured")->option_text("FILE");
+  CLI::Option* const json = program.add_option("--json", options.json_file, "file for everything that was measured; - is the standard output")->option_text("FILE");
+  CLI::Option* const csv = program.add_option("--csv", options.csv_file, "file for the rows; - is the standard output")->option_text("FILE");
+  CLI::Option* const pictures = program.add_option("--pictures", options.pictures_folder, "folder for what each workload draws, as WORKLOAD.png")->option_text("DIR");
+  CLI::Option* const compare = program.add_option("--compare", options.compare_file, "earlier --json file: shows ratios to it, and exits with 3 where a row is slower by more than --allowed")->option_text("FILE");
+  program.add_option("--allowed", options.allowed, "share by which a row may be slower; default: 0.1")->option_text("SHARE")->check(CLI::Range(0.0, 100.0))->needs(compare);
+  // What is measured otherwise is not told, or told of otherwise.
+  for (CLI::Option* way : {rivals, scaling})
+    for (CLI::Option* other : {csv, pictures, compare}) way->excludes(other);
+  rivals->excludes(scaling);
+  for (CLI::Option* way : {growth, trace, heatmap})
+    for (CLI::Option* other : {rivals, scaling, json, csv, pictures, compare}) way->excludes(other);
+  for (CLI::Option* other : {trace, heatmap, names}) growth->excludes(other);
+}
+
+}  // namespace tessera::bench

@@ -1,0 +1,41 @@
+#include "perf/bench/compare.h"
+
+#include <cstdio>
+
+#include "engine/scene/json_value.h"
+#include "engine/scene/text_file.h"
+
+namespace tessera::bench {
+
+EarlierRun::EarlierRun(const std::string& file) : file_(file) {
+  const json::Json report = json::parse(read_text_file(file), file);
+  const json::Value whole(report, "", file);
+  if (!report.is_object() || !report.contains("workloads")) whole.fail("a report of tessera bench --json");
+  const json::Value rows = whole.member("workloads");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const json::Value row = rows.element(i);
+    if (!row.json().is_object() || !row.json().contains("name")) row.fail("a workload with its name");
+    if (row.json().contains("median_ms")) medians_[row.member("name").text()] = row.member("median_ms").number(1e-9, 1e12);
+  }
+}
+
+Comparison EarlierRun::compare(const Report& now, double allowed) const {
+  char line[200];
+  std::snprintf(line, sizeof line, "%-22s %12s %12s %8s\n", "workload", "earlier, ms", "now, ms", "ratio");
+  Comparison comparison{.table = line};
+  for (const Row& row : now.rows) {
+    const auto found = medians_.find(row.name);
+    if (found == medians_.end() || row.frames == 0) {
+      comparison.table += row.name + ": " + (row.frames == 0 ? "not measured now" : "not in " + file_) + "\n";
+      continue;
+    }
+    const double earlier = found->second;
+    const bool is_worse = row.ms.median > earlier * (1 + allowed);
+    std::snprintf(line, sizeof line, "%-22s %12.3f %12.3f %8.3f%s\n", row.name.c_str(), earlier, row.ms.median, earlier / row.ms.median, is_worse ? "  worse" : "");
+    comparison.table += line;
+    comparison.is_worse |= is_worse;
+  }
+  return comparison;
+}
+
+}  // namespace tessera::bench

@@ -1,0 +1,30 @@
+// An earlier run beside this one.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "perf/bench/report.h"
+
+namespace tessera::bench {
+
+struct Comparison {
+  std::string table;       ///< ratios of medians, earlier to now: above 1 is faster
+  bool is_worse = false;   ///< in a row by more than was allowed
+};
+
+class EarlierRun {
+ public:
+  /// @param file  what --json wrote then. @throws Error where it is no such report
+  explicit EarlierRun(const std::string& file);
+  /// Rows without a counterpart are left out, and named.
+  ///
+  /// @param allowed  share by which a median may be longer, 0.05: 5 %
+  Comparison compare(const Report& now, double allowed) const;
+
+ private:
+  std::string file_;
+  std::map<std::string, double> medians_;  // by the workload's name, in ms
+};
+
+}  // namespace tessera::bench

@@ -1,0 +1,119 @@
+#include "perf/bench/drawn_workload.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace tessera::bench {
+namespace {
+
+std::size_t pixels_of(const FrameBufferFormat& format) { return static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height); }
+
+RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
+  if (drawing.shades_at_once) options.defer_shading = false;
+  return options;
+}
+
+/// A renderer with a buffer of its own for a drawing.
+class Easel {
+ public:
+  Easel(const Drawing& drawing, const RendererOptions& options)
+      : drawing_(drawing), renderer_(options_for(drawing, options)), buffer_(drawing.format), frame_(buffer_), picture_(drawing.format.width, drawing.format.height) {
+    if (!drawing.before) return;
+    drawing.before(drawing, frame_);
+    renderer_.finish(frame_);
+  }
+
+  FrameStats draw() {
+    drawing_.record(drawing_, frame_);
+    return drawing_.keeps_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target());
+  }
+  const Picture& picture() {
+    if (drawing_.keeps_planes) buffer_.read_color(picture_.target());
+    return picture_;
+  }
+  /// What a frame moves of planes and of the image.
+  std::uint64_t moved_bytes() const { return (drawing_.keeps_planes || drawing_.before ? plane_bytes() : 0) + (drawing_.keeps_planes ? 0 : picture_.rgba.size()); }
+  std::uint64_t kept_bytes() const { return plane_bytes() + picture_.rgba.size(); }
+
+ private:
+  std::uint64_t plane_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const Buffer buffer : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation}) bytes += buffer_.allocated_bytes(buffer);
+    return bytes;
+  }
+
+  const Drawing& drawing_;
+  Renderer renderer_;
+  FrameBuffer buffer_;
+  Frame frame_;
+  Picture picture_;
+};
+
+class DrawnWorkload : public Workload {
+ public:
+  DrawnWorkload(Drawing drawing, const RendererOptions& options) : drawing_(std::move(drawing)), options_(options) {}
+
+  FrameStats draw() override {
+    if (!easel_) easel_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
+    return easel_->draw();
+  }
+
+  std::string fault() override {
+    const FrameStats stats = draw();
+    if (drawing_.fragments != 0 && stats.shaded_pixels != drawing_.fragments)
+      return "shaded " + std::to_string(stats.shaded_pixels) + " pixels, expected " + std::to_string(drawing_.fragments);
+    const Picture& picture = easel_->picture();
+    if (drawing_.fault)
+      if (std::string fault = drawing_.fault(picture); !fault.empty()) return fault;
+    RendererOptions scalar = options_;
+    scalar.instruction_set = InstructionSet::scalar;
+    Easel reference(drawing_, scalar);
+    reference.draw();
+    const Picture& expected = reference.picture();
+    const auto found = std::mismatch(picture.rgba.begin(), picture.rgba.end(), expected.rgba.begin()).first;
+    if (found == picture.rgba.end()) return {};
+    const auto at = static_cast<std::size_t>(found - picture.rgba.begin()) / 4, width = static_cast<std::size_t>(picture.width);
+    return "pixel " + std::to_string(at % width) + " of row " + std::to_string(at / width) + " is not as the scalar kernels have it";
+  }
+
+  const Picture& picture() override { return easel_->picture(); }
+
+  FrameWork work(const FrameStats& stats) const override {
+    FrameWork work;
+    work.pixels = pixels_of(drawing_.format);
+    work.triangles = stats.triangles_in;
+    work.vertices = stats.vertices;
+    work.fragments = stats.shaded_pixels;
+    work.bytes = easel_->moved_bytes();  // and meshes are read once
+    for (const MeshData& mesh : drawing_.meshes) work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() + mesh.texcoords.size() + mesh.indices.size());
+    work.limit = drawing_.limit;
+    work.limited_bytes = drawing_.limited_bytes != 0 ? drawing_.limited_bytes : easel_->moved_bytes();
+    work.kept_bytes = easel_->kept_bytes();
+    return work;
+  }
+
+ private:
+  Drawing drawing_;
+  RendererOptions options_;
+  std::optional<Easel> easel_;
+};
+
+}  // namespace
+
+WorkloadEntry drawn(const std::string& name, const std::string& what, MakeDrawing make) {
+  WorkloadEntry entry{.name = name, .what = what};
+  entry.make = [make](const WorkloadSetup& setup) { return std::make_unique<DrawnWorkload>(make(setup.width, setup.height, setup.seed), setup.options); };
+  entry.rival = [make = std::move(make)](const WorkloadSetup& setup) {
+    const Drawing drawing = make(setup.width, setup.height, setup.seed);
+    return drawing.rival ? std::optional(drawing.rival(drawing)) : std::nullopt;
+  };
+  return entry;
+}
+
+WorkloadEntry drawn_beside(const std::string& name, const std::string& what, MakeDrawing make) {
+  WorkloadEntry entry = drawn(name, what, std::move(make));
+  entry.is_in_mean = false;
+  return entry;
+}
+
+}  // namespace tessera::bench

@@ -1,0 +1,39 @@
+// A workload that draws into a frame buffer and scans the picture out into an image, judged by the scalar kernels' bits and by what its kind knows of it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "perf/bench/rival_form.h"
+#include "perf/bench/workload.h"
+
+namespace tessera::bench {
+
+/// A frame's commands, and all that they borrow.
+struct Drawing {
+  FrameBufferFormat format{};
+  std::vector<MeshData> meshes{};
+  std::vector<Texture> textures{};
+  std::function<void(const Drawing&, Frame&)> record{};
+  std::function<void(const Drawing&, Frame&)> before{};  ///< drawn once, into planes that the frames start from; may be empty
+  bool shades_at_once = false;      ///< also what is hidden later on
+  bool keeps_planes = false;        ///< the picture stays in the frame buffer's planes; otherwise it leaves by an image
+  std::uint64_t fragments = 0;      ///< what FrameStats::shaded_pixels has to be; 0: anything
+  Limit limit = Limit::none;
+  std::uint64_t limited_bytes = 0;  ///< what that limit counts; 0: the planes, where a frame reads or keeps them, and the image
+  std::function<std::string(const Picture&)> fault{};  ///< of the picture; may be empty
+  std::function<RivalForm(const Drawing&)> rival{};    ///< empty: rivals do not draw it
+};
+
+/// Makes a drawing of a size in pixels and a seed.
+using MakeDrawing = std::function<Drawing(int width, int height, std::uint32_t seed)>;
+
+/// An entry of the list, by what it draws.
+WorkloadEntry drawn(const std::string& name, const std::string& what, MakeDrawing make);
+/// The same beside the mean of ratios.
+WorkloadEntry drawn_beside(const std::string& name, const std::string& what, MakeDrawing make);
+
+}  // namespace tessera::bench

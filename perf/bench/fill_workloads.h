@@ -1,0 +1,12 @@
+// Workloads that fill the window.
+#pragma once
+
+#include <vector>
+
+#include "perf/bench/workload.h"
+
+namespace tessera::bench {
+
+std::vector<WorkloadEntry> fill_workloads();
+
+}  // namespace tessera::bench

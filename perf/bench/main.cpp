@@ -1,0 +1,241 @@
+// tessera bench: what frames cost on this machine.
+#include <sched.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+#include "engine/cli/machine_text.h"
+#include "engine/parallel.h"
+#include "perf/bench/bench_options.h"
+#include "perf/bench/compare.h"
+#include "perf/bench/growth.h"
+#include "perf/bench/limits.h"
+#include "perf/bench/report.h"
+#include "perf/bench/text.h"
+#include "perf/bench/traced_frame.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr int kWrong = 1, kUsage = 2, kWorse = 3;
+
+constexpr const char* kExamples = R"(examples:
+  tessera bench                                   everything
+  tessera bench fill grid-2M                      some of it
+  tessera bench --json before.json                and later
+  tessera bench --compare before.json)";
+
+void keep_on(const std::vector<int>& cores) {
+  if (cores.empty()) return;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (const int core : cores) CPU_SET(core, &set);
+  if (::sched_setaffinity(0, sizeof set, &set) != 0) throw Error("--cores: the system does not let this process run on those");
+}
+
+std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& names) {
+  std::vector<const WorkloadEntry*> list;
+  for (const std::string& name : names)
+    if (std::none_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return entry.name.starts_with(name); }))
+      throw Error("no workload's name begins with \"" + name + "\" (see tessera bench --list)");
+  const auto is_a_whole_name = [](const std::string& name) { return std::any_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return entry.name == name; }); };
+  const auto is_meant = [&](const WorkloadEntry& entry) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return is_a_whole_name(name) ? entry.name == name : entry.name.starts_with(name); });
+  };
+  for (const WorkloadEntry& entry : workloads())
+    if (names.empty() || is_meant(entry)) list.push_back(&entry);
+  return list;
+}
+
+void write(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    std::cout << text;
+    return;
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(file + ": cannot be written");
+}
+
+/// Those that can run; of the others, lines that say why they cannot.
+struct Chosen {
+  std::vector<const WorkloadEntry*> entries;
+  std::string left_out;
+};
+Chosen prepared(std::vector<const WorkloadEntry*> entries) {
+  Chosen chosen;
+  for (const WorkloadEntry* entry : entries) {
+    const std::string reason = entry->prepare ? entry->prepare() : "";
+    if (reason.empty()) chosen.entries.push_back(entry);
+    else chosen.left_out += entry->name + ": left out, " + reason + "\n";
+  }
+  return chosen;
+}
+
+/// What is measured, and lines of it shown as soon as they are known.
+class Bench {
+ public:
+  explicit Bench(const BenchOptions& options)
+      : options_(options), setup_{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed} {
+    report_.machine = cli::machine_text();
+    report_.width = options.width;
+    report_.height = options.height;
+    report_.threads = options.renderer.threads;
+    report_.instruction_set = name(Renderer(options.renderer).options().instruction_set);
+  }
+
+  void run(const std::vector<const WorkloadEntry*>& entries) {
+    show(report_.machine + formatted("frames             %dx%d, %d threads, %s\n\n", report_.width, report_.height, report_.threads, report_.instruction_set.c_str()));
+    if (options_.scaling) run_on_more_threads(entries);
+    else if (options_.rivals) run_with_rivals(entries);
+    else run_alone(entries);
+    if (!entries.empty()) measure_noise(*entries.front());
+  }
+  void measure_rates() {
+    constexpr std::uint64_t kMuch = std::uint64_t{256} << 20;
+    const std::uint64_t frame = 4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
+    const auto rate = [this](Limit limit, std::uint64_t bytes) { return measure_limit(limit, report_.threads, bytes); };
+    report_.limits = {rate(Limit::l1_stores, 0), rate(Limit::memory_stores, frame), rate(Limit::memory_copies, 2 * frame), rate(Limit::memory_stores, kMuch)};
+  }
+  void show(const std::string& text) const {
+    if (options_.json_file != "-" && options_.csv_file != "-") std::cout << text << std::flush;
+  }
+  const Report& report() const { return report_; }
+  bool is_wrong() const { return is_wrong_; }
+
+ private:
+  void run_alone(const std::vector<const WorkloadEntry*>& entries) {
+    show(table_heading());
+    for (const WorkloadEntry* entry : entries) {
+      Candidate candidate = candidate_of(*entry);
+      if (!options_.pictures_folder.empty())
+        candidate.judge = [&](const Picture& picture) {
+          write_picture(picture, options_.pictures_folder + "/" + entry->name + ".png");
+          return std::string();
+        };
+      Row row = measure(std::vector{candidate}, options_.measure, counters_).front();
+      if (row.frames > 0 && row.work.limit != Limit::none) row.limit = measure_limit(row.work.limit, row.threads, row.work.limited_bytes);
+      show(table_line(row));
+      is_wrong_ |= !row.fault.empty();
+      report_.rows.push_back(std::move(row));
+    }
+  }
+  void run_with_rivals(const std::vector<const WorkloadEntry*>& entries) {
+    Rivalry& rivalry = report_.rivalry.emplace();
+    rivalry.rival = rivals::mesa_name(options_.driver, report_.threads);
+    rivalry.finish_ms = rivals::mesa_finish_ms(report_.width, report_.height, options_.driver, report_.threads);
+    show(rivalry_heading());
+    for (const WorkloadEntry* entry : entries) {
+      std::optional<Duel> fought = duel(*entry, setup_, options_.driver, options_.measure, counters_);
+      if (!fought) continue;
+      show(rivalry_line(*fought));
+      is_wrong_ |= !fought->ours.fault.empty() || !fought->rivals.fault.empty();
+      rivalry.duels.push_back(std::move(*fought));
+    }
+  }
+  void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
+    const CoreModel model = measure_core_model(report_.threads);
+    show(formatted("one core copies %.1f GB/s, and %.0f of them are taken to copy all that the memory does; a stage begins in %.1f microseconds\n\n", model.core_bytes, model.most_cores_of_memory, 1e6 * model.barrier_seconds));
+    show(scaling_heading(report_.threads));
+    for (const WorkloadEntry* entry : entries) {
+      report_.scaling.push_back(scaling_of(*entry, setup_, report_.threads, model, options_.measure, counters_));
+      show(scaling_line(report_.scaling.back()));
+      is_wrong_ |= report_.scaling.back().predicted.empty();
+    }
+  }
+  void measure_noise(const WorkloadEntry& entry) {
+    const std::vector<Row> rows = measure(std::vector<Candidate>(2, candidate_of(entry)), options_.measure, counters_);
+    report_.noise_of = entry.name;
+    if (rows[0].frames != 0) report_.noise = rows[1].ms.median / rows[0].ms.median;
+  }
+  Candidate candidate_of(const WorkloadEntry& entry) const {
+    return {.name = entry.name, .make = [this, &entry] { return entry.make(setup_); }, .threads = report_.threads};
+  }
+
+  const BenchOptions& options_;
+  WorkloadSetup setup_;
+  Report report_{};
+  HardwareCounters counters_{};
+  bool is_wrong_ = false;
+};
+
+void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
+  if (!options.heatmap_file.empty() && entries.size() != 1) throw Error("--heatmap: found " + std::to_string(entries.size()) + " workloads, expected 1");
+  const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
+  if (!options.trace_file.empty()) {
+    std::vector<TracedFrame> frames;
+    for (const WorkloadEntry* entry : entries) frames.push_back(trace_frame(*entry, setup));
+    write(options.trace_file, chrome_trace(frames));
+  }
+  if (options.heatmap_file.empty()) return;
+  const Heatmap map = heatmap(cost_of_tasks(*entries.front(), setup, options.renderer.threads));
+  write_picture(map.picture, options.heatmap_file);
+  std::cout << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map.most_ns_a_pixel);
+}
+
+void show_growth(const BenchOptions& options) {
+  const HardwareCounters counters;
+  const ThreadLimit limit(options.renderer.threads);
+  const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
+  const std::vector<Growth> all = measure_growth(setup, options.measure, counters);
+  std::cout << growth_table(all);
+  write(options.growth_file, growth_svg(all));
+}
+
+int run(BenchOptions& options) {
+  if (options.list) {
+    for (const WorkloadEntry& entry : workloads()) std::printf("%-22s %s%s\n", entry.name.c_str(), entry.what.c_str(), entry.is_in_mean ? "" : " (beside the mean)");
+    return 0;
+  }
+  std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
+  if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
+  const Chosen chosen = prepared(chosen_by(options.names));
+  if (!options.pictures_folder.empty()) std::filesystem::create_directories(options.pictures_folder);
+  keep_on(options.cores);
+  if (options.renderer.threads == 0) options.renderer.threads = available_cores();
+  if (!options.growth_file.empty()) return show_growth(options), 0;
+  if (!options.trace_file.empty() || !options.heatmap_file.empty()) {
+    std::cerr << chosen.left_out;
+    const ThreadLimit limit(options.renderer.threads);
+    return trace(options, chosen.entries), 0;
+  }
+  Bench bench(options);  // and its counters, before any thread is started
+  const ThreadLimit limit(options.renderer.threads);
+  bench.run(chosen.entries);
+  std::cerr << chosen.left_out;
+  bench.measure_rates();
+  bench.show(table_ending(bench.report()));
+  if (!options.json_file.empty()) write(options.json_file, report_json(bench.report()).dump(2) + "\n");
+  if (!options.csv_file.empty()) write(options.csv_file, report_csv(bench.report()));
+  if (bench.is_wrong()) return kWrong;
+  if (!earlier) return 0;
+  const Comparison comparison = earlier->compare(bench.report(), options.allowed);
+  bench.show("\n" + comparison.table);
+  return comparison.is_worse ? kWorse : 0;
+}
+
+}  // namespace
+}  // namespace tessera::bench
+
+int main(int argc, char** argv) {
+  CLI::App program("Measures what frames cost on this machine.", "tessera bench");
+  program.footer(tessera::bench::kExamples);
+  tessera::bench::BenchOptions options;
+  tessera::bench::add_options(program, options);
+  try {
+    program.parse(argc, argv);
+    return tessera::bench::run(options);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    std::cerr << "tessera bench: error: " << error.what() << " (see tessera bench --help)\n";
+    return tessera::bench::kUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "tessera bench: error: " << error.what() << "\n";
+    return tessera::bench::kWrong;
+  }
+}

@@ -1,0 +1,12 @@
+// Workloads that draw models of Debian's packages.
+#pragma once
+
+#include <vector>
+
+#include "perf/bench/workload.h"
+
+namespace tessera::bench {
+
+std::vector<WorkloadEntry> model_workloads();
+
+}  // namespace tessera::bench

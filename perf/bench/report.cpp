@@ -1,0 +1,131 @@
+#include "perf/bench/report.h"
+
+#include <sstream>
+
+#include "perf/bench/text.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr double kMiB = 1 << 20;
+
+// Of what the machine does at best.
+double share_of_limit(const Row& row) { return static_cast<double>(row.work.limited_bytes) / row.ms.median * 1e-6 / row.limit; }
+
+// Of what was working memory in the first frame, where triangles are most of it.
+std::optional<double> bytes_a_triangle(const Row& row) {
+  constexpr std::uint64_t kMany = 100000;
+  return row.work.triangles >= kMany ? std::optional(static_cast<double>(row.working_bytes) / static_cast<double>(row.work.triangles)) : std::nullopt;
+}
+
+const char* name_of(Limit limit) {
+  switch (limit) {
+    case Limit::l1_stores: return "stores in L1";
+    case Limit::memory_stores: return "stores of as much";
+    case Limit::memory_copies: return "copies of as much";
+    default: return "";
+  }
+}
+
+// Of a frame's count, in millions a second.
+double millions(std::uint64_t count, const Row& row) { return static_cast<double>(count) / row.ms.median * 1e-3; }
+
+struct Figure {
+  const char* key;
+  double value;
+};
+std::vector<Figure> figures_of(const Row& row) {
+  std::vector<Figure> figures{{"median_ms", row.ms.median},
+                              {"low_quartile_ms", row.ms.low_quartile},
+                              {"high_quartile_ms", row.ms.high_quartile},
+                              {"percentile_95_ms", row.ms.percentile_95},
+                              {"percentile_99_ms", row.ms.percentile_99},
+                              {"least_ms", row.ms.least},
+                              {"cold_ms", row.cold_ms},
+                              {"megapixels_per_second", millions(row.work.pixels, row)},
+                              {"megatriangles_per_second", millions(row.work.triangles, row)},
+                              {"megavertices_per_second", millions(row.work.vertices, row)},
+                              {"megafragments_per_second", millions(row.work.fragments, row)},
+                              {"gigabytes_per_second", millions(row.work.bytes, row) * 1e-3},
+                              {"ns_per_pixel", 1e6 * row.ms.median / static_cast<double>(row.work.pixels)}};
+  figures.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
+  figures.push_back({"bytes_per_triangle", bytes_a_triangle(row).value_or(0)});
+  figures.push_back({"share_of_limit", row.limit > 0 ? share_of_limit(row) : 0});
+  if (row.counts) {
+    figures.push_back({"cycles", static_cast<double>(row.counts->cycles)});
+    figures.push_back({"instructions", static_cast<double>(row.counts->instructions)});
+  }
+  return figures;
+}
+
+std::vector<Figure> figures_of(const MachineLimits& limits) {
+  return {{"l1_stores", limits.l1_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores}};
+}
+
+}  // namespace
+
+std::string table_heading() {
+  return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %6s\n", "workload", "median ms", "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "GB/s", "ns/pixel", "peak MiB", "B/tri");
+}
+
+std::string table_line(const Row& row) {
+  if (!row.fault.empty()) return formatted("%-22s wrong picture: %s\n", row.name.c_str(), row.fault.c_str());
+  return formatted("%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.2f %8.3f %8.1f %6s\n", row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
+                   row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row), millions(row.work.bytes, row) * 1e-3,
+                   1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB, bytes_a_triangle(row) ? formatted("%.0f", *bytes_a_triangle(row)).c_str() : "");
+}
+
+std::string table_ending(const Report& report) {
+  std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
+  text += "noise: " + report.noise_of + " against itself: ratio " + formatted("%.3f", report.noise) + "\n";
+  text += formatted("limits, GB/s: stores in L1 %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f\n", report.limits.l1_stores, report.limits.frame_stores, report.limits.frame_copies,
+                    report.limits.memory_stores);
+  for (const Row& row : report.rows)
+    if (row.limit > 0 && row.frames > 0)
+      text += formatted("%-22s moves %.1f GB/s, %.0f %% of %s (%.1f GB/s)\n", row.name.c_str(), share_of_limit(row) * row.limit, 100 * share_of_limit(row), name_of(row.work.limit), row.limit);
+  return text;
+}
+
+nlohmann::ordered_json report_json(const Report& report) {
+  nlohmann::ordered_json json;
+  std::istringstream lines(report.machine);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find("  ");
+    if (end != std::string::npos) json["machine"][line.substr(0, end)] = line.substr(line.find_first_not_of(' ', end));
+  }
+  json["width"] = report.width;
+  json["height"] = report.height;
+  json["threads"] = report.threads;
+  json["instruction_set"] = report.instruction_set;
+  for (const Figure& figure : figures_of(report.limits)) json["limits_gigabytes_per_second"][figure.key] = figure.value;
+  json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise}};
+  if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
+  if (!report.scaling.empty()) json["scaling"] = scaling_json(report.scaling);
+  json["workloads"] = nlohmann::ordered_json::array();
+  for (const Row& row : report.rows) {
+    nlohmann::ordered_json entry{{"name", row.name}, {"threads", row.threads}, {"frames", row.frames}};
+    if (!row.fault.empty()) entry["fault"] = row.fault;
+    else
+      for (const Figure& figure : figures_of(row)) entry[figure.key] = figure.value;
+    json["workloads"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::string report_csv(const Report& report) {
+  std::string text;
+  for (const Row& row : report.rows) {
+    if (!row.fault.empty()) continue;
+    if (text.empty()) {
+      text = "workload,threads,frames";
+      for (const Figure& figure : figures_of(row)) text += std::string(",") + figure.key;
+      text += "\n";
+    }
+    text += row.name + "," + std::to_string(row.threads) + "," + std::to_string(row.frames);
+    for (const Figure& figure : figures_of(row)) text += formatted(",%.6g", figure.value);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace tessera::bench

@@ -1,0 +1,43 @@
+// What was measured, for people and for programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "perf/bench/measure.h"
+#include "perf/bench/rivalry.h"
+#include "perf/bench/scaling.h"
+
+namespace tessera::bench {
+
+/// In 10^9 bytes a second.
+struct MachineLimits {
+  double l1_stores = 0, frame_stores = 0, frame_copies = 0;
+  double memory_stores = 0;  ///< of 256 MiB
+};
+
+struct Report {
+  std::string machine;              ///< lines of "what   value"
+  int width = 0, height = 0, threads = 0;
+  std::string instruction_set;
+  MachineLimits limits;
+  std::vector<Row> rows;
+  std::optional<Rivalry> rivalry{};
+  std::vector<Scaling> scaling{};
+  double noise = 1;                 ///< ratio of a workload's medians to its own
+  std::string noise_of;             ///< its name
+};
+
+/// One line for a row; the heading of those lines.
+std::string table_heading();
+std::string table_line(const Row& row);
+/// What stands below the table.
+std::string table_ending(const Report& report);
+
+nlohmann::ordered_json report_json(const Report& report);
+std::string report_csv(const Report& report);
+
+}  // namespace tessera::bench

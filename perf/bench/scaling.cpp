@@ -1,0 +1,108 @@
+#include "perf/bench/scaling.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <queue>
+
+#include "engine/parallel.h"
+#include "perf/bench/limits.h"
+#include "perf/bench/text.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
+
+double length(const FrameTask& task) { return task.end - task.begin; }
+
+/// Until the last core is done.
+double scheduled(std::span<const FrameTask> tasks, int cores) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
+  for (int k = 0; k < cores; ++k) free_at.push(0);
+  double end = 0;
+  for (const FrameTask& task : tasks) {
+    const double done = free_at.top() + length(task);
+    free_at.pop();
+    free_at.push(done);
+    end = std::max(end, done);
+  }
+  return end;
+}
+
+double barrier_seconds(int threads) {
+  constexpr int kTimes = 2000;
+  Parallel parallel(threads);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kTimes; ++i) parallel.for_each(static_cast<std::size_t>(threads), [](std::size_t, int) {});
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes;
+}
+
+}  // namespace
+
+CoreModel measure_core_model(int threads) {
+  constexpr std::uint64_t kMuch = std::uint64_t{256} << 20;
+  return {.core_bytes = measure_limit(Limit::memory_copies, 1, kMuch), .barrier_seconds = barrier_seconds(threads)};
+}
+
+double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
+  double seconds = frame.seconds - frame.seconds_in_tasks();
+  for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
+    const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.stage != first->stage; });
+    seconds += scheduled({first, last}, cores) + model.barrier_seconds;
+    first = last;
+  }
+  const double memory_rate = 1e9 * model.core_bytes * std::min<double>(cores, model.most_cores_of_memory);
+  return std::max(seconds, static_cast<double>(frame.work.bytes) / memory_rate);
+}
+
+Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads, const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters) {
+  std::vector<Candidate> candidates;
+  for (int count = 1; count <= threads; ++count) {
+    WorkloadSetup with = setup;
+    with.options.threads = count;
+    candidates.push_back({.name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count});
+  }
+  Scaling scaling{.workload = entry.name};
+  const std::vector<Row> rows = measure(candidates, options, counters);
+  if (rows.front().frames == 0) return scaling;
+  scaling.one_ms = rows.front().ms.median;
+  for (std::size_t i = 1; i < rows.size(); ++i) scaling.measured.emplace_back(rows[i].threads, scaling.one_ms / rows[i].ms.median);
+  const double one = seconds_on(cost_of_tasks(entry, setup, 1), 1, model);
+  for (const int cores : kCores) scaling.predicted.emplace_back(cores, one / seconds_on(cost_of_tasks(entry, setup, cores), cores, model));
+  return scaling;
+}
+
+std::string scaling_heading(int threads) {
+  std::string text = formatted("%-22s %9s ", "workload", "1 core ms");
+  for (int count = 2; count <= threads; ++count) text += formatted(" %7s", (std::to_string(count) + "x").c_str());
+  text += "  computed:";
+  for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
+  return text + "   of 64\n";
+}
+
+std::string scaling_line(const Scaling& scaling) {
+  if (scaling.predicted.empty()) return scaling.workload + ": wrong picture\n";
+  std::string text = formatted("%-22s %9.3f ", scaling.workload.c_str(), scaling.one_ms);
+  for (const auto& [threads, speed] : scaling.measured) text += formatted(" %7.2f", speed);
+  text += "           ";
+  double of_64 = 0;
+  for (const auto& [cores, speed] : scaling.predicted) {
+    text += formatted(" %7.2f", speed);
+    if (cores == 64) of_64 = speed / 64;
+  }
+  return text + formatted("  %4.0f %%\n", 100 * of_64);
+}
+
+nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Scaling& scaling : all) {
+    nlohmann::ordered_json entry{{"name", scaling.workload}, {"one_thread_ms", scaling.one_ms}};
+    for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = speed;
+    for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+}  // namespace tessera::bench

@@ -1,0 +1,41 @@
+// How much faster more cores are: measured as far as this machine goes, and beyond it computed from what the tasks of frames cost.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "perf/bench/measure.h"
+#include "perf/bench/traced_frame.h"
+
+namespace tessera::bench {
+
+/// A machine with many cores like this one's.
+struct CoreModel {
+  double core_bytes = 0;             ///< 10^9 a second, that one core moves
+  double most_cores_of_memory = 8;   ///< so many cores move all that the memory does
+  double barrier_seconds = 0;        ///< until all workers have begun a stage
+};
+/// Measured, on one thread and on all.
+CoreModel measure_core_model(int threads);
+
+/// Seconds that a frame takes on so many cores, from cost_of_tasks() for as many workers. Its tasks go in their order to whoever is free
+/// first; stages wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
+double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
+
+struct Scaling {
+  std::string workload;
+  double one_ms = 0;                             ///< on one thread
+  std::vector<std::pair<int, double>> measured{};   ///< threads, and how many times as fast
+  std::vector<std::pair<int, double>> predicted{};  ///< cores, and the same
+};
+/// @param threads  that are measured, from 2 on
+Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads, const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters);
+
+std::string scaling_heading(int threads);
+std::string scaling_line(const Scaling& scaling);
+nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all);
+
+}  // namespace tessera::bench

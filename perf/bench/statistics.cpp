@@ -1,0 +1,15 @@
+#include "perf/bench/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace tessera::bench {
+
+Statistics statistics_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto percentile = [&](double part) { return values[static_cast<std::size_t>(std::max(std::ceil(part * static_cast<double>(values.size())) - 1, 0.0))]; };
+  return {.median = percentile(0.5), .low_quartile = percentile(0.25), .high_quartile = percentile(0.75), .percentile_95 = percentile(0.95), .percentile_99 = percentile(0.99), .least = values.front()};
+}
+
+}  // namespace tessera::bench

@@ -1,0 +1,122 @@
+#include "perf/bench/traced_frame.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+namespace tessera::bench {
+namespace {
+
+constexpr int kWarmUps = 3, kFrames = 9;
+
+const char* name_of(FrameStage stage) {
+  switch (stage) {
+    case FrameStage::vertices: return "vertices";
+    case FrameStage::faces: return "faces";
+    case FrameStage::binning: return "binning";
+    default: return "tiles";
+  }
+}
+
+nlohmann::ordered_json event_of(const FrameTask& task, std::size_t process) {
+  nlohmann::ordered_json event{{"name", name_of(task.stage)}, {"ph", "X"}, {"ts", task.begin * 1e6}, {"dur", (task.end - task.begin) * 1e6}, {"pid", process}, {"tid", task.worker}};
+  if (task.pixels.width > 0) event["args"] = {{"x", task.pixels.x}, {"y", task.pixels.y}, {"width", task.pixels.width}, {"height", task.pixels.height}};
+  return event;
+}
+
+double ns_a_pixel(const FrameTask& task) { return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height); }
+
+// Red rises first, then green, then blue.
+void paint(std::uint8_t* rgba, double share) {
+  for (int c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
+}
+
+/// Pretends to have so many workers, which come one after the other.
+class OneByOne : public Executor {
+ public:
+  explicit OneByOne(int workers) : workers_(workers) {}
+  int workers() const noexcept override { return workers_; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    for (int k = 0; k < count; ++k) work(context, k);
+  }
+
+ private:
+  int workers_;
+};
+
+std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup) {
+  using Clock = std::chrono::steady_clock;
+  WorkloadSetup traced = setup;
+  std::vector<FrameTask> tasks;
+  traced.options.trace = [&tasks](std::span<const FrameTask> of_frame) { tasks.assign(of_frame.begin(), of_frame.end()); };
+  const std::unique_ptr<Workload> workload = entry.make(traced);
+  std::vector<TracedFrame> frames;
+  for (int i = 0; i < kWarmUps + kFrames; ++i) {
+    const Clock::time_point start = Clock::now();
+    const FrameStats stats = workload->draw();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (i >= kWarmUps) frames.push_back({entry.name, seconds, tasks, workload->work(stats)});
+  }
+  return frames;
+}
+
+double length(const FrameTask& task) { return task.end - task.begin; }
+
+}  // namespace
+
+double TracedFrame::seconds_in_tasks() const {
+  return std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double sum, const FrameTask& task) { return sum + length(task); });
+}
+
+TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) {
+  std::vector<TracedFrame> frames = frames_of(entry, setup);
+  std::nth_element(frames.begin(), frames.begin() + kFrames / 2, frames.end(), [](const TracedFrame& a, const TracedFrame& b) { return a.seconds < b.seconds; });
+  return frames[kFrames / 2];
+}
+
+TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
+  WorkloadSetup one_by_one = setup;
+  one_by_one.options.threads = workers;
+  one_by_one.options.executor = std::make_shared<OneByOne>(workers);
+  const std::vector<TracedFrame> frames = frames_of(entry, one_by_one);
+  TracedFrame least = frames.front();
+  double between = least.seconds - least.seconds_in_tasks();
+  for (const TracedFrame& frame : frames) {
+    between = std::min(between, frame.seconds - frame.seconds_in_tasks());
+    for (std::size_t i = 0; i < least.tasks.size(); ++i)
+      if (length(frame.tasks[i]) < length(least.tasks[i])) least.tasks[i] = frame.tasks[i];
+  }
+  least.seconds = between + least.seconds_in_tasks();
+  return least;
+}
+
+std::string chrome_trace(const std::vector<TracedFrame>& frames) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    events.push_back({{"name", "process_name"}, {"ph", "M"}, {"pid", i}, {"args", {{"name", frames[i].workload}}}});
+    for (const FrameTask& task : frames[i].tasks) events.push_back(event_of(task, i));
+  }
+  return nlohmann::ordered_json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n";
+}
+
+Heatmap heatmap(const TracedFrame& frame) {
+  int width = 0, height = 0;
+  for (const FrameTask& task : frame.tasks) {
+    width = std::max(width, task.pixels.x + task.pixels.width);
+    height = std::max(height, task.pixels.y + task.pixels.height);
+  }
+  Heatmap map{.picture = Picture(width, height)};
+  for (std::size_t i = 3; i < map.picture.rgba.size(); i += 4) map.picture.rgba[i] = 255;
+  for (const FrameTask& task : frame.tasks)
+    if (task.stage == FrameStage::tiles) map.most_ns_a_pixel = std::max(map.most_ns_a_pixel, ns_a_pixel(task));
+  for (const FrameTask& task : frame.tasks)
+    for (int y = task.pixels.y; y < task.pixels.y + task.pixels.height; ++y)
+      for (int x = task.pixels.x; x < task.pixels.x + task.pixels.width; ++x)
+        paint(map.picture.rgba.data() + 4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)), ns_a_pixel(task) / map.most_ns_a_pixel);
+  return map;
+}
+
+}  // namespace tessera::bench

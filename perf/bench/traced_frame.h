@@ -1,0 +1,36 @@
+// One frame of a workload, task by task.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perf/bench/workload.h"
+
+namespace tessera::bench {
+
+struct TracedFrame {
+  std::string workload;
+  double seconds = 0;               ///< from its first command to its end
+  std::vector<FrameTask> tasks{};   ///< in the order in which they began
+  FrameWork work{};
+
+  double seconds_in_tasks() const;  ///< of all workers together
+};
+
+/// Of several frames after the first ones the one in the middle, by time.
+TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
+/// What the work costs, cut for so many workers, when one thread does all of it: of each task, and of what is in none, the least of several frames.
+TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
+
+/// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes, workers its threads.
+/// Source: Trace Event Format, complete events ("X"), times in microseconds.
+std::string chrome_trace(const std::vector<TracedFrame>& frames);
+
+/// What pixels of a frame cost, tile by tile: from black over red and yellow to white, which is what the dearest tile costs.
+struct Heatmap {
+  Picture picture;
+  double most_ns_a_pixel = 0;       ///< white
+};
+Heatmap heatmap(const TracedFrame& frame);
+
+}  // namespace tessera::bench

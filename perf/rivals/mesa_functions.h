@@ -1,0 +1,53 @@
+// OSMesa, opened when it is asked for: the program does not depend on it, and frames that are measured without it do not share a process with its 100 MB.
+#pragma once
+
+#include <GL/osmesa.h>
+// osmesa.h has OpenGL's own types
+#include <GL/glext.h>
+
+namespace tessera::rivals {
+
+struct MesaFunctions {
+  decltype(&OSMesaCreateContextAttribs) create_context;
+  decltype(&OSMesaMakeCurrent) make_current;
+  decltype(&OSMesaDestroyContext) destroy_context;
+  decltype(&OSMesaPixelStore) pixel_store;
+  decltype(&glBindTexture) bind_texture;
+  decltype(&glBlendFunc) blend_func;
+  decltype(&glClear) clear;
+  decltype(&glClearColor) clear_color;
+  decltype(&glClearStencil) clear_stencil;
+  decltype(&glColorMask) color_mask;
+  decltype(&glDisable) disable;
+  decltype(&glDrawArrays) draw_arrays;
+  decltype(&glDrawElements) draw_elements;
+  decltype(&glEnable) enable;
+  decltype(&glFinish) finish;
+  decltype(&glGetError) get_error;
+  decltype(&glGetString) get_string;
+  decltype(&glScissor) scissor;
+  decltype(&glStencilFunc) stencil_func;
+  decltype(&glStencilOp) stencil_op;
+  decltype(&glTexImage2D) tex_image_2d;
+  decltype(&glTexParameteri) tex_parameteri;
+  PFNGLATTACHSHADERPROC attach_shader;
+  PFNGLBINDBUFFERPROC bind_buffer;
+  PFNGLBUFFERDATAPROC buffer_data;
+  PFNGLCOMPILESHADERPROC compile_shader;
+  PFNGLCREATEPROGRAMPROC create_program;
+  PFNGLCREATESHADERPROC create_shader;
+  PFNGLENABLEVERTEXATTRIBARRAYPROC enable_vertex_attrib_array;
+  PFNGLGENBUFFERSPROC gen_buffers;
+  PFNGLGENERATEMIPMAPPROC generate_mipmap;
+  PFNGLGETSHADERINFOLOGPROC get_shader_info_log;
+  PFNGLGETSHADERIVPROC get_shaderiv;
+  PFNGLLINKPROGRAMPROC link_program;
+  PFNGLSHADERSOURCEPROC shader_source;
+  PFNGLUSEPROGRAMPROC use_program;
+  PFNGLVERTEXATTRIBPOINTERPROC vertex_attrib_pointer;
+};
+
+/// @throws std::runtime_error where there is no OSMesa, or one without a function
+const MesaFunctions& mesa();
+
+}  // namespace tessera::rivals

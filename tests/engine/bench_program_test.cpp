@@ -1,0 +1,172 @@
+// `tessera bench`: what it says, to people and to programs, and its exit codes. Times are not judged.
+#ifdef TESSERA_PROGRAM
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/engine/program.h"
+
+namespace tessera {
+namespace {
+
+using Json = nlohmann::json;
+
+class BenchProgram : public Program {
+ protected:
+  static constexpr const char* kQuick = "bench fill --size 64x48 --repeats 2 --seconds 0.001 ";
+};
+
+TEST_F(BenchProgram, ListsItsWorkloads) {
+  const Result list = run("bench --list");
+  EXPECT_EQ(list.code, 0) << list.err;
+  for (const char* name : {"fill-flat", "fill-blend", "fill-trilinear", "grid-2M", "vertex-500k-8", "phong-20k-8-spot", "points-1M", "lines-1M", "bunny"}) EXPECT_TRUE(contains(list.out, std::string(name) + " ")) << name;
+}
+
+TEST_F(BenchProgram, MeasuresWhatItChecked) {
+  const Result table = run(std::string(kQuick) + "--json report.json --csv report.csv");
+  ASSERT_EQ(table.code, 0) << table.out << table.err;
+  for (const char* part : {"CPU", "instruction sets", "64x48", "fill-gouraud-z", "noise: fill-flat against itself", "stores in L1"}) EXPECT_TRUE(contains(table.out, part)) << part << "\n" << table.out;
+  const Json report = Json::parse(content("report.json"));
+  EXPECT_EQ(report["width"], 64);
+  EXPECT_TRUE(report["machine"].contains("CPU"));
+  ASSERT_EQ(report["workloads"].size(), 10u);
+  for (const Json& row : report["workloads"]) {
+    EXPECT_EQ(row["frames"], 2);
+    EXPECT_FALSE(row.contains("fault")) << row;
+    EXPECT_GT(row["cold_ms"], 0);
+    EXPECT_LE(row["least_ms"], row["median_ms"]);
+    EXPECT_LE(row["median_ms"], row["percentile_99_ms"]);
+    const double pixels_a_second = row["megapixels_per_second"].get<double>() * 1e6, ms = row["median_ms"];
+    EXPECT_NEAR(pixels_a_second * ms * 1e-3, 64 * 48, 1);
+  }
+  // A heading and as many rows of as many fields.
+  const std::string csv = content("report.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);
+  const auto columns = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns) << line;
+  EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;
+}
+
+TEST_F(BenchProgram, ReportsStandAloneOnTheStandardOutput) {
+  const Result json = run("bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --json -");
+  ASSERT_EQ(json.code, 0) << json.err;
+  EXPECT_EQ(Json::parse(json.out)["workloads"][0]["name"], "fill-flat");
+}
+
+TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
+  ASSERT_EQ(run(std::string(kQuick) + "--json now.json").code, 0);
+  Json earlier = Json::parse(content("now.json"));
+  for (Json& row : earlier["workloads"]) row["median_ms"] = 1e6;
+  write("slow.json", earlier.dump());
+  const Result faster = run(std::string(kQuick) + "--compare slow.json");
+  EXPECT_EQ(faster.code, 0) << faster.out << faster.err;
+  EXPECT_TRUE(contains(faster.out, "1000000.000")) << faster.out;
+  for (Json& row : earlier["workloads"]) row["median_ms"] = 1e-6;
+  earlier["workloads"].erase(0);
+  write("fast.json", earlier.dump());
+  const Result slower = run(std::string(kQuick) + "--compare fast.json");
+  EXPECT_EQ(slower.code, 3) << slower.out << slower.err;
+  EXPECT_TRUE(contains(slower.out, "worse")) << slower.out;
+  EXPECT_TRUE(contains(slower.out, "fill-flat: not in fast.json")) << slower.out;
+  // Of half the speed is no more than allowed, whatever else the machine does.
+  for (Json& row : earlier["workloads"]) row["median_ms"] = row["name"] == "fill-gouraud" ? 1e-6 : 1e6;
+  write("one.json", earlier.dump());
+  EXPECT_EQ(run("bench fill-flat --size 64x48 --repeats 2 --seconds 0.001 --compare one.json").code, 0);
+  EXPECT_EQ(run("bench fill-gouraud --size 64x48 --repeats 2 --seconds 0.001 --compare one.json --allowed 100").code, 3);
+  earlier = Json::parse(content("now.json"));
+  for (Json& row : earlier["workloads"]) row["median_ms"] = row["median_ms"].get<double>() / 20;
+  write("twentieth.json", earlier.dump());
+  EXPECT_EQ(run(std::string(kQuick) + "--compare twentieth.json --allowed 0.1").code, 3);
+  EXPECT_EQ(run(std::string(kQuick) + "--compare twentieth.json --allowed 100").code, 0);
+}
+
+TEST_F(BenchProgram, StandsBesideRivals) {
+  const Result table = run(std::string(kQuick) + "--rivals --json report.json");
+  if (contains(table.err, "libosmesa6")) GTEST_SKIP() << table.err;
+  ASSERT_EQ(table.code, 0) << table.out << table.err;
+  for (const char* part : {"rival: llvmpipe", "geometric mean of 9 ratios", "fill-flat against itself"}) EXPECT_TRUE(contains(table.out, part)) << part << "\n" << table.out;
+  const Json rivalry = Json::parse(content("report.json"))["rivalry"];
+  ASSERT_EQ(rivalry["workloads"].size(), 9u);
+  for (const Json& row : rivalry["workloads"]) {
+    EXPECT_FALSE(row.contains("fault")) << row;
+    EXPECT_NEAR(row["ratio"].get<double>(), row["rival_median_ms"].get<double>() / row["median_ms"].get<double>(), 1e-9);
+    EXPECT_LE(row["low_ratio"], row["ratio"]);
+    EXPECT_LE(row["ratio"], row["high_ratio"]);
+  }
+}
+
+TEST_F(BenchProgram, MeasuresPlanesAndPicturesBesideTheMean) {
+  for (const char* names : {"clear scan-out accumulation", "planes", "depth samples draws fill-hidden size-320x200"}) {
+    const Result result = run("bench " + std::string(names) + " --size 64x48 --repeats 1 --seconds 0.001 --json -");
+    ASSERT_EQ(result.code, 0) << result.out << result.err;
+    const Json rows = Json::parse(result.out)["workloads"];
+    EXPECT_GE(rows.size(), 3u) << names;
+    for (const Json& row : rows) EXPECT_FALSE(row.contains("fault")) << row;
+  }
+}
+
+TEST_F(BenchProgram, TracesAFrameOfEachWorkload) {
+  const Result result = run("bench fill-flat grid-20k --size 96x64 --threads 2 --trace trace.json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json trace = Json::parse(content("trace.json"));
+  std::vector<std::string> workloads;
+  std::map<std::string, int> tasks;
+  for (const Json& event : trace["traceEvents"]) event["ph"] == "M" ? workloads.push_back(event["args"]["name"]) : void(++tasks[event["name"]]);
+  EXPECT_EQ(workloads, (std::vector<std::string>{"fill-flat", "grid-20k"}));
+  for (const char* stage : {"vertices", "binning", "tiles"}) EXPECT_GT(tasks[stage], 1) << stage;
+}
+
+TEST_F(BenchProgram, ShowsWhatTilesCost) {
+  const Result result = run("bench grid-20k --size 96x64 --tile-size 32 --heatmap map.ppm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "ns a pixel")) << result.out;
+  const std::string picture = content("map.ppm");
+  ASSERT_TRUE(picture.starts_with("P6\n96 64\n255\n"));
+  EXPECT_TRUE(contains(picture, "\xff\xff\xff")) << "the dearest tile is white";
+}
+
+TEST_F(BenchProgram, PredictsMoreCores) {
+  const Result result = run("bench grid-20k --size 96x64 --threads 2 --repeats 2 --seconds 0.001 --scaling --json report.json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "one core copies")) << result.out;
+  const Json scaling = Json::parse(content("report.json"))["scaling"];
+  ASSERT_EQ(scaling.size(), 1u);
+  EXPECT_GT(scaling[0]["measured"]["2"], 0);
+  for (const char* cores : {"2", "4", "8", "16", "32", "64", "128"}) EXPECT_GT(scaling[0]["computed"][cores], 0.0) << cores;
+}
+
+TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
+  write("other.json", R"({"workloads": [{"median_ms": 1}]})");
+  const struct {
+    const char *arguments, *message;
+    int code;
+  } cases[] = {{"nothing", "no workload's name begins with \"nothing\"", 1},
+               {"--size 0x4", "found \"0x4\", expected WIDTHxHEIGHT", 2},
+               {"--threads 0", "found \"0\"", 2},
+               {"--tile-size 48", "found \"48\", expected 32|64|128", 2},
+               {"--isa sse", "found \"sse\", expected scalar|avx2|avx512", 2},
+               {"--cores 0,,1", "found \"0,,1\"", 2},
+               {"--compare missing.json", "missing.json", 1},
+               {"--compare other.json", "found an object, expected a workload with its name", 1},
+               {"--rivals --driver swr", "found \"swr\", expected llvmpipe|softpipe", 2},
+               {"--rivals --scaling", "--rivals excludes --scaling", 2},
+               {"--driver softpipe", "--driver requires --rivals", 2},
+               {"--trace t.json --json -", "--json", 2},
+               {"--heatmap map.png", "--heatmap: found 10 workloads, expected 1", 1},
+               {"--trace none/trace.json", "none/trace.json: cannot be written", 1},
+               {"--fast", "--fast", 2}};
+  for (const auto& [arguments, message, code] : cases) {
+    const Result refused = run(std::string(kQuick) + arguments);
+    EXPECT_EQ(refused.code, code) << arguments << "\n" << refused.err;
+    EXPECT_TRUE(contains(refused.err, message)) << arguments << "\n" << refused.err;
+  }
+}
+
+}  // namespace
+}  // namespace tessera
+#endif

@@ -1,0 +1,45 @@
+// The program, started as its users start it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tessera {
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Runs TESSERA_PROGRAM in a folder of its own.
+class Program : public testing::Test {
+ protected:
+  Program() : folder_(std::filesystem::temp_directory_path() / ("tessera_program_" + std::to_string(::getpid()))) { std::filesystem::create_directories(folder_); }
+  ~Program() override { std::filesystem::remove_all(folder_); }
+
+  Result run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" TESSERA_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("out.txt"), content("err.txt")};
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  std::string content(const std::string& name) const {
+    std::ifstream stream(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+
+  std::filesystem::path folder_;
+};
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace tessera

@@ -1,0 +1,62 @@
+// Frames on cores that are not there, against schedules made by hand.
+#include "perf/bench/scaling.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::bench {
+namespace {
+
+constexpr CoreModel kFastMemory{.core_bytes = 1e9};
+
+/// Tasks of these seconds, one after the other, and some of no task.
+TracedFrame frame_of(const std::vector<std::pair<FrameStage, double>>& tasks, double between) {
+  TracedFrame frame{.workload = "made up"};
+  for (const auto& [stage, seconds] : tasks) {
+    frame.tasks.push_back({.stage = stage, .begin = frame.seconds, .end = frame.seconds + seconds});
+    frame.seconds += seconds;
+  }
+  frame.seconds += between;
+  return frame;
+}
+TracedFrame tiles_of(const std::vector<double>& seconds, double between = 0) {
+  std::vector<std::pair<FrameStage, double>> tasks;
+  for (const double s : seconds) tasks.emplace_back(FrameStage::tiles, s);
+  return frame_of(tasks, between);
+}
+
+TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 2}, 0.5), 1, kFastMemory), 6.5);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({}, 0.5), 64, kFastMemory), 0.5);
+}
+
+TEST(BenchScaling, TasksGoInTheirOrderToWhoeverIsFree) {
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}), 2, kFastMemory), 2);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 3}), 2, kFastMemory), 4) << "what is long begins last";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 1, 1}), 2, kFastMemory), 3);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2, 2, 1}), 3, kFastMemory), 4);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2}), 64, kFastMemory), 3) << "the longest";
+}
+
+TEST(BenchScaling, WhatIsInNoTaskStaysOneCores) {
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}, 2), 4, kFastMemory), 3);
+}
+
+TEST(BenchScaling, StagesWaitForEachOther) {
+  const TracedFrame frame = frame_of({{FrameStage::vertices, 2}, {FrameStage::vertices, 1}, {FrameStage::binning, 1}, {FrameStage::tiles, 1}, {FrameStage::tiles, 4}}, 0);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory), 2 + 1 + 4);
+  CoreModel slow_to_begin = kFastMemory;
+  slow_to_begin.barrier_seconds = 0.25;
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin), 2 + 1 + 4 + 3 * 0.25);
+}
+
+TEST(BenchScaling, MemoryGivesTheBytesNoFaster) {
+  TracedFrame frame = tiles_of(std::vector<double>(64, 1));
+  frame.work.bytes = 32'000'000'000;
+  const CoreModel memory{.core_bytes = 2, .most_cores_of_memory = 4};  // 8e9 bytes a second at most
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 1, memory), 64) << "memory would do it in 16";
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 8, memory), 8);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 64, memory), 4);
+}
+
+}  // namespace
+}  // namespace tessera::bench

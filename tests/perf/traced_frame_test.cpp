@@ -1,0 +1,68 @@
+// What is made of a frame's tasks: a trace for viewers, and a picture of what tiles cost.
+#include "perf/bench/traced_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tessera::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+// Two tiles above one of both's width; the lower one costs 1 ns a pixel, the upper ones 3 and 2.
+TracedFrame three_tiles() {
+  TracedFrame frame{.workload = "made up", .seconds = 1e-6};
+  frame.tasks = {{.stage = FrameStage::vertices, .worker = 1, .begin = 0, .end = 1e-4},
+                 {.stage = FrameStage::tiles, .worker = 0, .begin = 2e-4, .end = 2e-4 + 8e-9, .pixels = {0, 0, 4, 2}},
+                 {.stage = FrameStage::tiles, .worker = 1, .begin = 3e-4, .end = 3e-4 + 12e-9, .pixels = {0, 2, 2, 2}},
+                 {.stage = FrameStage::tiles, .worker = 0, .begin = 4e-4, .end = 4e-4 + 8e-9, .pixels = {2, 2, 2, 2}}};
+  return frame;
+}
+
+TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().seconds_in_tasks(), 1e-4 + 28e-9, 1e-15); }
+
+TEST(TracedFrame, IsAChromeTrace) {
+  TracedFrame other = three_tiles();
+  other.workload = "other \"one\"";
+  const Json events = Json::parse(chrome_trace({three_tiles(), other}))["traceEvents"];
+  ASSERT_EQ(events.size(), 2u * (1 + 4));
+  EXPECT_EQ(events[0]["ph"], "M");
+  EXPECT_EQ(events[0]["args"]["name"], "made up");
+  EXPECT_EQ(events[5]["args"]["name"], "other \"one\"");
+  EXPECT_EQ(events[6]["pid"], events[5]["pid"]);
+  EXPECT_NE(events[6]["pid"], events[1]["pid"]);
+  EXPECT_EQ(events[1]["name"], "vertices");
+  EXPECT_EQ(events[1]["ph"], "X");
+  EXPECT_EQ(events[1]["tid"], 1);
+  EXPECT_DOUBLE_EQ(events[1]["dur"], 100) << "microseconds";
+  EXPECT_FALSE(events[1].contains("args"));
+  EXPECT_DOUBLE_EQ(events[4]["ts"], 400);
+  EXPECT_EQ(events[4]["args"]["x"], 2);
+  EXPECT_EQ(events[4]["args"]["height"], 2);
+}
+
+TEST(TracedFrame, IsAPictureOfWhatItsTilesCost) {
+  const Heatmap map = heatmap(three_tiles());
+  EXPECT_NEAR(map.most_ns_a_pixel, 3, 1e-6);
+  const auto pixel = [&](int x, int y) {  // from the top
+    const std::uint8_t* p = map.picture.rgba.data() + 4 * (4 * y + x);
+    return std::vector<int>(p, p + 4);
+  };
+  for (const int y : {0, 1}) {
+    EXPECT_EQ(pixel(0, y), (std::vector{255, 255, 255, 255})) << "the dearest is white";
+    EXPECT_EQ(pixel(2, y), (std::vector{255, 255, 0, 255})) << "two thirds of it: yellow";
+  }
+  for (const int x : {0, 1, 2, 3}) EXPECT_EQ(pixel(x, 3), (std::vector{255, 0, 0, 255})) << "a third of it: red";
+}
+
+TEST(TracedFrame, WithoutTilesIsNoPicture) {
+  TracedFrame frame = three_tiles();
+  frame.tasks.resize(1);
+  const Heatmap map = heatmap(frame);
+  EXPECT_EQ(map.most_ns_a_pixel, 0);
+  EXPECT_TRUE(map.picture.rgba.empty());
+}
+
+}  // namespace
+}  // namespace tessera::bench
