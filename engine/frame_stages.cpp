@@ -157,18 +157,21 @@ void RendererState::cut_draws(const Count& count, std::size_t each) {
   for (std::size_t d = 0; d < commands.geometry.size(); ++d) cut_into_ranges(d, count(commands.geometry[d]), each, ranges);
 }
 
-void RendererState::weigh_tiles(const TileStage& stage, const TileRange& tiles) {
+void RendererState::weigh_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch) {
   loads.resize(static_cast<std::size_t>(tiles.count()));
   const std::size_t tasks = (loads.size() + kTilesPerTask - 1) / kTilesPerTask;
-  parallel.for_each(tasks, [&](std::size_t task, int) {
+  watch.begin_stage(FrameStage::binning, done_after(tiles.first(stage.grid()), stats), tasks);
+  parallel.for_each(tasks, [&](std::size_t task, int worker) {
     const std::size_t first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, loads.size());
-    for (std::size_t i = first; i < last; ++i) loads[i] = stage.load_of(tiles.first(stage.grid()) + static_cast<int>(i));
+    watch.task(worker, [&] {
+      for (std::size_t i = first; i < last; ++i) loads[i] = stage.load_of(tiles.first(stage.grid()) + static_cast<int>(i));
+    });
   });
 }
 
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
   worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
-  weigh_tiles(stage, tiles);
+  weigh_tiles(stage, tiles, stats, watch);
   stage.cut_into_strips(tiles, loads, strips);
   watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {

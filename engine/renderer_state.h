@@ -61,7 +61,7 @@ struct RendererState {
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
   void render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
   /// Makes `loads`: what the bins of tiles hold, row by row.
-  void weigh_tiles(const TileStage& stage, const TileRange& tiles);
+  void weigh_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch);
   void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
