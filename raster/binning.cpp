@@ -80,7 +80,7 @@ HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int colum
     g.tile[k] = first_row * columns + first_column;
     const std::int32_t apart = ((g.px1[k] >> shift) ^ first_column) | ((g.py1[k] >> shift) ^ first_row);
     const std::int32_t of_seen = apart == 0 ? kInOneTile : kInSeveralTiles;
-    const std::int32_t of_kept = (g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k]) ? kOutside : of_seen;
+    const std::int32_t of_kept = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : of_seen;
     g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;
   }
 }

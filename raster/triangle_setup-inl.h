@@ -66,7 +66,7 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
     g.x1[i] = least(last_pixel(high_x + reach) - tile_x, bounds.x1 - 1);
     g.y1[i] = least(last_pixel(high_y + reach) - tile_y, bounds.y1 - 1);
     g.wide[i] = greatest(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
-    visible[i] = (g.x0[i] <= g.x1[i]) & (g.y0[i] <= g.y1[i]) ? 1 : 0;
+    visible[i] = ((g.x0[i] <= g.x1[i]) & (g.y0[i] <= g.y1[i])) ? 1 : 0;
   }
   g.mask = 0;
   for (int i = 0; i < g.count; ++i) g.mask |= static_cast<std::uint32_t>(visible[i]) << i;
