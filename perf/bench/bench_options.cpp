@@ -45,7 +45,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
   CLI::Option* const names = program.add_option("workloads", options.names, "those to run, or the beginnings of their names; default: all")->option_text("[WORKLOAD...]")->take_all();
   program.add_flag("--list", options.list, "say what workloads there are");
   add_text(program, "--size", "WIDTHxHEIGHT", "size of the frames; default: 1920x1080", [&options](const std::string& text) { return parse_size(text, options); });
-  add_text(program, "--threads", "N", "threads; default: one for each core", [&options](const std::string& text) { return parse_integer(text, 1, 1024, options.renderer.threads); });
+  add_text(program, "--threads", "N", "threads; default: TESSERA_THREADS, or one for each core", [&options](const std::string& text) { return parse_integer(text, 1, 1024, options.renderer.threads); })->envname("TESSERA_THREADS");
   add_text(program, "--cores", "N[,N...]", "cores that everything is kept on; default: all", [&options](const std::string& text) { return parse_cores(text, options.cores); });
   add_text(program, "--tile-size", "32|64|128", "pixels of a tile's side; default: chosen by the frame",
            [&options](const std::string& text) { return parse_integer(text, 32, 128, options.renderer.tile_size) && (options.renderer.tile_size & (options.renderer.tile_size - 1)) == 0; });
@@ -64,6 +64,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
   });
   driver->needs(rivals);
   CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost");
+  add_text(program, "--memory-cores", "N", "cores that keep the memory of computed machines busy; default: 8", [&options](const std::string& text) { return parse_integer(text, 1, 1024, options.memory_cores); })->needs(scaling);
   CLI::Option* const growth = program.add_option("--growth", options.growth_file, "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured")->option_text("FILE");
   CLI::Option* const trace = program.add_option("--trace", options.trace_file, "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured")->option_text("FILE");
   CLI::Option* const heatmap = program.add_option("--heatmap", options.heatmap_file, "picture of what each tile of a workload costs; nothing else is measured")->option_text("FILE");

@@ -22,6 +22,7 @@ struct BenchOptions {
   bool rivals = false;                  ///< draw the same in turns
   rivals::MesaDriver driver = rivals::MesaDriver::llvmpipe;
   bool scaling = false;                 ///< on 1 thread and more, instead of rates
+  int memory_cores = 8;                 ///< that copy all that the memory of computed machines does
   std::string growth_file{};
   std::string trace_file{}, heatmap_file{};
   std::string json_file{}, csv_file{};  ///< "-": the standard output

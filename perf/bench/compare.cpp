@@ -1,9 +1,8 @@
 #include "perf/bench/compare.h"
 
-#include <cstdio>
-
 #include "engine/scene/json_value.h"
 #include "engine/scene/text_file.h"
+#include "perf/bench/text.h"
 
 namespace tessera::bench {
 
@@ -11,6 +10,10 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
   const json::Json report = json::parse(read_text_file(file), file);
   const json::Value whole(report, "", file);
   if (!report.is_object() || !report.contains("workloads")) whole.fail("a report of tessera bench --json");
+  for (const char* key : {"width", "height", "threads", "instruction_set"})
+    if (!report.contains(key)) whole.refuse(std::string("found no \"") + key + "\", expected a report of tessera bench --json");
+  const auto integer = [&whole](const char* key) { return static_cast<int>(whole.member(key).integer(1, kMaxFrameBufferSize)); };
+  setting_ = setting_text(integer("width"), integer("height"), integer("threads"), whole.member("instruction_set").text());
   const json::Value rows = whole.member("workloads");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const json::Value row = rows.element(i);
@@ -20,21 +23,23 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
 }
 
 Comparison EarlierRun::compare(const Report& now, double allowed) const {
-  char line[200];
-  std::snprintf(line, sizeof line, "%-22s %12s %12s %8s\n", "workload", "earlier, ms", "now, ms", "ratio");
-  Comparison comparison{.table = line};
+  Comparison comparison;
+  if (setting_ != setting_text(now)) comparison.table = "not the same frames: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
+  comparison.table += formatted("%-22s %12s %12s %8s\n", "workload", "earlier, ms", "now, ms", "ratio");
+  std::map<std::string, double> only_then = medians_;
   for (const Row& row : now.rows) {
     const auto found = medians_.find(row.name);
+    only_then.erase(row.name);
     if (found == medians_.end() || row.frames == 0) {
       comparison.table += row.name + ": " + (row.frames == 0 ? "not measured now" : "not in " + file_) + "\n";
       continue;
     }
     const double earlier = found->second;
     const bool is_worse = row.ms.median > earlier * (1 + allowed);
-    std::snprintf(line, sizeof line, "%-22s %12.3f %12.3f %8.3f%s\n", row.name.c_str(), earlier, row.ms.median, earlier / row.ms.median, is_worse ? "  worse" : "");
-    comparison.table += line;
+    comparison.table += formatted("%-22s %12.3f %12.3f %8.3f%s\n", row.name.c_str(), earlier, row.ms.median, earlier / row.ms.median, is_worse ? "  worse" : "");
     comparison.is_worse |= is_worse;
   }
+  for (const auto& [name, median] : only_then) comparison.table += name + ": only in " + file_ + "\n";
   return comparison;
 }
 

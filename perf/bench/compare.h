@@ -17,13 +17,14 @@ class EarlierRun {
  public:
   /// @param file  what --json wrote then. @throws Error where it is no such report
   explicit EarlierRun(const std::string& file);
-  /// Rows without a counterpart are left out, and named.
+  /// Rows without a counterpart are left out, and named, and so is what else is not as it was: size, threads, instruction set.
   ///
   /// @param allowed  share by which a median may be longer, 0.05: 5 %
   Comparison compare(const Report& now, double allowed) const;
 
  private:
   std::string file_;
+  std::string setting_;                    // as setting_text() has it
   std::map<std::string, double> medians_;  // by the workload's name, in ms
 };
 

@@ -90,7 +90,7 @@ class Bench {
   }
 
   void run(const std::vector<const WorkloadEntry*>& entries) {
-    show(report_.machine + formatted("frames             %dx%d, %d threads, %s\n\n", report_.width, report_.height, report_.threads, report_.instruction_set.c_str()));
+    show(report_.machine + "frames             " + setting_text(report_) + "\n\n");
     if (options_.scaling) run_on_more_threads(entries);
     else if (options_.rivals) run_with_rivals(entries);
     else run_alone(entries);
@@ -134,24 +134,26 @@ class Bench {
       std::optional<Duel> fought = duel(*entry, setup_, options_.driver, options_.measure, counters_);
       if (!fought) continue;
       show(rivalry_line(*fought));
-      is_wrong_ |= !fought->ours.fault.empty() || !fought->rivals.fault.empty();
+      is_wrong_ |= !fought->fault().empty();
       rivalry.duels.push_back(std::move(*fought));
     }
   }
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
-    const CoreModel model = measure_core_model(report_.threads);
-    show(formatted("one core copies %.1f GB/s, and %.0f of them are taken to copy all that the memory does; a stage begins in %.1f microseconds\n\n", model.core_bytes, model.most_cores_of_memory, 1e6 * model.barrier_seconds));
+    CoreModel model = measure_core_model(report_.threads);
+    model.most_cores_of_memory = options_.memory_cores;
+    show(formatted("one core copies %.1f GB/s, and %d of them are taken to copy all that the memory does (--memory-cores); a stage begins in %.1f microseconds\n\n", model.core_bytes, model.most_cores_of_memory,
+                   1e6 * model.barrier_seconds));
     show(scaling_heading(report_.threads));
     for (const WorkloadEntry* entry : entries) {
       report_.scaling.push_back(scaling_of(*entry, setup_, report_.threads, model, options_.measure, counters_));
       show(scaling_line(report_.scaling.back()));
-      is_wrong_ |= report_.scaling.back().predicted.empty();
+      is_wrong_ |= !report_.scaling.back().fault.empty();
     }
   }
   void measure_noise(const WorkloadEntry& entry) {
     const std::vector<Row> rows = measure(std::vector<Candidate>(2, candidate_of(entry)), options_.measure, counters_);
     report_.noise_of = entry.name;
-    if (rows[0].frames != 0) report_.noise = rows[1].ms.median / rows[0].ms.median;
+    if (rows[0].frames != 0) report_.noise = ratio_of(rows[1].ms, rows[0].ms);
   }
   Candidate candidate_of(const WorkloadEntry& entry) const {
     return {.name = entry.name, .make = [this, &entry] { return entry.make(setup_); }, .threads = report_.threads};

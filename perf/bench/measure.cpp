@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <new>
 #include <random>
 
 #include "perf/bench/resident_memory.h"
@@ -38,33 +40,41 @@ double warm_up(Workload& workload, double seconds) {
   return frame;
 }
 
-}  // namespace
-
-std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options, const HardwareCounters& counters) {
-  std::vector<Row> rows;
-  std::vector<Runner> runners;
-  for (const Candidate& candidate : candidates) {
-    Row row{.name = candidate.name, .threads = candidate.threads};
-    forget_peak();
-    const std::uint64_t before = resident_memory().now;
-    runners.push_back({.workload = candidate.make()});
-    const std::uint64_t made = resident_memory().now;
-    forget_peak();
-    const Clock::time_point start = Clock::now();
-    row.stats = runners.back().workload->draw();
-    row.cold_ms = ms_since(start);
-    const std::uint64_t peak = resident_memory().peak, kept = runners.back().workload->work(row.stats).kept_bytes;
-    row.peak_bytes = above(peak, before);
-    row.working_bytes = above(peak, made + kept);
-    row.fault = runners.back().workload->fault();
-    if (candidate.judge && row.fault.empty()) row.fault = candidate.judge(runners.back().workload->picture());
-    rows.push_back(std::move(row));
+/// What stops a workload (no memory, say) is a fault of its row, and others go on.
+template <class Work>
+void try_for(Row& row, const Work& work) {
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    row.fault = "out of memory";
+  } catch (const std::exception& error) {
+    row.fault = error.what();
   }
-  std::vector<std::size_t> turns;
-  if (std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.fault.empty(); })) return rows;
+}
+
+/// The first frame, and whether it is right.
+void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
+  forget_peak();
+  const std::uint64_t before = resident_memory().now;
+  runner.workload = candidate.make();
+  const std::uint64_t made = resident_memory().now;
+  forget_peak();
+  const Clock::time_point start = Clock::now();
+  row.stats = runner.workload->draw();
+  row.cold_ms = ms_since(start);
+  const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(row.stats).kept_bytes;
+  row.peak_bytes = above(peak, before);
+  row.working_bytes = above(peak, made + kept);
+  row.fault = runner.workload->fault();
+  if (candidate.judge && row.fault.empty()) row.fault = candidate.judge(runner.workload->picture());
+}
+
+/// Frames that are timed, as many of each, in turns.
+void draw_in_turns(std::vector<Runner>& runners, std::vector<Row>& rows, const MeasureOptions& options, const HardwareCounters& counters) {
   // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower one the other's.
   int frames = kMostFrames;
   for (Runner& runner : runners) frames = std::min(frames, frames_for(options, warm_up(*runner.workload, options.warm_up_seconds)));
+  std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
   std::mt19937 random(options.seed);
   std::shuffle(turns.begin(), turns.end(), random);
@@ -82,11 +92,23 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
       runner.counted.instructions += after->instructions - before->instructions;
     }
   }
+}
+
+}  // namespace
+
+std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options, const HardwareCounters& counters) {
+  std::vector<Row> rows;
+  for (const Candidate& candidate : candidates) rows.push_back({.name = candidate.name, .threads = candidate.threads});
+  std::vector<Runner> runners(candidates.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) try_for(rows[k], [&] { draw_first(candidates[k], runners[k], rows[k]); });
+  const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
+  if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
+  try_for(rows.front(), [&] { draw_in_turns(runners, rows, options, counters); });
+  if (has_fault(rows.front())) return rows;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     Row& row = rows[k];
     Runner& runner = runners[k];
     row.frames = runner.times.size();
-    if (row.frames == 0) continue;
     row.ms = statistics_of(std::move(runner.times));
     row.work = runner.workload->work(row.stats);
     if (counters.read()) row.counts = HardwareCounters::Counts{runner.counted.cycles / row.frames, runner.counted.instructions / row.frames};

@@ -42,7 +42,7 @@ struct Candidate {
 };
 
 /// Makes the candidates, draws and checks each, and then lets them take turns, as many each, in random order; who follows another draws a frame first that is not timed. Where one has a
-/// fault, none is timed.
+/// fault, or throws, none is timed.
 std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options, const HardwareCounters& counters);
 
 }  // namespace tessera::bench

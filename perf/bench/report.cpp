@@ -64,12 +64,16 @@ std::vector<Figure> figures_of(const MachineLimits& limits) {
 
 }  // namespace
 
+std::string setting_text(int width, int height, int threads, const std::string& instruction_set) {
+  return formatted("%dx%d, %d %s, %s", width, height, threads, threads == 1 ? "thread" : "threads", instruction_set.c_str());
+}
+
 std::string table_heading() {
   return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %6s\n", "workload", "median ms", "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "GB/s", "ns/pixel", "peak MiB", "B/tri");
 }
 
 std::string table_line(const Row& row) {
-  if (!row.fault.empty()) return formatted("%-22s wrong picture: %s\n", row.name.c_str(), row.fault.c_str());
+  if (!row.fault.empty()) return formatted("%-22s not timed: %s\n", row.name.c_str(), row.fault.c_str());
   return formatted("%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.2f %8.3f %8.1f %6s\n", row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
                    row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row), millions(row.work.bytes, row) * 1e-3,
                    1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB, bytes_a_triangle(row) ? formatted("%.0f", *bytes_a_triangle(row)).c_str() : "");
@@ -77,7 +81,7 @@ std::string table_line(const Row& row) {
 
 std::string table_ending(const Report& report) {
   std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
-  text += "noise: " + report.noise_of + " against itself: ratio " + formatted("%.3f", report.noise) + "\n";
+  if (report.noise) text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(), report.noise->value, report.noise->low, report.noise->high);
   text += formatted("limits, GB/s: stores in L1 %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f\n", report.limits.l1_stores, report.limits.frame_stores, report.limits.frame_copies,
                     report.limits.memory_stores);
   for (const Row& row : report.rows)
@@ -98,7 +102,7 @@ nlohmann::ordered_json report_json(const Report& report) {
   json["threads"] = report.threads;
   json["instruction_set"] = report.instruction_set;
   for (const Figure& figure : figures_of(report.limits)) json["limits_gigabytes_per_second"][figure.key] = figure.value;
-  json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise}};
+  if (report.noise) json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise->value}, {"low_ratio", report.noise->low}, {"high_ratio", report.noise->high}};
   if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
   if (!report.scaling.empty()) json["scaling"] = scaling_json(report.scaling);
   json["workloads"] = nlohmann::ordered_json::array();

@@ -27,9 +27,13 @@ struct Report {
   std::vector<Row> rows;
   std::optional<Rivalry> rivalry{};
   std::vector<Scaling> scaling{};
-  double noise = 1;                 ///< ratio of a workload's medians to its own
+  std::optional<Ratio> noise{};     ///< of a workload to itself; empty: it was not measured
   std::string noise_of;             ///< its name
 };
+
+/// "1920x1080, 2 threads, avx512": what medians depend on beside the machine.
+std::string setting_text(int width, int height, int threads, const std::string& instruction_set);
+inline std::string setting_text(const Report& report) { return setting_text(report.width, report.height, report.threads, report.instruction_set); }
 
 /// One line for a row; the heading of those lines.
 std::string table_heading();

@@ -16,10 +16,10 @@ struct Duel {
   Row ours, rivals;
   double share_off = 0;       ///< of pixels, more than two levels
   bool is_in_mean = true;
-  /// Of medians: how many times as long the rival takes; and of the quartiles, at their widest.
-  double ratio() const { return rivals.ms.median / ours.ms.median; }
-  double low_ratio() const { return rivals.ms.low_quartile / ours.ms.high_quartile; }
-  double high_ratio() const { return rivals.ms.high_quartile / ours.ms.low_quartile; }
+  /// How many times as long the rival takes.
+  Ratio ratio() const { return ratio_of(rivals.ms, ours.ms); }
+  /// Of whichever of the two cannot be compared; empty: both can.
+  const std::string& fault() const { return !ours.fault.empty() ? ours.fault : rivals.fault; }
 };
 
 struct Rivalry {
@@ -28,7 +28,10 @@ struct Rivalry {
   std::vector<Duel> duels;
 };
 
-/// Draws both, and, where each has its right picture and the two are the same, times them in turns. Empty where rivals do not draw it.
+/// Draws both, and, where each has its right picture and the two are the same, times them in turns.
+/// @param tolerated  share of pixels that may differ by more than two levels
+Duel duel(Candidate ours, Candidate rival, double tolerated, const MeasureOptions& options, const HardwareCounters& counters);
+/// Of a workload with Mesa. Empty where rivals do not draw it.
 std::optional<Duel> duel(const WorkloadEntry& entry, const WorkloadSetup& setup, rivals::MesaDriver driver, const MeasureOptions& options, const HardwareCounters& counters);
 
 std::string rivalry_heading();

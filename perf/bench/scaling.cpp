@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <new>
 #include <queue>
 
 #include "engine/parallel.h"
@@ -52,39 +53,60 @@ double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
     seconds += scheduled({first, last}, cores) + model.barrier_seconds;
     first = last;
   }
-  const double memory_rate = 1e9 * model.core_bytes * std::min<double>(cores, model.most_cores_of_memory);
+  const double memory_rate = 1e9 * model.core_bytes * std::min(cores, model.most_cores_of_memory);
   return std::max(seconds, static_cast<double>(frame.work.bytes) / memory_rate);
 }
 
+std::vector<int> measured_threads(int threads) {
+  constexpr int kEach = 8;
+  std::vector<int> counts;
+  for (int count = 2; count < threads; count = count < kEach ? count + 1 : 2 * count) counts.push_back(count);
+  if (threads > 1) counts.push_back(threads);
+  return counts;
+}
+
 Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads, const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters) {
-  std::vector<Candidate> candidates;
-  for (int count = 1; count <= threads; ++count) {
+  const auto on = [&](int count) {
     WorkloadSetup with = setup;
     with.options.threads = count;
-    candidates.push_back({.name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count});
-  }
+    return Candidate{.name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count};
+  };
   Scaling scaling{.workload = entry.name};
-  const std::vector<Row> rows = measure(candidates, options, counters);
-  if (rows.front().frames == 0) return scaling;
-  scaling.one_ms = rows.front().ms.median;
-  for (std::size_t i = 1; i < rows.size(); ++i) scaling.measured.emplace_back(rows[i].threads, scaling.one_ms / rows[i].ms.median);
-  const double one = seconds_on(cost_of_tasks(entry, setup, 1), 1, model);
-  for (const int cores : kCores) scaling.predicted.emplace_back(cores, one / seconds_on(cost_of_tasks(entry, setup, cores), cores, model));
+  const auto take = [&](const std::vector<Candidate>& candidates) {
+    std::vector<Row> rows = measure(candidates, options, counters);
+    for (const Row& row : rows)
+      if (scaling.fault.empty()) scaling.fault = row.fault;
+    return rows;
+  };
+  const std::vector<int> counts = measured_threads(threads);
+  if (counts.empty()) scaling.one_ms = take({on(1)}).front().ms.median;
+  for (const int count : counts) {
+    const std::vector<Row> rows = take({on(1), on(count)});
+    if (!scaling.fault.empty()) return scaling;
+    scaling.one_ms = rows[0].ms.median;
+    scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
+  }
+  try {
+    const double one = seconds_on(cost_of_tasks(entry, setup, 1), 1, model);
+    for (const int cores : kCores) scaling.predicted.emplace_back(cores, one / seconds_on(cost_of_tasks(entry, setup, cores), cores, model));
+  } catch (const std::bad_alloc&) {
+    scaling.fault = "out of memory";
+  }
   return scaling;
 }
 
 std::string scaling_heading(int threads) {
   std::string text = formatted("%-22s %9s ", "workload", "1 core ms");
-  for (int count = 2; count <= threads; ++count) text += formatted(" %7s", (std::to_string(count) + "x").c_str());
+  for (const int count : measured_threads(threads)) text += formatted(" %19s", (std::to_string(count) + " threads").c_str());
   text += "  computed:";
   for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
   return text + "   of 64\n";
 }
 
 std::string scaling_line(const Scaling& scaling) {
-  if (scaling.predicted.empty()) return scaling.workload + ": wrong picture\n";
+  if (!scaling.fault.empty()) return formatted("%-22s not timed: %s\n", scaling.workload.c_str(), scaling.fault.c_str());
   std::string text = formatted("%-22s %9.3f ", scaling.workload.c_str(), scaling.one_ms);
-  for (const auto& [threads, speed] : scaling.measured) text += formatted(" %7.2f", speed);
+  for (const auto& [threads, speed] : scaling.measured) text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high);
   text += "           ";
   double of_64 = 0;
   for (const auto& [cores, speed] : scaling.predicted) {
@@ -97,8 +119,14 @@ std::string scaling_line(const Scaling& scaling) {
 nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Scaling& scaling : all) {
-    nlohmann::ordered_json entry{{"name", scaling.workload}, {"one_thread_ms", scaling.one_ms}};
-    for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = speed;
+    nlohmann::ordered_json entry{{"name", scaling.workload}};
+    if (!scaling.fault.empty()) {
+      entry["fault"] = scaling.fault;
+      json.push_back(std::move(entry));
+      continue;
+    }
+    entry["one_thread_ms"] = scaling.one_ms;
+    for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = {{"speed_up", speed.value}, {"low", speed.low}, {"high", speed.high}};
     for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
     json.push_back(std::move(entry));
   }

@@ -15,7 +15,7 @@ namespace tessera::bench {
 /// A machine with many cores like this one's.
 struct CoreModel {
   double core_bytes = 0;             ///< 10^9 a second, that one core moves
-  double most_cores_of_memory = 8;   ///< so many cores move all that the memory does
+  int most_cores_of_memory = 8;      ///< so many cores move all that the memory does
   double barrier_seconds = 0;        ///< until all workers have begun a stage
 };
 /// Measured, on one thread and on all.
@@ -28,10 +28,14 @@ double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
 struct Scaling {
   std::string workload;
   double one_ms = 0;                             ///< on one thread
-  std::vector<std::pair<int, double>> measured{};   ///< threads, and how many times as fast
+  std::vector<std::pair<int, Ratio>> measured{};    ///< threads, and how many times as fast
   std::vector<std::pair<int, double>> predicted{};  ///< cores, and the same
+  std::string fault;                             ///< why there are no figures; empty: there are
 };
-/// @param threads  that are measured, from 2 on
+/// Thread counts that are measured beside 1: all up to 8, and beyond them powers of 2 and the last.
+std::vector<int> measured_threads(int threads);
+/// Each thread count takes turns with one thread alone.
+/// @param threads  the most that are measured
 Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads, const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters);
 
 std::string scaling_heading(int threads);

@@ -9,7 +9,18 @@ namespace tessera::bench {
 Statistics statistics_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto percentile = [&](double part) { return values[static_cast<std::size_t>(std::max(std::ceil(part * static_cast<double>(values.size())) - 1, 0.0))]; };
-  return {.median = percentile(0.5), .low_quartile = percentile(0.25), .high_quartile = percentile(0.75), .percentile_95 = percentile(0.95), .percentile_99 = percentile(0.99), .least = values.front()};
+  const auto count = static_cast<double>(values.size());
+  const auto rank = static_cast<std::size_t>(std::max(std::round(count / 2 - 0.98 * std::sqrt(count)), 1.0));
+  return {.median = percentile(0.5),
+          .low_quartile = percentile(0.25),
+          .high_quartile = percentile(0.75),
+          .percentile_95 = percentile(0.95),
+          .percentile_99 = percentile(0.99),
+          .least = values.front(),
+          .low_median = values[rank - 1],
+          .high_median = values[values.size() - rank]};
 }
+
+Ratio ratio_of(const Statistics& a, const Statistics& b) { return {a.median / b.median, a.low_median / b.high_median, a.high_median / b.low_median}; }
 
 }  // namespace tessera::bench

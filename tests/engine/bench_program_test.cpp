@@ -66,6 +66,11 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   const Result faster = run(std::string(kQuick) + "--compare slow.json");
   EXPECT_EQ(faster.code, 0) << faster.out << faster.err;
   EXPECT_TRUE(contains(faster.out, "1000000.000")) << faster.out;
+  EXPECT_FALSE(contains(faster.out, "not the same frames")) << faster.out;
+  const Result others = run("bench fill-flat --size 32x48 --threads 1 --repeats 2 --seconds 0.001 --compare slow.json");
+  EXPECT_TRUE(contains(others.out, "not the same frames: 64x48, ")) << others.out;
+  EXPECT_TRUE(contains(others.out, " in slow.json, now 32x48, 1 thread, ")) << others.out;
+  EXPECT_TRUE(contains(others.out, "fill-blend: only in slow.json")) << others.out;
   for (Json& row : earlier["workloads"]) row["median_ms"] = 1e-6;
   earlier["workloads"].erase(0);
   write("fast.json", earlier.dump());
@@ -136,12 +141,27 @@ TEST_F(BenchProgram, PredictsMoreCores) {
   EXPECT_TRUE(contains(result.out, "one core copies")) << result.out;
   const Json scaling = Json::parse(content("report.json"))["scaling"];
   ASSERT_EQ(scaling.size(), 1u);
-  EXPECT_GT(scaling[0]["measured"]["2"], 0);
+  EXPECT_GT(scaling[0]["measured"]["2"]["speed_up"], 0.0);
+  EXPECT_LE(scaling[0]["measured"]["2"]["low"], scaling[0]["measured"]["2"]["high"]);
   for (const char* cores : {"2", "4", "8", "16", "32", "64", "128"}) EXPECT_GT(scaling[0]["computed"][cores], 0.0) << cores;
 }
 
+TEST_F(BenchProgram, HasTheThreadsOfTheEnvironment) {
+  const std::string kOne = "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --json - ";
+  ::setenv("TESSERA_THREADS", "3", 1);
+  const Result three = run(kOne), two = run(kOne + "--threads 2");
+  ::setenv("TESSERA_THREADS", "many", 1);
+  const Result wrong = run(kOne);
+  ::unsetenv("TESSERA_THREADS");
+  EXPECT_EQ(Json::parse(three.out)["threads"], 3) << three.err;
+  EXPECT_EQ(Json::parse(two.out)["threads"], 2) << two.err;
+  EXPECT_EQ(wrong.code, 2) << wrong.err;
+  EXPECT_TRUE(contains(wrong.err, "found \"many\"")) << wrong.err;
+}
+
 TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
-  write("other.json", R"({"workloads": [{"median_ms": 1}]})");
+  write("other.json", R"({"width": 1, "height": 1, "threads": 1, "instruction_set": "avx2", "workloads": [{"median_ms": 1}]})");
+  write("older.json", R"({"width": 1, "threads": 1, "instruction_set": "avx2", "workloads": []})");
   const struct {
     const char *arguments, *message;
     int code;
@@ -153,6 +173,8 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
                {"--cores 0,,1", "found \"0,,1\"", 2},
                {"--compare missing.json", "missing.json", 1},
                {"--compare other.json", "found an object, expected a workload with its name", 1},
+               {"--compare older.json", "found no \"height\", expected a report of tessera bench --json", 1},
+               {"--memory-cores 4", "--memory-cores requires --scaling", 2},
                {"--rivals --driver swr", "found \"swr\", expected llvmpipe|softpipe", 2},
                {"--rivals --scaling", "--rivals excludes --scaling", 2},
                {"--driver softpipe", "--driver requires --rivals", 2},

@@ -37,6 +37,15 @@ TEST(BenchScaling, TasksGoInTheirOrderToWhoeverIsFree) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2}), 64, kFastMemory), 3) << "the longest";
 }
 
+TEST(BenchScaling, MeasuresEachOfFewThreadsAndDoublesBeyond) {
+  EXPECT_EQ(measured_threads(1), std::vector<int>{});
+  EXPECT_EQ(measured_threads(2), std::vector{2});
+  EXPECT_EQ(measured_threads(8), (std::vector{2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(measured_threads(9), (std::vector{2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(measured_threads(64), (std::vector{2, 3, 4, 5, 6, 7, 8, 16, 32, 64}));
+  EXPECT_EQ(measured_threads(96), (std::vector{2, 3, 4, 5, 6, 7, 8, 16, 32, 64, 96}));
+}
+
 TEST(BenchScaling, WhatIsInNoTaskStaysOneCores) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}, 2), 4, kFastMemory), 3);
 }

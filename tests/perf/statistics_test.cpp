@@ -1,6 +1,9 @@
 // What is said of measurements, against values that are counted off by hand.
 #include "perf/bench/statistics.h"
 
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace tessera::bench {
@@ -8,7 +11,7 @@ namespace {
 
 TEST(BenchStatistics, OfOneValueAreThatValue) {
   const Statistics s = statistics_of({3});
-  for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99, s.least}) EXPECT_EQ(value, 3);
+  for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99, s.least, s.low_median, s.high_median}) EXPECT_EQ(value, 3);
 }
 
 TEST(BenchStatistics, AreMeasuredValuesInWhateverOrderTheyCome) {
@@ -31,6 +34,34 @@ TEST(BenchStatistics, HavePercentilesOfAHundred) {
   EXPECT_EQ(s.high_quartile, 150);
   EXPECT_EQ(s.percentile_95, 190);
   EXPECT_EQ(s.percentile_99, 198);
+}
+
+// Medians of 15 values 1 .. n drawn at random, with a seed: the bounds have to hold the distribution's own median as often as they say.
+TEST(BenchStatistics, BoundsHoldTheMedianNineteenTimesOfTwenty) {
+  std::mt19937 random(7);
+  std::exponential_distribution<double> lopsided(1);
+  for (const std::size_t count : {6u, 15u, 50u, 201u}) {
+    int held = 0;
+    constexpr int kRuns = 4000;
+    for (int run = 0; run < kRuns; ++run) {
+      std::vector<double> values(count);
+      for (double& value : values) value = lopsided(random);
+      const Statistics s = statistics_of(values);
+      EXPECT_LE(s.low_median, s.median);
+      EXPECT_GE(s.high_median, s.median);
+      held += s.low_median <= std::log(2.0) && std::log(2.0) <= s.high_median ? 1 : 0;
+    }
+    EXPECT_GT(held, 0.94 * kRuns) << count;
+    EXPECT_LT(held, 0.985 * kRuns) << count << ": wider than need be";
+  }
+}
+
+TEST(BenchStatistics, RatiosAreAsWideAsBothMedians) {
+  const Statistics a{.median = 6, .low_median = 5, .high_median = 8}, b{.median = 3, .low_median = 2, .high_median = 4};
+  const Ratio ratio = ratio_of(a, b);
+  EXPECT_EQ(ratio.value, 2);
+  EXPECT_EQ(ratio.low, 1.25);
+  EXPECT_EQ(ratio.high, 4);
 }
 
 }  // namespace

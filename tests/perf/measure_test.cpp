@@ -1,0 +1,120 @@
+// Who draws how often and what becomes of what goes wrong, with workloads that only count.
+#include "perf/bench/measure.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "perf/bench/rivalry.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr MeasureOptions kFewFrames{.repeats = 7, .seconds = 0.001, .warm_up_seconds = 0};
+
+/// What is seen of workloads from outside: frames drawn by each, in their order, by its number.
+struct Log {
+  std::vector<int> frames;
+  int alive = 0;
+};
+
+class Counting : public Workload {
+ public:
+  Counting(Log& log, int number, Picture picture, std::string fault, int fails_at) : log_(log), number_(number), picture_(std::move(picture)), fault_(std::move(fault)), fails_at_(fails_at) { ++log_.alive; }
+  ~Counting() override { --log_.alive; }
+  FrameStats draw() override {
+    if (drawn_++ == fails_at_) throw std::bad_alloc();
+    log_.frames.push_back(number_);
+    return {};
+  }
+  std::string fault() override { return fault_; }
+  const Picture& picture() override { return picture_; }
+  FrameWork work(const FrameStats&) const override { return {.pixels = 1}; }
+
+ private:
+  Log& log_;
+  int number_;
+  Picture picture_;
+  std::string fault_;
+  int fails_at_, drawn_ = 0;
+};
+
+Picture grey(std::uint8_t level) {
+  Picture picture(10, 10);
+  std::fill(picture.rgba.begin(), picture.rgba.end(), level);
+  return picture;
+}
+
+struct Made {
+  Picture picture = grey(100);
+  std::string fault{};
+  int fails_at = -1;  // the frame
+};
+Candidate counting(Log& log, int number, const Made& made = {}) {
+  return {.name = "counting", .make = [&log, number, made] { return std::make_unique<Counting>(log, number, made.picture, made.fault, made.fails_at); }, .threads = 1};
+}
+
+TEST(BenchMeasure, TakesTurnsAsOftenEach) {
+  Log log;
+  const std::vector<Row> rows = measure(std::vector{counting(log, 0), counting(log, 1), counting(log, 2)}, kFewFrames, HardwareCounters());
+  ASSERT_EQ(rows.size(), 3u);
+  for (const Row& row : rows) {
+    EXPECT_EQ(row.frames, 7u);
+    EXPECT_EQ(row.fault, "");
+  }
+  EXPECT_EQ(log.alive, 0);
+  EXPECT_EQ(std::vector(log.frames.begin(), log.frames.begin() + 3), (std::vector{0, 1, 2})) << "the first frames";
+  // Then three each to be warm, and turns at random: whoever follows another draws one frame more.
+  const std::vector<int> turns(log.frames.begin() + 3 + 3 * 3, log.frames.end());
+  std::size_t changes = 1;
+  for (std::size_t i = 1; i < turns.size(); ++i) changes += turns[i] != turns[i - 1] ? 1 : 0;
+  EXPECT_EQ(turns.size(), 3 * 7 + changes);
+  EXPECT_GT(changes, 6u) << "not one after the other";
+}
+
+TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
+  Log log;
+  const std::vector<Row> rows = measure(std::vector{counting(log, 0), counting(log, 1, {.fault = "a pixel is off"})}, kFewFrames, HardwareCounters());
+  EXPECT_EQ(rows[0].fault, "");
+  EXPECT_EQ(rows[1].fault, "a pixel is off");
+  for (const Row& row : rows) EXPECT_EQ(row.frames, 0u);
+  EXPECT_EQ(log.frames.size(), 2u);
+}
+
+TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
+  for (const int frame : {0, 2, 6}) {  // the first, of the warm-up, of those that are timed
+    Log log;
+    const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.fails_at = frame})}, kFewFrames, HardwareCounters());
+    EXPECT_EQ(rows[0].fault, "out of memory") << frame;
+    EXPECT_EQ(rows[0].frames, 0u) << frame;
+    EXPECT_EQ(log.alive, 0) << frame;
+  }
+  Candidate unmade{.name = "unmade", .make = []() -> std::unique_ptr<Workload> { throw Error("no such mesh"); }, .threads = 1};
+  EXPECT_EQ(measure(std::vector{unmade}, kFewFrames, HardwareCounters())[0].fault, "no such mesh");
+}
+
+TEST(BenchDuel, IsFoughtOverTheSamePicture) {
+  Log log;
+  Made off;
+  for (std::size_t i = 0; i < 5; ++i) off.picture.rgba[4 * i + i % 3] = 103;   // five pixels of a hundred
+  off.picture.rgba[400 - 4] = 102;                                             // two levels are none
+  off.picture.rgba[400 - 5] = 0;                                               // nor is alpha
+  const Duel even = duel(counting(log, 0), counting(log, 1, off), 0.05, kFewFrames, HardwareCounters());
+  EXPECT_EQ(even.fault(), "");
+  EXPECT_DOUBLE_EQ(even.share_off, 0.05);
+  EXPECT_EQ(even.ours.frames, 7u);
+  EXPECT_EQ(even.rivals.frames, 7u);
+  const Duel odd = duel(counting(log, 0), counting(log, 1, off), 0.049, kFewFrames, HardwareCounters());
+  EXPECT_EQ(odd.fault(), "the rival's picture differs by more than two levels in 5.000 % of the pixels, expected 4.900 % at most");
+  EXPECT_EQ(odd.ours.frames, 0u);
+}
+
+TEST(BenchDuel, SaysWhoIsWrong) {
+  Log log;
+  EXPECT_EQ(duel(counting(log, 0, {.fault = "ours"}), counting(log, 1), 1, kFewFrames, HardwareCounters()).fault(), "ours");
+  EXPECT_EQ(duel(counting(log, 0), counting(log, 1, {.fault = "the rival's"}), 1, kFewFrames, HardwareCounters()).fault(), "the rival's");
+  EXPECT_EQ(duel(counting(log, 0), counting(log, 1, {.picture = Picture(10, 9)}), 1, kFewFrames, HardwareCounters()).fault(), "the rival's picture has another size");
+}
+
+}  // namespace
+}  // namespace tessera::bench
