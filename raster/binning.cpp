@@ -39,6 +39,7 @@ struct Group {
   alignas(64) std::int32_t turn[kGroup];  // the area's sign
   alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup], py1[kGroup];  // pixels whose centres the bounds hold, inclusive
   alignas(64) std::int32_t kept[kGroup];  // 1: the side that is seen is
+  alignas(64) std::int32_t extent[kGroup];  // the greater one of width and height
   alignas(64) std::int32_t tile[kGroup];  // of the first pixel
   alignas(64) std::int32_t fate[kGroup];
 
@@ -49,6 +50,35 @@ struct Group {
     x[2][count] = v2.x, y[2][count] = v2.y;
     ids[count++] = triangle;
   }
+  /// Sixteen in a row. @pre empty
+  HWY_INLINE void fill(const BinDraw& draw, std::uint32_t first) {
+#if HWY_TARGET == HWY_SCALAR
+    for (std::uint32_t t = first; t < first + kGroup; ++t) add(draw, t, vertex_index<3>(draw, t, 0), vertex_index<3>(draw, t, 1), vertex_index<3>(draw, t, 2));
+#else
+    for (int t = 0; t < kGroup; ++t) ids[t] = first + static_cast<std::uint32_t>(t);
+    const std::uint32_t* const indices = draw.indices != nullptr ? draw.indices + std::size_t{first} * 3 : nullptr;
+    for (std::uint32_t t = 0; t < kGroup; t += 4)
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        const WindowVertex* v[4];
+        for (std::uint32_t k = 0; k < 4; ++k) v[k] = draw.vertices + (indices != nullptr ? indices[3 * (t + k) + corner] : 3 * (first + t + k) + corner);
+        store_four(v, x[corner] + t, y[corner] + t);
+      }
+    count = kGroup;
+#endif
+  }
+
+ private:
+#if HWY_TARGET != HWY_SCALAR
+  // Four rows of x y z rw: two columns of them.
+  static HWY_INLINE void store_four(const WindowVertex* const (&v)[4], std::int32_t* x, std::int32_t* y) {
+    constexpr hn::CappedTag<std::int32_t, 4> four;
+    constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
+    const auto row = [&](int k) HWY_ATTR { return hn::LoadU(four, &v[k]->x); };
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, row(0), row(1))), xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, row(2), row(3)));  // x x y y
+    hn::StoreU(hn::BitCast(four, hn::InterleaveLower(pairs, xy01, xy23)), four, x);
+    hn::StoreU(hn::BitCast(four, hn::InterleaveUpper(pairs, xy01, xy23)), four, y);
+  }
+#endif
 };
 
 // What becomes of a triangle: the first of these that is true.
@@ -72,16 +102,50 @@ HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int colum
   const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
   const std::int32_t reach = draw.sample_reach;
   for (int k = 0; k < kGroup; ++k) {
-    g.px0[k] = greatest(first_pixel(least(g.x[0][k], g.x[1][k], g.x[2][k]) - reach), rect.x0);
-    g.py0[k] = greatest(first_pixel(least(g.y[0][k], g.y[1][k], g.y[2][k]) - reach), rect.y0);
-    g.px1[k] = least(last_pixel(greatest(g.x[0][k], g.x[1][k], g.x[2][k]) + reach), rect.x1 - 1);
-    g.py1[k] = least(last_pixel(greatest(g.y[0][k], g.y[1][k], g.y[2][k]) + reach), rect.y1 - 1);
+    const std::int32_t low_x = least(g.x[0][k], g.x[1][k], g.x[2][k]), high_x = greatest(g.x[0][k], g.x[1][k], g.x[2][k]);
+    const std::int32_t low_y = least(g.y[0][k], g.y[1][k], g.y[2][k]), high_y = greatest(g.y[0][k], g.y[1][k], g.y[2][k]);
+    g.px0[k] = greatest(first_pixel(low_x - reach), rect.x0);
+    g.py0[k] = greatest(first_pixel(low_y - reach), rect.y0);
+    g.px1[k] = least(last_pixel(high_x + reach), rect.x1 - 1);
+    g.py1[k] = least(last_pixel(high_y + reach), rect.y1 - 1);
     const std::int32_t first_column = g.px0[k] >> shift, first_row = g.py0[k] >> shift;
     g.tile[k] = first_row * columns + first_column;
     const std::int32_t apart = ((g.px1[k] >> shift) ^ first_column) | ((g.py1[k] >> shift) ^ first_row);
     const std::int32_t of_seen = apart == 0 ? kInOneTile : kInSeveralTiles;
     const std::int32_t of_kept = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : of_seen;
     g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;
+    g.extent[k] = greatest(high_x - low_x, high_y - low_y);
+  }
+}
+
+/// Of triangles of a pixel's size many lie between centres: with no more than 2x2 of those in their bounds that is found out here, and tiles need not look at them.
+HWY_INLINE void drop_missed(Group& g) {
+  for (int first = 0; first < kGroup; first += kLanes) {
+    const auto load = [first](const std::int32_t* array) HWY_ATTR { return hn::Load(kInt, array + first); };
+    const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0), fate = load(g.fate);
+    const Int further = hn::Max(hn::Sub(load(g.px1), px0), hn::Sub(load(g.py1), py0));
+    const auto is_small = hn::And(hn::Lt(further, splat(2)), hn::Lt(load(g.extent), splat(3 * kSubpixelScale)));  // the rectangle may have cut larger ones
+    const auto in_question = hn::And(is_small, hn::Gt(fate, splat(std::int32_t{kOutside})));
+    if (hn::AllFalse(kInt, in_question)) continue;
+    const auto from_center = [&](const std::int32_t* at, Int pixel) HWY_ATTR { return hn::Sub(load(at), hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(kHalfPixel))); };
+    const Int x0 = from_center(g.x[0], px0), x1 = from_center(g.x[1], px0), x2 = from_center(g.x[2], px0);
+    const Int y0 = from_center(g.y[0], py0), y1 = from_center(g.y[1], py0), y2 = from_center(g.y[2], py0);
+    const auto turns_left = hn::Lt(load(g.turn), zero);
+    const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0}, y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
+    Int outside[4] = {zero, zero, zero, zero};  // whose sign is that of an edge that the centre is outside of
+    for (int k = 0; k < 3; ++k) {
+      const Int a = hn::Sub(y[k], y[k + 1]), b = hn::Sub(x[k + 1], x[k]);
+      // The fill rule (triangle_setup-inl.h): what lies on a left or top edge, with a > 0 or a = 0 and b > 0, is inside; what lies on another is less than 0.
+      const auto top_left = hn::Gt(hn::Add(hn::ShiftLeft<16>(a), b), zero);
+      const Int edge = hn::Sub(hn::Not(hn::Add(hn::Mul(a, x[k]), hn::Mul(b, y[k]))), hn::VecFromMask(kInt, top_left));
+      const Int right = hn::Add(edge, hn::ShiftLeft<kSubpixelBits>(a)), down = hn::ShiftLeft<kSubpixelBits>(b);
+      outside[0] = hn::Or(outside[0], edge);
+      outside[1] = hn::Or(outside[1], right);
+      outside[2] = hn::Or(outside[2], hn::Add(edge, down));
+      outside[3] = hn::Or(outside[3], hn::Add(right, down));
+    }
+    const auto is_missed = hn::Lt(hn::And(hn::And(outside[0], outside[1]), hn::And(outside[2], outside[3])), zero);
+    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), fate), kInt, g.fate + first);
   }
 }
 
@@ -91,10 +155,11 @@ HWY_INLINE std::uint32_t bits_of(const Group& g, Fate fate) {
   return bits & ((1u << g.count) - 1);
 }
 
-HWY_INLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, Group& g) {
+HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, Group& g) {
   if (g.count == 0) return;
   const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7, columns = grid.columns();
   decide_fates(g, draw, shift, columns);
+  if (draw.sample_reach == 0) drop_missed(g);
   const std::uint32_t in_one = bits_of(g, kInOneTile), in_several = bits_of(g, kInSeveralTiles), binned = in_one | in_several;
   BinCounts& counts = bins.counts;
   const auto count_of = [](std::uint32_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); };
@@ -102,15 +167,25 @@ HWY_INLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw,
   counts.culled += count_of(bits_of(g, kCulled));
   counts.outside += count_of(bits_of(g, kOutside));
   counts.binned += count_of(binned);
+  std::uint32_t waiting[kGroup];  // for one and the same tile, as what follows one another mostly is
+  std::size_t count = 0;
+  int tile = 0;
+  const auto push = [&] {
+    if (count != 0) bins.push(tile, draw.draw, std::span(waiting, count));
+    count = 0;
+  };
   for (std::uint32_t left = binned; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     if ((in_one >> k & 1) != 0) {
-      bins.push(g.tile[k], draw.draw, g.ids[k]);
+      if (g.tile[k] != tile) push(), tile = g.tile[k];
+      waiting[count++] = g.ids[k];
       continue;
     }
+    push();
     const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
     bin_large_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift, g.px1[k] >> shift, g.py1[k] >> shift);
   }
+  push();
   g.count = 0;
 }
 
@@ -125,7 +200,13 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
   Group group;
-  for (std::uint32_t triangle = first; triangle < last; ++triangle) {
+  std::uint32_t triangle = first;
+  if (!draw.any_code)
+    for (; triangle + kGroup <= last; triangle += kGroup) {
+      group.fill(draw, triangle);
+      bin_group(bins, grid, draw, group);
+    }
+  for (; triangle < last; ++triangle) {
     const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1), i2 = vertex_index<3>(draw, triangle, 2);
     if (draw.any_code) {
       const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "raster/clip.h"
@@ -75,15 +76,22 @@ class Bins {
   std::size_t bytes() const;
   bool overflowed() const { return overflowed_; }
 
-  void push(int tile, std::uint32_t draw, std::uint32_t id) {
+  void push(int tile, std::uint32_t draw, std::uint32_t id) { push(tile, draw, std::span(&id, 1)); }
+  void push(int tile, std::uint32_t draw, std::span<const std::uint32_t> ids) {
     Tail& tail = tail_of(tile);
     if (tail.draw != draw) {
       tail.draw = draw;
       append(tail, kDrawMarker | draw);
     }
-    append(tail, id);
-    ++tail.triangles;
-    ++counts.entries;
+    tail.triangles += static_cast<std::uint32_t>(ids.size());
+    counts.entries += ids.size();
+    while (!ids.empty()) {
+      Block& block = block_with_room(tail);
+      const std::size_t copied = std::min<std::size_t>(ids.size(), kBlockEntries - block.count);
+      std::copy_n(ids.data(), copied, block.entries + block.count);
+      block.count += static_cast<std::uint32_t>(copied);
+      ids = ids.subspan(copied);
+    }
   }
   /// A draw that is a bitmap or an image.
   void push_draw(int tile, std::uint32_t draw) {
@@ -119,9 +127,12 @@ class Bins {
   };
   Tail& tail_of(int tile) { return tails_[static_cast<std::size_t>(tile - first_tile_)]; }
   const Tail& tail_of(int tile) const { return tails_[static_cast<std::size_t>(tile - first_tile_)]; }
-  void append(Tail& tail, std::uint32_t entry) {
+  Block& block_with_room(Tail& tail) {
     if (tail.last == kNone || blocks_[tail.last].count == kBlockEntries) add_block(tail);
-    Block& block = blocks_[tail.last];
+    return blocks_[tail.last];
+  }
+  void append(Tail& tail, std::uint32_t entry) {
+    Block& block = block_with_room(tail);
     block.entries[block.count++] = entry;
   }
   void add_block(Tail& tail);

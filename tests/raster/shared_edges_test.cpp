@@ -218,6 +218,85 @@ TEST(Binning, LosesNoTileOfATriangle) {
     }
   }
 }
+// Up to three pixels wide, on centres and edges of pixels or anywhere, in rectangles that cut them: sixteen at a time and one by one.
+TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
+  constexpr std::uint32_t kCount = 16 * 200 + 5;
+  constexpr int kSize = 128;
+  RandomTriangles source(5, kSize);
+  std::vector<WindowVertex> vertices;
+  std::vector<std::uint32_t> backwards;
+  for (std::uint32_t t = 0; t < kCount; ++t) {
+    const int x = source.between(-2, kSize) * 256, y = source.between(-2, kSize) * 256, extent = source.between(1, 3) * 256, step = 1 << source.between(0, 7);
+    for (int k = 0; k < 3; ++k) vertices.push_back({x + source.between(0, extent / step) * step, y + source.between(0, extent / step) * step, 0, 1});
+  }
+  for (std::uint32_t i = 3 * kCount; i-- > 0;) backwards.push_back(i);
+  std::size_t left_out = 0, kept = 0;
+  for (const PixelRect& rect : {PixelRect{0, 0, kSize, kSize}, PixelRect{17, 40, 90, 41}})
+    for (const bool indexed : {false, true})
+      for (const int reach : {0, 128})
+        for (const Isa isa : available_isas()) {
+          BinDraw draw;
+          draw.vertices = vertices.data();
+          draw.indices = indexed ? backwards.data() : nullptr;
+          draw.rect = rect;
+          draw.sample_reach = reach;
+          Bins bins;
+          bins.reset(1);
+          bin_triangles(bins, {kSize, kSize, kSize}, draw, 0, kCount, isa);
+          std::vector<bool> binned(kCount);
+          for (std::uint32_t block = bins.first(0); block != Bins::kNone; block = bins.block(block).next)
+            for (std::uint32_t e = 0; e < bins.block(block).count; ++e)
+              if (const std::uint32_t entry = bins.block(block).entries[e]; (entry & kDrawMarker) == 0) binned[entry] = true;
+          for (std::uint32_t t = 0; t < kCount; ++t) {
+            const auto vertex = [&](std::uint32_t k) { return vertices[vertex_index<3>(draw, t, k)]; };
+            const Triangle triangle{vertex(0), vertex(1), vertex(2)};
+            const TriangleReference reference = reference_of(triangle);
+            const auto [low_x, high_x] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+            const auto [low_y, high_y] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+            const int x0 = std::max(first_pixel(low_x - reach), rect.x0), x1 = std::min(last_pixel(high_x + reach), rect.x1 - 1);
+            const int y0 = std::max(first_pixel(low_y - reach), rect.y0), y1 = std::min(last_pixel(high_y + reach), rect.y1 - 1);
+            bool expected = reference.area != 0 && x0 <= x1 && y0 <= y1;
+            if (expected && reach == 0 && x1 - x0 <= 1 && y1 - y0 <= 1) {
+              // Of the 2x2 pixels, those that the rectangle cuts off included: it may keep one of the others for nothing.
+              bool covers = false, covers_any = false;
+              reference.for_each_covered(x0, y0, x0 + 2, y0 + 2, [&](int x, int y) {
+                covers |= x <= x1 && y <= y1;
+                covers_any = true;
+              });
+              ASSERT_TRUE(covers_any || !covers);
+              expected = covers_any;
+              ++(expected ? kept : left_out);
+            }
+            ASSERT_EQ(binned[t], expected) << name_of(isa) << " reach " << reach << ": " << Describe{triangle};
+          }
+        }
+  EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(kept, 1000u);
+}
+// Of large triangles, whose edges take more than 32 bits, a rectangle may leave as few pixels.
+TEST(Binning, LosesNoTriangleInARectangleOfFewPixels) {
+  constexpr int kSize = 128;
+  RandomTriangles source(9, kSize);
+  std::size_t covered = 0;
+  for (int i = 0; i < seeds(20000); ++i) {
+    const Triangle t = source.next();
+    const int x = source.between(0, kSize - 2), y = source.between(0, kSize - 2);
+    bool touched = false;
+    reference_of(t).for_each_covered(x, y, x + 2, y + 2, [&](int, int) { touched = true; });
+    if (!touched) continue;
+    ++covered;
+    BinDraw draw;
+    draw.vertices = t.data();
+    draw.rect = {x, y, x + 2, y + 2};
+    for (const Isa isa : available_isas()) {
+      Bins bins;
+      bins.reset(1);
+      bin_triangles(bins, {kSize, kSize, kSize}, draw, 0, 1, isa);
+      ASSERT_NE(bins.first(0), Bins::kNone) << name_of(isa) << ": " << Describe{t};
+    }
+  }
+  EXPECT_GT(covered, 1000u);
+}
 TEST(Binning, CullsTheFacesThatItIsAskedToAndCountsThem) {
   const Triangle counter_clockwise{WindowVertex{0, 2560, 0, 1}, WindowVertex{2560, 2560, 0, 1}, WindowVertex{0, 0, 0, 1}};  // seen in the window
   for (const bool clockwise_fronts : {false, true}) {
