@@ -115,7 +115,7 @@ float unlit_index(const LightingProgram& program) { return masked_index(std::min
 
 /// No light depends on the surface, and both faces look the same.
 bool has_constant_color(const DrawPlan& plan) {
-  if (!plan.front.terms.empty() || plan.front.tracked || (plan.has_ops && plan.vertex_alpha)) return false;
+  if (!plan.front.terms.empty() || plan.front.tracked || (plan.float_colors && plan.vertex_alpha)) return false;
   if (!plan.two_sided) return true;
   if (!plan.back.terms.empty() || plan.index[0] != plan.index[1]) return false;
   return plan.only_indices() ? unlit_index(plan.back) == unlit_index(plan.front) : plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
@@ -206,16 +206,16 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
     plan.attribute_count = (needs_normal ? 3 : 0) + (plan.front.needs_position || plan.back.needs_position ? 3 : 0) + (plan.uses_vertex_colors ? 3 : 0);
-    if (plan.has_ops && plan.vertex_alpha) ++plan.attribute_count;
+    if (plan.float_colors && plan.vertex_alpha) ++plan.attribute_count;
     note(plan.deferred ? "lit at each visible pixel, once" : "lit at each pixel of each triangle: its operations depend on the order");
   } else if (state.shading == Shading::flat || plan.topology == Topology::points) {  // a point has one colour in any case
     plan.face_normals = generate && has_faces;
     plan.smooth_normals = generate && !has_faces;
     // Words have no room for texels: as floats, like colours that have operations to go through.
-    if (plan.texture.use == TexturePlan::Use::texels) plan.has_ops = plan.textures_pixels = true;
+    if (plan.texture.use == TexturePlan::Use::texels) plan.has_ops = plan.float_colors = plan.textures_pixels = true;
     const bool by_triangle = plan.face_normals || plan.provoking_apart;
     plan.source = by_triangle ? ColorSource::triangle_word : ColorSource::vertex_word;
-    if (plan.has_ops) {
+    if (plan.float_colors) {
       plan.source = ColorSource::interpolated;
       plan.flat = true;
       plan.scaled_colors = false;
@@ -229,7 +229,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
     plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // elsewhere colours may be extrapolated
-    plan.scaled_colors = !layout.index && !layout.luminance && !plan.has_ops && !sampled && has_faces && !plan.textures_pixels;
+    plan.scaled_colors = !layout.index && !layout.luminance && !plan.float_colors && !sampled && has_faces && !plan.textures_pixels;
     // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a colour that is not just stored.
     const bool shades_seen = layout.index || layout.luminance || plan.textures_pixels || (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_seen && !needs_order(plan, layout);
@@ -328,12 +328,14 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, FrameBufferState& targe
   if (reasons && plan.has_offset()) *reasons += "  polygon offset\n";
   if (reasons && plan.outlines) *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
+  plan.float_colors = plan.has_ops && (!fragments.is_stencil_test || plan.has_offset() || plan.outlines || draw.pixels || plan.topology != Topology::triangles || target.format.samples > 1);
   if (reasons && target.format.samples > 1) *reasons += "  " + std::to_string(target.format.samples) + " samples a pixel: coverage, depth and stencil at each, the colour once\n";
   if (draw.pixels) {
     plan_pixel_colors(plan, *draw.pixels, reasons);
   } else {
     const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
     plan.texture = plan_texture(draw, {stores_colors, plan.ops.alpha_test || (stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0))}, reasons);
+    plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
     plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
   }
   if (reasons && plan.texture.use == TexturePlan::Use::one_color)

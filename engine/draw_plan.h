@@ -35,8 +35,9 @@ struct DrawPlan {
   bool uses_depth = false, depth_write = false;
   CompareOp depth_test = CompareOp::less;
 
-  /// Its fragments go through `ops`, or have their depth offset: colours are floats with alpha then.
+  /// Its fragments go through `ops`, or have their depth offset.
   bool has_ops = false;
+  bool float_colors = false;      ///< and these take colours 0..1 with alpha: all but a stencil test alone
   FragmentOps ops;
   bool uses_stencil = false;      ///< tests or writes it
   float offset_factor = 0, offset_units = 0;
@@ -72,7 +73,7 @@ struct DrawPlan {
   bool looks_up_colors() const { return write_mask != 0 && !only_indices(); }  ///< in the palette, if the buffer has one
   /// Floats that a vertex's colour of one face takes: with operations it has alpha; an index has no more than itself, but
   /// beside a face with colours as much room as those.
-  int color_floats() const { return only_indices() ? 1 : has_ops ? 4 : 3; }
+  int color_floats() const { return only_indices() ? 1 : float_colors ? 4 : 3; }
   /// Colours are made for triangles, not for vertices.
   bool colors_triangles() const { return source == ColorSource::triangle_word || (flat && (face_normals || provoking_apart)); }
 

@@ -86,7 +86,9 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   }
   const bool stores_alpha = writes_color && target.layout.alpha_bits > 0;
   if (stores_alpha) note("alpha planes");
-  plan.needed = ops.alpha_test || ops.stencil || ops.blend || ops.dither || ops.logic != Logic::copy || stores_alpha;
+  const bool depends_on_color = ops.alpha_test || ops.blend || ops.dither || ops.logic != Logic::copy || stores_alpha;
+  plan.needed = ops.stencil || depends_on_color;
+  plan.is_stencil_test = ops.stencil && !depends_on_color;
   return plan;
 }
 

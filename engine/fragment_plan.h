@@ -11,6 +11,7 @@ namespace tessera {
 struct FragmentPlan {
   FragmentOps ops;
   bool needed = false;         ///< else fragments go by the short way
+  bool is_stencil_test = false;  ///< and nothing else
   bool uses_stencil = false;
 };
 

@@ -133,6 +133,7 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
 
 void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffers) {
   draw.ops = &plan.ops;
+  draw.plain_colors = !plan.float_colors;
   draw.offset_factor = plan.offset_factor;
   draw.offset_units = plan.offset_units;
   draw.flat = plan.flat;
@@ -142,7 +143,7 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
     for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = clamp_unit(plan.constant_color[c]);
     if (plan.index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
-    if (plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face]) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
+    if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face]) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
   }
 }
 
@@ -324,7 +325,7 @@ void connect_draws(FrameCommands& commands) {
       if (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)) add(kNormalX);
       if (plan.front.needs_position || (plan.two_sided && plan.back.needs_position)) add(kPositionX);
       if (plan.uses_vertex_colors) add(kVertexR);
-      if (plan.has_ops && plan.vertex_alpha) {
+      if (plan.float_colors && plan.vertex_alpha) {
         draw.alpha_attribute[0] = draw.alpha_attribute[1] = next;
         --draw.attribute_count;  // it is no input of lighting
       }

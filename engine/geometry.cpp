@@ -100,7 +100,7 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
   if (plan.folds_texture() && !plan.index[face]) fold_texture(plan.texture.texture, batch, points.count);
   const bool as_floats = plan.source == ColorSource::interpolated;
   if (as_floats && plan.index[face]) return store_indices(draw, batch, points, face);
-  if (plan.has_ops) return store_rgba(draw, batch, points, face);
+  if (plan.float_colors) return store_rgba(draw, batch, points, face);
   if (as_floats) {
     if (plan.scaled_colors) scale_colors(isa)(*draw.layout, batch, static_cast<int>(points.count));
     auto [out, stride] = float_colors(draw, points, face);
@@ -136,7 +136,7 @@ void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& poi
 template <class VertexOf>
 Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, bool triangles, const VertexOf& vertex) {
   Batch points{.first = first, .count = count, .triangles = triangles, .alpha = {}};
-  for (std::size_t i = 0; i < count && draw.plan->has_ops && draw.plan->vertex_alpha; ++i) points.alpha[i] = draw.mesh->color(vertex(i), 3);
+  for (std::size_t i = 0; i < count && draw.plan->float_colors && draw.plan->vertex_alpha; ++i) points.alpha[i] = draw.mesh->color(vertex(i), 3);
   return points;
 }
 
@@ -156,7 +156,7 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
   if (needs_normal(plan)) store(kNormalField);
   if (needs_position(plan)) store(kPositionField);
   if (plan.uses_vertex_colors) store(kVertexField);
-  if (plan.has_ops && plan.vertex_alpha)
+  if (plan.float_colors && plan.vertex_alpha)
     for (std::size_t i = 0; i < count; ++i) out[i * stride] = std::min(std::max(draw.mesh->color(first + i, 3), 0.0f), 1.0f);
 }
 
@@ -212,7 +212,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.vertices.resize(vertices);
   buffers.codes.resize(vertices);
   buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) + 2 * kAttributePadding);  // read in whole vectors
-  for (int face = 0; face < 2; ++face) buffers.face_colors[face].resize(plan.has_ops && plan.colors_triangles() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
+  for (int face = 0; face < 2; ++face) buffers.face_colors[face].resize(plan.float_colors && plan.colors_triangles() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
   const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);

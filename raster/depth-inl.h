@@ -154,9 +154,8 @@ struct Float32Depth {
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     const Doubles x = plus(to_doubles(block_columns(chunk)), block.x), y = plus(to_doubles(block_rows(chunk)), block.y);
     const Float z = to_floats(plus(plus(times(x, dx), times(y, dy)), z0));
-    const Float low_cut = hn::IfThenElse(hn::Gt(z, splat(low)), z, splat(low));
-    const Float cut = hn::Add(hn::IfThenElse(hn::Lt(low_cut, splat(high)), low_cut, splat(high)), hn::Zero(kFloat));
-    return hn::BitCast(kInt, cut);
+    const Float cut = lesser_of(greater_of(z, splat(low)), splat(high));
+    return hn::BitCast(kInt, hn::Add(cut, hn::Zero(kFloat)));
   }
 };
 

@@ -65,8 +65,7 @@ struct OffsetFloat32Depth : Float32Depth {
   HWY_INLINE void move_by(double depth) { moved = static_cast<float>(depth); }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     const Float z = hn::Add(hn::BitCast(kFloat, Float32Depth::keys(block, chunk)), splat(moved));
-    const Float above = hn::IfThenElseZero(hn::Gt(z, hn::Zero(kFloat)), z);
-    return hn::BitCast(kInt, hn::IfThenElse(hn::Lt(above, splat(1.0f)), above, splat(1.0f)));
+    return hn::BitCast(kInt, lesser_of(greater_of(z, hn::Zero(kFloat)), splat(1.0f)));
   }
 };
 

@@ -48,6 +48,23 @@ HWY_INLINE Float neg_mul_add(Float a, Float b, Float c) {
 #endif
 }
 
+/// a where it is above b, else b, also where either is no number: what x86 has an instruction for, whose operands Highway keeps in this order.
+HWY_INLINE Float greater_of(Float a, Float b) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  return hn::Max(a, b);
+#else
+  return hn::IfThenElse(hn::Gt(a, b), a, b);
+#endif
+}
+/// a where it is below b, else b, also where either is no number.
+HWY_INLINE Float lesser_of(Float a, Float b) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  return hn::Min(a, b);
+#else
+  return hn::IfThenElse(hn::Lt(a, b), a, b);
+#endif
+}
+
 /// Towards zero, for values that fit: Highway's ConvertTo spends three more steps on those that do not.
 HWY_INLINE Int truncate(Float v) {
 #if HWY_TARGET == HWY_AVX2

@@ -22,22 +22,19 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// What happens to a pixel that is seen.
-enum class Seen { nothing, word, interpolate, unit, collect };
-inline constexpr bool is_interpolated(Seen seen) { return seen == Seen::interpolate || seen == Seen::unit; }
+enum class Seen { nothing, word, interpolate, mix, collect };
+inline constexpr bool is_interpolated(Seen seen) { return seen == Seen::interpolate || seen == Seen::mix; }
 /// Its colour, where it is interpolated.
 template <Seen kSeen>
 struct ColorOf {
   using Type = ScaledColor;
 };
 template <>
-struct ColorOf<Seen::unit> {
-  using Type = UnitColor;
+struct ColorOf<Seen::mix> {
+  using Type = MixedColor;
 };
 /// `less` has code of its own, since nearly everybody uses it.
 enum class Test { less, any };
-/// Draws with operations have no words, and colours of their own.
-inline constexpr bool may_test_stencil(Test test, Seen seen) { return test == Test::any && (seen == Seen::nothing || seen == Seen::unit || seen == Seen::collect); }
-
 struct NoDepth {
   struct Block {};
   HWY_INLINE Block block(int, int) const { return {}; }
@@ -61,10 +58,35 @@ HWY_INLINE std::uint64_t count_of(Int negative) {
   return static_cast<std::uint64_t>(sum);
 }
 
+/// The stencil test of one face's pixels, one by one.
+struct PixelStencil {
+  StencilSteps steps{};
+  std::int32_t* values = nullptr;
+
+  /// Whether a pixel passes; what fails is stored.
+  HWY_INLINE bool passes(int index) const {
+    const bool does = steps.passes(values[index]);
+    if (!does) store(index, steps.fail);
+    return does;
+  }
+  HWY_INLINE void store_after_depth(int index, bool depth_passes) const { store(index, depth_passes ? steps.zpass : steps.zfail); }
+
+ private:
+  HWY_INLINE void store(int index, const StencilStep& step) const {
+    std::int32_t& stored = values[index];
+    stored = (stored & ~steps.write_mask) | (step(stored) & steps.write_mask);
+  }
+};
+template <Test kTest>
+HWY_INLINE bool has_stencil_test(const TileDraw& draw) { return kTest == Test::any && draw.ops != nullptr && draw.ops->stencil; }
+HWY_INLINE PixelStencil pixel_stencil(const TileRun& run, const TileDraw& draw, bool back) {
+  return {.steps = stencil_steps(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_most), .values = run.sample[0].stencil};
+}
+
 /// One triangle's way through the blocks of a tile.
 template <class Depth, Test kTest, Seen kSeen>
 struct TrianglePixels {
-  static constexpr bool kMayTestStencil = may_test_stencil(kTest, kSeen);
+  static constexpr bool kMayTestStencil = kTest == Test::any;
   TileRun& run;
   const TileDraw& draw;
   const TileEdges& edges;
@@ -75,22 +97,21 @@ struct TrianglePixels {
   std::int32_t word = 0;
   std::int32_t id = 0;
   const bool tests_stencil;
-  std::int32_t* const stencil_values;
-  StencilSteps stencil{};
+  PixelStencil stencil{};
   Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
-        tests_stencil(kMayTestStencil && tile_draw.ops != nullptr && tile_draw.ops->stencil), stencil_values(tile_run.sample[0].stencil),
+        tests_stencil(has_stencil_test<kTest>(tile_draw)),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut) {
-    if (kMayTestStencil && tests_stencil) stencil = stencil_steps(tile_draw.ops->faces[back ? 1 : 0], tile_draw.ops->stencil_most);
+    if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
-    if constexpr (kSeen == Seen::unit) rare_block(bx, by, block_edges);
+    if constexpr (kSeen == Seen::mix && !kFull) rare_block(bx, by, block_edges);
     else draw_block<kFull>(bx, by, block_edges);
   }
   /// Once for blocks of all kinds, where code is long and the rest of it takes longer.
@@ -106,8 +127,8 @@ struct TrianglePixels {
       [[maybe_unused]] Int stencil_before = hn::Zero(kInt);
       [[maybe_unused]] LaneMask failed = no_lanes(), passed = mask;
       if (kMayTestStencil && tests_stencil) {
-        stencil_before = hn::Load(kInt, stencil_values + index);
-        passed = hn::And(mask, stencil_passes(stencil, stencil_before));
+        stencil_before = hn::Load(kInt, stencil.values + index);
+        passed = hn::And(mask, stencil_passes(stencil.steps, stencil_before));
         failed = hn::AndNot(passed, mask);
         mask = passed;
       }
@@ -117,8 +138,8 @@ struct TrianglePixels {
         mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : comparing(key, draw.depth_test, stored));
         hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
       }
-      if (kMayTestStencil && tests_stencil && stencil.writes())
-        hn::Store(stencil_result(stencil, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt, stencil_values + index);
+      if (kMayTestStencil && tests_stencil && stencil.steps.writes())
+        hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt, stencil.values + index);
       // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
       if constexpr (kSeen == Seen::collect) {
         auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
@@ -130,7 +151,7 @@ struct TrianglePixels {
         std::uint32_t* const stored_at = run.memory.color + index;
         Int words;
         if constexpr (kSeen == Seen::word) words = splat(word);
-        else if constexpr (kSeen == Seen::unit) words = color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, reinterpret_cast<const std::int32_t*>(stored_at)));
+        else if constexpr (kSeen == Seen::mix) words = color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, reinterpret_cast<const std::int32_t*>(stored_at)));
         else words = color.words(barycentric_at(block_edges, bx, by, chunk));
         store_words(stored_at, words, mask, writable);
       }
@@ -148,15 +169,15 @@ struct TrianglePixels {
   HWY_INLINE void pixel(int x, int y) {
     const int index = run.pixel_index(x, y);
     const bool is_tested = kMayTestStencil && tests_stencil;
-    if (is_tested && !passes_stencil(index)) return;
+    if (is_tested && !stencil.passes(index)) return;
     if constexpr (kHasDepth<Depth>) {
       const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
       const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
-      if (is_tested) store_stencil(index, passes ? stencil.zpass : stencil.zfail);
+      if (is_tested) stencil.store_after_depth(index, passes);
       if (!passes) return;
       if (draw.depth_write) run.memory.depth[index] = key;
     } else if (is_tested) {
-      store_stencil(index, stencil.zpass);
+      stencil.store_after_depth(index, true);
     }
     if constexpr (kSeen == Seen::collect) {
       run.memory.ids[index] = static_cast<std::uint32_t>(id);
@@ -168,19 +189,9 @@ struct TrianglePixels {
     }
   }
 
-  HWY_INLINE void store_stencil(int index, const StencilStep& step) {
-    std::int32_t& stored = stencil_values[index];
-    stored = (stored & ~stencil.write_mask) | (step(stored) & stencil.write_mask);
-  }
-  HWY_INLINE bool passes_stencil(int index) {
-    const bool passes = compares(stencil.reference, stencil.func, stencil_values[index] & stencil.mask);
-    if (!passes) store_stencil(index, stencil.fail);
-    return passes;
-  }
-
   /// color.words() for a single pixel, step by step the same.
   HWY_INLINE std::uint32_t pixel_word(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
-    if constexpr (kSeen != Seen::unit) {  // those that are interpolated and nothing else stand in SmallPixels
+    if constexpr (kSeen != Seen::mix) {  // those that are interpolated and nothing else stand in SmallPixels
       return static_cast<std::uint32_t>(word);
     } else {
       float w[3];
@@ -225,7 +236,7 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
   const TriangleGroup& g = run.memory.group;
   pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
   if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
-  if constexpr (kSeen == Seen::unit) pixels.color.set_up(pixels.triangle, draw, draw.flat ? flat_color(draw, run.memory.source[i], back) : nullptr);
+  if constexpr (kSeen == Seen::mix) pixels.color.set_up(pixels.triangle, draw, draw.flat ? flat_color(draw, run.memory.source[i], back) : nullptr);
   if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
   if constexpr (kSeen == Seen::word) pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
 }
@@ -252,24 +263,34 @@ HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory&
 
 /// The small triangles that were added, whose colours are interpolated.
 template <class Depth, Test kTest>
-HWY_INLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
+HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
+  if (pixels.count == 0) return;
   const TileWorkspace::Memory& memory = run.memory;
   const TriangleGroup& g = memory.group;
-  pixels.set_up_coordinates(g);
+  pixels.set_up(run);
   const PixelColor color(run.frame.layout);
   const std::uint32_t mask = draw.write_mask;
-  const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1];
+  const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1], tests_stencil = has_stencil_test<kTest>(draw);
+  PixelStencil stencil[2];
+  if (tests_stencil)
+    for (const bool back : {false, true}) stencil[back ? 1 : 0] = pixel_stencil(run, draw, back);
   std::uint64_t seen = 0;
   Depth depth;
   for (int p = 0; p < pixels.count; ++p) {
-    const int i = pixels.triangle[p], x = pixels.x[p], y = pixels.y[p], index = run.pixel_index(x, y);
+    const int i = pixels.triangle[p], index = pixels.index[p];
+    const std::size_t face = (has_faces || tests_stencil) && is_back(run, draw, i) ? 1 : 0;
+    if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
       depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-      const std::int32_t key = depth.key(x, y), stored = memory.depth[index];
-      if (!(kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored))) continue;
+      const std::int32_t key = depth.key(pixels.x[p], pixels.y[p]), stored = memory.depth[index];
+      const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
+      if (tests_stencil) stencil[face].store_after_depth(index, passes);
+      if (!passes) continue;
       if (draw.depth_write) run.memory.depth[index] = key;
+    } else if (tests_stencil) {
+      stencil[face].store_after_depth(index, true);
     }
-    const int attribute = draw.color_attribute[has_faces && is_back(run, draw, i) ? 1 : 0];
+    const int attribute = draw.color_attribute[face];
     const std::uint32_t word = color.word(memory.attributes[0][i] + attribute, memory.attributes[1][i] + attribute, memory.attributes[2][i] + attribute, pixels.b1[p], pixels.b2[p]);
     run.memory.color[index] = (word & mask) | (run.memory.color[index] & ~mask);
     ++seen;
@@ -326,7 +347,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       }
     } else {
       if constexpr (kHasDepth<Depth>) pixels.depth.prepare_blocks();
-      if constexpr (kSeen == Seen::unit) pixels.color.prepare_lanes();
+      if constexpr (kSeen == Seen::mix) pixels.color.prepare_lanes();
       for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kSeen == Seen::collect) {

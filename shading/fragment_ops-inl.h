@@ -36,7 +36,8 @@ HWY_INLINE auto comparing(Vector a, CompareOp op, Vector b) {
 
 /// What passes the stencil test.
 HWY_INLINE LaneMask stencil_passes(const StencilSteps& stencil, Int stored) {
-  return comparing(splat(stencil.reference), stencil.func, hn::And(stored, splat(stencil.mask)));
+  const auto first = splat(static_cast<std::int32_t>(stencil.passing.first)), count = splat(static_cast<std::int32_t>(stencil.passing.count));
+  return hn::RebindMask(kInt, hn::Lt(hn::BitCast(kUint, hn::Sub(hn::And(stored, splat(stencil.mask)), first)), hn::BitCast(kUint, count)));
 }
 
 HWY_INLINE Int stencil_after(const StencilStep& step, Int stored) {
@@ -46,9 +47,10 @@ HWY_INLINE Int stencil_after(const StencilStep& step, Int stored) {
 
 /// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what passed both.
 HWY_INLINE Int stencil_result(const StencilSteps& stencil, Int stored, LaneMask failed, LaneMask zfailed, LaneMask zpassed) {
-  Int value = hn::IfThenElse(failed, stencil_after(stencil.fail, stored), stored);
-  value = hn::IfThenElse(zfailed, stencil_after(stencil.zfail, stored), value);
-  value = hn::IfThenElse(zpassed, stencil_after(stencil.zpass, stored), value);
+  Int value = stored;
+  if (stencil.fail_writes) value = hn::IfThenElse(failed, stencil_after(stencil.fail, stored), value);
+  if (stencil.zfail_writes) value = hn::IfThenElse(zfailed, stencil_after(stencil.zfail, stored), value);
+  if (stencil.zpass_writes) value = hn::IfThenElse(zpassed, stencil_after(stencil.zpass, stored), value);
   const Int mask = splat(stencil.write_mask);
   return hn::Or(hn::AndNot(mask, stored), hn::And(value, mask));
 }
@@ -59,8 +61,7 @@ struct Colors {
 
 HWY_INLINE Float clamped_unit(Float c) {
   // In the order in which a NaN becomes 0.
-  const Float above = hn::IfThenElseZero(hn::Gt(c, hn::Zero(kFloat)), c);
-  return hn::IfThenElse(hn::Lt(above, splat(1.0f)), above, splat(1.0f));
+  return lesser_of(greater_of(c, hn::Zero(kFloat)), splat(1.0f));
 }
 
 /// At least 0; 0 for a NaN.
@@ -100,7 +101,7 @@ HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& 
     case Factor::one_minus_constant_alpha: return hn::Sub(one, splat(constant[3]));
     default: {
       const Float rest = hn::Sub(one, d.c[3]);
-      return c == 3 ? one : hn::IfThenElse(hn::Lt(rest, s.c[3]), rest, s.c[3]);
+      return c == 3 ? one : lesser_of(rest, s.c[3]);
     }
   }
 }
@@ -114,8 +115,8 @@ HWY_INLINE Colors blended_colors(const FragmentOps& ops, const Colors& s, const 
       case Equation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
       case Equation::subtract: sum = mul_add(s.c[c], sf, hn::Neg(hn::Mul(d.c[c], df))); break;
       case Equation::reverse_subtract: sum = neg_mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
-      case Equation::min: sum = hn::IfThenElse(hn::Lt(d.c[c], s.c[c]), d.c[c], s.c[c]); break;
-      default: sum = hn::IfThenElse(hn::Lt(s.c[c], d.c[c]), d.c[c], s.c[c]); break;
+      case Equation::min: sum = lesser_of(d.c[c], s.c[c]); break;
+      default: sum = greater_of(d.c[c], s.c[c]); break;
     }
     out.c[c] = clamped_unit(sum);
   }

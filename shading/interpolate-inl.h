@@ -100,9 +100,7 @@ struct CornerLanes {
 HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) { return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first)); }
 /// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of the triangle.
 HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
-  const Float value = interpolate(b, c);
-  const Float raised = hn::IfThenElse(hn::Gt(value, splat(c.low)), value, splat(c.low));
-  return hn::IfThenElse(hn::Lt(raised, splat(c.high)), raised, splat(c.high));
+  return lesser_of(greater_of(interpolate(b, c), splat(c.low)), splat(c.high));
 }
 
 /// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.

@@ -146,8 +146,7 @@ HWY_INLINE Surface prepare_surface(const LightingProgram& program, const Shading
 /// 0..1; a NaN, which only overflow can make, becomes 0.
 HWY_INLINE Float clamped(Float c) {
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
-  const Float low = hn::IfThenElse(hn::Gt(c, zero), c, zero);
-  return hn::IfThenElse(hn::Lt(low, one), low, one);
+  return lesser_of(greater_of(c, zero), one);
 }
 HWY_INLINE Vector clamped(const Vector& c) { return {clamped(c.x), clamped(c.y), clamped(c.z)}; }
 
@@ -231,7 +230,7 @@ void store_indices(const LightingProgram& program, ShadingBatch& batch, int coun
     const Float d = hn::Load(kFloat, batch.field[kColorR] + point), s = hn::Load(kFloat, batch.field[kColorG] + point);
     const Float matt = mul_add(hn::Mul(d, hn::Sub(splat(1.0f), s)), splat(diffuse - ambient), splat(ambient));
     const Float sum = mul_add(s, splat(specular - ambient), matt);
-    const Float index = hn::IfThenElse(hn::Lt(sum, most), sum, most);
+    const Float index = lesser_of(sum, most);
     const Float rest = hn::Sub(index, hn::Mul(modulus, hn::Floor(hn::Mul(index, inverse))));
     hn::Store(hn::IfThenElseZero(hn::Ge(rest, zero), rest), kFloat, batch.field[kColorR] + point);
   }

@@ -40,10 +40,9 @@ HWY_INLINE Float exp2_lanes(Float x) {
 /// x^y for y > 0; 0 for x <= 0 or NaN. Results below 2^-126 come out as 2^-126, above 2^96 as that.
 HWY_INLINE Float power_lanes(Float x, float y) {
   const auto positive = hn::Gt(x, hn::Zero(kFloat));
-  const Float safe = hn::IfThenElse(hn::Gt(x, splat(kSmallestNormal)), x, splat(kSmallestNormal));
+  const Float safe = greater_of(x, splat(kSmallestNormal));
   Float product = hn::Mul(log2_lanes(safe), splat(y));
-  product = hn::IfThenElse(hn::Gt(product, splat(-126.0f)), product, splat(-126.0f));
-  product = hn::IfThenElse(hn::Lt(product, splat(kLargestLog2)), product, splat(kLargestLog2));
+  product = lesser_of(greater_of(product, splat(-126.0f)), splat(kLargestLog2));
   return hn::IfThenElseZero(positive, exp2_lanes(product));
 }
 

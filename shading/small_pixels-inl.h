@@ -40,6 +40,7 @@ struct SmallPixels {
   static constexpr int kMost = kGroupSize * kBlockPixels;
   int count = 0;
   alignas(64) std::int32_t triangle[kMost + kLanes], x[kMost + kLanes], y[kMost + kLanes];  // of the group; in the tile
+  alignas(64) std::int32_t index[kMost + kLanes];                                           // of the pixel
   alignas(64) float b1[kMost + kLanes], b2[kMost + kLanes];
 
   HWY_INLINE void add(const TriangleGroup& g, int i, std::uint32_t hits) {
@@ -51,12 +52,14 @@ struct SmallPixels {
       ++count;
     }
   }
-  /// As barycentric_from_edges() has them. @pre set_up_weights
-  HWY_INLINE void set_up_coordinates(const TriangleGroup& g) {
+  /// Barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
+  HWY_INLINE void set_up(const TileRun& run) {
+    const TriangleGroup& g = run.memory.group;
     for (int l = 0; l < kLanes; ++l) triangle[count + l] = x[count + l] = y[count + l] = 0;
     for (int first = 0; first < count; first += kLanes) {
       const PickByTriangle pick(hn::LoadU(kInt, triangle + first));
       const Int at_x = hn::LoadU(kInt, x + first), at_y = hn::LoadU(kInt, y + first);
+      hn::StoreU(run.pixel_indices(at_x, at_y), kInt, index + first);
       Float w[3];
       for (int k = 0; k < 3; ++k) {
         const Int edge = hn::Add(pick(g.e[k]), hn::Add(hn::Mul(pick(g.a[k]), at_x), hn::Mul(pick(g.b[k]), at_y)));

@@ -30,24 +30,49 @@ constexpr StencilStep stencil_step(StencilAction action, std::int32_t reference,
   }
 }
 
+/// The values that pass a comparison with a reference in front: `count` from `first` on, modulo 2^32. Stored ones are below 2^31.
+struct PassingValues {
+  std::uint32_t first = 0, count = 0;
+};
+constexpr PassingValues passing_values(CompareOp func, std::int32_t reference) {
+  const auto value = static_cast<std::uint32_t>(reference);
+  constexpr std::uint32_t kAllStored = std::uint32_t{1} << 31;
+  switch (func) {
+    case CompareOp::never: return {};
+    case CompareOp::less: return {value + 1, kAllStored};
+    case CompareOp::equal: return {value, 1};
+    case CompareOp::lequal: return {value, kAllStored};
+    case CompareOp::greater: return {0, value};
+    case CompareOp::notequal: return {value + 1, ~std::uint32_t{0}};
+    case CompareOp::gequal: return {0, value + 1};
+    default: return {0, kAllStored};
+  }
+}
+
 struct StencilSteps {
-  CompareOp func = CompareOp::always;
-  std::int32_t reference = 0, mask = 0;  ///< the reference is masked already
+  PassingValues passing;
+  std::int32_t mask = 0;
   std::int32_t write_mask = 0;
   StencilStep fail, zfail, zpass;
+  bool fail_writes = false, zfail_writes = false, zpass_writes = false;  ///< else nothing changes then
 
-  constexpr bool writes() const { return write_mask != 0; }
+  constexpr bool writes() const { return fail_writes || zfail_writes || zpass_writes; }
+  constexpr bool passes(std::int32_t stored) const { return static_cast<std::uint32_t>(stored & mask) - passing.first < passing.count; }
 };
 
 /// @param most  of the buffer: 2^bits - 1
 constexpr StencilSteps stencil_steps(const StencilSide& face, std::int32_t most) {
-  return {.func = face.func,
-          .reference = face.reference & face.mask,
+  const std::int32_t write_mask = face.write_mask & most;
+  const auto writes = [&](StencilAction action) { return action != StencilAction::keep && write_mask != 0; };
+  return {.passing = passing_values(face.func, face.reference & face.mask),
           .mask = face.mask,
-          .write_mask = face.writes() ? face.write_mask & most : 0,
+          .write_mask = write_mask,
           .fail = stencil_step(face.fail, face.reference, most),
           .zfail = stencil_step(face.zfail, face.reference, most),
-          .zpass = stencil_step(face.zpass, face.reference, most)};
+          .zpass = stencil_step(face.zpass, face.reference, most),
+          .fail_writes = writes(face.fail),
+          .zfail_writes = writes(face.zfail),
+          .zpass_writes = writes(face.zpass)};
 }
 
 }  // namespace tessera

@@ -75,7 +75,7 @@ struct TextureCoordinates {
       return mul_add(along_s, along_s, hn::Mul(along_t, along_t));
     };
     const Float x = squared(s.dx, s.sum_dx, t.dx, t.sum_dx), y = squared(s.dy, s.sum_dy, t.dy, t.sum_dy);
-    const Float longest = is_line ? hn::Add(x, y) : hn::IfThenElse(hn::Lt(x, y), y, x);
+    const Float longest = is_line ? hn::Add(x, y) : greater_of(y, x);
     store(kTexelsSquared, hn::Mul(hn::Mul(longest, where.inverse), where.inverse));
   }
 };

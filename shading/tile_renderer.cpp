@@ -34,29 +34,30 @@ DrawGroup pick_by_color(Seen seen, bool sampled) {
     case Seen::nothing: return &draw_group<Depth, kTest, Seen::nothing>;
     case Seen::word: return &draw_group<Depth, kTest, Seen::word>;
     case Seen::interpolate: return &draw_group<Depth, kTest, Seen::interpolate>;
-    case Seen::unit: return &draw_group<Depth, Test::any, Seen::unit>;
+    case Seen::mix: return &draw_group<Depth, Test::any, Seen::mix>;
     default: return &draw_group<Depth, kTest, Seen::collect>;
   }
 }
 
-/// What happens to the pixels of a draw whose operations draw_group knows: a stencil test, and of colours that it makes a mix by their alpha.
+/// What happens to the pixels of a draw without operations.
+Seen seen_without_operations(const TileDraw& draw) {
+  if (draw.source == ColorSource::none) return Seen::nothing;
+  if (draw.source == ColorSource::per_pixel || draw.deferred) return Seen::collect;
+  return draw.source == ColorSource::interpolated ? Seen::interpolate : Seen::word;
+}
+
+/// What happens to those of a draw whose operations draw_group knows: a stencil test, and of colours that it makes a mix by their alpha.
 std::optional<Seen> seen_with_operations(const TileFrame& frame, const TileDraw& draw) {
   const FragmentOps& ops = *draw.ops;
   if (frame.samples > 1 || ops.alpha_test || draw.number != TileDraw::Number::none || draw.offset_factor != 0 || draw.offset_units != 0 || draw.depth_offsets != nullptr) return std::nullopt;
   if (draw.source == ColorSource::none) return Seen::nothing;
   if (draw.deferred) return Seen::collect;
+  if (draw.plain_colors) return seen_without_operations(draw);
   const ColorLayout& layout = frame.layout;
   const bool is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8 && layout.alpha_bits == 0 && !layout.luminance && !layout.index;
   if (!is_rgb8 || ops.dither || ops.logic != Logic::copy || draw.texture != nullptr || (draw.source != ColorSource::interpolated && draw.source != ColorSource::constant)) return std::nullopt;
   const bool is_plain_mix = ops.equation == Equation::add && ops.src_color == Factor::src_alpha && ops.dst_color == Factor::one_minus_src_alpha;
-  return ops.blend && !is_plain_mix ? std::nullopt : std::optional(Seen::unit);
-}
-
-/// What happens to those of a draw without operations.
-Seen seen_without_operations(const TileDraw& draw) {
-  if (draw.source == ColorSource::none) return Seen::nothing;
-  if (draw.source == ColorSource::per_pixel || draw.deferred) return Seen::collect;
-  return draw.source == ColorSource::interpolated ? Seen::interpolate : Seen::word;
+  return ops.blend && is_plain_mix ? std::optional(Seen::mix) : std::nullopt;
 }
 
 /// The code that runs for a draw: none of it holds a step that the draw does not have.
@@ -210,6 +211,19 @@ struct GroupBuilder {
     load_waiting();
     draw_all();
   }
+  /// Those of the entries that stand before the first one that is no triangle of the mesh's own, but no more than fill a group: how many were added.
+  HWY_INLINE std::uint32_t add_own(const std::uint32_t* entries, std::uint32_t count) {
+    if (draw == nullptr || draw->topology != Topology::triangles) return 0;
+    const auto room = static_cast<std::uint32_t>(kGroupSize - run.memory.group.count - waiting_count), most = std::min(count, room);
+    std::uint32_t added = 0;
+    while (added < most && (entries[added] & (kDrawMarker | kPiece)) == 0) waiting[waiting_count + static_cast<int>(added)] = entries[added], ++added;
+    waiting_count += static_cast<int>(added);
+    if (added == room) {
+      load_waiting();
+      draw_all();
+    }
+    return added;
+  }
   /// What was added needs these bins no longer, but for pieces' attributes.
   HWY_INLINE void leave(const Bins& bins) { draw_fetched(bins, 0); }
   /// Draws what was added; `bins` held the last of it.
@@ -259,25 +273,40 @@ struct GroupBuilder {
     if (run.memory.triangles.size() >= kMaxCollected) shade_whole_tile(run);
   }
   HWY_NOINLINE void load_waiting() {
+    if (waiting_count == 0) return;  // there may be no draw yet
     int loaded = 0;
-    for (; loaded + 4 <= waiting_count; loaded += 4) load_four(waiting + loaded);
+    const DrawArrays arrays{.indices = draw->indices, .vertices = draw->vertices, .attributes = draw->attributes, .stride = static_cast<std::size_t>(draw->attribute_stride)};
+    for (; loaded + 4 <= waiting_count; loaded += 4) load_four(arrays, waiting + loaded);
     for (; loaded < waiting_count; ++loaded) load_own<3>(waiting[loaded]);
     waiting_count = 0;
   }
-  HWY_INLINE void load_four(const std::uint32_t* ids) {
+  /// What of a draw says where its vertices are. A copy: it stays in registers while groups are written.
+  struct DrawArrays {
+    const std::uint32_t* indices;
+    const WindowVertex* vertices;
+    const float* attributes;
+    std::size_t stride;
+  };
+  HWY_INLINE void load_four(const DrawArrays& arrays, const std::uint32_t* ids) {
     TileWorkspace::Memory& memory = run.memory;
     const int i = memory.group.count;
     memory.group.count += 4;
-    for (int k = 0; k < 3; ++k) {
-      const WindowVertex* v[4];
-      for (int t = 0; t < 4; ++t) {
-        const std::size_t vertex = vertex_of(std::size_t{ids[t]} * 3 + static_cast<std::size_t>(k));
-        v[t] = draw->vertices + vertex;
-        memory.attributes[k][i + t] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
-      }
-      load_four_vertices(i, k, v);
+    std::size_t first[4];  // corner
+    for (int t = 0; t < 4; ++t) {
+      memory.source[i + t] = ids[t];
+      first[t] = std::size_t{ids[t]} * 3;
     }
-    for (int t = 0; t < 4; ++t) memory.source[i + t] = ids[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const WindowVertex* v[4];
+      const float* attributes[4];
+      for (int t = 0; t < 4; ++t) {
+        const std::size_t vertex = arrays.indices != nullptr ? arrays.indices[first[t] + k] : first[t] + k;
+        v[t] = arrays.vertices + vertex;
+        attributes[t] = arrays.attributes + vertex * arrays.stride;
+      }
+      std::copy_n(attributes, 4, memory.attributes[k] + i);
+      load_four_vertices(i, static_cast<int>(k), v);
+    }
   }
 #if HWY_TARGET == HWY_SCALAR
   HWY_INLINE void load_four_vertices(int i, int k, const WindowVertex* const (&v)[4]) {
@@ -372,6 +401,8 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
       run.counts.touched = true;
       const Bins::Block& block = bins.block(index);
       for (std::uint32_t e = 0; e < block.count; ++e) {
+        e += builder.add_own(block.entries + e, block.count - e);
+        if (e == block.count) break;
         const std::uint32_t entry = block.entries[e];
         if ((entry & kDrawMarker) != 0) {
           const std::uint32_t draw = entry & ~kDrawMarker;

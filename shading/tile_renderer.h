@@ -68,6 +68,7 @@ struct TileDraw {
 
   /// What its fragments go through besides the depth test; null: nothing, and what follows is not looked at.
   const FragmentOps* ops = nullptr;
+  bool plain_colors = false;               ///< colours are what they would be without `ops`. @pre these are a stencil test alone, without offset or samples, of untextured triangles
   bool flat = false;                       ///< interpolated: a triangle has the colour of its provoking vertex, or its own
   const float* face_colors[2] = {};        ///< flat: r g b a, or an index, for each triangle, front and back; null: the vertex's
   std::array<float, 4> color[2] = {};      ///< constant, also of a texture: front, back

@@ -66,17 +66,15 @@ struct ScaledColor {
   }
 };
 
-/// Colours of 0..1 for 8 bits each of red, green and blue, which may be mixed by their alpha with what is stored: the steps of FragmentTriangle, of which those
+/// Colours of 0..1 for 8 bits each of red, green and blue, which are mixed by their alpha with what is stored: the steps of FragmentTriangle, of which those
 /// are left out that change no bit. What is kept within 0..1 at the vertices is within 0..1 between them, and a sum that rounds to above 1 is the highest level, too.
-struct UnitColor {
+struct MixedColor {
   Corners c[4];                          // r g b a
   CornerLanes lanes[4];
   Float low[4], high[4];
-  bool mixes = false;
 
   HWY_INLINE void set_up(const ShadedTriangle& t, const TileDraw& draw, const float* flat) {
     const int face = t.back ? 1 : 0;
-    mixes = draw.ops->blend;
     const float* const one = draw.source == ColorSource::constant ? draw.color[face].data() : flat;
     const int of_alpha = draw.alpha_attribute[face];
     for (int k = 0; k < 4; ++k) {
@@ -95,14 +93,12 @@ struct UnitColor {
   }
   HWY_INLINE Int words(const Barycentric& at, Int stored) const {
     const Int byte = splat(255);
-    Float out[3];
-    for (int k = 0; k < 3; ++k) out[k] = within(at, k);
-    if (mixes) {
-      const Float a = within(at, 3), rest = hn::Sub(splat(1.0f), a);
-      const Int below[3] = {hn::And(hn::ShiftRight<16>(stored), byte), hn::And(hn::ShiftRight<8>(stored), byte), hn::And(stored, byte)};
-      for (int k = 0; k < 3; ++k) out[k] = mul_add(out[k], a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), rest));
-    }
-    const auto level = [&](int k) HWY_ATTR { return truncate(mul_add(out[k], splat(255.0f), splat(0.5f))); };
+    const Int below[3] = {hn::And(hn::ShiftRight<16>(stored), byte), hn::And(hn::ShiftRight<8>(stored), byte), hn::And(stored, byte)};
+    const Float a = within(at, 3), rest = hn::Sub(splat(1.0f), a);
+    const auto level = [&](int k) HWY_ATTR {
+      const Float mixed = mul_add(within(at, k), a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), rest));
+      return truncate(mul_add(mixed, splat(255.0f), splat(0.5f)));
+    };
     return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
   }
   /// The same of one pixel.
@@ -114,14 +110,14 @@ struct UnitColor {
     const float a = at_pixel(c[3]), rest = 1 - a;
     const auto level = [&](int k, std::uint32_t below) {
       const float own = at_pixel(c[k]);
-      return static_cast<std::uint32_t>(std::fma(mixes ? std::fma(own, a, static_cast<float>(below) * (1.0f / 255) * rest) : own, 255.0f, 0.5f));
+      return static_cast<std::uint32_t>(std::fma(std::fma(own, a, static_cast<float>(below) * (1.0f / 255) * rest), 255.0f, 0.5f));
     };
     return level(0, stored >> 16 & 255) << 16 | level(1, stored >> 8 & 255) << 8 | level(2, stored & 255);
   }
 
  private:
   /// interpolate_within(), of values that are no NaN.
-  HWY_INLINE Float within(const Barycentric& at, int k) const { return hn::Min(hn::Max(interpolate(at, lanes[k]), low[k]), high[k]); }
+  HWY_INLINE Float within(const Barycentric& at, int k) const { return lesser_of(greater_of(interpolate(at, lanes[k]), low[k]), high[k]); }
   static HWY_INLINE Corners of_all(float value) { return {value, 0, 0, value, value}; }
   static HWY_INLINE Corners clamped(Corners corners) {
     corners.low = clamp_unit(corners.low);
