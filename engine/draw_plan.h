@@ -37,7 +37,7 @@ struct DrawPlan {
 
   /// Its fragments go through `ops`, or have their depth offset.
   bool has_ops = false;
-  bool float_colors = false;      ///< and these take colours 0..1 with alpha: all but a stencil test alone
+  bool float_colors = false;      ///< and these take colours 0..1 with alpha: all but a stencil test alone of untextured triangles with one sample
   FragmentOps ops;
   bool uses_stencil = false;      ///< tests or writes it
   float offset_factor = 0, offset_units = 0;
@@ -71,7 +71,7 @@ struct DrawPlan {
   bool has_offset() const { return offset_factor != 0 || offset_units != 0; }
   bool only_indices() const { return index[0] && index[1]; }
   bool looks_up_colors() const { return write_mask != 0 && !only_indices(); }  ///< in the palette, if the buffer has one
-  /// Floats that a vertex's colour of one face takes: with operations it has alpha; an index has no more than itself, but
+  /// Floats that a vertex's colour of one face takes: for operations that take it it has alpha; an index has no more than itself, but
   /// beside a face with colours as much room as those.
   int color_floats() const { return only_indices() ? 1 : float_colors ? 4 : 3; }
   /// Colours are made for triangles, not for vertices.

@@ -75,7 +75,7 @@ void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Ba
   for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
 }
 
-// With operations: r g b a for each point.
+// For operations that take colours: r g b a for each point.
 void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
   auto [out, stride] = float_colors(draw, points, face);

@@ -114,7 +114,7 @@ struct TrianglePixels {
     if constexpr (kSeen == Seen::mix && !kFull) rare_block(bx, by, block_edges);
     else draw_block<kFull>(bx, by, block_edges);
   }
-  /// Once for blocks of all kinds, where code is long and the rest of it takes longer.
+  /// Once for blocks that are not full, where code is long and those are few.
   HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_block<false>(bx, by, block_edges); }
   template <bool kFull>
   HWY_INLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {

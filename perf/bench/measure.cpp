@@ -40,19 +40,20 @@ double warm_up(Workload& workload, double seconds) {
   return frame;
 }
 
-/// What stops a workload (no memory, say) is a fault of its row, and others go on.
+/// What stops a workload (no memory, say), in one line; empty: nothing does. Other rows of the table go on.
 template <class Work>
-void try_for(Row& row, const Work& work) {
+std::string fault_of(const Work& work) {
   try {
     work();
   } catch (const std::bad_alloc&) {
-    row.fault = "out of memory";
+    return "out of memory";
   } catch (const std::exception& error) {
-    row.fault = error.what();
+    return error.what();
   }
+  return {};
 }
 
-/// The first frame, and whether it is right.
+/// The first frame.
 void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
   forget_peak();
   const std::uint64_t before = resident_memory().now;
@@ -65,21 +66,25 @@ void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
   const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(row.stats).kept_bytes;
   row.peak_bytes = above(peak, before);
   row.working_bytes = above(peak, made + kept);
-  row.fault = runner.workload->fault();
-  if (candidate.judge && row.fault.empty()) row.fault = candidate.judge(runner.workload->picture());
+}
+std::string picture_fault(const Candidate& candidate, Workload& workload) {
+  std::string fault = workload.fault();
+  return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
 }
 
 /// Frames that are timed, as many of each, in turns.
-void draw_in_turns(std::vector<Runner>& runners, std::vector<Row>& rows, const MeasureOptions& options, const HardwareCounters& counters) {
+/// @param drawing  whose turn it is
+void draw_in_turns(std::vector<Runner>& runners, std::vector<Row>& rows, const MeasureOptions& options, const HardwareCounters& counters, std::size_t& drawing) {
   // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower one the other's.
   int frames = kMostFrames;
-  for (Runner& runner : runners) frames = std::min(frames, frames_for(options, warm_up(*runner.workload, options.warm_up_seconds)));
+  for (drawing = 0; drawing < runners.size(); ++drawing) frames = std::min(frames, frames_for(options, warm_up(*runners[drawing].workload, options.warm_up_seconds)));
   std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
   std::mt19937 random(options.seed);
   std::shuffle(turns.begin(), turns.end(), random);
   std::optional<std::size_t> last;
   for (const std::size_t k : turns) {
+    drawing = k;
     Runner& runner = runners[k];
     if (last != k) runner.workload->draw();  // caches and threads are its own again
     last = k;
@@ -100,11 +105,21 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   std::vector<Row> rows;
   for (const Candidate& candidate : candidates) rows.push_back({.name = candidate.name, .threads = candidate.threads});
   std::vector<Runner> runners(candidates.size());
-  for (std::size_t k = 0; k < candidates.size(); ++k) try_for(rows[k], [&] { draw_first(candidates[k], runners[k], rows[k]); });
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    std::string fault;
+    const std::string stopped = fault_of([&] {
+      draw_first(candidates[k], runners[k], rows[k]);
+      fault = picture_fault(candidates[k], *runners[k].workload);
+    });
+    rows[k].fault = stopped.empty() ? fault : stopped;
+  }
   const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
   if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
-  try_for(rows.front(), [&] { draw_in_turns(runners, rows, options, counters); });
-  if (has_fault(rows.front())) return rows;
+  std::size_t drawing = 0;
+  if (const std::string stopped = fault_of([&] { draw_in_turns(runners, rows, options, counters, drawing); }); !stopped.empty()) {
+    rows[drawing].fault = stopped;
+    return rows;
+  }
   for (std::size_t k = 0; k < rows.size(); ++k) {
     Row& row = rows[k];
     Runner& runner = runners[k];

@@ -54,7 +54,7 @@ std::optional<Duel> duel(const WorkloadEntry& entry, const WorkloadSetup& setup,
   return result;
 }
 
-std::string rivalry_heading() { return formatted("%-22s %9s %9s %7s  %-16s %12s\n", "workload", "ours, ms", "rival, ms", "ratio", "95 % interval", "pixels off %"); }
+std::string rivalry_heading() { return formatted("%-22s %9s %9s %7s  %-16s %12s\n", "workload", "ours, ms", "rival, ms", "ratio", "interval", "pixels off %"); }
 
 std::string rivalry_line(const Duel& duel) {
   if (!duel.fault().empty()) return formatted("%-22s not compared: %s\n", duel.ours.name.c_str(), duel.fault().c_str());

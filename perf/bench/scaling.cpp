@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <new>
 #include <queue>
@@ -80,6 +81,7 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
   };
   const std::vector<int> counts = measured_threads(threads);
   if (counts.empty()) scaling.one_ms = take({on(1)}).front().ms.median;
+  if (!scaling.fault.empty()) return scaling;
   for (const int count : counts) {
     const std::vector<Row> rows = take({on(1), on(count)});
     if (!scaling.fault.empty()) return scaling;
@@ -91,6 +93,8 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     for (const int cores : kCores) scaling.predicted.emplace_back(cores, one / seconds_on(cost_of_tasks(entry, setup, cores), cores, model));
   } catch (const std::bad_alloc&) {
     scaling.fault = "out of memory";
+  } catch (const std::exception& error) {
+    scaling.fault = error.what();
   }
   return scaling;
 }

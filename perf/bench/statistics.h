@@ -7,7 +7,7 @@ namespace tessera::bench {
 
 struct Statistics {
   double median = 0, low_quartile = 0, high_quartile = 0, percentile_95 = 0, percentile_99 = 0, least = 0;
-  /// What another run's median lies within, 19 times of 20, whatever the values' distribution, if each is independent of the others.
+  /// What holds the median of the values' distribution, whichever that is, 19 times of 20, of six independent values or more; of fewer the least and the greatest.
   /// Source: W. J. Conover, Practical Nonparametric Statistics, 3.2: the values of ranks n/2 -+ 0.98 sqrt(n).
   double low_median = 0, high_median = 0;
 };
@@ -15,7 +15,7 @@ struct Statistics {
 /// Percentiles are measured values: the smallest one that at least so many are not above. @pre values is not empty
 Statistics statistics_of(std::vector<double> values);
 
-/// Of medians, and how far from it their bounds let it be.
+/// Of medians, and how far from it the bounds of both let it be, at their widest.
 struct Ratio {
   double value = 1, low = 1, high = 1;
 };

@@ -72,11 +72,18 @@ TEST(StencilTestColors, AreThoseWithoutTheTest) {
           state.shading = shading;
           const RendererOptions options{.threads = 1, .tile_size = tile_size};
           const Stored plain = drawn(format, mesh, state, options);
-          // Counted up everywhere.
-          state.stencil = StencilState{.front = {.func = Compare::gequal, .ref = 255, .zfail = StencilOp::decr_wrap, .zpass = StencilOp::incr_wrap}};
+          // Counted up everywhere, by fronts and backs in two ways.
+          state.stencil = StencilState{.front = {.func = Compare::gequal, .ref = 255, .zfail = StencilOp::decr_wrap, .zpass = StencilOp::incr_wrap},
+                                       .back = StencilFace{.func = Compare::always, .zpass = StencilOp::decr_wrap}};
           const Stored counted = drawn(format, mesh, state, options);
           EXPECT_EQ(counted.words, plain.words);
           EXPECT_EQ(counted.depth, plain.depth);
+          // Fronts alone: what backs would have stored is not there.
+          state.stencil->back->func = Compare::never;
+          DrawState front_faces = state;
+          front_faces.stencil.reset();
+          front_faces.cull = Cull::back;
+          EXPECT_EQ(drawn(format, mesh, state, options).words, drawn(format, mesh, front_faces, options).words);
           if (format.samples > 1) continue;  // edges of stripes run through pixels
           // Fronts in every other stripe.
           state.stencil.reset();

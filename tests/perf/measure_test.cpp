@@ -89,6 +89,14 @@ TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
     EXPECT_EQ(rows[0].frames, 0u) << frame;
     EXPECT_EQ(log.alive, 0) << frame;
   }
+  // Of several it is the fault of the one whose turn it was.
+  for (const int frame : {0, 2, 6}) {
+    Log log;
+    const std::vector<Row> rows = measure(std::vector{counting(log, 0), counting(log, 1, {.fails_at = frame})}, kFewFrames, HardwareCounters());
+    EXPECT_EQ(rows[0].fault, "") << frame;
+    EXPECT_EQ(rows[1].fault, "out of memory") << frame;
+    for (const Row& row : rows) EXPECT_EQ(row.frames, 0u) << frame;
+  }
   Candidate unmade{.name = "unmade", .make = []() -> std::unique_ptr<Workload> { throw Error("no such mesh"); }, .threads = 1};
   EXPECT_EQ(measure(std::vector{unmade}, kFewFrames, HardwareCounters())[0].fault, "no such mesh");
 }

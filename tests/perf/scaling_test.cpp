@@ -46,6 +46,16 @@ TEST(BenchScaling, MeasuresEachOfFewThreadsAndDoublesBeyond) {
   EXPECT_EQ(measured_threads(96), (std::vector{2, 3, 4, 5, 6, 7, 8, 16, 32, 64, 96}));
 }
 
+TEST(BenchScaling, WhatStopsAWorkloadIsItsFault) {
+  WorkloadEntry entry{.name = "unmade", .what = "", .make = [](const WorkloadSetup&) -> std::unique_ptr<Workload> { throw Error("no such mesh"); }};
+  for (const int threads : {1, 2}) {
+    const Scaling scaling = scaling_of(entry, {}, threads, kFastMemory, {.repeats = 1}, HardwareCounters());
+    EXPECT_EQ(scaling.fault, "no such mesh") << threads;
+    EXPECT_EQ(scaling_line(scaling), "unmade                 not timed: no such mesh\n");
+    EXPECT_TRUE(scaling.predicted.empty());
+  }
+}
+
 TEST(BenchScaling, WhatIsInNoTaskStaysOneCores) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}, 2), 4, kFastMemory), 3);
 }

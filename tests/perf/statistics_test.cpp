@@ -36,7 +36,7 @@ TEST(BenchStatistics, HavePercentilesOfAHundred) {
   EXPECT_EQ(s.percentile_99, 198);
 }
 
-// Medians of 15 values 1 .. n drawn at random, with a seed: the bounds have to hold the distribution's own median as often as they say.
+// Of a distribution whose median is known, log 2: the bounds have to hold it as often as they say.
 TEST(BenchStatistics, BoundsHoldTheMedianNineteenTimesOfTwenty) {
   std::mt19937 random(7);
   std::exponential_distribution<double> lopsided(1);
