@@ -275,7 +275,7 @@ inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
     const float divisor = affine ? 1.0f : largest;
     const float inverse = static_cast<float>(1.0 / g.area[i]);
     for (int k = 0; k < 3; ++k) {
-      const float relative = (affine ? 1.0f : g.rw[k][i]) / divisor;
+      const float share = (affine ? 1.0f : g.rw[k][i]) / divisor, relative = share > kLeastWeight ? share : kLeastWeight;
       g.unit_scale[k][i] = inverse * relative;
       g.scale[k][i] = 256.0f * (inverse * relative);
       g.shift[k][i] = g.rest[k][i] * (inverse * relative);

@@ -20,6 +20,10 @@ inline constexpr std::int64_t kUnorm32Lift = std::int64_t{1} << 32;
 // end; above the greatest there is room for both. For nearly all triangles a 2^-19th of a word is enough.
 inline constexpr std::int64_t kUnormLift = std::int64_t{1} << (kUnormFraction - 19), kUnorm32FractionLift = std::int64_t{1} << (kUnorm32Fraction - 19);
 
+/// A vertex weighs at least so much of the heaviest one, by 1/w: the products with 1/area stay normal floats, and on the edge opposite to that one, where the others
+/// alone have weight, their sum is not 0.
+inline constexpr float kLeastWeight = 0x1p-64f;
+
 /// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
 struct TriangleGroup {
   int count = 0;

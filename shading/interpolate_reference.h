@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "raster/coverage_reference.h"
+#include "raster/triangle_setup.h"
 
 namespace tessera {
 
@@ -30,7 +31,7 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
   float weight[3];
   for (int k = 0; k < 3; ++k) {
     const Exact edge = exact.edge[k].at(x, y);
-    const float unit = inverse_area * (affine ? 1.0f : v[k].rw / largest);
+    const float unit = inverse_area * (affine ? 1.0f : std::max(v[k].rw / largest, kLeastWeight));
     if (wide) {
       weight[k] = static_cast<float>(static_cast<double>(edge)) * unit;
     } else {
