@@ -125,21 +125,23 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
       term.highlight = model.phong_highlight ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
                                              : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
     }
-    term.general = !is_black(term.ambient) || !is_black(term.tracked_ambient) || !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
+    const bool general = !is_black(term.ambient) || !is_black(term.tracked_ambient) || !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
     term.position = light.position;
     term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
     term.spot_direction = light.spot_direction;
     term.attenuation = light.attenuation;
     term.spot_exponent = light.spot_exponent;
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
-    term.shininess = material.shininess;
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
+    const bool half_varies = term.highlight == HighlightKind::blinn_local || (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
+    term.squared = half_varies && model.unit_normals && !term.sharp;
+    term.highlight_exponent = term.squared ? material.shininess / 2 : material.shininess;
     // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.
-    term.highlight_floor = material.shininess == 0 ? -std::numeric_limits<float>::infinity() : exp2_reference(std::max(-32.0f / material.shininess, -126.0f));
+    term.highlight_floor = term.highlight_exponent == 0 ? -std::numeric_limits<float>::infinity() : exp2_reference(std::max(-32.0f / term.highlight_exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-    note(kind_name(term.kind), "; ", highlight_name(term.highlight), term.general ? "; ambient part or vertex colours" : "");
+    note(kind_name(term.kind), "; ", highlight_name(term.highlight), general ? "; ambient part or vertex colours" : "");
     program.terms.push_back(term);
   }
   program.needs_position |= program.needs_view;

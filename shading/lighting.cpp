@@ -1,4 +1,4 @@
-// Kernels of the lighting equation: one for each kind of light and highlight, chosen once a batch.
+// Kernels of the lighting equation: stages over a batch of points, one of each for every kind of light and of highlight.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lighting.cpp"
 #include "framebuffer/lanes.h"
@@ -16,6 +16,7 @@ struct Vector {
   Float x, y, z;
 };
 HWY_INLINE Float dot(const Vector& a, const Vector& b) { return mul_add(a.x, b.x, mul_add(a.y, b.y, hn::Mul(a.z, b.z))); }
+HWY_INLINE Vector times(const Vector& v, Float s) { return {hn::Mul(v.x, s), hn::Mul(v.y, s), hn::Mul(v.z, s)}; }
 /// a - b s
 HWY_INLINE Vector less_times(const Vector& a, const Vector& b, Float s) { return {neg_mul_add(b.x, s, a.x), neg_mul_add(b.y, s, a.y), neg_mul_add(b.z, s, a.z)}; }
 /// The cosine of two unit vectors that are that far apart: near 1 it has the error of what is missing there.
@@ -42,105 +43,195 @@ HWY_INLINE void accumulate(Vector& sum, Float intensity, const Rgb& color) {
   sum.z = mul_add(intensity, splat(color[2]), sum.z);
 }
 
-/// What is known of one chunk of points: unit normals on the side that is lit, and the direction to a local viewer.
-struct Surface {
-  Vector normal, view;
-  Float n_dot_v;
-};
-/// The sums of one chunk of points: colour, and what the vertex colour multiplies.
-struct Sums {
-  Vector color, tracked;
+/// What the stages of one light hand on. Each stage goes over all points before the next begins: the roots and divisions of several chunks then run beside each
+/// other, and whether there is anything left to do is asked once for all of them.
+struct alignas(64) Incidence {
+  float to_light[3][kBatchPoints];  // unit
+  float n_dot_l[kBatchPoints];      // 0 where the light comes from behind or does not reach
+  float factor[kBatchPoints];       // att * spot
+  float cosine[kBatchPoints];       // of a spot, to its axis
+  float highlight[kBatchPoints];    // S.n, its square or R.E; then spec * att * spot
+
+  HWY_INLINE Vector direction(int point) const { return {hn::Load(kFloat, to_light[0] + point), hn::Load(kFloat, to_light[1] + point), hn::Load(kFloat, to_light[2] + point)}; }
 };
 
-/// Adds one light to a chunk of points.
-template <LightKind kKind, HighlightKind kHighlight, bool kGeneral>
-HWY_INLINE void add_light_to_chunk(const LightTerm& term, const ShadingBatch& batch, int point, const Surface& surface, Sums& sums) {
-  constexpr bool kPositional = kKind != LightKind::directional;
+/// Inside of a cone.
+HWY_INLINE auto is_reached(const LightTerm& term, Float cosine) { return hn::And(hn::Ge(cosine, splat(term.spot_cosine)), hn::Gt(cosine, hn::Zero(kFloat))); }
+
+/// Where the light comes from, and how much of it; of a spot without what its cone takes away. Returns whether any point faces it.
+template <LightKind kKind>
+HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
   constexpr bool kSpot = kKind == LightKind::spot || kKind == LightKind::attenuated_spot;
   constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
-  constexpr bool kBlinn = kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
-  constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
-  const Float zero = hn::Zero(kFloat);
-  const Vector& normal = surface.normal;
-  Vector to_light = splat_vector(term.position);
-  Float factor = splat(1.0f);  // att * spot
-  auto reached = hn::Eq(zero, zero);
-  if constexpr (kPositional) {
-    const Vector position = load_vector(batch, kPositionX, point);
-    to_light = {hn::Sub(to_light.x, position.x), hn::Sub(to_light.y, position.y), hn::Sub(to_light.z, position.z)};
-    const Float squared = dot(to_light, to_light);
-    const Float distance = hn::Sqrt(squared);
-    const Float inverse = hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(splat(1.0f), distance));
-    to_light = {hn::Mul(to_light.x, inverse), hn::Mul(to_light.y, inverse), hn::Mul(to_light.z, inverse)};
-    if constexpr (kSpot) {
-      const Float cosine = hn::Sub(zero, dot(to_light, splat_vector(term.spot_direction)));
-      reached = hn::And(hn::Ge(cosine, splat(term.spot_cosine)), hn::Gt(cosine, zero));
-      if (hn::AllFalse(kFloat, reached)) return;
-      factor = hn::IfThenElseZero(reached, power_or_one(cosine, term.spot_exponent));
-    }
-    if constexpr (kAttenuated) {
-      const Float denominator =
-          mul_add(splat(term.attenuation[2]), squared, mul_add(splat(term.attenuation[1]), distance, splat(term.attenuation[0])));
-      const auto valid = hn::Gt(denominator, zero);
-      factor = hn::Mul(factor, hn::IfThenElse(valid, hn::Div(splat(1.0f), denominator), splat(1.0e6f)));
-    }
-  }
-  const Float n_dot_l = dot(normal, to_light);
-  const auto facing = hn::And(hn::Gt(n_dot_l, zero), reached);
-  if (!kGeneral && hn::AllFalse(kFloat, facing)) return;  // adds exact zeros only
-
-  const Float diffuse = hn::IfThenElseZero(facing, hn::Mul(n_dot_l, factor));
-  Float highlight = zero;
-  if constexpr (kHighlight != HighlightKind::none) {
-    Float base;
-    if constexpr (kBlinn && !kLocal && !kPositional) {
-      const Vector half = splat_vector(term.half_vector);
-      base = dot(normal, half);
-      if (kGeneral && HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, splat(1.0f)));
-    } else {
-      const Vector view = kLocal ? surface.view : Vector{zero, zero, splat(1.0f)};
-      const Float n_dot_v = kLocal ? surface.n_dot_v : normal.z;
-      if constexpr (kBlinn) {  // S = normalize(L + E)
-        const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)};
-        const Float inverse = inverse_length(dot(half, half));
-        base = hn::Mul(hn::Add(n_dot_l, n_dot_v), inverse);
-        if (kGeneral && HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, inverse));
-      } else {  // R = 2 (L.n) n - L
-        const Float twice = hn::Add(n_dot_l, n_dot_l);
-        base = hn::Sub(hn::Mul(twice, n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
-        if (kGeneral && HWY_UNLIKELY(term.sharp))  // E - R
-          base = cosine_of_units(less_times({hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)}, normal, twice));
+  const Float zero = hn::Zero(kFloat), one = splat(1.0f);
+  const Vector from = splat_vector(term.position);
+  auto any = hn::Gt(zero, zero);
+  for (int point = 0; point < count; point += kLanes) {
+    Vector to_light = from;
+    Float factor = one;
+    if constexpr (kKind != LightKind::directional) {
+      const Vector position = load_vector(batch, kPositionX, point);
+      to_light = {hn::Sub(from.x, position.x), hn::Sub(from.y, position.y), hn::Sub(from.z, position.z)};
+      const Float squared = dot(to_light, to_light);
+      const Float distance = hn::Sqrt(squared);
+      to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
+      if constexpr (kAttenuated) {
+        const Float denominator = mul_add(splat(term.attenuation[2]), squared, mul_add(splat(term.attenuation[1]), distance, splat(term.attenuation[0])));
+        factor = hn::IfThenElse(hn::Gt(denominator, zero), lesser_of(hn::Div(one, denominator), splat(kMostLight)), splat(1.0e6f));
       }
     }
-    const auto shiny = hn::And(facing, hn::Gt(base, splat(term.highlight_floor)));
-    if (!hn::AllFalse(kFloat, shiny)) highlight = hn::IfThenElseZero(shiny, hn::Mul(power_or_one(base, term.shininess), factor));
+    const Float n_dot_l = dot(load_vector(batch, kNormalX, point), to_light);
+    auto facing = hn::Gt(n_dot_l, zero);
+    if constexpr (kSpot) {
+      const Float cosine = hn::Sub(zero, dot(to_light, splat_vector(term.spot_direction)));
+      hn::Store(cosine, kFloat, light.cosine + point);
+      facing = hn::And(facing, is_reached(term, cosine));
+    }
+    any = hn::Or(any, facing);
+    hn::Store(to_light.x, kFloat, light.to_light[0] + point);
+    hn::Store(to_light.y, kFloat, light.to_light[1] + point);
+    hn::Store(to_light.z, kFloat, light.to_light[2] + point);
+    hn::Store(hn::IfThenElseZero(facing, n_dot_l), kFloat, light.n_dot_l + point);
+    hn::Store(factor, kFloat, light.factor + point);
   }
-
-  if constexpr (kGeneral) accumulate(sums.color, factor, term.ambient);
-  accumulate(sums.color, diffuse, term.diffuse);
-  if constexpr (kHighlight != HighlightKind::none) accumulate(sums.color, highlight, term.specular);
-  if constexpr (kGeneral) {
-    accumulate(sums.tracked, factor, term.tracked_ambient);
-    accumulate(sums.tracked, diffuse, term.tracked_diffuse);
-    if constexpr (kHighlight != HighlightKind::none) accumulate(sums.tracked, highlight, term.tracked_specular);
+  return !hn::AllFalse(kFloat, any);
+}
+bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
+  switch (term.kind) {
+    case LightKind::directional: return find_incidence<LightKind::directional>(term, batch, count, light);
+    case LightKind::point: return find_incidence<LightKind::point>(term, batch, count, light);
+    case LightKind::attenuated_point: return find_incidence<LightKind::attenuated_point>(term, batch, count, light);
+    case LightKind::spot: return find_incidence<LightKind::spot>(term, batch, count, light);
+    default: return find_incidence<LightKind::attenuated_spot>(term, batch, count, light);
   }
 }
 
-/// Normals to length 1 and to the side that is lit, and the direction to the viewer.
-HWY_INLINE Surface prepare_surface(const LightingProgram& program, const ShadingBatch& batch, int point) {
-  const Float zero = hn::Zero(kFloat);
-  Surface surface{load_vector(batch, kNormalX, point), {zero, zero, zero}, zero};
-  Vector& normal = surface.normal;
-  Float scale = program.renormalize ? inverse_length(dot(normal, normal)) : splat(1.0f);
-  if (program.negate_normal) scale = hn::Sub(zero, scale);
-  normal = {hn::Mul(normal.x, scale), hn::Mul(normal.y, scale), hn::Mul(normal.z, scale)};
-  if (program.needs_view) {
-    const Vector position = load_vector(batch, kPositionX, point);
-    const Float away = hn::Sub(zero, inverse_length(dot(position, position)));
-    surface.view = {hn::Mul(position.x, away), hn::Mul(position.y, away), hn::Mul(position.z, away)};
-    surface.n_dot_v = dot(normal, surface.view);
+/// What a spot's cone leaves of its light.
+void apply_cone(const LightTerm& term, int count, Incidence& light) {
+  for (int point = 0; point < count; point += kLanes) {
+    const Float cosine = hn::Load(kFloat, light.cosine + point);
+    const Float share = hn::IfThenElseZero(is_reached(term, cosine), power_or_one(cosine, term.spot_exponent));
+    hn::Store(hn::Mul(share, hn::Load(kFloat, light.factor + point)), kFloat, light.factor + point);
   }
-  return surface;
+}
+
+/// Where a highlight can be: on what faces the light, with a power that is seen.
+HWY_INLINE auto is_shiny(const LightTerm& term, const Incidence& light, int point) {
+  return hn::And(hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)), hn::Gt(hn::Load(kFloat, light.highlight + point), splat(term.highlight_floor)));
+}
+
+/// S.n, its square or R.E. Returns whether there is a highlight anywhere.
+/// kFixedHalf: S is the same for all points, of a directional light and an infinite viewer.
+template <HighlightKind kHighlight, bool kFixedHalf>
+HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
+  constexpr bool kBlinn = kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
+  constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
+  const Float zero = hn::Zero(kFloat);
+  auto any = hn::Gt(zero, zero);
+  for (int point = 0; point < count; point += kLanes) {
+    const Vector normal = load_vector(batch, kNormalX, point);
+    Float base;
+    if constexpr (kFixedHalf) {
+      const Vector half = splat_vector(term.half_vector);
+      base = dot(normal, half);
+      if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, splat(1.0f)));
+    } else {
+      const Vector to_light = light.direction(point);
+      const Vector view = kLocal ? load_vector(batch, kViewX, point) : Vector{zero, zero, splat(1.0f)};
+      const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)};
+      const Float n_dot_l = hn::Load(kFloat, light.n_dot_l + point), n_dot_v = kLocal ? hn::Load(kFloat, batch.field[kNormalDotView] + point) : normal.z;
+      if constexpr (kBlinn) {  // S = normalize(L + E)
+        const Float squared = dot(half, half), sum = hn::Add(n_dot_l, n_dot_v);
+        if (HWY_LIKELY(term.squared)) {
+          const Float kept = greater_of(sum, zero);
+          base = hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(hn::Mul(kept, kept), squared));
+        } else {
+          const Float inverse = inverse_length(squared);
+          base = term.sharp ? cosine_of_units(less_times(normal, half, inverse)) : hn::Mul(sum, inverse);
+        }
+      } else {  // R = 2 (L.n) n - L
+        const Float twice = hn::Add(n_dot_l, n_dot_l);
+        base = hn::Sub(hn::Mul(twice, n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
+        if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(half, normal, twice));  // E - R
+      }
+    }
+    hn::Store(base, kFloat, light.highlight + point);
+    any = hn::Or(any, is_shiny(term, light, point));
+  }
+  return !hn::AllFalse(kFloat, any);
+}
+bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
+  switch (term.highlight) {
+    case HighlightKind::none: return false;
+    case HighlightKind::blinn_infinite:
+      return term.kind == LightKind::directional ? find_highlights<HighlightKind::blinn_infinite, true>(term, batch, count, light)
+                                                 : find_highlights<HighlightKind::blinn_infinite, false>(term, batch, count, light);
+    case HighlightKind::blinn_local: return find_highlights<HighlightKind::blinn_local, false>(term, batch, count, light);
+    case HighlightKind::phong_infinite: return find_highlights<HighlightKind::phong_infinite, false>(term, batch, count, light);
+    default: return find_highlights<HighlightKind::phong_local, false>(term, batch, count, light);
+  }
+}
+
+/// spec * att * spot from S.n, its square or R.E.
+void raise_highlights(const LightTerm& term, int count, Incidence& light) {
+  for (int point = 0; point < count; point += kLanes) {
+    const Float power = power_or_one(hn::Load(kFloat, light.highlight + point), term.highlight_exponent);
+    const Float highlight = lesser_of(hn::Mul(power, hn::Load(kFloat, light.factor + point)), splat(kMostLight));
+    hn::Store(hn::IfThenElseZero(is_shiny(term, light, point), highlight), kFloat, light.highlight + point);
+  }
+}
+
+/// Three sums of each point: before the first light has its part in them, they are the same everywhere.
+struct Sums {
+  BatchField first_field;
+  Rgb start;
+  bool begun = false;
+
+  HWY_INLINE Vector load(const ShadingBatch& batch, int point) const { return begun ? load_vector(batch, first_field, point) : splat_vector(start); }
+};
+
+/// Adds what is left of a light's diffuse and specular colours.
+template <bool kHighlights>
+HWY_INLINE void add_products(const Incidence& light, int count, const Rgb& diffuse_color, const Rgb& specular_color, const Sums& sums, ShadingBatch& batch) {
+  for (int point = 0; point < count; point += kLanes) {
+    const Float n_dot_l = hn::Load(kFloat, light.n_dot_l + point);
+    const Float diffuse = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(kFloat)), hn::Mul(n_dot_l, hn::Load(kFloat, light.factor + point)));
+    Vector sum = sums.load(batch, point);
+    accumulate(sum, diffuse, diffuse_color);
+    if constexpr (kHighlights) accumulate(sum, hn::Load(kFloat, light.highlight + point), specular_color);
+    store_vector(batch, sums.first_field, point, sum);
+  }
+}
+HWY_NOINLINE void add_colors(const Incidence& light, bool highlights, int count, const Rgb& diffuse_color, const Rgb& specular_color, Sums& sums, ShadingBatch& batch) {
+  if (highlights) add_products<true>(light, count, diffuse_color, specular_color, sums, batch);
+  else add_products<false>(light, count, diffuse_color, specular_color, sums, batch);
+  sums.begun = true;
+}
+HWY_NOINLINE void add_ambient(const Incidence& light, int count, const Rgb& color, Sums& sums, ShadingBatch& batch) {
+  for (int point = 0; point < count; point += kLanes) {
+    Vector sum = sums.load(batch, point);
+    accumulate(sum, hn::Load(kFloat, light.factor + point), color);
+    store_vector(batch, sums.first_field, point, sum);
+  }
+  sums.begun = true;
+}
+
+/// Adds one light to the sums.
+void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, Sums& tracked, ShadingBatch& batch) {
+  const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
+  Incidence light;
+  const bool faces = find_incidence(term, batch, count, light);
+  if (!faces && !has_ambient) return;  // adds exact zeros only
+  if (term.kind == LightKind::spot || term.kind == LightKind::attenuated_spot) apply_cone(term, count, light);
+  if (has_ambient) {
+    add_ambient(light, count, term.ambient, color, batch);
+    if (has_tracked) add_ambient(light, count, term.tracked_ambient, tracked, batch);
+  }
+  if (!faces) return;
+  const bool shines = find_highlights(term, batch, count, light);
+  if (shines) raise_highlights(term, count, light);
+  add_colors(light, shines, count, term.diffuse, term.specular, color, batch);
+  if (has_tracked) add_colors(light, shines, count, term.tracked_diffuse, term.tracked_specular, tracked, batch);
 }
 
 /// 0..1; a NaN, which only overflow can make, becomes 0.
@@ -148,106 +239,48 @@ HWY_INLINE Float clamped(Float c) {
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
   return lesser_of(greater_of(c, zero), one);
 }
-HWY_INLINE Vector clamped(const Vector& c) { return {clamped(c.x), clamped(c.y), clamped(c.z)}; }
 
-/// One light of several: surfaces and sums stand in the batch.
-template <LightKind kKind, HighlightKind kHighlight, bool kGeneral>
-void add_light(const LightTerm& term, ShadingBatch& batch, int count) {
-  constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
+/// Normals to length 1 and to the side that is lit, and the direction to the viewer.
+void prepare_surfaces(const LightingProgram& program, ShadingBatch& batch, int count) {
+  const Float zero = hn::Zero(kFloat);
   for (int point = 0; point < count; point += kLanes) {
-    Surface surface{load_vector(batch, kNormalX, point), {}, {}};
-    if constexpr (kLocal) surface.view = load_vector(batch, kViewX, point), surface.n_dot_v = hn::Load(kFloat, batch.field[kNormalDotView] + point);
-    Sums sums{load_vector(batch, kColorR, point), {}};
-    if constexpr (kGeneral) sums.tracked = load_vector(batch, kTrackedR, point);
-    add_light_to_chunk<kKind, kHighlight, kGeneral>(term, batch, point, surface, sums);
-    store_vector(batch, kColorR, point, sums.color);
-    if constexpr (kGeneral) store_vector(batch, kTrackedR, point, sums.tracked);
-  }
-}
-
-/// The whole program of a surface under a single light, which most have: nothing goes through memory in between.
-template <LightKind kKind, HighlightKind kHighlight>
-void light_alone(const LightingProgram& program, ShadingBatch& batch, int count) {
-  const LightTerm& term = program.terms.front();
-  for (int point = 0; point < count; point += kLanes) {
-    Sums sums{splat_vector(program.base), {}};
-    add_light_to_chunk<kKind, kHighlight, false>(term, batch, point, prepare_surface(program, batch, point), sums);
-    store_vector(batch, kColorR, point, clamped(sums.color));
-  }
-}
-
-struct LightKernels {
-  void (*add)(const LightTerm&, ShadingBatch&, int);
-  void (*alone)(const LightingProgram&, ShadingBatch&, int);  // of lights that are not general
-};
-
-template <LightKind kKind, HighlightKind kHighlight>
-LightKernels light_kernels(bool general) {
-  return {general ? &add_light<kKind, kHighlight, true> : &add_light<kKind, kHighlight, false>, &light_alone<kKind, kHighlight>};
-}
-template <LightKind kKind>
-LightKernels light_kernels(HighlightKind highlight, bool general) {
-  switch (highlight) {
-    case HighlightKind::none: return light_kernels<kKind, HighlightKind::none>(general);
-    case HighlightKind::blinn_infinite: return light_kernels<kKind, HighlightKind::blinn_infinite>(general);
-    case HighlightKind::blinn_local: return light_kernels<kKind, HighlightKind::blinn_local>(general);
-    case HighlightKind::phong_infinite: return light_kernels<kKind, HighlightKind::phong_infinite>(general);
-    default: return light_kernels<kKind, HighlightKind::phong_local>(general);
-  }
-}
-LightKernels light_kernels(const LightTerm& term) {
-  const bool general = term.general || term.sharp;
-  switch (term.kind) {
-    case LightKind::directional: return light_kernels<LightKind::directional>(term.highlight, general);
-    case LightKind::point: return light_kernels<LightKind::point>(term.highlight, general);
-    case LightKind::attenuated_point: return light_kernels<LightKind::attenuated_point>(term.highlight, general);
-    case LightKind::spot: return light_kernels<LightKind::spot>(term.highlight, general);
-    default: return light_kernels<LightKind::attenuated_spot>(term.highlight, general);
-  }
-}
-
-/// Surfaces, and the terms that no light has a part in.
-void prepare_points(const LightingProgram& program, ShadingBatch& batch, int count) {
-  for (int point = 0; point < count; point += kLanes) {
-    if (program.needs_normal && (program.renormalize || program.negate_normal || program.needs_view)) {
-      const Surface surface = prepare_surface(program, batch, point);
-      store_vector(batch, kNormalX, point, surface.normal);
-      if (program.needs_view) {
-        store_vector(batch, kViewX, point, surface.view);
-        hn::Store(surface.n_dot_v, kFloat, batch.field[kNormalDotView] + point);
-      }
-    }
-    store_vector(batch, kColorR, point, splat_vector(program.base));
-    if (program.tracked) store_vector(batch, kTrackedR, point, splat_vector(program.tracked_base));
+    Vector normal = load_vector(batch, kNormalX, point);
+    Float scale = program.renormalize ? inverse_length(dot(normal, normal)) : splat(1.0f);
+    if (program.negate_normal) scale = hn::Sub(zero, scale);
+    normal = times(normal, scale);
+    store_vector(batch, kNormalX, point, normal);
+    if (!program.needs_view) continue;
+    const Vector position = load_vector(batch, kPositionX, point);
+    const Vector view = times(position, hn::Sub(zero, inverse_length(dot(position, position))));
+    store_vector(batch, kViewX, point, view);
+    hn::Store(dot(normal, view), kFloat, batch.field[kNormalDotView] + point);
   }
 }
 
 /// index = min(a + d (1 - s) (dm - a) + s (sm - a), sm), masked, from d in red and s in green.
-void store_indices(const LightingProgram& program, ShadingBatch& batch, int count) {
+HWY_INLINE Float index_of(const LightingProgram& program, const Vector& sums) {
   const auto [ambient, diffuse, specular] = program.indexes;
-  const Float zero = hn::Zero(kFloat), most = splat(specular), modulus = splat(program.index_modulus), inverse = splat(1 / program.index_modulus);
-  for (int point = 0; point < count; point += kLanes) {
-    const Float d = hn::Load(kFloat, batch.field[kColorR] + point), s = hn::Load(kFloat, batch.field[kColorG] + point);
-    const Float matt = mul_add(hn::Mul(d, hn::Sub(splat(1.0f), s)), splat(diffuse - ambient), splat(ambient));
-    const Float sum = mul_add(s, splat(specular - ambient), matt);
-    const Float index = lesser_of(sum, most);
-    const Float rest = hn::Sub(index, hn::Mul(modulus, hn::Floor(hn::Mul(index, inverse))));
-    hn::Store(hn::IfThenElseZero(hn::Ge(rest, zero), rest), kFloat, batch.field[kColorR] + point);
-  }
+  const Float matt = mul_add(hn::Mul(sums.x, hn::Sub(splat(1.0f), sums.y)), splat(diffuse - ambient), splat(ambient));
+  const Float index = lesser_of(mul_add(sums.y, splat(specular - ambient), matt), splat(specular));
+  const Float rest = hn::Sub(index, hn::Mul(splat(program.index_modulus), hn::Floor(hn::Mul(index, splat(1 / program.index_modulus)))));
+  return hn::IfThenElseZero(hn::Ge(rest, hn::Zero(kFloat)), rest);
 }
 
 void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count) {
-  if (program.terms.size() == 1 && !program.tracked && !program.index && !program.terms.front().general && !program.terms.front().sharp) return light_kernels(program.terms.front()).alone(program, batch, count);
-  prepare_points(program, batch, count);
-  for (const LightTerm& term : program.terms) light_kernels(term).add(term, batch, count);
-  if (program.index) return store_indices(program, batch, count);
+  if (program.needs_normal && (program.renormalize || program.negate_normal || program.needs_view)) prepare_surfaces(program, batch, count);
+  Sums color{kColorR, program.base}, tracked{kTrackedR, program.tracked_base};
+  for (const LightTerm& term : program.terms) add_light(term, program.tracked, count, color, tracked, batch);
   for (int point = 0; point < count; point += kLanes) {
-    Vector color = load_vector(batch, kColorR, point);
-    if (program.tracked) {
-      const Vector tracked = load_vector(batch, kTrackedR, point), vertex = load_vector(batch, kVertexR, point);
-      color = {mul_add(tracked.x, vertex.x, color.x), mul_add(tracked.y, vertex.y, color.y), mul_add(tracked.z, vertex.z, color.z)};
+    Vector sum = color.load(batch, point);
+    if (program.index) {
+      hn::Store(index_of(program, sum), kFloat, batch.field[kColorR] + point);
+      continue;
     }
-    store_vector(batch, kColorR, point, clamped(color));
+    if (program.tracked) {
+      const Vector part = tracked.load(batch, point), vertex = load_vector(batch, kVertexR, point);
+      sum = {mul_add(part.x, vertex.x, sum.x), mul_add(part.y, vertex.y, sum.y), mul_add(part.z, vertex.z, sum.z)};
+    }
+    store_vector(batch, kColorR, point, {clamped(sum.x), clamped(sum.y), clamped(sum.z)});
   }
 }
 

@@ -1,4 +1,4 @@
-// The lighting equation as a program: a short list of terms, each by a kernel that holds only what that light needs with
+// The lighting equation as a program: a short list of terms, each by kernels that hold only what that light needs with
 // that material. One program lights the vertices of flat and Gouraud draws and the pixels of Phong draws.
 //
 //   colour = emission_m + ambient_scene * ambient_m
@@ -75,6 +75,9 @@ struct LightingModel {
 /// From here on highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings, times the exponent, would begin to show.
 inline constexpr float kSharpShininess = 2048;
 
+/// Attenuation is cut here, and a highlight: times a black component they are nothing then, and not NaN.
+inline constexpr float kMostLight = 0x1p96f;
+
 enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
 enum class HighlightKind : std::uint8_t { none, blinn_infinite, blinn_local, phong_infinite, phong_local };
 inline constexpr int kLightKinds = 5, kHighlightKinds = 5;
@@ -84,13 +87,14 @@ struct LightTerm {
   LightKind kind = LightKind::directional;
   HighlightKind highlight = HighlightKind::none;
   bool sharp = false;                          ///< a highlight from kSharpShininess on, of unit normals
-  bool general = false;                        ///< has an ambient part or a part that the vertex colour multiplies
   std::array<float, 3> position{};             ///< or direction
   std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
-  float spot_exponent = 0, spot_cosine = 0, shininess = 0;
-  /// S.n or R.E up to here makes no highlight: its power is below 2^-32. -infinity where the power is 1 for every number.
+  bool squared = false;                        ///< (S.n)^s comes about as ((S.n)^2)^(s/2), without a root, of unit normals
+  float spot_exponent = 0, spot_cosine = 0;
+  float highlight_exponent = 0;                ///< of S.n, its square or R.E
+  /// Up to here these make no highlight: their power is below 2^-32. -infinity where the power is 1 for every number.
   float highlight_floor = 0;
   Rgb ambient{}, diffuse{}, specular{};                            ///< light times material
   Rgb tracked_ambient{}, tracked_diffuse{}, tracked_specular{};    ///< the light's, for the vertex colour to multiply

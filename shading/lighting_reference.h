@@ -1,6 +1,7 @@
 // The scalar twin of lighting.cpp and its specification: one point at a time, the same steps in the same order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -51,7 +52,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
         const float denominator = std::fma(term.attenuation[2], squared, std::fma(term.attenuation[1], distance, term.attenuation[0]));
-        factor *= denominator > 0 ? 1.0f / denominator : 1.0e6f;
+        factor *= denominator > 0 ? std::min(1.0f / denominator, kMostLight) : 1.0e6f;
       }
     }
     const float n_dot_l = dot(normal, to_light);
@@ -70,15 +71,15 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       } else if (term.kind == LightKind::directional && !local) {
         base = term.sharp ? cosine_of_units(normal, term.half_vector, 1.0f) : dot(normal, term.half_vector);
       } else {  // S = normalize(L + E)
-        const float inverse = inverse_length(dot(half, half));
-        base = term.sharp ? cosine_of_units(normal, half, inverse) : (n_dot_l + n_dot_v) * inverse;
+        const float squared = dot(half, half), inverse = inverse_length(squared), sum = n_dot_l + n_dot_v, kept = sum > 0 ? sum : 0.0f;
+        base = term.squared ? (squared > 0 ? kept * kept / squared : 0.0f) : term.sharp ? cosine_of_units(normal, half, inverse) : sum * inverse;
       }
-      highlight = base > term.highlight_floor ? power(base, term.shininess) * factor : 0.0f;
+      highlight = base > term.highlight_floor ? std::min(power(base, term.highlight_exponent) * factor, kMostLight) : 0.0f;
     }
     accumulate(color, factor, term.ambient);
+    accumulate(tracked, factor, term.tracked_ambient);
     accumulate(color, diffuse, term.diffuse);
     accumulate(color, highlight, term.specular);
-    accumulate(tracked, factor, term.tracked_ambient);
     accumulate(tracked, diffuse, term.tracked_diffuse);
     accumulate(tracked, highlight, term.tracked_specular);
   }

@@ -37,10 +37,10 @@ void expect_same_bits(const LightingProgram& program, const std::vector<Lighting
   }
 }
 
-// Every kernel by itself: kind of light x highlight x general, each with every preparation of the normals.
+// Every kernel by itself: kind of light x highlight, by its square or not, x parts that are ambient or tracked, each with every preparation of the normals.
 TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
   RandomLighting random(1);
-  std::set<std::tuple<LightKind, HighlightKind, bool>> kernels;
+  std::set<std::tuple<LightKind, HighlightKind, bool, bool, bool>> kernels;
   for (int kind = 0; kind < kLightKinds; ++kind) {
     for (int variant = 0; variant < 128; ++variant) {
       for (int round = 0; round < rounds(4); ++round) {
@@ -59,13 +59,15 @@ TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
         std::vector<LightingPoint> points(64);
         for (LightingPoint& p : points) p = random.point();
         const LightingProgram program = c.program();
-        for (const LightTerm& term : program.terms) kernels.insert({term.kind, term.highlight, term.general});
+        for (const LightTerm& term : program.terms) kernels.insert({term.kind, term.highlight, term.squared, program.tracked, !is_black(term.ambient)});
         expect_same_bits(program, points);
         if (HasFatalFailure()) return;
       }
     }
   }
-  EXPECT_EQ(kernels.size(), static_cast<std::size_t>(kLightKinds * kHighlightKinds * 2)) << "kernels that this test never ran";
+  // Squares are those of Blinn's highlights whose S differs from point to point; ambient parts of directional lights are no part of theirs.
+  const int directional = kHighlightKinds + 1, positional = kHighlightKinds + 2;
+  EXPECT_EQ(kernels.size(), static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4)) << "kernels that this test never ran";
 }
 TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
   RandomLighting random(2);
@@ -355,6 +357,24 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
       EXPECT_NEAR(color[1], kBase + 0.1, 2e-6);
     }
   }
+}
+// Denominators too small for their inverse, also under highlights without end: what is lit is full, and black stays black.
+TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
+  Special s;
+  s.light().attenuation = {1e-42f, 0, 0};
+  s.light().ambient = s.light().diffuse = s.light().specular = {0, 1, 0};
+  s.c.material.shininess = 1000;
+  for (std::size_t i = 8; i < s.points.size(); ++i) s.points[i].normal = {0, 0, 100};
+  for (const bool tracked : {false, true}) {
+    s.c.tracked.diffuse = tracked;
+    for (const Isa isa : available_isas())
+      for (const Rgb& color : test::light(s.c.program(), s.points, isa)) {
+        EXPECT_NEAR(color[0], kGlow + kBase, 1e-7) << name_of(isa);
+        EXPECT_EQ(color[1], 1) << name_of(isa);
+        EXPECT_NEAR(color[2], kBase, 1e-7) << name_of(isa);
+      }
+  }
+  expect_same_bits(s.c.program(), s.points);
 }
 // Numbers that overflow give some colour within 0..1, and the same one everywhere.
 TEST(LightingSpecialCase, OverflowStaysWithinRange) {
