@@ -19,6 +19,7 @@
 #else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #endif
+#define HWY_IS_DEBUG_BUILD 0  // its own asserts call its library, which is not linked
 #define HWY_BROKEN_EMU128 1  // one baseline for every compiler: a single lane
 // Vectors are for x86: the kernels take widths and layouts of its vectors for granted (raster/lane_packing-inl.h).
 #if defined(TESSERA_SCALAR_ONLY) || !defined(__x86_64__)
