@@ -72,10 +72,27 @@ struct BlockEdges {
   HWY_INLINE auto covered(int chunk) const { return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1)); }
 };
 
+/// The same of blocks side by side, one after another.
+struct RowEdges {
+  Int edge[3][kChunksPerBlock], to_right[3];
+  HWY_INLINE RowEdges(const TileEdges& t, const BlockEdges& first) {
+    for (int k = 0; k < 3; ++k) {
+      to_right[k] = splat(4 * t.a[k]);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) edge[k][chunk] = first.at(k, chunk);
+    }
+  }
+  HWY_INLINE Int at(int k, int chunk) const { return edge[k][chunk]; }
+  HWY_INLINE void step_right() {
+    for (int k = 0; k < 3; ++k)
+      for (Int& chunk : edge[k]) chunk = hn::Add(chunk, to_right[k]);
+  }
+};
+
 alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
-/// 16 pixels are inside.
+/// 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx, by, how many, edges of the first), where
+/// there is such a function.
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
   // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first.
@@ -101,13 +118,19 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
         hn::Store(e[k], kInt, start[k]);
         e[k] = hn::Add(e[k], down[k]);
       }
-      for (; touched != 0; touched &= touched - 1) {
+      while (touched != 0) {
         const int i = std::countr_zero(touched);
         const BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
-        if ((inside >> i & 1) != 0)
-          block.template operator()<true>(bx + 4 * i, by, edges);
-        else
+        int count = 1;
+        if ((inside >> i & 1) == 0) {
           block.template operator()<false>(bx + 4 * i, by, edges);
+        } else if constexpr (requires { block.full_row(bx, by, count, edges); }) {
+          count = std::countr_one((touched & inside) >> i);
+          block.full_row(bx + 4 * i, by, count, edges);
+        } else {
+          block.template operator()<true>(bx + 4 * i, by, edges);
+        }
+        touched &= ~(((1u << count) - 1) << i);
       }
     }
   }

@@ -66,6 +66,7 @@ struct UnormDepth {
   };
   static HWY_INLINE Block block_at(std::uint64_t start) { return {hn::Set(kUint64, start)}; }
   HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
+  HWY_INLINE void step_right(Block& block) const { block.start = hn::Add(block.start, hn::Set(kUint64, 4 * dx)); }
   /// The same of a sample, from the step to the block that step_to() gives.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
   static HWY_INLINE Block block(Anchor sample, const Block& step) { return {hn::Add(block_at(sample).start, step.start)}; }
@@ -101,6 +102,7 @@ struct Unorm32Depth : UnormDepth {
     std::uint64_t start;
   };
   HWY_INLINE Block block(int bx, int by) const { return {at(bx, by)}; }
+  HWY_INLINE void step_right(Block& block) const { block.start += 4 * dx; }
   HWY_INLINE Block step_to(int bx, int by) const { return {step(bx, by)}; }
   static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample + step.start}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
@@ -149,6 +151,7 @@ struct Float32Depth {
     double x, y;
   };
   HWY_INLINE Block block(int bx, int by) const { return {first_x + bx, first_y + by}; }
+  HWY_INLINE void step_right(Block& block) const { block.x += 4; }  // exact: 24 bits
   HWY_INLINE Block step_to(int bx, int by) const { return {static_cast<double>(bx), static_cast<double>(by)}; }
   static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample.x + step.x, sample.y + step.y}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {

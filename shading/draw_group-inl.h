@@ -38,6 +38,7 @@ enum class Test { less, any };
 struct NoDepth {
   struct Block {};
   HWY_INLINE Block block(int, int) const { return {}; }
+  HWY_INLINE void step_right(Block&) const {}
   HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthKind) {}
   HWY_INLINE void prepare_blocks() {}
   struct Anchor {};
@@ -101,11 +102,13 @@ struct TrianglePixels {
   Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
+  const bool stores_full;        // where there is no depth, full blocks are stored without a look at what was there
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
         tests_stencil(has_stencil_test<kTest>(tile_draw)),
-        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut) {
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut),
+        stores_full(!tile_run.cut && !tests_stencil && tile_draw.write_mask == 0xffffffffu) {
     if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
@@ -118,11 +121,25 @@ struct TrianglePixels {
   HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_block<false>(bx, by, block_edges); }
   template <bool kFull>
   HWY_INLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
+    draw_chunks<kFull>(bx, by, depth.block(bx, by), block_edges);
+  }
+  /// Blocks side by side, all of whose pixels are inside.
+  HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
+    RowEdges row_edges(edges, first);
+    auto block_depth = depth.block(bx, by);
+    for (const int end = bx + 4 * count; bx < end; bx += 4) {
+      draw_chunks<true>(bx, by, block_depth, row_edges);
+      row_edges.step_right();
+      depth.step_right(block_depth);
+    }
+  }
+  template <bool kFull, class Edges>
+  HWY_INLINE void draw_chunks(int bx, int by, [[maybe_unused]] const typename Depth::Block& block_depth, [[maybe_unused]] const Edges& block_edges) {
     const int block = run.block_index(bx, by);
-    const auto block_depth = depth.block(bx, by);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
-      auto mask = kFull ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : block_edges.covered(chunk);
+      auto mask = hn::Eq(hn::Zero(kInt), hn::Zero(kInt));
+      if constexpr (!kFull) mask = block_edges.covered(chunk);
       if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
       [[maybe_unused]] Int stencil_before = hn::Zero(kInt);
       [[maybe_unused]] LaneMask failed = no_lanes(), passed = mask;
@@ -153,14 +170,16 @@ struct TrianglePixels {
         if constexpr (kSeen == Seen::word) words = splat(word);
         else if constexpr (kSeen == Seen::mix) words = color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, reinterpret_cast<const std::int32_t*>(stored_at)));
         else words = color.words(barycentric_at(block_edges, bx, by, chunk));
-        store_words(stored_at, words, mask, writable);
+        if (kFull && !kHasDepth<Depth> && stores_full) hn::Store(words, kInt, reinterpret_cast<std::int32_t*>(stored_at));
+        else store_words(stored_at, words, mask, writable);
       }
     }
   }
   HWY_INLINE std::uint64_t seen_pixels() const { return count_of(seen); }
 
   /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
-  HWY_INLINE Barycentric barycentric_at(const BlockEdges& block_edges, int bx, int by, int chunk) const {
+  template <class Edges>
+  HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
     if (triangle.wide >= 0) return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
     return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk), block_edges.at(2, chunk));
   }

@@ -72,6 +72,7 @@ struct MixedColor {
   Corners c[4];                          // r g b a
   CornerLanes lanes[4];
   Float low[4], high[4];
+  bool same_alpha = false;               // at all pixels
 
   HWY_INLINE void set_up(const ShadedTriangle& t, const TileDraw& draw, const float* flat) {
     const int face = t.back ? 1 : 0;
@@ -82,6 +83,7 @@ struct MixedColor {
       else if (k < 3) c[k] = clamped(corners(t, draw.color_attribute[face] + k, true));
       else c[k] = of_alpha >= 0 ? clamped(corners(t, of_alpha, true)) : of_all(draw.alpha[face]);
     }
+    same_alpha = c[3].to_second == 0 && c[3].to_third == 0;
   }
   /// Before words().
   HWY_INLINE void prepare_lanes() {
@@ -94,7 +96,7 @@ struct MixedColor {
   HWY_INLINE Int words(const Barycentric& at, Int stored) const {
     const Int byte = splat(255);
     const Int below[3] = {hn::And(hn::ShiftRight<16>(stored), byte), hn::And(hn::ShiftRight<8>(stored), byte), hn::And(stored, byte)};
-    const Float a = within(at, 3), rest = hn::Sub(splat(1.0f), a);
+    const Float a = same_alpha ? lesser_of(greater_of(lanes[3].first, low[3]), high[3]) : within(at, 3), rest = hn::Sub(splat(1.0f), a);
     const auto level = [&](int k) HWY_ATTR {
       const Float mixed = mul_add(within(at, k), a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), rest));
       return truncate(mul_add(mixed, splat(255.0f), splat(0.5f)));
