@@ -57,11 +57,9 @@ LightKind kind_of(const EyeLight& light) {
 }
 
 // What no float holds is the largest one: where no light arrives, nothing times it is still nothing.
-Rgb product(const Rgb& a, const Rgb& b) {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  Rgb c = a * b;
-  for (float& component : c) component = std::clamp(component, -kMost, kMost);
-  return c;
+Rgb finite(Rgb color) {
+  for (float& component : color) component = std::clamp(component, -kLargestFloat, kLargestFloat);
+  return color;
 }
 
 EyeLight as_it_is(const EyeLight& light) { return light; }
@@ -99,10 +97,9 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     };
     LightTerm term;
     const float factor = light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
-    (tracked.ambient ? term.tracked_ambient : term.ambient) = tracked.ambient ? light.ambient * factor : product(light.ambient, material.ambient) * factor;
-    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = tracked.diffuse ? light.diffuse * factor : product(light.diffuse, material.diffuse) * factor;
-    (tracked.specular ? term.tracked_specular : term.specular) =
-        tracked.specular ? light.specular * factor : product(light.specular, material.specular) * factor;
+    (tracked.ambient ? term.tracked_ambient : term.ambient) = finite((tracked.ambient ? light.ambient : finite(light.ambient * material.ambient)) * factor);
+    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = finite((tracked.diffuse ? light.diffuse : finite(light.diffuse * material.diffuse)) * factor);
+    (tracked.specular ? term.tracked_specular : term.specular) = finite((tracked.specular ? light.specular : finite(light.specular * material.specular)) * factor);
     const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
     const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
     const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
@@ -125,7 +122,6 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
       term.highlight = model.phong_highlight ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
                                              : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
     }
-    const bool general = !is_black(term.ambient) || !is_black(term.tracked_ambient) || !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
     term.position = light.position;
     term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
     term.spot_direction = light.spot_direction;
@@ -134,14 +130,16 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
     const bool half_varies = term.highlight == HighlightKind::blinn_local || (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
-    term.squared = half_varies && model.unit_normals && !term.sharp;
+    // Below 1 the least cosine that has a power would show: its square is the least that is kept.
+    term.squared = half_varies && model.unit_normals && !term.sharp && material.shininess >= 1;
     term.highlight_exponent = term.squared ? material.shininess / 2 : material.shininess;
     // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.
-    term.highlight_floor = term.highlight_exponent == 0 ? -std::numeric_limits<float>::infinity() : exp2_reference(std::max(-32.0f / term.highlight_exponent, -126.0f));
+    term.highlight_floor = term.highlight_exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-32.0f / term.highlight_exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-    note(kind_name(term.kind), "; ", highlight_name(term.highlight), general ? "; ambient part or vertex colours" : "");
+    const bool has_more = !is_black(term.ambient) || !is_black(term.tracked_ambient) || !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
+    note(kind_name(term.kind), "; ", highlight_name(term.highlight), has_more ? "; ambient part or vertex colours" : "");
     program.terms.push_back(term);
   }
   program.needs_position |= program.needs_view;

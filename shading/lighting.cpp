@@ -48,20 +48,18 @@ HWY_INLINE void accumulate(Vector& sum, Float intensity, const Rgb& color) {
 struct alignas(64) Incidence {
   float to_light[3][kBatchPoints];  // unit
   float n_dot_l[kBatchPoints];      // 0 where the light comes from behind or does not reach
-  float factor[kBatchPoints];       // att * spot
+  float factor[kBatchPoints];       // att, and 0 where the light does not reach; then att * spot
   float cosine[kBatchPoints];       // of a spot, to its axis
   float highlight[kBatchPoints];    // S.n, its square or R.E; then spec * att * spot
 
   HWY_INLINE Vector direction(int point) const { return {hn::Load(kFloat, to_light[0] + point), hn::Load(kFloat, to_light[1] + point), hn::Load(kFloat, to_light[2] + point)}; }
 };
 
-/// Inside of a cone.
-HWY_INLINE auto is_reached(const LightTerm& term, Float cosine) { return hn::And(hn::Ge(cosine, splat(term.spot_cosine)), hn::Gt(cosine, hn::Zero(kFloat))); }
+HWY_INLINE Float cut(Float amount) { return lesser_of(amount, splat(kMostLight)); }
 
-/// Where the light comes from, and how much of it; of a spot without what its cone takes away. Returns whether any point faces it.
+/// Where the light comes from, and how much of it; of a spot without the power that its cone has. Returns whether any point faces it.
 template <LightKind kKind>
 HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
-  constexpr bool kSpot = kKind == LightKind::spot || kKind == LightKind::attenuated_spot;
   constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
   const Vector from = splat_vector(term.position);
@@ -77,21 +75,23 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
       if constexpr (kAttenuated) {
         const Float denominator = mul_add(splat(term.attenuation[2]), squared, mul_add(splat(term.attenuation[1]), distance, splat(term.attenuation[0])));
-        factor = hn::IfThenElse(hn::Gt(denominator, zero), lesser_of(hn::Div(one, denominator), splat(kMostLight)), splat(1.0e6f));
+        factor = hn::IfThenElse(hn::Gt(denominator, zero), cut(hn::Div(one, denominator)), splat(1.0e6f));
       }
     }
     const Float n_dot_l = dot(load_vector(batch, kNormalX, point), to_light);
     auto facing = hn::Gt(n_dot_l, zero);
-    if constexpr (kSpot) {
+    if constexpr (is_spot(kKind)) {
       const Float cosine = hn::Sub(zero, dot(to_light, splat_vector(term.spot_direction)));
+      const auto reached = hn::And(hn::Ge(cosine, splat(term.spot_cosine)), hn::Gt(cosine, zero));
       hn::Store(cosine, kFloat, light.cosine + point);
-      facing = hn::And(facing, is_reached(term, cosine));
+      factor = hn::IfThenElseZero(reached, factor);
+      facing = hn::And(facing, reached);
     }
     any = hn::Or(any, facing);
     hn::Store(to_light.x, kFloat, light.to_light[0] + point);
     hn::Store(to_light.y, kFloat, light.to_light[1] + point);
     hn::Store(to_light.z, kFloat, light.to_light[2] + point);
-    hn::Store(hn::IfThenElseZero(facing, n_dot_l), kFloat, light.n_dot_l + point);
+    hn::Store(hn::IfThenElseZero(facing, cut(n_dot_l)), kFloat, light.n_dot_l + point);
     hn::Store(factor, kFloat, light.factor + point);
   }
   return !hn::AllFalse(kFloat, any);
@@ -109,21 +109,21 @@ bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
 /// What a spot's cone leaves of its light.
 void apply_cone(const LightTerm& term, int count, Incidence& light) {
   for (int point = 0; point < count; point += kLanes) {
-    const Float cosine = hn::Load(kFloat, light.cosine + point);
-    const Float share = hn::IfThenElseZero(is_reached(term, cosine), power_or_one(cosine, term.spot_exponent));
-    hn::Store(hn::Mul(share, hn::Load(kFloat, light.factor + point)), kFloat, light.factor + point);
+    const Float share = power_lanes(hn::Load(kFloat, light.cosine + point), term.spot_exponent);
+    hn::Store(cut(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
   }
 }
 
 /// Where a highlight can be: on what faces the light, with a power that is seen.
 HWY_INLINE auto is_shiny(const LightTerm& term, const Incidence& light, int point) {
-  return hn::And(hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)), hn::Gt(hn::Load(kFloat, light.highlight + point), splat(term.highlight_floor)));
+  return hn::AndNot(hn::Le(hn::Load(kFloat, light.highlight + point), splat(term.highlight_floor)), hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)));
 }
 
 /// S.n, its square or R.E. Returns whether there is a highlight anywhere.
 /// kFixedHalf: S is the same for all points, of a directional light and an infinite viewer.
 template <HighlightKind kHighlight, bool kFixedHalf>
 HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
+  static_assert(!kFixedHalf || kHighlight == HighlightKind::blinn_infinite);
   constexpr bool kBlinn = kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
   constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
   const Float zero = hn::Zero(kFloat);
@@ -176,7 +176,7 @@ bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count
 void raise_highlights(const LightTerm& term, int count, Incidence& light) {
   for (int point = 0; point < count; point += kLanes) {
     const Float power = power_or_one(hn::Load(kFloat, light.highlight + point), term.highlight_exponent);
-    const Float highlight = lesser_of(hn::Mul(power, hn::Load(kFloat, light.factor + point)), splat(kMostLight));
+    const Float highlight = cut(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
     hn::Store(hn::IfThenElseZero(is_shiny(term, light, point), highlight), kFloat, light.highlight + point);
   }
 }
@@ -190,12 +190,11 @@ struct Sums {
   HWY_INLINE Vector load(const ShadingBatch& batch, int point) const { return begun ? load_vector(batch, first_field, point) : splat_vector(start); }
 };
 
-/// Adds what is left of a light's diffuse and specular colours.
+/// Adds the diffuse and the specular part of a light.
 template <bool kHighlights>
 HWY_INLINE void add_products(const Incidence& light, int count, const Rgb& diffuse_color, const Rgb& specular_color, const Sums& sums, ShadingBatch& batch) {
   for (int point = 0; point < count; point += kLanes) {
-    const Float n_dot_l = hn::Load(kFloat, light.n_dot_l + point);
-    const Float diffuse = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(kFloat)), hn::Mul(n_dot_l, hn::Load(kFloat, light.factor + point)));
+    const Float diffuse = cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
     Vector sum = sums.load(batch, point);
     accumulate(sum, diffuse, diffuse_color);
     if constexpr (kHighlights) accumulate(sum, hn::Load(kFloat, light.highlight + point), specular_color);
@@ -222,7 +221,7 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   Incidence light;
   const bool faces = find_incidence(term, batch, count, light);
   if (!faces && !has_ambient) return;  // adds exact zeros only
-  if (term.kind == LightKind::spot || term.kind == LightKind::attenuated_spot) apply_cone(term, count, light);
+  if (is_spot(term.kind) && term.spot_exponent != 0) apply_cone(term, count, light);
   if (has_ambient) {
     add_ambient(light, count, term.ambient, color, batch);
     if (has_tracked) add_ambient(light, count, term.tracked_ambient, tracked, batch);
@@ -234,6 +233,10 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   if (has_tracked) add_colors(light, shines, count, term.tracked_diffuse, term.tracked_specular, tracked, batch);
 }
 
+/// What the vertex colour multiplies is a number: times 0 it is nothing.
+HWY_INLINE Float finite(Float c) {
+  return lesser_of(greater_of(c, splat(-kLargestFloat)), splat(kLargestFloat));
+}
 /// 0..1; a NaN, which only overflow can make, becomes 0.
 HWY_INLINE Float clamped(Float c) {
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
@@ -278,7 +281,7 @@ void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int
     }
     if (program.tracked) {
       const Vector part = tracked.load(batch, point), vertex = load_vector(batch, kVertexR, point);
-      sum = {mul_add(part.x, vertex.x, sum.x), mul_add(part.y, vertex.y, sum.y), mul_add(part.z, vertex.z, sum.z)};
+      sum = {mul_add(finite(part.x), vertex.x, sum.x), mul_add(finite(part.y), vertex.y, sum.y), mul_add(finite(part.z), vertex.z, sum.z)};
     }
     store_vector(batch, kColorR, point, {clamped(sum.x), clamped(sum.y), clamped(sum.z)});
   }

@@ -1,4 +1,4 @@
-// The lighting equation as a program: a short list of terms, each by kernels that hold only what that light needs with
+// The lighting equation as a program: a short list of terms, each by stages that hold only what that light needs with
 // that material. One program lights the vertices of flat and Gouraud draws and the pixels of Phong draws.
 //
 //   colour = emission_m + ambient_scene * ambient_m
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -72,29 +73,32 @@ struct LightingModel {
   bool unit_normals = false;     ///< normals that are lit have length 1, or none
 };
 
-/// From here on highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings, times the exponent, would begin to show.
+/// Above this highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings, times the exponent, would begin to show.
 inline constexpr float kSharpShininess = 2048;
 
-/// Attenuation is cut here, and a highlight: times a black component they are nothing then, and not NaN.
+/// What a light brings to a point is cut here, and what that is made of: n.L, attenuation, cone, highlight. Times a black component it is nothing then, and not NaN.
 inline constexpr float kMostLight = 0x1p96f;
+inline constexpr float kLargestFloat = std::numeric_limits<float>::max();
 
 enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
 enum class HighlightKind : std::uint8_t { none, blinn_infinite, blinn_local, phong_infinite, phong_local };
 inline constexpr int kLightKinds = 5, kHighlightKinds = 5;
+constexpr bool is_spot(LightKind kind) { return kind == LightKind::spot || kind == LightKind::attenuated_spot; }
 
 /// One light on one material: products are taken, constants are folded.
 struct LightTerm {
   LightKind kind = LightKind::directional;
   HighlightKind highlight = HighlightKind::none;
-  bool sharp = false;                          ///< a highlight from kSharpShininess on, of unit normals
+  // Of unit normals a highlight comes about in one of two other ways than by S.n to the power of the shininess.
+  bool sharp = false;                          ///< above kSharpShininess, by the distance of n and S
+  bool squared = false;                        ///< ((S.n)^2)^(s/2), without a root
   std::array<float, 3> position{};             ///< or direction
   std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
-  bool squared = false;                        ///< (S.n)^s comes about as ((S.n)^2)^(s/2), without a root, of unit normals
   float spot_exponent = 0, spot_cosine = 0;
   float highlight_exponent = 0;                ///< of S.n, its square or R.E
-  /// Up to here these make no highlight: their power is below 2^-32. -infinity where the power is 1 for every number.
+  /// Up to here these make no highlight: their power is below 2^-32, or they are below 2^-126. NaN, which nothing is up to, where the power is 1 for everything.
   float highlight_floor = 0;
   Rgb ambient{}, diffuse{}, specular{};                            ///< light times material
   Rgb tracked_ambient{}, tracked_diffuse{}, tracked_specular{};    ///< the light's, for the vertex colour to multiply
@@ -130,7 +134,7 @@ struct IndexMaterial {
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons, std::vector<LightTerm> room = {});
 
 /// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names, leaves the colour or index.
-/// Bit-identical to light_points_reference() on every instruction set.
+/// Bit-identical to light_point_reference() on every instruction set.
 using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
 LightPoints* light_points(Isa isa);
 

@@ -16,7 +16,7 @@ struct PointReference {
   Rgb vertex{};
 };
 
-/// The index of a program of indices comes in red; what else is in the sum stays.
+/// The index of a program of indices comes in red; the rest means nothing.
 inline Rgb light_point_reference(const LightingProgram& program, const PointReference& point) {
   using Vec = std::array<float, 3>;
   const auto dot = [](const Vec& a, const Vec& b) { return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2])); };
@@ -27,6 +27,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
     return std::fma(-0.5f, dot(apart, apart), 1.0f);
   };
+  const auto cut = [](float amount) { return amount < kMostLight ? amount : kMostLight; };
   const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] = std::fma(intensity, color[c], sum[c]);
   };
@@ -45,19 +46,19 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       for (std::size_t k = 0; k < 3; ++k) to_light[k] -= point.position[k];
       const float squared = dot(to_light, to_light), distance = std::sqrt(squared);
       to_light = scaled(to_light, squared > 0 ? 1.0f / distance : 0.0f);
-      if (term.kind == LightKind::spot || term.kind == LightKind::attenuated_spot) {
+      if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
         reached = cosine >= term.spot_cosine && cosine > 0;
         factor = reached ? power(cosine, term.spot_exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
         const float denominator = std::fma(term.attenuation[2], squared, std::fma(term.attenuation[1], distance, term.attenuation[0]));
-        factor *= denominator > 0 ? std::min(1.0f / denominator, kMostLight) : 1.0e6f;
+        factor = cut(factor * (denominator > 0 ? cut(1.0f / denominator) : 1.0e6f));
       }
     }
-    const float n_dot_l = dot(normal, to_light);
-    const bool facing = reached && n_dot_l > 0;
-    const float diffuse = facing ? n_dot_l * factor : 0.0f;
+    const float incidence = dot(normal, to_light);
+    const bool facing = reached && incidence > 0;
+    const float n_dot_l = facing ? cut(incidence) : 0.0f, diffuse = cut(n_dot_l * factor);
     float highlight = 0;
     if (facing && term.highlight != HighlightKind::none) {
       const bool local = term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
@@ -74,7 +75,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
         const float squared = dot(half, half), inverse = inverse_length(squared), sum = n_dot_l + n_dot_v, kept = sum > 0 ? sum : 0.0f;
         base = term.squared ? (squared > 0 ? kept * kept / squared : 0.0f) : term.sharp ? cosine_of_units(normal, half, inverse) : sum * inverse;
       }
-      highlight = base > term.highlight_floor ? std::min(power(base, term.highlight_exponent) * factor, kMostLight) : 0.0f;
+      highlight = base <= term.highlight_floor ? 0.0f : cut(power(base, term.highlight_exponent) * factor);
     }
     accumulate(color, factor, term.ambient);
     accumulate(tracked, factor, term.tracked_ambient);
@@ -87,11 +88,12 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
     const auto [ambient, diffuse, specular] = program.indexes;
     const float d = color[0], s = color[1];
     const float sum = std::fma(s, specular - ambient, std::fma(d * (1.0f - s), diffuse - ambient, ambient));
-    return {masked_index(sum < specular ? sum : specular, program.index_modulus), color[1], color[2]};
+    return {masked_index(sum < specular ? sum : specular, program.index_modulus), 0, 0};
   }
   Rgb result{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const float sum = program.tracked ? std::fma(tracked[c], point.vertex[c], color[c]) : color[c];
+    const float kept = std::clamp(std::isnan(tracked[c]) ? -kLargestFloat : tracked[c], -kLargestFloat, kLargestFloat);
+    const float sum = program.tracked ? std::fma(kept, point.vertex[c], color[c]) : color[c];
     const float low = sum > 0 ? sum : 0.0f;
     result[c] = low < 1 ? low : 1.0f;
   }

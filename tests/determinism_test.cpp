@@ -191,6 +191,8 @@ FrameBufferFormat full_format(int samples) {
 }
 
 TEST(Determinism, EveryOperationHasTheSameBits) { expect_same_bits_of_operations(full_format(1), 800, 60); }
+// Here triangles with a stencil test or a mix by alpha are drawn by the kernels that those without operations have.
+TEST(Determinism, EveryOperationHasTheSameBitsInPlainColors) { expect_same_bits_of_operations({.width = 173, .height = 107}, 800, 60); }
 TEST(Determinism, EveryOperationHasTheSameBitsWithFourSamples) { expect_same_bits_of_operations(full_format(4), 1500, 60); }
 TEST(Determinism, EveryOperationHasTheSameBitsWithEightSamples) { expect_same_bits_of_operations(full_format(8), 1500, 60); }
 TEST(Determinism, EveryOperationHasTheSameBitsInGrey) {
@@ -219,6 +221,7 @@ PictureHashes hashes_of_random_frames() {
   add("triangles_palette_unorm32", RandomFrame({.width = 150, .height = 90, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm32}, 500));
   add("triangles_16_bits_float32_samples_4", RandomFrame({.width = 150, .height = 90, .color_bits = 16, .depth = DepthFormat::float32, .samples = 4}, 500));
   add("operations_unorm24", RandomOperations(full_format(1)));
+  add("operations_plain_unorm24", RandomOperations({.width = 173, .height = 107}));
   add("operations_unorm24_samples_8", RandomOperations(full_format(8)));
   add("operations_palette_unorm32", RandomOperations({.width = 133, .height = 71, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm32}));
   add("operations_grey_unorm16", RandomOperations({.width = 133, .height = 71, .color_bits = 2, .depth = DepthFormat::unorm16, .stencil_bits = 3, .accumulation_bits = 32}));

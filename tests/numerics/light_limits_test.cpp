@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shading/lighting.h"
+#include "shading/lighting_reference.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
@@ -101,7 +102,7 @@ TEST(LightLimits, NormalsAsTheyAre) {
     }
 }
 
-// Any bits for points; for lights and materials whatever draws accept.
+// Any bits for points; for lights and materials whatever draws accept. And it is what the twin makes of it.
 TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
   Draws draws{std::mt19937(34)};
   const auto any = [&](bool finite) {
@@ -116,7 +117,7 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
   };
   std::size_t between = 0;
   for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
-    SurfaceMaterial material{.shininess = draws.of({0.0f, 0.5f, 128.0f, 16384.0f})};
+    SurfaceMaterial material{.shininess = draws.of({0.0f, 0.01f, 0.5f, 128.0f, 16384.0f})};
     for (Rgb* c : {&material.ambient, &material.diffuse, &material.specular, &material.emission}) draws.one_in(2) ? fill(*c, true) : c->fill(static_cast<float>(draws.unit()));
     std::vector<EyeLight> lights(1 + draws.random() % 3);
     for (EyeLight& l : lights) {
@@ -127,17 +128,26 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
       l.spot_cutoff = draws.of({0.0f, 45.0f, 90.0f, 180.0f});
       l.spot_exponent = draws.of({0.0f, 0.5f, 128.0f, 16384.0f});
     }
-    LightingProgram program = plan_lighting(material, {.ambient = draws.one_in(4), .diffuse = draws.one_in(4)}, lights, {.local_viewer = draws.one_in(2), .phong_highlight = draws.one_in(2)}, nullptr);
-    program.renormalize = draws.one_in(2);
+    const bool renormalize = draws.one_in(2);
+    LightingProgram program = plan_lighting(material, {.ambient = draws.one_in(4), .diffuse = draws.one_in(4)}, lights,
+                                            {.local_viewer = draws.one_in(2), .phong_highlight = draws.one_in(2), .unit_normals = renormalize && draws.one_in(2)}, nullptr);
+    program.renormalize = renormalize;
     program.negate_normal = draws.one_in(2);
     ShadingBatch batch{};
     for (auto& field : batch.field)
       for (int i = 0; i < 16; ++i) field[i] = any(draws.one_in(2));
+    PointReference given[16];
+    for (int i = 0; i < 16; ++i)
+      for (int c = 0; c < 3; ++c) {
+        const auto k = static_cast<std::size_t>(c);
+        given[i].normal[k] = batch.field[kNormalX + c][i], given[i].position[k] = batch.field[kPositionX + c][i], given[i].vertex[k] = batch.field[kVertexR + c][i];
+      }
     light_points(draws.one_in(4) ? available_isas().back() : available_isas().front())(program, batch, 16);
     for (const int field : {kColorR, kColorG, kColorB})
       for (int i = 0; i < 16; ++i) {
         const float c = batch.field[field][i];
         ASSERT_TRUE(c >= 0 && c <= 1) << c;
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(c), std::bit_cast<std::uint32_t>(light_point_reference(program, given[i])[static_cast<std::size_t>(field - kColorR)]));
         between += c > 0 && c < 1;
       }
   }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <set>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -37,16 +39,17 @@ void expect_same_bits(const LightingProgram& program, const std::vector<Lighting
   }
 }
 
-// Every kernel by itself: kind of light x highlight, by its square or not, x parts that are ambient or tracked, each with every preparation of the normals.
+// Every combination by itself: kind of light x highlight x how that comes about x parts that are ambient or tracked, each with every preparation of the normals.
 TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
   RandomLighting random(1);
-  std::set<std::tuple<LightKind, HighlightKind, bool, bool, bool>> kernels;
+  std::set<std::tuple<LightKind, HighlightKind, bool, bool, bool, bool>> combinations;
   for (int kind = 0; kind < kLightKinds; ++kind) {
     for (int variant = 0; variant < 128; ++variant) {
       for (int round = 0; round < rounds(4); ++round) {
         LightingCase c;
         c.material = random.material();
-        c.material.diffuse = {0.5f, 0.6f, 0.7f};
+        c.material.ambient = c.material.diffuse = {0.5f, 0.6f, 0.7f};
+        if (round < 2) c.material.shininess = round % 2 == 0 ? 20 : 10000;
         c.material.specular = (variant & 1) != 0 ? Rgb{0.3f, 0.4f, 0.5f} : Rgb{};
         c.model.local_viewer = (variant & 2) != 0;
         c.model.phong_highlight = (variant & 4) != 0;
@@ -59,15 +62,15 @@ TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
         std::vector<LightingPoint> points(64);
         for (LightingPoint& p : points) p = random.point();
         const LightingProgram program = c.program();
-        for (const LightTerm& term : program.terms) kernels.insert({term.kind, term.highlight, term.squared, program.tracked, !is_black(term.ambient)});
+        for (const LightTerm& term : program.terms) combinations.insert({term.kind, term.highlight, term.squared, term.sharp, program.tracked, !is_black(term.ambient)});
         expect_same_bits(program, points);
         if (HasFatalFailure()) return;
       }
     }
   }
-  // Squares are those of Blinn's highlights whose S differs from point to point; ambient parts of directional lights are no part of theirs.
-  const int directional = kHighlightKinds + 1, positional = kHighlightKinds + 2;
-  EXPECT_EQ(kernels.size(), static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4)) << "kernels that this test never ran";
+  // All highlights may be sharp. Squares are those of Blinn's whose S differs from point to point; ambient parts of directional lights are no part of theirs.
+  const int highlights = 2 * kHighlightKinds - 1, directional = highlights + 1, positional = highlights + 2;
+  EXPECT_EQ(combinations.size(), static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4)) << "some were never run";
 }
 TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
   RandomLighting random(2);
@@ -358,25 +361,110 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
     }
   }
 }
-// Denominators too small for their inverse, also under highlights without end: what is lit is full, and black stays black.
-TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
-  Special s;
-  s.light().attenuation = {1e-42f, 0, 0};
-  s.light().ambient = s.light().diffuse = s.light().specular = {0, 1, 0};
-  s.c.material.shininess = 1000;
-  for (std::size_t i = 8; i < s.points.size(); ++i) s.points[i].normal = {0, 0, 100};
-  for (const bool tracked : {false, true}) {
-    s.c.tracked.diffuse = tracked;
-    for (const Isa isa : available_isas())
-      for (const Rgb& color : test::light(s.c.program(), s.points, isa)) {
-        EXPECT_NEAR(color[0], kGlow + kBase, 1e-7) << name_of(isa);
-        EXPECT_EQ(color[1], 1) << name_of(isa);
-        EXPECT_NEAR(color[2], kBase, 1e-7) << name_of(isa);
-      }
-  }
-  expect_same_bits(s.c.program(), s.points);
+/// A light that brings more than any number, or one of whose factors is more.
+struct EndlessLight {
+  const char* name;
+  std::array<float, 3> normal, position;
+  EyeLight light;
+};
+std::vector<EndlessLight> endless_lights() {
+  constexpr float kThird = 0.57735026f, kSixth = 0.4082483f, kMost = std::numeric_limits<float>::max();
+  std::vector<EndlessLight> all;
+  const auto add = [&](const char* name, const std::array<float, 3>& normal, const auto& change) {
+    EyeLight light = Special().light();
+    light.ambient = light.diffuse = light.specular = {0, 1, 0};
+    all.push_back({name, normal, {0, 0, -2}, light});
+    change(all.back());
+  };
+  const auto attenuated = [](float constant) { return [constant](EndlessLight& e) { e.light.attenuation = {constant, 0, 0}; }; };
+  add("the inverse of a small denominator", {0, 0, 1}, attenuated(1e-42f));
+  add("the same of the largest colour", {0, 0, 1}, [&](EndlessLight& e) { e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kMost, 0}; });
+  add("the same on long normals", {0, 0, 100}, attenuated(1e-42f));
+  add("the same on longer ones", {0, 0, 1e10f}, attenuated(1e-42f));
+  add("the longest normals", {0, 0, 3e38f}, attenuated(0.5f));
+  add("the longest normals, of no attenuation", {3e38f, 3e38f, 3e38f}, [&](EndlessLight& e) { e.light.directional = true, e.light.position = {kThird, kThird, kThird}; });
+  // Squares of such distances have few digits: |L| and V.D are 1.2.
+  add("a cone and attenuation, from a hair away", {0, 0, 1}, [](EndlessLight& e) {
+    e.position = {0, 0, 0};
+    e.light.position = {0, 0, 4.5e-23f};
+    e.light.attenuation = {0, 1, 0};
+    e.light.spot_direction = {0, 0, -1};
+    e.light.spot_cutoff = 90;
+    e.light.spot_exponent = 16384;
+  });
+  // The cosine of its direction and its axis is 1 + 2^-23.
+  add("the largest colour in a cone's axis", {0, 0, 1}, [&](EndlessLight& e) {
+    e.light.directional = true;
+    e.light.position = {kSixth, kSixth, 2 * kSixth};
+    e.light.spot_direction = {-kSixth, -kSixth, -2 * kSixth};
+    e.light.spot_cutoff = 90;
+    e.light.spot_exponent = 16384;
+    e.light.diffuse = e.light.specular = {0, kMost, 0};
+  });
+  return all;
 }
-// Numbers that overflow give some colour within 0..1, and the same one everywhere.
+// What is lit is full, what faces away is not, and black stays black: of the light, of the vertices, and also under highlights without end.
+TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
+  for (const EndlessLight& endless : endless_lights())
+    for (const bool tracked : {false, true})
+      for (const float ambient : {0.0f, 1.0f}) {
+        Special s;
+        s.light() = endless.light;
+        s.light().ambient[1] = ambient;
+        s.c.material.diffuse = s.c.material.specular = {1, 1, 1};
+        s.c.material.shininess = 1000;
+        s.c.tracked.diffuse = tracked;
+        s.points.resize(64);
+        for (std::size_t i = 0; i < s.points.size(); ++i) {
+          LightingPoint& p = s.points[i];
+          p = {endless.normal, endless.position, i % 4 == 3 ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
+          if (i >= 16 && i % 2 == 0)
+            for (float& n : p.normal) n = -n;
+        }
+        SCOPED_TRACE(std::string(endless.name) + (tracked ? ", tracked" : "") + (ambient != 0 ? ", ambient" : ""));
+        for (const Isa isa : available_isas()) {
+          const std::vector<Rgb> colors = test::light(s.c.program(), s.points, isa);
+          for (std::size_t i = 0; i < colors.size(); ++i) {
+            EXPECT_NEAR(colors[i][0], kGlow + kBase, 1e-7) << name_of(isa) << " " << i;
+            if (i < 16 && (!tracked || i % 4 != 3)) { EXPECT_EQ(colors[i][1], 1) << name_of(isa) << " " << i; }
+            EXPECT_GE(colors[i][1], kBase - 1e-7) << name_of(isa) << " " << i;
+            if (i >= 16 && i % 2 == 0 && ambient == 0) { EXPECT_NEAR(colors[i][1], kBase, 1e-7) << name_of(isa) << " " << i; }
+            EXPECT_NEAR(colors[i][2], kBase, 1e-7) << name_of(isa) << " " << i;
+          }
+        }
+        expect_same_bits(s.c.program(), s.points);
+        // And where no point of a batch is lit.
+        std::vector<LightingPoint> away;
+        for (std::size_t i = 16; i < s.points.size(); i += 2) away.push_back(s.points[i]);
+        expect_same_bits(s.c.program(), away);
+      }
+}
+// x^0 is 1 for every x: where R.E has no end, too.
+TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
+  for (const float size : {1.0f, 1e20f, 3e38f}) {
+    Special s;
+    s.c.model.phong_highlight = true;
+    s.c.material.shininess = 0;
+    s.light().directional = true;
+    s.light().position = {1, 0, 0};
+    s.light().ambient = s.light().diffuse = {0, 0, 0};
+    for (LightingPoint& p : s.points) p.normal = {size, 0, -size};
+    for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1], kBase + kSpecular, 2e-6) << size;
+    expect_same_bits(s.c.program(), s.points);
+  }
+}
+// Roots as high as the tenth make something of cosines that have next to nothing left.
+TEST(LightingSpecialCase, SmallExponentsKeepTheSmallestCosines) {
+  Special s;
+  s.light().position = {0x1p-62f, 0, 1};  // S = (2^-63, 0, 1)
+  s.c.renormalize = s.c.model.unit_normals = true;
+  for (LightingPoint& p : s.points) p = {{1, 0, 0}, {0, 0, 0}, {1, 1, 1}};
+  for (const float shininess : {0.01f, 0.05f, 0.1f, 0.5f}) {
+    s.c.material.shininess = shininess;
+    for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[2][1], kBase + kAmbient + kSpecular * std::exp2(-63.0 * shininess), 1e-5) << shininess;
+  }
+}
+// Numbers that overflow give some colour within 0..1, and the same one on every instruction set.
 TEST(LightingSpecialCase, OverflowStaysWithinRange) {
   RandomLighting random(9);
   for (const float size : {1e-30f, 1e-20f, 1e15f, 1e20f, 1e30f, 3e38f}) {
@@ -390,6 +478,7 @@ TEST(LightingSpecialCase, OverflowStaysWithinRange) {
       for (const Isa isa : available_isas())
         for (const Rgb& color : light(c.program(), points, isa))
           for (const float component : color) ASSERT_TRUE(component >= 0 && component <= 1) << name_of(isa) << " " << component;
+      expect_same_bits(c.program(), points);
     }
   }
 }
