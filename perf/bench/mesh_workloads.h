@@ -11,6 +11,7 @@ std::vector<WorkloadEntry> grid_workloads();
 std::vector<WorkloadEntry> lit_workloads();
 std::vector<WorkloadEntry> point_and_line_workloads();
 std::vector<WorkloadEntry> frame_buffer_workloads();
+std::vector<WorkloadEntry> plane_store_workloads();
 std::vector<WorkloadEntry> scene_workloads();
 
 // Those that grow by one number.

@@ -1,0 +1,105 @@
+// What it costs to bring tiles into planes, without what draws them. The kernels are those of the renderer, called as it calls them.
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/parallel.h"
+#include "framebuffer/bit_transpose.h"
+#include "framebuffer/bitplane.h"
+#include "framebuffer/tile_grid.h"
+#include "perf/bench/mesh_workloads.h"
+
+namespace tessera::bench {
+namespace {
+
+Isa isa_of(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::scalar: return Isa::scalar;
+    case InstructionSet::avx2: return Isa::avx2;
+    case InstructionSet::avx512: return Isa::avx512;
+    default: return available_isas().front();
+  }
+}
+
+struct alignas(kTileAlignment) Tile {
+  std::uint32_t words[kMaxTileSize * kMaxTileSize];
+};
+
+/// Every worker has a tile in its cache, all with the same random words, and stores it wherever the window has one.
+class StoredTiles : public Workload {
+ public:
+  StoredTiles(const WorkloadSetup& setup, int bits)
+      : grid_{setup.width, setup.height, setup.options.tile_size != 0 ? setup.options.tile_size : kMaxTileSize},
+        parallel_(setup.options.threads, setup.options.executor),
+        store_(store_planes_for(isa_of(setup.options.instruction_set))),
+        planes_(setup.width, setup.height, bits),
+        tiles_(static_cast<std::size_t>(setup.options.threads)),
+        picture_(setup.width, setup.height) {
+    std::mt19937 random(setup.seed);
+    for (std::uint32_t& word : tiles_.front().words) word = static_cast<std::uint32_t>(random());
+    std::fill(tiles_.begin() + 1, tiles_.end(), tiles_.front());
+    planes_.allocate(0);
+  }
+
+  FrameStats draw() override {
+    parallel_.for_each(static_cast<std::size_t>(grid_.count()), [&](std::size_t tile, int worker) {
+      const int x = static_cast<int>(tile) % grid_.columns(), y = static_cast<int>(tile) / grid_.columns();
+      store_(tiles_[static_cast<std::size_t>(worker)].words, {.x0_px = x * grid_.tile_size, .y0_px = y * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
+    });
+    return {};
+  }
+
+  std::string fault() override {
+    draw();
+    for (int y = 0; y < grid_.height_px; ++y)
+      for (int x = 0; x < grid_.width_px; ++x)
+        if (planes_.word(x, y) != expected(x, y)) return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " is not its tile's";
+    return {};
+  }
+
+  const Picture& picture() override {
+    const int to_24 = 24 - planes_.plane_count();
+    for (int y = 0; y < grid_.height_px; ++y)
+      for (int x = 0; x < grid_.width_px; ++x) {
+        const std::uint32_t word = planes_.word(x, y) << to_24;
+        std::uint8_t* const pixel = picture_.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width_px) + static_cast<std::size_t>(x));
+        for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(word >> (16 - 8 * c));
+        pixel[3] = 255;
+      }
+    return picture_;
+  }
+
+  FrameWork work(const FrameStats&) const override {
+    const std::uint64_t bytes = planes_.needed_bytes();
+    return {.pixels = static_cast<std::uint64_t>(grid_.width_px) * static_cast<std::uint64_t>(grid_.height_px), .bytes = bytes, .kept_bytes = bytes, .limit = Limit::memory_stores, .limited_bytes = bytes};
+  }
+
+ private:
+  std::uint32_t expected(int x, int y) const {
+    return tiles_.front().words[tile_index(x % grid_.tile_size, y % grid_.tile_size, grid_.tile_size)] & planes_.word_mask();
+  }
+
+  TileGrid grid_;
+  Parallel parallel_;
+  StorePlanesFn* store_;
+  BitplaneStack planes_;
+  std::vector<Tile> tiles_;
+  Picture picture_;
+};
+
+}  // namespace
+
+std::vector<WorkloadEntry> plane_store_workloads() {
+  std::vector<WorkloadEntry> list;
+  for (const int bits : {1, 4, 8, 16, 24}) {
+    WorkloadEntry entry{.name = "store-" + std::to_string(bits), .what = "tiles that are there brought into " + std::to_string(bits) + (bits > 1 ? " planes" : " plane"), .is_in_mean = false};
+    entry.make = [bits](const WorkloadSetup& setup) { return std::make_unique<StoredTiles>(setup, bits); };
+    entry.rival = [](const WorkloadSetup&) { return std::nullopt; };
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+}  // namespace tessera::bench
