@@ -102,7 +102,7 @@ struct TrianglePixels {
   Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
-  const bool stores_full;        // where there is no depth, full blocks are stored without a look at what was there
+  const bool stores_full;        // where there is no depth, full blocks are stored whole
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
@@ -112,17 +112,15 @@ struct TrianglePixels {
     if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
+  /// A block that is not full.
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
-    if constexpr (kSeen == Seen::mix && !kFull) rare_block(bx, by, block_edges);
-    else draw_block<kFull>(bx, by, block_edges);
+    static_assert(!kFull);  // those come by rows
+    if constexpr (kSeen == Seen::mix) rare_block(bx, by, block_edges);
+    else draw_chunks<false>(bx, by, depth.block(bx, by), block_edges);
   }
-  /// Once for blocks that are not full, where code is long and those are few.
-  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_block<false>(bx, by, block_edges); }
-  template <bool kFull>
-  HWY_INLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
-    draw_chunks<kFull>(bx, by, depth.block(bx, by), block_edges);
-  }
+  /// Once, where code is long and such blocks are few.
+  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_chunks<false>(bx, by, depth.block(bx, by), block_edges); }
   /// Blocks side by side, all of whose pixels are inside.
   HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
     RowEdges row_edges(edges, first);

@@ -130,7 +130,7 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
     const bool half_varies = term.highlight == HighlightKind::blinn_local || (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
-    // Below 1 the least cosine that has a power would show: its square is the least that is kept.
+    // No square is below 2^-126, no cosine by squares below 2^-63: its power, 2^(-63 s), would be seen of small exponents.
     term.squared = half_varies && model.unit_normals && !term.sharp && material.shininess >= 1;
     term.highlight_exponent = term.squared ? material.shininess / 2 : material.shininess;
     // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.

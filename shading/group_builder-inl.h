@@ -10,7 +10,6 @@
 
 #include "shading/draw_group_choice-inl.h"
 #include "shading/pixel_rectangles-inl.h"
-#include "shading/tile_clears-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {

@@ -55,7 +55,7 @@ struct alignas(64) Incidence {
   HWY_INLINE Vector direction(int point) const { return {hn::Load(kFloat, to_light[0] + point), hn::Load(kFloat, to_light[1] + point), hn::Load(kFloat, to_light[2] + point)}; }
 };
 
-HWY_INLINE Float cut(Float amount) { return lesser_of(amount, splat(kMostLight)); }
+HWY_INLINE Float cut(Float amount) { return lesser_of(amount, splat(kLargestFloat)); }
 
 /// Where the light comes from, and how much of it; of a spot without the power that its cone has. Returns whether any point faces it.
 template <LightKind kKind>
@@ -233,11 +233,11 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   if (has_tracked) add_colors(light, shines, count, term.tracked_diffuse, term.tracked_specular, tracked, batch);
 }
 
-/// What the vertex colour multiplies is a number: times 0 it is nothing.
+/// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out as the lowest.
 HWY_INLINE Float finite(Float c) {
   return lesser_of(greater_of(c, splat(-kLargestFloat)), splat(kLargestFloat));
 }
-/// 0..1; a NaN, which only overflow can make, becomes 0.
+/// 0..1; a NaN becomes 0.
 HWY_INLINE Float clamped(Float c) {
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
   return lesser_of(greater_of(c, zero), one);
@@ -263,8 +263,9 @@ void prepare_surfaces(const LightingProgram& program, ShadingBatch& batch, int c
 /// index = min(a + d (1 - s) (dm - a) + s (sm - a), sm), masked, from d in red and s in green.
 HWY_INLINE Float index_of(const LightingProgram& program, const Vector& sums) {
   const auto [ambient, diffuse, specular] = program.indexes;
-  const Float matt = mul_add(hn::Mul(sums.x, hn::Sub(splat(1.0f), sums.y)), splat(diffuse - ambient), splat(ambient));
-  const Float index = lesser_of(mul_add(sums.y, splat(specular - ambient), matt), splat(specular));
+  const Float d = finite(sums.x), s = finite(sums.y);
+  const Float matt = mul_add(hn::Mul(d, hn::Sub(splat(1.0f), s)), splat(diffuse - ambient), splat(ambient));
+  const Float index = lesser_of(mul_add(s, splat(specular - ambient), matt), splat(specular));
   const Float rest = hn::Sub(index, hn::Mul(splat(program.index_modulus), hn::Floor(hn::Mul(index, splat(1 / program.index_modulus)))));
   return hn::IfThenElseZero(hn::Ge(rest, hn::Zero(kFloat)), rest);
 }
@@ -281,7 +282,7 @@ void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int
     }
     if (program.tracked) {
       const Vector part = tracked.load(batch, point), vertex = load_vector(batch, kVertexR, point);
-      sum = {mul_add(finite(part.x), vertex.x, sum.x), mul_add(finite(part.y), vertex.y, sum.y), mul_add(finite(part.z), vertex.z, sum.z)};
+      sum = {mul_add(finite(part.x), finite(vertex.x), sum.x), mul_add(finite(part.y), finite(vertex.y), sum.y), mul_add(finite(part.z), finite(vertex.z), sum.z)};
     }
     store_vector(batch, kColorR, point, {clamped(sum.x), clamped(sum.y), clamped(sum.z)});
   }

@@ -76,8 +76,8 @@ struct LightingModel {
 /// Above this highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings, times the exponent, would begin to show.
 inline constexpr float kSharpShininess = 2048;
 
-/// What a light brings to a point is cut here, and what that is made of: n.L, attenuation, cone, highlight. Times a black component it is nothing then, and not NaN.
-inline constexpr float kMostLight = 0x1p96f;
+/// What a light brings to a point is cut here, and what that is made of: n.L, attenuation, cone, highlight; and its colours, and vertex colours. Times black it
+/// is nothing then, and not NaN.
 inline constexpr float kLargestFloat = std::numeric_limits<float>::max();
 
 enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
@@ -89,9 +89,9 @@ constexpr bool is_spot(LightKind kind) { return kind == LightKind::spot || kind 
 struct LightTerm {
   LightKind kind = LightKind::directional;
   HighlightKind highlight = HighlightKind::none;
-  // Of unit normals a highlight comes about in one of two other ways than by S.n to the power of the shininess.
-  bool sharp = false;                          ///< above kSharpShininess, by the distance of n and S
-  bool squared = false;                        ///< ((S.n)^2)^(s/2), without a root
+  // Two other ways to a highlight of unit normals than the power of S.n or R.E:
+  bool sharp = false;                          ///< above kSharpShininess, by the distance of n and S, or R and E
+  bool squared = false;                        ///< ((S.n)^2)^(s/2), without a root, where S differs from point to point; from shininess 1 on
   std::array<float, 3> position{};             ///< or direction
   std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
   std::array<float, 3> spot_direction{};

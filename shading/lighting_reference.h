@@ -27,7 +27,8 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
     return std::fma(-0.5f, dot(apart, apart), 1.0f);
   };
-  const auto cut = [](float amount) { return amount < kMostLight ? amount : kMostLight; };
+  const auto cut = [](float amount) { return amount < kLargestFloat ? amount : kLargestFloat; };
+  const auto finite = [](float value) { return std::isnan(value) ? -kLargestFloat : std::clamp(value, -kLargestFloat, kLargestFloat); };
   const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] = std::fma(intensity, color[c], sum[c]);
   };
@@ -86,14 +87,13 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   }
   if (program.index) {
     const auto [ambient, diffuse, specular] = program.indexes;
-    const float d = color[0], s = color[1];
+    const float d = finite(color[0]), s = finite(color[1]);
     const float sum = std::fma(s, specular - ambient, std::fma(d * (1.0f - s), diffuse - ambient, ambient));
     return {masked_index(sum < specular ? sum : specular, program.index_modulus), 0, 0};
   }
   Rgb result{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const float kept = std::clamp(std::isnan(tracked[c]) ? -kLargestFloat : tracked[c], -kLargestFloat, kLargestFloat);
-    const float sum = program.tracked ? std::fma(kept, point.vertex[c], color[c]) : color[c];
+    const float sum = program.tracked ? std::fma(finite(tracked[c]), finite(point.vertex[c]), color[c]) : color[c];
     const float low = sum > 0 ? sum : 0.0f;
     result[c] = low < 1 ? low : 1.0f;
   }

@@ -8,7 +8,7 @@ namespace tessera {
 inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;      ///< of sqrt(1/2) as a float
 inline constexpr float kRoundingBias = 0x1.8p23f;
 inline constexpr float kSmallestNormal = 0x1p-126f;
-/// Powers are cut at 2^96: they stay numbers, also times a colour.
+/// Powers are cut at 2^96.
 inline constexpr float kLargestLog2 = 96.0f;
 
 inline constexpr int kLog2Terms = 10;

@@ -7,9 +7,10 @@
 #endif
 
 #include <algorithm>
-#include <limits>
 
+#include "shading/deferred_samples-inl.h"
 #include "shading/resolve-inl.h"
+#include "shading/tile_accumulation.h"
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
 
@@ -36,11 +37,6 @@ inline PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int t
   const PixelRect in_tile = intersect({rect.x0 - tile_x, rect.y0 - tile_y, right - tile_x, bottom - tile_y}, {0, 0, grid.tile_size, grid.tile_size});
   return in_tile.empty() ? PixelRect{} : in_tile;
 }
-
-inline constexpr std::int32_t kFarthestKey = std::numeric_limits<std::int32_t>::max();
-
-/// What is known of all blocks of a tile with several samples: none of their depth keys is greater.
-inline void set_farthest(TileRun& run, std::int32_t key) { std::fill_n(run.memory.samples->farthest, run.tile_size * run.tile_size / kBlockPixels, key); }
 
 inline void clear_pixels(const TileRun& run, const TilePixels& pixels, const TileClear& clear, const PixelRect& rect) {
   if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.color_word, rect, run.tile_size);

@@ -1,3 +1,4 @@
+// Renders a tile: clears, draws and commands of the accumulation buffer in the order in which they were recorded.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/tile_renderer.cpp"
 #include "framebuffer/lanes.h"

@@ -6,6 +6,9 @@
 #define TESSERA_SHADING_TILE_RUN_INL_H_
 #endif
 
+#include <algorithm>
+#include <limits>
+
 #include "raster/lanes-inl.h"
 #include "shading/interpolate-inl.h"
 #include "shading/fragment_word.h"
@@ -32,6 +35,10 @@ struct TileRun {
     return hn::Add(hn::ShiftLeft<4>(block), hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three)));
   }
 };
+
+inline constexpr std::int32_t kFarthestKey = std::numeric_limits<std::int32_t>::max();
+/// What is known of all blocks of a tile with several samples: none of their depth keys is greater.
+HWY_INLINE void set_farthest(TileRun& run, std::int32_t key) { std::fill_n(run.memory.samples->farthest, run.tile_size * run.tile_size / kBlockPixels, key); }
 
 /// Lanes of a chunk inside the draw's rectangle.
 HWY_INLINE auto inside_rect(const PixelRect& rect, int bx, int by, int chunk) {

@@ -191,7 +191,7 @@ FrameBufferFormat full_format(int samples) {
 }
 
 TEST(Determinism, EveryOperationHasTheSameBits) { expect_same_bits_of_operations(full_format(1), 800, 60); }
-// Here triangles with a stencil test or a mix by alpha are drawn by the kernels that those without operations have.
+// Here triangles with a stencil test are drawn by the kernels that those without operations have.
 TEST(Determinism, EveryOperationHasTheSameBitsInPlainColors) { expect_same_bits_of_operations({.width = 173, .height = 107}, 800, 60); }
 TEST(Determinism, EveryOperationHasTheSameBitsWithFourSamples) { expect_same_bits_of_operations(full_format(4), 1500, 60); }
 TEST(Determinism, EveryOperationHasTheSameBitsWithEightSamples) { expect_same_bits_of_operations(full_format(8), 1500, 60); }

@@ -190,7 +190,7 @@ struct HighlightWay {
   Highlight kind;
   bool directional, local, renormalize, sharp, unit, squared;
 
-  /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot products, of L + E and, but of units, its length. Sharp ones take
+  /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot products, of L + E and, but of squares, its length. Sharp ones take
   /// normals and directions for units, which floats are within u.
   Real cosine_error(const LightAtPoint& exact) const {
     const Real given = sharp ? 1 : 0, n = renormalize ? 4.5L : given, l = directional ? given : 6.5L, v = local ? 4.5L : 0, n_dot_l = l + n + 3, n_dot_v = local ? v + n + 3 : n;
@@ -202,7 +202,7 @@ struct HighlightWay {
     };
     const bool constant_half = directional && !local;  // rounded once; of an L whose length is taken for 1, E has too much or too little weight in it
     if (kind == Highlight::blinn && constant_half) return sharp ? of_difference(l / exact.half_length + 1 + n + 1) : 1 + n + 3;
-    // Of units neither root nor length: the sum of the two cosines u, half of what its square, the square of L + E and their quotient have, u, 5 u and u.
+    // Of squares neither root nor length: the sum of the two cosines u, half of what its square, the square of L + E and their quotient have, u, 5 u and u.
     if (kind == Highlight::blinn) return sharp ? of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1) : (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
     return sharp ? of_difference(l + v + 2 + 2 * n_dot_l + 2 * n + 1) : 2 * (n_dot_l + n_dot_v) + 2 + l + (local ? v + 3 : 0) + 1;
   }
