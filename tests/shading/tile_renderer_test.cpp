@@ -204,5 +204,77 @@ TEST(TileRenderer, CollectingInPortionsChangesNothing) {
   }
 }
 
+PixelRect random_window(RandomTriangles& source) {
+  if (source.between(0, 2) == 0) return {0, 0, kTile, kTile};
+  const int x = source.between(0, kTile - 1), y = source.between(0, kTile - 1);
+  return {x, y, source.between(x + 1, kTile), source.between(y + 1, kTile)};
+}
+
+// Mixes by alpha have kernels of their own where there is no other operation: for full blocks in a row, for others, and for single pixels. A test that always
+// passes makes them go the way that knows all operations.
+TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
+  RandomTriangles source(48, kTile);
+  FragmentOps mix;
+  set_dither(mix, 1, kTile);
+  mix.blend = true;
+  FragmentOps general = mix;
+  general.alpha_test = true;
+  general.alpha_func = CompareOp::always;
+  for (const DepthKind kind : {DepthKind::none, DepthKind::unorm24, DepthKind::float32})
+    for (int round = 0; round < (long_tests() ? 3000 : 100); ++round) {
+      const Mesh mesh = random_mesh(source, 1 + source.between(0, 20), 4, kind, -0.1, 1.1);
+      const bool has_alpha = source.between(0, 2) != 0, constant = source.between(0, 5) == 0;
+      const PixelRect window = random_window(source);
+      const std::uint32_t mask = source.between(0, 2) == 0 ? 0x5a5a5au : 0xffffffffu;
+      for (const Isa isa : available_isas()) {
+        const auto draw_with = [&](const FragmentOps& ops) {
+          TileStage stage(kTile, kTile, kTile, kind);
+          TileDraw& draw = add(stage, mesh);
+          if (constant) draw.source = ColorSource::constant;
+          draw.ops = &ops;
+          draw.rect = window;
+          draw.write_mask = mask;
+          draw.scaled_colors = false;
+          draw.uses_depth = kind != DepthKind::none;
+          for (const std::size_t face : {0, 1}) {
+            draw.color[face] = {0.25f, 0.5f, 0.75f, 0.375f};
+            draw.alpha_attribute[face] = has_alpha ? 3 : -1;
+            draw.alpha[face] = 0.625f;
+          }
+          stage.render(isa, 0, 0x123456, depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u : 0xffffffu));
+          return std::pair(stage.colors(), kind != DepthKind::none ? stage.depths() : std::vector<std::int32_t>());
+        };
+        ASSERT_EQ(draw_with(mix), draw_with(general)) << name_of(isa) << (has_alpha ? ", alpha of the vertices" : "") << (constant ? ", one colour" : "");
+      }
+    }
+}
+
+// Where nothing is masked, full blocks are stored as they are; else they are mixed with what was there.
+TEST(TileRenderer, MasksChooseBitsOfWhatIsDrawnWithoutThem) {
+  constexpr std::uint32_t kBackground = 0x123456;
+  RandomTriangles source(49, kTile);
+  for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 20), 3, DepthKind::none, 0.5, 255.5);
+    const PixelRect window = random_window(source);
+    for (const ColorSource colors : {ColorSource::constant, ColorSource::interpolated})
+      for (const Isa isa : available_isas()) {
+        const auto draw_through = [&](std::uint32_t mask) {
+          TileStage stage(kTile, kTile, kTile);
+          TileDraw& draw = add(stage, mesh);
+          draw.source = colors;
+          draw.word = 0xabcdef;
+          draw.rect = window;
+          draw.write_mask = mask;
+          stage.render(isa, 0, kBackground);
+          return stage.colors();
+        };
+        const std::uint32_t mask = 0xf0f0f0f0u;
+        std::vector<std::uint32_t> expected = draw_through(0xffffffffu);
+        for (std::uint32_t& word : expected) word = (word & mask) | (kBackground & ~mask);
+        ASSERT_EQ(draw_through(mask), expected) << name_of(isa);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace tessera::test
