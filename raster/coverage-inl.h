@@ -90,47 +90,63 @@ struct RowEdges {
 
 alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
+/// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their first.
+HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns, int rows) {
+  return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
+}
+
 /// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
 /// 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx, by, how many, edges of the first), where
-/// there is such a function.
+/// there is such a function. Lanes are blocks: those of a row, or of several short rows. @pre the offsets are those of the edges
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
-  // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first.
-  Int to_highest[3], to_lowest[3], down[3];
+  constexpr int kRowsOfFour = kLanes / 4;
+  const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1, rows = ((y1 - first_y) >> 2) + 1;
+  const bool is_box = columns <= 4 && rows <= kRowsOfFour;
+  const int row_shift = is_box ? 2 : std::countr_zero(static_cast<unsigned>(kLanes)), in_row = 1 << row_shift;
+  // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first; to the blocks of the lanes, and to the next row.
+  Int to_highest[3], to_lowest[3], to_lane[3], down[3];
+  bool is_whole = true;  // there is no block but full ones
   for (int k = 0; k < 3; ++k) {
     to_highest[k] = splat(3 * (std::max(t.a[k], 0) + std::max(t.b[k], 0)));
     to_lowest[k] = splat(3 * (std::min(t.a[k], 0) + std::min(t.b[k], 0)));
+    to_lane[k] = is_box ? hn::ShiftLeft<2>(hn::Load(kInt, offsets.edge[k])) : hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
     down[k] = splat(4 * t.b[k]);
+    is_whole &= lowest_over_blocks(t.at(k, first_x, first_y), t.a[k], t.b[k], columns, rows) >= 0;
   }
-  const int first_y = y0 & ~3;
-  for (int bx = x0 & ~3; bx <= x1; bx += 4 * kLanes) {
-    const std::uint32_t in_bounds = (1u << std::min(((x1 - bx) >> 2) + 1, kLanes)) - 1;
+  for (int column = 0; column < columns; column += in_row) {
+    const int left = first_x + 4 * column;
+    std::uint32_t in_bounds = (1u << std::min(columns - column, in_row)) - 1;
+    if (is_box) in_bounds *= 0x1111u & ((1u << (4 * rows)) - 1);
     Int e[3];
-    for (int k = 0; k < 3; ++k)
-      e[k] = hn::Add(splat(t.at(k, bx, first_y)), hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers)));
-    for (int by = first_y; by <= y1; by += 4) {
-      const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])), hn::Add(e[2], to_highest[2]));
-      const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])), hn::Add(e[2], to_lowest[2]));
-      std::uint32_t touched = mask_bits(kInt, hn::Gt(highest, splat(-1))) & in_bounds;
-      const std::uint32_t inside = mask_bits(kInt, hn::Gt(lowest, splat(-1)));
+    for (int k = 0; k < 3; ++k) e[k] = hn::Add(splat(t.at(k, left, first_y)), to_lane[k]);
+    for (int row = 0; row < rows; row += is_box ? rows : 1) {
+      const int top = first_y + 4 * row;
+      std::uint32_t touched = in_bounds, inside = in_bounds;
+      if (!is_whole) {
+        const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])), hn::Add(e[2], to_highest[2]));
+        const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])), hn::Add(e[2], to_lowest[2]));
+        touched &= mask_bits(kInt, hn::Gt(highest, splat(-1)));
+        inside = touched & mask_bits(kInt, hn::Gt(lowest, splat(-1)));
+      }
       alignas(64) std::int32_t start[3][kLanes];
       for (int k = 0; k < 3; ++k) {
         hn::Store(e[k], kInt, start[k]);
         e[k] = hn::Add(e[k], down[k]);
       }
       while (touched != 0) {
-        const int i = std::countr_zero(touched);
+        const int i = std::countr_zero(touched), in_its_row = i & (in_row - 1), bx = left + 4 * in_its_row, by = top + 4 * (i >> row_shift);
         const BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
-        int count = 1;
+        touched &= touched - 1;
         if ((inside >> i & 1) == 0) {
-          block.template operator()<false>(bx + 4 * i, by, edges);
-        } else if constexpr (requires { block.full_row(bx, by, count, edges); }) {
-          count = std::countr_one((touched & inside) >> i);
-          block.full_row(bx + 4 * i, by, count, edges);
+          block.template operator()<false>(bx, by, edges);
+        } else if constexpr (requires { block.full_row(bx, by, 1, edges); }) {
+          const int count = std::min(std::countr_one(inside >> i), in_row - in_its_row);
+          block.full_row(bx, by, count, edges);
+          touched &= ~(((1u << count) - 1) << i);
         } else {
-          block.template operator()<true>(bx + 4 * i, by, edges);
+          block.template operator()<true>(bx, by, edges);
         }
-        touched &= ~(((1u << count) - 1) << i);
       }
     }
   }

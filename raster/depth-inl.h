@@ -28,6 +28,11 @@ using Int64Tag = hn::RebindToSigned<Uint64Tag>;
 inline constexpr Uint64Tag kUint64{};
 inline constexpr Int64Tag kInt64{};
 
+// Of eight pixels of a block those in columns 1 and 3, in columns 2 and 3, and in the second row.
+alignas(64) inline constexpr std::uint64_t kOddColumns[8] = {0, ~0ull, 0, ~0ull, 0, ~0ull, 0, ~0ull};
+alignas(64) inline constexpr std::uint64_t kRightColumns[8] = {0, 0, ~0ull, ~0ull, 0, 0, ~0ull, ~0ull};
+alignas(64) inline constexpr std::uint64_t kSecondRow[8] = {0, 0, 0, 0, ~0ull, ~0ull, ~0ull, ~0ull};
+
 /// 16 and 24 bits: 32.32 fixed point of the vertices' depth words. Those are at least 128 away from 0 and from 2^32 (the half
 /// that rounds the level), so rounding never wraps around. The key is the word's top bits.
 struct UnormDepth {
@@ -42,10 +47,19 @@ struct UnormDepth {
     dy = g.fixed_dy[i];
   }
   HWY_INLINE void prepare_blocks() {
-    const std::uint64_t columns[4] = {0, dx, dx + dx, dx + dx + dx};
-    std::uint64_t row = 0;
-    for (int p = 0; p < 16; p += 4, row += dy)
-      for (int c = 0; c < 4; ++c) offset[p + c] = row + columns[c];
+#if HWY_TARGET == HWY_SCALAR
+    for (std::uint64_t p = 0; p < 16; ++p) offset[p] = p % 4 * dx + p / 4 * dy;
+#else
+    // Half of the lanes of a block's chunk, whole rows: a column's number is its lowest two bits, and those above are the row's.
+    constexpr std::size_t kHalf = hn::MaxLanes(Uint64Tag());
+    const auto bit_of = [](const std::uint64_t (&bits)[8], std::uint64_t step) HWY_ATTR { return hn::And(hn::Load(kUint64, bits), hn::Set(kUint64, step)); };
+    const auto in_row = hn::Add(bit_of(kOddColumns, dx), bit_of(kRightColumns, dx + dx));
+    auto at = kHalf == 8 ? hn::Add(in_row, bit_of(kSecondRow, dy)) : in_row;
+    for (std::size_t p = 0; p < 16; p += kHalf) {
+      hn::Store(at, kUint64, offset + p);
+      at = hn::Add(at, hn::Set(kUint64, kHalf / 4 * dy));
+    }
+#endif
   }
   /// From the tile's first pixel, or from a sample there.
   HWY_INLINE std::uint64_t step(int x, int y) const {

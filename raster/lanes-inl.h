@@ -106,6 +106,10 @@ HWY_INLINE std::uint32_t mask_bits(Tag tag, Mask mask) {
 #if HWY_TARGET == HWY_SCALAR
   (void)tag;
   return mask.bits != 0;
+#elif HWY_TARGET == HWY_AVX3
+  static_assert(hn::MaxLanes(Tag()) >= 8);  // there are no bits but lanes'
+  (void)tag;
+  return mask.raw;
 #else
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(tag, mask, bytes);

@@ -99,16 +99,17 @@ struct TrianglePixels {
   std::int32_t id = 0;
   const bool tests_stencil;
   PixelStencil stencil{};
-  Int seen = hn::Zero(kInt);    // minus the number of pixels that passed, in each lane
+  std::uint32_t seen_pixels = 0;  // of those with a colour
+  Int seen = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
-  const bool stores_full;        // where there is no depth, full blocks are stored whole
+  const bool stores_full;        // full blocks are stored whole
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
         tests_stencil(has_stencil_test<kTest>(tile_draw)),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut),
-        stores_full(!tile_run.cut && !tests_stencil && tile_draw.write_mask == 0xffffffffu) {
+        stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && tile_draw.write_mask == 0xffffffffu) {
     if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
@@ -117,23 +118,36 @@ struct TrianglePixels {
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     static_assert(!kFull);  // those come by rows
     if constexpr (kSeen == Seen::mix) rare_block(bx, by, block_edges);
-    else draw_chunks<false>(bx, by, depth.block(bx, by), block_edges);
+    else draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges);
   }
   /// Once, where code is long and such blocks are few.
-  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_chunks<false>(bx, by, depth.block(bx, by), block_edges); }
+  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges); }
   /// Blocks side by side, all of whose pixels are inside.
   HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
+    int index = run.block_index(bx, by);
     RowEdges row_edges(edges, first);
+    if constexpr (!kHasDepth<Depth> && (kSeen == Seen::word || is_interpolated(kSeen))) {
+      if (stores_full) return store_row(bx, by, index, count, row_edges);
+    }
     auto block_depth = depth.block(bx, by);
-    for (const int end = bx + 4 * count; bx < end; bx += 4) {
-      draw_chunks<true>(bx, by, block_depth, row_edges);
+    for (const int end = bx + 4 * count; bx < end; bx += 4, index += kBlockPixels) {
+      draw_chunks<true>(bx, by, index, block_depth, row_edges);
       row_edges.step_right();
       depth.step_right(block_depth);
     }
   }
+  /// The same without any test or mask.
+  HWY_INLINE void store_row(int bx, int by, int index, int count, RowEdges& row_edges) {
+    seen_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
+    for (const int end = index + kBlockPixels * count; index < end; bx += 4, row_edges.step_right())
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
+        auto* const stored_at = reinterpret_cast<std::int32_t*>(run.memory.color + index);
+        hn::Store(words_at(row_edges, bx, by, chunk, stored_at), kInt, stored_at);
+      }
+  }
+  /// @param block  its index
   template <bool kFull, class Edges>
-  HWY_INLINE void draw_chunks(int bx, int by, [[maybe_unused]] const typename Depth::Block& block_depth, [[maybe_unused]] const Edges& block_edges) {
-    const int block = run.block_index(bx, by);
+  HWY_INLINE void draw_chunks(int bx, int by, int block, [[maybe_unused]] const typename Depth::Block& block_depth, [[maybe_unused]] const Edges& block_edges) {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
       auto mask = hn::Eq(hn::Zero(kInt), hn::Zero(kInt));
@@ -159,21 +173,23 @@ struct TrianglePixels {
       if constexpr (kSeen == Seen::collect) {
         auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
         hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
-        seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
+        seen = hn::Or(seen, hn::VecFromMask(kInt, mask));
       } else if constexpr (kSeen != Seen::nothing) {
-        if (is_interpolated(kSeen) && hn::AllFalse(kInt, mask)) continue;
-        seen = hn::Add(seen, hn::VecFromMask(kInt, mask));
+        const std::uint32_t bits = mask_bits(kInt, mask);
+        if (is_interpolated(kSeen) && bits == 0) continue;
+        seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
         std::uint32_t* const stored_at = run.memory.color + index;
-        Int words;
-        if constexpr (kSeen == Seen::word) words = splat(word);
-        else if constexpr (kSeen == Seen::mix) words = color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, reinterpret_cast<const std::int32_t*>(stored_at)));
-        else words = color.words(barycentric_at(block_edges, bx, by, chunk));
-        if (kFull && !kHasDepth<Depth> && stores_full) hn::Store(words, kInt, reinterpret_cast<std::int32_t*>(stored_at));
-        else store_words(stored_at, words, mask, writable);
+        store_words(stored_at, words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at)), mask, writable);
       }
     }
   }
-  HWY_INLINE std::uint64_t seen_pixels() const { return count_of(seen); }
+  /// @param stored_at  what is there in the frame buffer, for what is mixed with it
+  template <class Edges>
+  HWY_INLINE Int words_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx, [[maybe_unused]] int by, [[maybe_unused]] int chunk, [[maybe_unused]] const std::int32_t* stored_at) const {
+    if constexpr (kSeen == Seen::word) return splat(word);
+    else if constexpr (kSeen == Seen::mix) return color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
+    else return color.words(barycentric_at(block_edges, bx, by, chunk));
+  }
 
   /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
   template <class Edges>
@@ -198,7 +214,7 @@ struct TrianglePixels {
     }
     if constexpr (kSeen == Seen::collect) {
       run.memory.ids[index] = static_cast<std::uint32_t>(id);
-      seen = splat(-1);  // how many does not matter here
+      seen = splat(-1);
     } else if constexpr (kSeen != Seen::nothing) {
       ++run.counts.shaded_pixels;
       const std::uint32_t new_word = pixel_word(x, y, run.memory.color[index]);
@@ -281,7 +297,6 @@ HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory&
 /// The small triangles that were added, whose colours are interpolated.
 template <class Depth, Test kTest>
 HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
-  if (pixels.count == 0) return;
   const TileWorkspace::Memory& memory = run.memory;
   const TriangleGroup& g = memory.group;
   pixels.set_up(run);
@@ -343,7 +358,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
         small_pixels.add(g, i, hits[i]);
         continue;
       }
-      draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
+      if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
     }
     const bool back = is_back(run, draw, i);
     TileEdges edges = tile_edges(g, i);
@@ -379,9 +394,11 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       }
     }
     if constexpr (is_interpolated(kSeen)) memory.wide.clear();
-    if constexpr (is_interpolated(kSeen) || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels();
+    if constexpr (is_interpolated(kSeen) || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels;
   }
-  if constexpr (kSeen == Seen::interpolate) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);
+  if constexpr (kSeen == Seen::interpolate) {
+    if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
