@@ -38,7 +38,7 @@ struct BatchSurface {
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const { return draw == triangle.draw && back == triangle.back; }
 };
 
-/// Pixels of up to four blocks that share a surface.
+/// Pixels of blocks that share a surface.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
   int index[kBatchBlocks];              // of each block's first pixel in tile memory

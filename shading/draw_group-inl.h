@@ -127,7 +127,12 @@ struct TrianglePixels {
     int index = run.block_index(bx, by);
     RowEdges row_edges(edges, first);
     if constexpr (!kHasDepth<Depth> && (kSeen == Seen::word || is_interpolated(kSeen))) {
-      if (stores_full) return store_row(bx, by, index, count, row_edges);
+      if (stores_full) {
+        seen_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
+        if constexpr (kSeen == Seen::word) fill_blocks(index, count);
+        else store_row(bx, by, index, count, row_edges);
+        return;
+      }
     }
     auto block_depth = depth.block(bx, by);
     for (const int end = bx + 4 * count; bx < end; bx += 4, index += kBlockPixels) {
@@ -137,8 +142,11 @@ struct TrianglePixels {
     }
   }
   /// The same without any test or mask.
+  HWY_INLINE void fill_blocks(int index, int count) const {
+    auto* const first = reinterpret_cast<std::int32_t*>(run.memory.color + index);
+    for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(word), kInt, first + i);
+  }
   HWY_INLINE void store_row(int bx, int by, int index, int count, RowEdges& row_edges) {
-    seen_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
     for (const int end = index + kBlockPixels * count; index < end; bx += 4, row_edges.step_right())
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
         auto* const stored_at = reinterpret_cast<std::int32_t*>(run.memory.color + index);

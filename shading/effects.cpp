@@ -24,7 +24,7 @@ float directional_spot_factor(const EyeLight& light) {
   const auto& d = light.spot_direction;
   const double cosine = -(double{l[0]} * d[0] + double{l[1]} * d[1] + double{l[2]} * d[2]);
   if (cosine < sin_cos_degrees(light.spot_cutoff).cosine || cosine <= 0) return 0;
-  return light.spot_exponent == 0 ? 1.0f : power_reference(static_cast<float>(cosine), light.spot_exponent);
+  return power_of_reference(static_cast<float>(cosine), light.spot_exponent);
 }
 
 const char* kind_name(LightKind kind) {

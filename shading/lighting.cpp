@@ -35,7 +35,6 @@ HWY_INLINE void store_vector(ShadingBatch& batch, int first_field, int point, co
 HWY_INLINE Float inverse_length(Float squared) {
   return hn::IfThenElseZero(hn::Gt(squared, hn::Zero(kFloat)), hn::Div(splat(1.0f), hn::Sqrt(squared)));
 }
-HWY_INLINE Float power_or_one(Float x, float exponent) { return exponent == 0 ? splat(1.0f) : power_lanes(x, exponent); }
 /// sum += intensity * colour
 HWY_INLINE void accumulate(Vector& sum, Float intensity, const Rgb& color) {
   sum.x = mul_add(intensity, splat(color[0]), sum.x);
@@ -108,10 +107,12 @@ bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
 
 /// What a spot's cone leaves of its light.
 void apply_cone(const LightTerm& term, int count, Incidence& light) {
-  for (int point = 0; point < count; point += kLanes) {
-    const Float share = power_lanes(hn::Load(kFloat, light.cosine + point), term.spot_exponent);
-    hn::Store(cut(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
-  }
+  with_power(term.spot_exponent, [&](const auto& power) HWY_ATTR {
+    for (int point = 0; point < count; point += kLanes) {
+      const Float share = power(hn::Load(kFloat, light.cosine + point));
+      hn::Store(cut(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
+    }
+  });
 }
 
 /// Where a highlight can be: on what faces the light, with a power that is seen.
@@ -174,11 +175,12 @@ bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count
 
 /// spec * att * spot from S.n, its square or R.E.
 void raise_highlights(const LightTerm& term, int count, Incidence& light) {
-  for (int point = 0; point < count; point += kLanes) {
-    const Float power = power_or_one(hn::Load(kFloat, light.highlight + point), term.highlight_exponent);
-    const Float highlight = cut(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
-    hn::Store(hn::IfThenElseZero(is_shiny(term, light, point), highlight), kFloat, light.highlight + point);
-  }
+  with_power(term.highlight_exponent, [&](const auto& power) HWY_ATTR {
+    for (int point = 0; point < count; point += kLanes) {
+      const Float highlight = cut(hn::Mul(power(hn::Load(kFloat, light.highlight + point)), hn::Load(kFloat, light.factor + point)));
+      hn::Store(hn::IfThenElseZero(is_shiny(term, light, point), highlight), kFloat, light.highlight + point);
+    }
+  });
 }
 
 /// Three sums of each point: before the first light has its part in them, they are the same everywhere.

@@ -18,7 +18,7 @@
 
 namespace tessera {
 
-inline constexpr int kBatchPoints = 64;  ///< points lit at a time: vertices, or the pixels of four blocks
+inline constexpr int kBatchPoints = 128;  ///< points lit at a time: vertices, or the pixels of eight blocks
 
 /// Structure of arrays: what is known of each point, and its colour. Eye space.
 enum BatchField : std::uint8_t {

@@ -22,7 +22,6 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   const auto dot = [](const Vec& a, const Vec& b) { return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2])); };
   const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
   const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
-  const auto power = [](float x, float exponent) { return exponent == 0 ? 1.0f : power_reference(x, exponent); };
   const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) {  // a and b s
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
     return std::fma(-0.5f, dot(apart, apart), 1.0f);
@@ -50,7 +49,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
         reached = cosine >= term.spot_cosine && cosine > 0;
-        factor = reached ? power(cosine, term.spot_exponent) : 0.0f;
+        factor = reached ? power_of_reference(cosine, term.spot_exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
         const float denominator = std::fma(term.attenuation[2], squared, std::fma(term.attenuation[1], distance, term.attenuation[0]));
@@ -76,7 +75,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
         const float squared = dot(half, half), inverse = inverse_length(squared), sum = n_dot_l + n_dot_v, kept = sum > 0 ? sum : 0.0f;
         base = term.squared ? (squared > 0 ? kept * kept / squared : 0.0f) : term.sharp ? cosine_of_units(normal, half, inverse) : sum * inverse;
       }
-      highlight = base <= term.highlight_floor ? 0.0f : cut(power(base, term.highlight_exponent) * factor);
+      highlight = base <= term.highlight_floor ? 0.0f : cut(power_of_reference(base, term.highlight_exponent) * factor);
     }
     accumulate(color, factor, term.ambient);
     accumulate(tracked, factor, term.tracked_ambient);

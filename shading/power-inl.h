@@ -1,5 +1,5 @@
-// x^y in lanes for highlights and cones: own polynomials in a fixed order, the same bits on every target. Twin:
-// power_reference.h. Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1] (relative error 7.8e-9)
+// x^y in lanes for highlights and cones: products where y is a small whole number, which is most of what materials have, else own polynomials in a
+// fixed order, the same bits on every target. Twin: power_reference.h. Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1] (relative error 7.8e-9)
 // and of 2^t on [-1/2, 1/2] (2.0e-9); what is lost beyond them is rounding.
 #if defined(TESSERA_SHADING_POWER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POWER_INL_H_
@@ -44,6 +44,27 @@ HWY_INLINE Float power_lanes(Float x, float y) {
   Float product = hn::Mul(log2_lanes(safe), splat(y));
   product = lesser_of(greater_of(product, splat(-126.0f)), splat(kLargestLog2));
   return hn::IfThenElseZero(positive, exp2_lanes(product));
+}
+
+/// x^n for n = 1 .. kLargestWholePower, by products of squares: n - 1 roundings in all. 0 for x <= 0 or NaN; x below least_base(n) counts as that, and what
+/// is above 2^96 comes out as that.
+HWY_INLINE Float whole_power_lanes(Float x, int n) {
+  Float square = greater_of(x, splat(least_base(n))), product = splat(1.0f);
+  for (int rest = n;;) {
+    if ((rest & 1) != 0) product = hn::Mul(product, square);
+    rest >>= 1;
+    if (rest == 0) break;
+    square = hn::Mul(square, square);
+  }
+  return hn::IfThenElseZero(hn::Gt(x, hn::Zero(kFloat)), lesser_of(product, splat(kLargestPower)));
+}
+
+/// Calls run(power) with the function of x that x^exponent is: it is chosen once for many x. x^0 is 1 whatever x is.
+template <class Run>
+HWY_INLINE void with_power(float exponent, const Run& run) {
+  if (const int whole = whole_power(exponent); whole != 0) run([whole](Float x) HWY_ATTR { return whole_power_lanes(x, whole); });
+  else if (exponent == 0) run([](Float) HWY_ATTR { return splat(1.0f); });
+  else run([exponent](Float x) HWY_ATTR { return power_lanes(x, exponent); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,6 +1,7 @@
 // Constants of the power function; see power-inl.h for where they come from.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace tessera {
@@ -9,7 +10,17 @@ inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;      ///< of sqrt(1/2)
 inline constexpr float kRoundingBias = 0x1.8p23f;
 inline constexpr float kSmallestNormal = 0x1p-126f;
 /// Powers are cut at 2^96.
-inline constexpr float kLargestLog2 = 96.0f;
+inline constexpr float kLargestLog2 = 96.0f, kLargestPower = 0x1p96f;
+
+/// Up to here whole exponents are products of squares.
+inline constexpr int kLargestWholePower = 64;
+/// The exponent, if it is one of those; else 0.
+constexpr int whole_power(float exponent) {
+  const int whole = exponent >= 1 && exponent <= kLargestWholePower ? static_cast<int>(exponent) : 0;
+  return static_cast<float>(whole) == exponent ? whole : 0;
+}
+/// What smaller numbers count as under a whole exponent: the least power of two to which no product is below 2^-126. Its own power is 2^-63 at most.
+constexpr float least_base(int whole) { return std::bit_cast<float>((127 - 126 / whole) << 23); }
 
 inline constexpr int kLog2Terms = 10;
 inline constexpr float kLog2Coefficients[kLog2Terms] = {-0.107497894181f, 0.184760333652f,  -0.191388376567f, 0.204857647786f,  -0.23960812191f,

@@ -38,4 +38,18 @@ inline float power_reference(float x, float y) {
   return exp2_reference(low < kLargestLog2 ? low : kLargestLog2);
 }
 
+inline float whole_power_reference(float x, int n) {
+  if (!(x > 0.0f)) return 0.0f;
+  float square = x > least_base(n) ? x : least_base(n), product = 1;
+  for (int rest = n; rest != 0; rest >>= 1, square *= square)
+    if ((rest & 1) != 0) product *= square;
+  return product < kLargestPower ? product : kLargestPower;
+}
+
+/// x^0 is 1 whatever x is.
+inline float power_of_reference(float x, float exponent) {
+  if (const int whole = whole_power(exponent); whole != 0) return whole_power_reference(x, whole);
+  return exponent == 0 ? 1.0f : power_reference(x, exponent);
+}
+
 }  // namespace tessera

@@ -140,6 +140,21 @@ TEST(Functions, PowersOfAnyExponent) {
   errors.expect("x^y, y in 0 .. 16384");
 }
 
+// Products: x^a x^b is off by what its factors are, a - 1 and b - 1 roundings of u, and by its own.
+TEST(Functions, WholePowers) {
+  long double share = 0;
+  for (int n = 2; n <= kLargestWholePower; ++n)
+    for_floats(bits_of(least_base(n)), bits_of(1), [&](const std::vector<float>& arguments) {
+      std::vector<float> results(arguments.size());
+      evaluate_power(available_isas().front())(PowerFunction::chosen, arguments.data(), static_cast<float>(n), results.data(), arguments.size());
+      for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const long double exact = std::pow(static_cast<long double>(arguments[i]), static_cast<long double>(n));
+        share = std::max(share, std::abs(results[i] / exact - 1) * 0x1p24L / (n - 1));
+      }
+    }, kSampled * 16);
+  expect_within("x^n, n = 2 .. 64, relative", share, 1, "(n - 1) 2^-24");
+}
+
 // They have no logarithm of ours: each counts as the smallest normal float. Nothing has the power 0.
 TEST(Functions, PowersOfSubnormalFloats) {
   std::vector<float> subnormal{0x1p-149f};

@@ -7,8 +7,8 @@
 
 namespace tessera::test {
 
-enum class PowerFunction { power, log2, exp2 };
-/// Of `count` arguments, a multiple of 16; the exponent matters to `power` alone.
+enum class PowerFunction { power, log2, exp2, chosen };
+/// Of `count` arguments, a multiple of 16; the exponent matters to powers alone. `chosen`: in the way that lighting takes.
 using EvaluatePower = void(PowerFunction function, const float* arguments, float exponent, float* results, std::size_t count);
 EvaluatePower* evaluate_power(Isa isa);
 

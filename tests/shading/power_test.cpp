@@ -64,6 +64,29 @@ TEST(Power, HasTheBitsOfItsTwin) {
     expect_same_bits(PowerFunction::power, cosines(), y, [y](float x) { return power_reference(x, y); });
   }
 }
+// Whole ones are products up to the largest, and not above it; what is between is not.
+TEST(Power, IsChosenAsItsTwinIs) {
+  for (const float y : {0.0f, 0.5f, 1.0f, 2.0f, 3.0f, 25.0f, 25.5f, 31.0f, 63.0f, 64.0f, 64.5f, 65.0f, 1000.0f}) {
+    expect_same_bits(PowerFunction::chosen, all_magnitudes(), y, [y](float x) { return power_of_reference(x, y); });
+    expect_same_bits(PowerFunction::chosen, cosines(), y, [y](float x) { return power_of_reference(x, y); });
+    EXPECT_EQ(whole_power(y) != 0, y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64) << y;
+  }
+  EXPECT_EQ(whole_power(std::numeric_limits<float>::quiet_NaN()), 0);
+  EXPECT_EQ(power_of_reference(0.75f, 3), 0.421875f);
+}
+// In exact products, of numbers with one digit; and no product on the way is subnormal.
+TEST(Power, OfWholeExponentsIsExactWhereDigitsAreFew) {
+  for (int n = 1; n <= kLargestWholePower; ++n) {
+    const float least = whole_power_reference(least_base(n), n);
+    EXPECT_TRUE(least >= kSmallestNormal && least <= 0x1p-63f) << n << ": " << least;
+    EXPECT_EQ(whole_power_reference(least_base(n) / 2, n), least) << n;
+    for (int e = -1; std::ldexp(1.0f, e) >= least_base(n); --e) EXPECT_EQ(whole_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
+    EXPECT_EQ(whole_power_reference(1, n), 1.0f);
+    EXPECT_EQ(whole_power_reference(0x1p90f, n), n == 1 ? 0x1p90f : 0x1p96f) << n;
+    EXPECT_EQ(whole_power_reference(std::numeric_limits<float>::infinity(), n), 0x1p96f) << n;
+    for (const float x : {0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) EXPECT_EQ(whole_power_reference(x, n), 0.0f) << n;
+  }
+}
 TEST(Power, Log2HasTheBitsOfItsTwin) {
   std::vector<float> arguments;
   for (const float x : all_magnitudes())
