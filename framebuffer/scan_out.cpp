@@ -133,11 +133,38 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* wor
   std::memcpy(row, rest, static_cast<std::size_t>(rest_px) * sizeof rest[0]);
 }
 
+#if HWY_TARGET == HWY_AVX3
+/// Four rows, by blocks of 16 pixels: a block's rows are the quarters of a vector, and four blocks exchange them.
+template <class Pixels>
+HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px, std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
+  const Words d;
+  constexpr int kUnit = 4 * kBlockSize;
+  int x = 0;
+  for (; x + kUnit <= width_px; x += kUnit) {
+    const auto block = [&](int i) HWY_ATTR { return pixels(d, hn::Load(d, words + (x / kBlockSize + i) * kBlockPixels)).raw; };
+    const __m512i b0 = block(0), b1 = block(1), b2 = block(2), b3 = block(3);
+    const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0)), upper23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(1, 0, 1, 0));  // rows 0 1 0 1
+    const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2)), lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
+    const auto store = [&](__m512i row, int y) HWY_ATTR { store_pixels(d, WordsVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x); };
+    store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(2, 0, 2, 0)), 0);
+    store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(3, 1, 3, 1)), 1);
+    store(_mm512_shuffle_i64x2(lower01, lower23, _MM_SHUFFLE(2, 0, 2, 0)), 2);
+    store(_mm512_shuffle_i64x2(lower01, lower23, _MM_SHUFFLE(3, 1, 3, 1)), 3);
+  }
+  if (x == width_px) return;
+  for (int y = 0; y < kBlockSize; ++y)
+    scan_out_row_with<kBlockPixels>(pixels, words + x * kBlockSize + y * kBlockSize, width_px - x, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
+}
+#endif
+
 template <class Pixels>
 HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
                                    std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
-  for (int y = 0; y < height_px; ++y)
-    scan_out_row_with<kBlockPixels>(pixels, tile + tile_index(0, y, tile_size), width_px, first_row + y * stride_bytes);
+  int y = 0;
+#if HWY_TARGET == HWY_AVX3
+  for (; y + kBlockSize <= height_px; y += kBlockSize) scan_out_block_row_with(pixels, tile + tile_index(0, y, tile_size), width_px, first_row + y * stride_bytes, stride_bytes);
+#endif
+  for (; y < height_px; ++y) scan_out_row_with<kBlockPixels>(pixels, tile + tile_index(0, y, tile_size), width_px, first_row + y * stride_bytes);
 }
 
 /// Calls `scan` with what makes pixels by the rule.

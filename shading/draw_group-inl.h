@@ -33,7 +33,7 @@ template <>
 struct ColorOf<Seen::mix> {
   using Type = MixedColor;
 };
-/// `less` has code of its own, since nearly everybody uses it.
+/// `less`, by draws that write depth and have no operations, has code of its own, since nearly everybody uses it.
 enum class Test { less, any };
 struct NoDepth {
   struct Block {};
@@ -103,13 +103,14 @@ struct TrianglePixels {
   Int seen = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
-  const bool stores_full;        // full blocks are stored whole
+  const bool stores_whole;       // words, all planes of them
+  const bool stores_full;        // full blocks without any mask
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
         tests_stencil(has_stencil_test<kTest>(tile_draw)),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut),
-        stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && tile_draw.write_mask == 0xffffffffu) {
+        stores_whole(tile_draw.write_mask == 0xffffffffu), stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && stores_whole) {
     if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
@@ -172,8 +173,13 @@ struct TrianglePixels {
       if constexpr (kHasDepth<Depth>) {
         std::int32_t* stored_at = run.memory.depth + index;
         const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
-        mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, stored) : comparing(key, draw.depth_test, stored));
-        hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
+        if constexpr (kTest == Test::less) {
+          mask = hn::And(mask, hn::Lt(key, stored));
+          hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
+        } else {
+          mask = hn::And(mask, comparing(key, draw.depth_test, stored));
+          hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
+        }
       }
       if (kMayTestStencil && tests_stencil && stencil.steps.writes())
         hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt, stencil.values + index);
@@ -187,7 +193,8 @@ struct TrianglePixels {
         if (is_interpolated(kSeen) && bits == 0) continue;
         seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
         std::uint32_t* const stored_at = run.memory.color + index;
-        store_words(stored_at, words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at)), mask, writable);
+        const Int words = words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
+        kFull && stores_whole ? store_whole_words(stored_at, words, mask) : store_words(stored_at, words, mask, writable);
       }
     }
   }
@@ -216,7 +223,7 @@ struct TrianglePixels {
       const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
       if (is_tested) stencil.store_after_depth(index, passes);
       if (!passes) return;
-      if (draw.depth_write) run.memory.depth[index] = key;
+      if (kTest == Test::less || draw.depth_write) run.memory.depth[index] = key;
     } else if (is_tested) {
       stencil.store_after_depth(index, true);
     }
@@ -326,7 +333,7 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
       const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
       if (tests_stencil) stencil[face].store_after_depth(index, passes);
       if (!passes) continue;
-      if (draw.depth_write) run.memory.depth[index] = key;
+      if (kTest == Test::less || draw.depth_write) run.memory.depth[index] = key;
     } else if (tests_stencil) {
       stencil[face].store_after_depth(index, true);
     }

@@ -69,7 +69,7 @@ inline HWY_NOINLINE DrawGroup pick_draw_group(const TileFrame& frame, const Tile
   const std::optional<Seen> with_operations = draw.ops != nullptr ? seen_with_operations(frame, draw) : std::nullopt;
   if (draw.ops != nullptr && !with_operations) return frame.samples > 1 ? &draw_fragments_samples : &draw_fragments;
   const Seen seen = with_operations.value_or(seen_without_operations(draw));
-  const bool less = draw.depth_test == CompareOp::less && draw.ops == nullptr, sampled = frame.samples > 1;
+  const bool less = draw.depth_test == CompareOp::less && draw.depth_write && draw.ops == nullptr, sampled = frame.samples > 1;
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::per_pixel);
   TESSERA_ASSERT(!sampled || draw.deferred || draw.source != ColorSource::interpolated ||
                  (draw.write_mask == 0xffffffffu && !draw.scaled_colors && !frame.layout.index && !frame.layout.luminance));

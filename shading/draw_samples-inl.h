@@ -123,7 +123,7 @@ struct SampledTrianglePixels {
           std::int32_t* const at = stored_depth[s] + index;
           const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(anchors[s], step), chunk);
           mask = hn::And(mask, kTest == Test::less ? hn::Lt(key, before) : comparing(key, draw.depth_test, before));
-          const Int after = hn::IfThenElse(hn::And(mask, hn::MaskFromVec(writes_depth)), key, before);
+          const Int after = hn::IfThenElse(kTest == Test::less ? mask : hn::And(mask, hn::MaskFromVec(writes_depth)), key, before);
           hn::Store(after, kInt, at);
           if constexpr (kCulls<Depth, kTest>) farthest = hn::Max(farthest, after);
         }

@@ -54,6 +54,17 @@ HWY_INLINE void store_words(std::uint32_t* color, Int words, Mask mask, Int writ
   hn::Store(hn::Xor(stored, hn::And(hn::Xor(stored, words), changed)), kInt, target);
 }
 
+/// The same of whole words.
+template <class Mask>
+HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) {
+  auto* target = reinterpret_cast<std::int32_t*>(color);
+#if HWY_TARGET == HWY_AVX3
+  hn::BlendedStore(words, mask, kInt, target);
+#else  // where masked stores are slow on some processors
+  hn::Store(hn::IfThenElse(mask, words, hn::Load(kInt, target)), kInt, target);
+#endif
+}
+
 /// Interpolated colours that are scaled to levels: three linear functions and the word's packing.
 struct ScaledColor {
   CornerLanes r, g, b;
