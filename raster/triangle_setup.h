@@ -61,7 +61,7 @@ struct SampleGroup {
 
 /// The three edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in the tile.
 struct TileEdges {
-  std::int32_t a[3], b[3], e[3];
+  std::int32_t a[4], b[4], e[4];  ///< of three; lanes are loaded in fours
   /// Edge k at a pixel of the tile. Sums may wrap on their way there.
   std::int32_t at(int k, int x, int y) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(e[k]) + static_cast<std::uint32_t>(a[k]) * static_cast<std::uint32_t>(x) +

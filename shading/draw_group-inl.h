@@ -322,14 +322,16 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
   if (tests_stencil)
     for (const bool back : {false, true}) stencil[back ? 1 : 0] = pixel_stencil(run, draw, back);
   std::uint64_t seen = 0;
+  constexpr bool kHasKeys = SmallPixels::kHasKeys<Depth>;
+  if constexpr (kHasKeys) pixels.set_up_keys(g, run.frame.depth_kind);
   Depth depth;
   for (int p = 0; p < pixels.count; ++p) {
     const int i = pixels.triangle[p], index = pixels.index[p];
     const std::size_t face = (has_faces || tests_stencil) && is_back(run, draw, i) ? 1 : 0;
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
-      depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-      const std::int32_t key = depth.key(pixels.x[p], pixels.y[p]), stored = memory.depth[index];
+      if constexpr (!kHasKeys) depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+      const std::int32_t key = kHasKeys ? pixels.key[p] : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255), stored = memory.depth[index];
       const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
       if (tests_stencil) stencil[face].store_after_depth(index, passes);
       if (!passes) continue;

@@ -38,16 +38,26 @@ HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, I
   return from_weights(t.affine ? w1 : weight(0, e0), w1, w2, t.affine);
 }
 
+/// The three edges at a pixel, side by side.
+HWY_INLINE void edges_at(const TileEdges& t, int x, int y, std::int32_t (&at)[4]) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < 3; ++k) at[k] = t.at(k, x, y);
+#else
+  constexpr hn::CappedTag<std::int32_t, 4> four;
+  hn::Store(hn::Add(hn::LoadU(four, t.e), hn::Add(hn::Mul(hn::LoadU(four, t.a), hn::Set(four, x)), hn::Mul(hn::LoadU(four, t.b), hn::Set(four, y)))), four, at);
+#endif
+}
+
 /// The exact edges of a narrow triangle at the pixels of a block. Chunks are whole rows, or single pixels.
 struct NarrowEdges {
   const ShadedTriangle& triangle;
   Int first[3];  // at the first chunk
 
   HWY_INLINE NarrowEdges(const ShadedTriangle& t, int bx, int by) : triangle(t) {
-    for (int k = 0; k < 3; ++k) {
-      const Int start = splat(t.edges.at(k, bx, by));
-      first[k] = hn::Add(start, hn::Add(hn::Mul(splat(t.edges.a[k]), block_columns(0)), hn::Mul(splat(t.edges.b[k]), block_rows(0))));
-    }
+    alignas(16) std::int32_t start[4];
+    edges_at(t.edges, bx, by, start);
+    for (int k = 0; k < 3; ++k)
+      first[k] = hn::Add(splat(start[k]), hn::Add(hn::Mul(splat(t.edges.a[k]), block_columns(0)), hn::Mul(splat(t.edges.b[k]), block_rows(0))));
   }
   HWY_INLINE Int at(int k, int chunk) const {
     return hn::Add(first[k], splat(triangle.edges.a[k] * kBlockColumn[chunk * kLanes] + triangle.edges.b[k] * kBlockRow[chunk * kLanes]));

@@ -7,7 +7,9 @@
 #endif
 
 #include <bit>
+#include <type_traits>
 
+#include "raster/depth-inl.h"
 #include "raster/lanes-inl.h"
 #include "shading/tile_run-inl.h"
 
@@ -39,26 +41,35 @@ struct PickByTriangle {
 struct SmallPixels {
   static constexpr int kMost = kGroupSize * kBlockPixels;
   int count = 0;
-  alignas(64) std::int32_t triangle[kMost + kLanes], x[kMost + kLanes], y[kMost + kLanes];  // of the group; in the tile
-  alignas(64) std::int32_t index[kMost + kLanes];                                           // of the pixel
+  alignas(64) std::int32_t place[kMost + kLanes];                       // the triangle's number in the group, and y and x in the tile: 8 bits each
+  alignas(64) std::int32_t triangle[kMost + kLanes], index[kMost + kLanes];  // that number; of the pixel
+  alignas(64) std::int32_t key[kMost + kLanes];                         // of its depth, where kHasKeys
   alignas(64) float b1[kMost + kLanes], b2[kMost + kLanes];
+  static_assert(kMaxTileSize <= 256);
+  static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
+  static HWY_INLINE Int y_of(Int at) { return hn::And(hn::ShiftRight<8>(at), splat(255)); }
 
   HWY_INLINE void add(const TriangleGroup& g, int i, std::uint32_t hits) {
+    const std::int32_t first = i << 16 | g.y0[i] << 8 | g.x0[i];
+#if HWY_TARGET == HWY_AVX3
+    const Int at = hn::Add(splat(first), hn::Or(block_columns(0), hn::ShiftLeft<8>(block_rows(0))));
+    hn::StoreU(hn::Compress(at, mask_from_bits(hits)), kInt, place + count);
+    count += std::popcount(hits);
+#else
     for (; hits != 0; hits &= hits - 1) {
       const int p = std::countr_zero(hits);
-      triangle[count] = i;
-      x[count] = g.x0[i] + (p & 3);
-      y[count] = g.y0[i] + (p >> 2);
-      ++count;
+      place[count++] = first + ((p >> 2) << 8) + (p & 3);
     }
+#endif
   }
   /// Barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
   HWY_INLINE void set_up(const TileRun& run) {
     const TriangleGroup& g = run.memory.group;
-    for (int l = 0; l < kLanes; ++l) triangle[count + l] = x[count + l] = y[count + l] = 0;
+    hn::StoreU(hn::Zero(kInt), kInt, place + count);
     for (int first = 0; first < count; first += kLanes) {
-      const PickByTriangle pick(hn::LoadU(kInt, triangle + first));
-      const Int at_x = hn::LoadU(kInt, x + first), at_y = hn::LoadU(kInt, y + first);
+      const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at), at_y = y_of(at);
+      const PickByTriangle pick(of_triangle);
+      hn::Store(of_triangle, kInt, triangle + first);
       hn::StoreU(run.pixel_indices(at_x, at_y), kInt, index + first);
       Float w[3];
       for (int k = 0; k < 3; ++k) {
@@ -74,6 +85,26 @@ struct SmallPixels {
       hn::StoreU(w[1], kFloat, b1 + first);
       hn::StoreU(w[2], kFloat, b2 + first);
     }
+  }
+  /// Whether keys come in lanes: of a depth format that they do for, and where products of 64 bits do.
+  template <class Depth>
+  static constexpr bool kHasKeys = HWY_TARGET == HWY_AVX3 && std::is_same_v<Depth, UnormDepth>;
+  /// As UnormDepth::key() has them. @pre set_up
+  HWY_INLINE void set_up_keys([[maybe_unused]] const TriangleGroup& g, [[maybe_unused]] DepthKind kind) {
+#if HWY_TARGET == HWY_AVX3
+    const int shift = kind == DepthKind::unorm16 ? 16 : 8;
+    for (int first = 0; first < count; first += kLanes) {
+      const Int at = hn::Load(kInt, place + first);
+      const auto keys_of = [&](auto half_of) HWY_ATTR {  // eight pixels
+        const auto wide = [&](Int all) HWY_ATTR { return _mm512_cvtepu32_epi64(half_of(all.raw)); };
+        const __m512i of_triangle = wide(hn::ShiftRight<16>(at)), x = wide(x_of(at)), y = wide(y_of(at));
+        const auto pick = [&](const std::uint64_t* array) HWY_ATTR { return _mm512_permutex2var_epi64(_mm512_load_si512(array), of_triangle, _mm512_load_si512(array + 8)); };
+        return _mm512_add_epi64(pick(g.fixed_base), _mm512_add_epi64(_mm512_mullo_epi64(pick(g.fixed_dx), x), _mm512_mullo_epi64(pick(g.fixed_dy), y)));
+      };
+      const __m512i low = keys_of([](__m512i all) HWY_ATTR { return _mm512_castsi512_si256(all); }), high = keys_of([](__m512i all) HWY_ATTR { return _mm512_extracti64x4_epi64(all, 1); });
+      hn::Store(hn::BitCast(kInt, hn::ShiftRightSame(hn::ConcatOdd(kUint, Uint{high}, Uint{low}), shift)), kInt, key + first);
+    }
+#endif
   }
 };
 

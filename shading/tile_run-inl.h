@@ -91,6 +91,7 @@ struct MixedColor {
   CornerLanes lanes[4];
   Float low[4], high[4];
   bool same_alpha = false;               // at all pixels
+  Float one_alpha, one_rest;             // that one, and what is left of what is stored
 
   HWY_INLINE void set_up(const ShadedTriangle& t, const TileDraw& draw, const float* flat) {
     const int face = t.back ? 1 : 0;
@@ -110,13 +111,15 @@ struct MixedColor {
       low[k] = splat(c[k].low);
       high[k] = splat(c[k].high);
     }
+    one_alpha = lesser_of(greater_of(lanes[3].first, low[3]), high[3]);
+    one_rest = hn::Sub(splat(1.0f), one_alpha);
   }
   HWY_INLINE Int words(const Barycentric& at, Int stored) const {
     const Int byte = splat(255);
     const Int below[3] = {hn::And(hn::ShiftRight<16>(stored), byte), hn::And(hn::ShiftRight<8>(stored), byte), hn::And(stored, byte)};
-    const Float a = same_alpha ? lesser_of(greater_of(lanes[3].first, low[3]), high[3]) : within(at, 3), rest = hn::Sub(splat(1.0f), a);
+    const Float a = same_alpha ? one_alpha : within(at, 3), of_stored = same_alpha ? one_rest : hn::Sub(splat(1.0f), a);
     const auto level = [&](int k) HWY_ATTR {
-      const Float mixed = mul_add(within(at, k), a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), rest));
+      const Float mixed = mul_add(within(at, k), a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), of_stored));
       return truncate(mul_add(mixed, splat(255.0f), splat(0.5f)));
     };
     return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
