@@ -27,6 +27,8 @@ struct alignas(kTileAlignment) Tile {
   std::uint32_t words[kMaxTileSize * kMaxTileSize];
 };
 
+constexpr int kLinePixels = 512;  // of a plane in one cache line: those have one worker, as in the renderer
+
 /// Every worker has a tile in its cache, all with the same random words, and stores it wherever the window has one.
 class StoredTiles : public Workload {
  public:
@@ -44,9 +46,11 @@ class StoredTiles : public Workload {
   }
 
   FrameStats draw() override {
-    parallel_.for_each(static_cast<std::size_t>(grid_.count()), [&](std::size_t tile, int worker) {
-      const int x = static_cast<int>(tile) % grid_.columns(), y = static_cast<int>(tile) / grid_.columns();
-      store_(tiles_[static_cast<std::size_t>(worker)].words, {.x0_px = x * grid_.tile_size, .y0_px = y * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
+    const int strip = kLinePixels / grid_.tile_size, strips = (grid_.columns() + strip - 1) / strip;
+    parallel_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
+      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * strip;
+      for (int column = first; column < std::min(first + strip, grid_.columns()); ++column)
+        store_(tiles_[static_cast<std::size_t>(worker)].words, {.x0_px = column * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
     });
     return {};
   }
