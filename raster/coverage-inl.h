@@ -1,6 +1,6 @@
 // Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane, all sample
-// points at once. All others go by 4x4 blocks: a row of blocks at once is sorted into those outside, which are passed over,
-// those inside, whose pixels need no look, and those in between. Twin: coverage_reference.h.
+// points at once. All others go by 4x4 blocks: as many as there are lanes, of a row or of several short ones, are sorted at once into those
+// outside, which are passed over, those inside, whose pixels need no look, and those in between. Twin: coverage_reference.h.
 #if defined(TESSERA_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_COVERAGE_INL_H_
 #undef TESSERA_RASTER_COVERAGE_INL_H_
@@ -90,7 +90,8 @@ struct RowEdges {
 
 alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their first.
+/// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their first. Each sum is the edge's value at one of those
+/// pixels, so that it fits (fixed_point.h).
 HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns, int rows) {
   return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
 }
@@ -117,7 +118,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
   for (int column = 0; column < columns; column += in_row) {
     const int left = first_x + 4 * column;
     std::uint32_t in_bounds = (1u << std::min(columns - column, in_row)) - 1;
-    if (is_box) in_bounds *= 0x1111u & ((1u << (4 * rows)) - 1);
+    if (is_box) in_bounds *= 0x1111u & ((1u << (4 * rows)) - 1);  // the same four bits for each row
     Int e[3];
     for (int k = 0; k < 3; ++k) e[k] = hn::Add(splat(t.at(k, left, first_y)), to_lane[k]);
     for (int row = 0; row < rows; row += is_box ? rows : 1) {

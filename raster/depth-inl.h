@@ -52,6 +52,7 @@ struct UnormDepth {
 #else
     // Half of the lanes of a block's chunk, whole rows: a column's number is its lowest two bits, and those above are the row's.
     constexpr std::size_t kHalf = hn::MaxLanes(Uint64Tag());
+    static_assert(kHalf == 4 || kHalf == 8);
     const auto bit_of = [](const std::uint64_t (&bits)[8], std::uint64_t step) HWY_ATTR { return hn::And(hn::Load(kUint64, bits), hn::Set(kUint64, step)); };
     const auto in_row = hn::Add(bit_of(kOddColumns, dx), bit_of(kRightColumns, dx + dx));
     auto at = kHalf == 8 ? hn::Add(in_row, bit_of(kSecondRow, dy)) : in_row;

@@ -103,14 +103,14 @@ struct TrianglePixels {
   Int seen = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
   Int writable, depth_writable;  // masks, so that there is nothing to branch on
   const bool cut;                // the draw's rectangle cuts through blocks
-  const bool stores_whole;       // words, all planes of them
+  const bool writes_all_planes;
   const bool stores_full;        // full blocks without any mask
 
   HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
       : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
         tests_stencil(has_stencil_test<kTest>(tile_draw)),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut),
-        stores_whole(tile_draw.write_mask == 0xffffffffu), stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && stores_whole) {
+        writes_all_planes(tile_draw.write_mask == 0xffffffffu), stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && writes_all_planes) {
     if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
@@ -142,7 +142,7 @@ struct TrianglePixels {
       depth.step_right(block_depth);
     }
   }
-  /// The same without any test or mask.
+  // The same without any test or mask: one word, and whatever there is at each pixel.
   HWY_INLINE void fill_blocks(int index, int count) const {
     auto* const first = reinterpret_cast<std::int32_t*>(run.memory.color + index);
     for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(word), kInt, first + i);
@@ -194,7 +194,7 @@ struct TrianglePixels {
         seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
         std::uint32_t* const stored_at = run.memory.color + index;
         const Int words = words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
-        kFull && stores_whole ? store_whole_words(stored_at, words, mask) : store_words(stored_at, words, mask, writable);
+        kFull && writes_all_planes ? store_whole_words(stored_at, words, mask) : store_words(stored_at, words, mask, writable);
       }
     }
   }
@@ -326,7 +326,7 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
   if constexpr (kHasKeys) pixels.set_up_keys(g, run.frame.depth_kind);
   Depth depth;
   for (int p = 0; p < pixels.count; ++p) {
-    const int i = pixels.triangle[p], index = pixels.index[p];
+    const int i = pixels.triangle(p), index = pixels.index[p];
     const std::size_t face = (has_faces || tests_stencil) && is_back(run, draw, i) ? 1 : 0;
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {

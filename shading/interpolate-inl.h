@@ -38,7 +38,7 @@ HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, I
   return from_weights(t.affine ? w1 : weight(0, e0), w1, w2, t.affine);
 }
 
-/// The three edges at a pixel, side by side.
+/// The three edges at a pixel, side by side. @param at  on 16 bytes; the fourth means nothing
 HWY_INLINE void edges_at(const TileEdges& t, int x, int y, std::int32_t (&at)[4]) {
 #if HWY_TARGET == HWY_SCALAR
   for (int k = 0; k < 3; ++k) at[k] = t.at(k, x, y);

@@ -46,10 +46,11 @@ HWY_INLINE Float power_lanes(Float x, float y) {
   return hn::IfThenElseZero(positive, exp2_lanes(product));
 }
 
-/// x^n for n = 1 .. kLargestWholePower, by products of squares: n - 1 roundings in all. 0 for x <= 0 or NaN; x below least_base(n) counts as that, and what
-/// is above 2^96 comes out as that.
-HWY_INLINE Float whole_power_lanes(Float x, int n) {
-  Float square = greater_of(x, splat(least_base(n))), product = splat(1.0f);
+/// x^n for n = 1 .. kLargestWholePower, by products of squares: off by what n - 1 roundings come to. 0 for x <= 0 or NaN; x below `least` counts as that,
+/// and what is above 2^96 comes out as that.
+/// @param least  2^least_log2(n)
+HWY_INLINE Float whole_power_lanes(Float x, int n, Float least) {
+  Float square = greater_of(x, least), product = splat(1.0f);
   for (int rest = n;;) {
     if ((rest & 1) != 0) product = hn::Mul(product, square);
     rest >>= 1;
@@ -62,7 +63,7 @@ HWY_INLINE Float whole_power_lanes(Float x, int n) {
 /// Calls run(power) with the function of x that x^exponent is: it is chosen once for many x. x^0 is 1 whatever x is.
 template <class Run>
 HWY_INLINE void with_power(float exponent, const Run& run) {
-  if (const int whole = whole_power(exponent); whole != 0) run([whole](Float x) HWY_ATTR { return whole_power_lanes(x, whole); });
+  if (const int whole = whole_power(exponent); whole != 0) run([whole, least = exp2_lanes(splat(least_log2(whole)))](Float x) HWY_ATTR { return whole_power_lanes(x, whole, least); });
   else if (exponent == 0) run([](Float) HWY_ATTR { return splat(1.0f); });
   else run([exponent](Float x) HWY_ATTR { return power_lanes(x, exponent); });
 }

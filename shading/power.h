@@ -1,7 +1,6 @@
 // Constants of the power function; see power-inl.h for where they come from.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 namespace tessera {
@@ -19,8 +18,8 @@ constexpr int whole_power(float exponent) {
   const int whole = exponent >= 1 && exponent <= kLargestWholePower ? static_cast<int>(exponent) : 0;
   return static_cast<float>(whole) == exponent ? whole : 0;
 }
-/// What smaller numbers count as under a whole exponent: the least power of two to which no product is below 2^-126. Its own power is 2^-63 at most.
-constexpr float least_base(int whole) { return std::bit_cast<float>((127 - 126 / whole) << 23); }
+/// The logarithm of what smaller numbers count as under a whole exponent: a hair above 2^(-126 / n), so that no product is subnormal.
+constexpr float least_log2(int whole) { return -125.99f / static_cast<float>(whole); }
 
 inline constexpr int kLog2Terms = 10;
 inline constexpr float kLog2Coefficients[kLog2Terms] = {-0.107497894181f, 0.184760333652f,  -0.191388376567f, 0.204857647786f,  -0.23960812191f,

@@ -40,7 +40,8 @@ inline float power_reference(float x, float y) {
 
 inline float whole_power_reference(float x, int n) {
   if (!(x > 0.0f)) return 0.0f;
-  float square = x > least_base(n) ? x : least_base(n), product = 1;
+  const float least = exp2_reference(least_log2(n));
+  float square = x > least ? x : least, product = 1;
   for (int rest = n; rest != 0; rest >>= 1, square *= square)
     if ((rest & 1) != 0) product *= square;
   return product < kLargestPower ? product : kLargestPower;

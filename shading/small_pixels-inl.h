@@ -42,11 +42,12 @@ struct SmallPixels {
   static constexpr int kMost = kGroupSize * kBlockPixels;
   int count = 0;
   alignas(64) std::int32_t place[kMost + kLanes];                       // the triangle's number in the group, and y and x in the tile: 8 bits each
-  alignas(64) std::int32_t triangle[kMost + kLanes], index[kMost + kLanes];  // that number; of the pixel
+  alignas(64) std::int32_t index[kMost + kLanes];                       // of the pixel
   alignas(64) std::int32_t key[kMost + kLanes];                         // of its depth, where kHasKeys
   alignas(64) float b1[kMost + kLanes], b2[kMost + kLanes];
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
+  HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
   static HWY_INLINE Int y_of(Int at) { return hn::And(hn::ShiftRight<8>(at), splat(255)); }
 
   HWY_INLINE void add(const TriangleGroup& g, int i, std::uint32_t hits) {
@@ -69,7 +70,6 @@ struct SmallPixels {
     for (int first = 0; first < count; first += kLanes) {
       const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at), at_y = y_of(at);
       const PickByTriangle pick(of_triangle);
-      hn::Store(of_triangle, kInt, triangle + first);
       hn::StoreU(run.pixel_indices(at_x, at_y), kInt, index + first);
       Float w[3];
       for (int k = 0; k < 3; ++k) {

@@ -16,8 +16,8 @@ constexpr int kSide = 64;  // of the frame: a point in each pixel
 constexpr int kPoints = kSide * kSide;
 constexpr int kOctaves = 8;  // results of at least 1/256
 constexpr double kSeenTo = 64 / 510.0;  // 1/510 of full colour, to which a stored level is known
-/// What tests/numerics/functions_test.cpp promises and measures, ulp: of small whole exponents a rounding for each product.
-double promised(float exponent) { return exponent == std::floor(exponent) && exponent <= 64 ? double{exponent} - 1 : 14; }
+/// What tests/numerics/functions_test.cpp promises and measures, ulp: of whole exponents up to 64, which are products, what so many roundings come to.
+double promised(float exponent) { return exponent == std::floor(exponent) && exponent <= 64 ? std::max(double{exponent} - 1, 1.0) : 14; }
 
 /// Points with powers in 2^-(octave + 1) .. 2^-octave.
 struct Powers {

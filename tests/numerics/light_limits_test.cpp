@@ -126,7 +126,7 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
       l.position = l.spot_direction = draws.direction();
       if (!l.directional) fill(l.position, true);
       l.spot_cutoff = draws.of({0.0f, 45.0f, 90.0f, 180.0f});
-      l.spot_exponent = draws.of({0.0f, 0.5f, 128.0f, 16384.0f});
+      l.spot_exponent = draws.of({0.0f, 0.5f, 1.0f, 2.0f, 64.0f, 128.0f, 16384.0f});
     }
     const bool renormalize = draws.one_in(2);
     LightingProgram program = plan_lighting(material, {.ambient = draws.one_in(4), .diffuse = draws.one_in(4)}, lights,

@@ -158,7 +158,7 @@ inline std::array<double, 3> lighting_formula(const LightingCase& c, const Light
   return sum;
 }
 
-/// Lights up to 64 points on one instruction set.
+/// Lights up to kBatchPoints points on one instruction set.
 inline std::vector<Rgb> light(const LightingProgram& program, const std::vector<LightingPoint>& points, Isa isa) {
   ShadingBatch batch{};
   for (std::size_t i = 0; i < points.size(); ++i) {

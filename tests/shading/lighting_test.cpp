@@ -59,7 +59,7 @@ TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
         c.lights.push_back(random.light(static_cast<LightKind>(kind)));
         c.lights[0].diffuse = c.lights[0].specular = {0.9f, 0.8f, 0.7f};
         c.lights[0].ambient = (variant & 64) != 0 ? Rgb{0.1f, 0.2f, 0.3f} : Rgb{};
-        std::vector<LightingPoint> points(64);
+        std::vector<LightingPoint> points(kBatchPoints);
         for (LightingPoint& p : points) p = random.point();
         const LightingProgram program = c.program();
         for (const LightTerm& term : program.terms) combinations.insert({term.kind, term.highlight, term.squared, term.sharp, program.tracked, !is_black(term.ambient)});
@@ -75,7 +75,7 @@ TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
 TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
   RandomLighting random(2);
   for (int round = 0; round < rounds(2000); ++round) {
-    std::vector<LightingPoint> points(static_cast<std::size_t>(16 + 16 * (round % 4)));
+    std::vector<LightingPoint> points(static_cast<std::size_t>(16 + 16 * (round % 8)));
     for (LightingPoint& p : points) p = random.point();
     expect_same_bits(random.next().program(), points);
     if (HasFatalFailure()) return;
@@ -95,7 +95,7 @@ TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
     LightingProgram program = plan_index_lighting(material, c.lights, c.model, nullptr);
     program.renormalize = c.renormalize;
     program.negate_normal = c.negate_normal;
-    std::vector<LightingPoint> points(64);
+    std::vector<LightingPoint> points(kBatchPoints);
     for (LightingPoint& p : points) p = random.point();
     for (const Isa isa : available_isas()) {
       const std::vector<Rgb> colors = light(program, points, isa);
@@ -126,7 +126,7 @@ TEST(Lighting, OfIndicesIsThatOfTheFormula) {
     LightingProgram program = plan_index_lighting(material, c.lights, c.model, nullptr);
     program.renormalize = c.renormalize;
     program.negate_normal = c.negate_normal;
-    std::vector<LightingPoint> points(64);
+    std::vector<LightingPoint> points(kBatchPoints);
     for (LightingPoint& p : points) p = random.point();
     const std::vector<Rgb> colors = light(program, points, available_isas().front());
     for (EyeLight& l : c.lights) {
@@ -167,7 +167,7 @@ TEST(Lighting, IsWithinOneLevelOfTheFormula) {
   std::size_t compared = 0, all = 0;
   for (int round = 0; round < rounds(4000); ++round) {
     const LightingCase c = random.next();
-    std::vector<LightingPoint> points(64);
+    std::vector<LightingPoint> points(kBatchPoints);
     for (LightingPoint& p : points) p = random.point();
     all += points.size();
     const double distance = distance_to_formula(c, points, &compared);
@@ -197,7 +197,7 @@ TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
       c.lights[0].specular = {1, 0.7f, 0.4f};
       c.lights[0].spot_cutoff = 180;
       // Normals about the halfway vector, so that highlights are seen at all.
-      std::vector<LightingPoint> points(64);
+      std::vector<LightingPoint> points(kBatchPoints);
       for (LightingPoint& p : points) {
         p = random.point();
         std::array<double, 3> l{}, e{0, 0, 1};
@@ -415,7 +415,7 @@ TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
         s.c.material.specular = tracked ? Rgb{} : Rgb{1, 1, 1};
         s.c.material.shininess = 1000;
         s.c.tracked.diffuse = tracked;
-        s.points.resize(64);
+        s.points.resize(kBatchPoints);
         for (std::size_t i = 0; i < s.points.size(); ++i) {
           LightingPoint& p = s.points[i];
           p = {endless.normal, endless.position, i % 4 == 3 ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
@@ -509,7 +509,7 @@ TEST(LightingSpecialCase, OverflowStaysWithinRange) {
   for (const float size : {1e-30f, 1e-20f, 1e15f, 1e20f, 1e30f, 3e38f}) {
     for (int round = 0; round < 50; ++round) {
       const LightingCase c = random.next();
-      std::vector<LightingPoint> points(64);
+      std::vector<LightingPoint> points(kBatchPoints);
       for (LightingPoint& p : points) {
         p = random.point();
         for (std::size_t k = 0; k < 3; ++k) (round % 2 != 0 ? p.normal : p.position)[k] *= size;

@@ -77,10 +77,11 @@ TEST(Power, IsChosenAsItsTwinIs) {
 // In exact products, of numbers with one digit; and no product on the way is subnormal.
 TEST(Power, OfWholeExponentsIsExactWhereDigitsAreFew) {
   for (int n = 1; n <= kLargestWholePower; ++n) {
-    const float least = whole_power_reference(least_base(n), n);
-    EXPECT_TRUE(least >= kSmallestNormal && least <= 0x1p-63f) << n << ": " << least;
-    EXPECT_EQ(whole_power_reference(least_base(n) / 2, n), least) << n;
-    for (int e = -1; std::ldexp(1.0f, e) >= least_base(n); --e) EXPECT_EQ(whole_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
+    for (const float tiny : {0x1p-149f, 0x1p-126f, exp2_reference(-126.1f / static_cast<float>(n))}) {
+      const float least = whole_power_reference(tiny, n);
+      EXPECT_TRUE(least >= kSmallestNormal && least <= 1.01f * kSmallestNormal) << n << ": " << least;
+    }
+    for (int e = -1; e * n >= -125; --e) EXPECT_EQ(whole_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
     EXPECT_EQ(whole_power_reference(1, n), 1.0f);
     EXPECT_EQ(whole_power_reference(0x1p90f, n), n == 1 ? 0x1p90f : 0x1p96f) << n;
     EXPECT_EQ(whole_power_reference(std::numeric_limits<float>::infinity(), n), 0x1p96f) << n;

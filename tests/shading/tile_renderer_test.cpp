@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "shading/interpolate_reference.h"
@@ -79,8 +80,12 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
   }
 }
 
+std::int32_t farthest_key(DepthKind kind) {
+  return depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u : kind == DepthKind::none ? 0xffffffu : 0xffffffffu >> (32 - depth_bits(kind)));
+}
+
 TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
-  for (const DepthKind kind : {DepthKind::none, DepthKind::unorm24, DepthKind::float32}) {
+  for (const DepthKind kind : {DepthKind::none, DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32}) {
     RandomTriangles source(42, kTile);
     TileStage stage(kTile, kTile, kTile, kind);
     for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
@@ -94,7 +99,7 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
           draw.uses_depth = kind != DepthKind::none;
           draw.deferred = way != 0;
           stage.frame().shade_at_once = way == 2;
-          stage.render(isa, 0, 0x123456, depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u : 0xffffffu));
+          stage.render(isa, 0, 0x123456, farthest_key(kind));
           colors[way] = stage.colors();
           depths[way] = stage.depths();
         }
@@ -241,8 +246,8 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
             draw.alpha_attribute[face] = has_alpha ? 3 : -1;
             draw.alpha[face] = 0.625f;
           }
-          stage.render(isa, 0, 0x123456, depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u : 0xffffffu));
-          return std::pair(stage.colors(), kind != DepthKind::none ? stage.depths() : std::vector<std::int32_t>());
+          const TileCounts counts = stage.render(isa, 0, 0x123456, farthest_key(kind));
+          return std::tuple(stage.colors(), kind != DepthKind::none ? stage.depths() : std::vector<std::int32_t>(), counts.shaded_pixels);
         };
         ASSERT_EQ(draw_with(mix), draw_with(general)) << name_of(isa) << (has_alpha ? ", alpha of the vertices" : "") << (constant ? ", one colour" : "");
       }
