@@ -19,9 +19,12 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// Sets up the narrow edges of lane i for coverage.
+HWY_INLINE void set_tile_edges(TileEdges& t, const TriangleGroup& g, int i) {
+  for (int k = 0; k < 3; ++k) t.a[k] = g.a[k][i], t.b[k] = g.b[k][i], t.e[k] = g.e[k][i];
+}
 HWY_INLINE TileEdges tile_edges(const TriangleGroup& g, int i) {
   TileEdges t;
-  for (int k = 0; k < 3; ++k) t.a[k] = g.a[k][i], t.b[k] = g.b[k][i], t.e[k] = g.e[k][i];
+  set_tile_edges(t, g, i);
   return t;
 }
 

@@ -81,6 +81,17 @@ struct UnormDepth {
   };
   static HWY_INLINE Block block_at(std::uint64_t start) { return {hn::Set(kUint64, start)}; }
   HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
+  /// The first pixels of a box's blocks, which stand as the pixels of a block do. @pre prepare_blocks()
+  struct Box {
+    alignas(64) std::uint64_t start[16];
+  };
+  HWY_INLINE Box box(int x, int y) const {
+    Box box;
+    for (std::size_t p = 0; p < 16; p += hn::MaxLanes(Uint64Tag()))
+      hn::Store(hn::Add(hn::ShiftLeft<2>(hn::Load(kUint64, offset + p)), hn::Set(kUint64, at(x, y))), kUint64, box.start + p);
+    return box;
+  }
+  static HWY_INLINE Block block(const Box& box, int i) { return block_at(box.start[i]); }
   HWY_INLINE void step_right(Block& block) const { block.start = hn::Add(block.start, hn::Set(kUint64, 4 * dx)); }
   /// The same of a sample, from the step to the block that step_to() gives.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
@@ -92,7 +103,7 @@ struct UnormDepth {
     const auto low = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes));
     const auto high = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes + kLanes / 2));
     const Uint words = hn::ConcatOdd(kUint, hn::BitCast(kUint, high), hn::BitCast(kUint, low));
-    return hn::BitCast(kInt, hn::ShiftRightSame(words, shift));
+    return hn::BitCast(kInt, hn::Shr(words, hn::Set(kUint, static_cast<std::uint32_t>(shift))));
 #endif
   }
 };
@@ -166,6 +177,11 @@ struct Float32Depth {
     double x, y;
   };
   HWY_INLINE Block block(int bx, int by) const { return {first_x + bx, first_y + by}; }
+  struct Box {
+    int x, y;
+  };
+  HWY_INLINE Box box(int x, int y) const { return {x, y}; }
+  HWY_INLINE Block block(const Box& box, int i) const { return block(box.x + 4 * (i & 3), box.y + 4 * (i >> 2)); }
   HWY_INLINE void step_right(Block& block) const { block.x += 4; }  // exact: 24 bits
   HWY_INLINE Block step_to(int bx, int by) const { return {static_cast<double>(bx), static_cast<double>(by)}; }
   static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample.x + step.x, sample.y + step.y}; }

@@ -10,248 +10,16 @@
 #include <bit>
 
 #include "raster/coverage-inl.h"
-#include "raster/depth-inl.h"
 #include "raster/triangle_setup-inl.h"
+#include "shading/box_pixels-inl.h"
 #include "shading/deferred-inl.h"
-#include "shading/fragment_ops-inl.h"
 #include "shading/fragment_word.h"
 #include "shading/small_pixels-inl.h"
+#include "shading/triangle_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
-
-/// What happens to a pixel that is seen.
-enum class Seen { nothing, word, interpolate, mix, collect };
-inline constexpr bool is_interpolated(Seen seen) { return seen == Seen::interpolate || seen == Seen::mix; }
-/// Its colour, where it is interpolated.
-template <Seen kSeen>
-struct ColorOf {
-  using Type = ScaledColor;
-};
-template <>
-struct ColorOf<Seen::mix> {
-  using Type = MixedColor;
-};
-/// `less`, by draws that write depth and have no operations, has code of its own, since nearly everybody uses it.
-enum class Test { less, any };
-struct NoDepth {
-  struct Block {};
-  HWY_INLINE Block block(int, int) const { return {}; }
-  HWY_INLINE void step_right(Block&) const {}
-  HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthKind) {}
-  HWY_INLINE void prepare_blocks() {}
-  struct Anchor {};
-  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int, int) { return {}; }
-  HWY_INLINE Block step_to(int, int) const { return {}; }
-};
-template <class Depth>
-inline constexpr bool kHasDepth = true;
-template <>
-inline constexpr bool kHasDepth<NoDepth> = false;
-
-/// The sum of lanes of minus how many.
-HWY_INLINE std::uint64_t count_of(Int negative) {
-  alignas(64) std::int32_t lanes[kLanes];
-  hn::Store(negative, kInt, lanes);
-  std::int64_t sum = 0;
-  for (const std::int32_t lane : lanes) sum -= lane;
-  return static_cast<std::uint64_t>(sum);
-}
-
-/// The stencil test of one face's pixels, one by one.
-struct PixelStencil {
-  StencilSteps steps{};
-  std::int32_t* values = nullptr;
-
-  /// Whether a pixel passes; what fails is stored.
-  HWY_INLINE bool passes(int index) const {
-    const bool does = steps.passes(values[index]);
-    if (!does) store(index, steps.fail);
-    return does;
-  }
-  HWY_INLINE void store_after_depth(int index, bool depth_passes) const { store(index, depth_passes ? steps.zpass : steps.zfail); }
-
- private:
-  HWY_INLINE void store(int index, const StencilStep& step) const {
-    std::int32_t& stored = values[index];
-    stored = (stored & ~steps.write_mask) | (step(stored) & steps.write_mask);
-  }
-};
-template <Test kTest>
-HWY_INLINE bool has_stencil_test(const TileDraw& draw) { return kTest == Test::any && draw.ops != nullptr && draw.ops->stencil; }
-HWY_INLINE PixelStencil pixel_stencil(const TileRun& run, const TileDraw& draw, bool back) {
-  return {.steps = stencil_steps(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_most), .values = run.sample[0].stencil};
-}
-
-/// One triangle's way through the blocks of a tile.
-template <class Depth, Test kTest, Seen kSeen>
-struct TrianglePixels {
-  static constexpr bool kMayTestStencil = kTest == Test::any;
-  TileRun& run;
-  const TileDraw& draw;
-  const TileEdges& edges;
-  BlockOffsets offsets;
-  const ShadedTriangle& triangle;
-  Depth depth;
-  typename ColorOf<kSeen>::Type color;
-  std::int32_t word = 0;
-  std::int32_t id = 0;
-  const bool tests_stencil;
-  PixelStencil stencil{};
-  std::uint32_t seen_pixels = 0;  // of those with a colour
-  Int seen = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
-  Int writable, depth_writable;  // masks, so that there is nothing to branch on
-  const bool cut;                // the draw's rectangle cuts through blocks
-  const bool writes_all_planes;
-  const bool stores_full;        // full blocks without any mask
-
-  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
-      : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
-        tests_stencil(has_stencil_test<kTest>(tile_draw)),
-        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut),
-        writes_all_planes(tile_draw.write_mask == 0xffffffffu), stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && writes_all_planes) {
-    if (tests_stencil) stencil = pixel_stencil(run, draw, back);
-  }
-
-  /// A block that is not full.
-  template <bool kFull>
-  HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
-    static_assert(!kFull);  // those come by rows
-    if constexpr (kSeen == Seen::mix) rare_block(bx, by, block_edges);
-    else draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges);
-  }
-  /// Once, where code is long and such blocks are few.
-  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges); }
-  /// Blocks side by side, all of whose pixels are inside.
-  HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
-    int index = run.block_index(bx, by);
-    RowEdges row_edges(edges, first);
-    if constexpr (!kHasDepth<Depth> && (kSeen == Seen::word || is_interpolated(kSeen))) {
-      if (stores_full) {
-        seen_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
-        if constexpr (kSeen == Seen::word) fill_blocks(index, count);
-        else store_row(bx, by, index, count, row_edges);
-        return;
-      }
-    }
-    auto block_depth = depth.block(bx, by);
-    for (const int end = bx + 4 * count; bx < end; bx += 4, index += kBlockPixels) {
-      draw_chunks<true>(bx, by, index, block_depth, row_edges);
-      row_edges.step_right();
-      depth.step_right(block_depth);
-    }
-  }
-  // The same without any test or mask: one word, and whatever there is at each pixel.
-  HWY_INLINE void fill_blocks(int index, int count) const {
-    auto* const first = reinterpret_cast<std::int32_t*>(run.memory.color + index);
-    for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(word), kInt, first + i);
-  }
-  HWY_INLINE void store_row(int bx, int by, int index, int count, RowEdges& row_edges) {
-    for (const int end = index + kBlockPixels * count; index < end; bx += 4, row_edges.step_right())
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
-        auto* const stored_at = reinterpret_cast<std::int32_t*>(run.memory.color + index);
-        hn::Store(words_at(row_edges, bx, by, chunk, stored_at), kInt, stored_at);
-      }
-  }
-  /// @param block  its index
-  template <bool kFull, class Edges>
-  HWY_INLINE void draw_chunks(int bx, int by, int block, [[maybe_unused]] const typename Depth::Block& block_depth, [[maybe_unused]] const Edges& block_edges) {
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const int index = block + chunk * kLanes;
-      auto mask = hn::Eq(hn::Zero(kInt), hn::Zero(kInt));
-      if constexpr (!kFull) mask = block_edges.covered(chunk);
-      if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
-      [[maybe_unused]] Int stencil_before = hn::Zero(kInt);
-      [[maybe_unused]] LaneMask failed = no_lanes(), passed = mask;
-      if (kMayTestStencil && tests_stencil) {
-        stencil_before = hn::Load(kInt, stencil.values + index);
-        passed = hn::And(mask, stencil_passes(stencil.steps, stencil_before));
-        failed = hn::AndNot(passed, mask);
-        mask = passed;
-      }
-      if constexpr (kHasDepth<Depth>) {
-        std::int32_t* stored_at = run.memory.depth + index;
-        const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
-        if constexpr (kTest == Test::less) {
-          mask = hn::And(mask, hn::Lt(key, stored));
-          hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
-        } else {
-          mask = hn::And(mask, comparing(key, draw.depth_test, stored));
-          hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
-        }
-      }
-      if (kMayTestStencil && tests_stencil && stencil.steps.writes())
-        hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt, stencil.values + index);
-      // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
-      if constexpr (kSeen == Seen::collect) {
-        auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
-        hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
-        seen = hn::Or(seen, hn::VecFromMask(kInt, mask));
-      } else if constexpr (kSeen != Seen::nothing) {
-        const std::uint32_t bits = mask_bits(kInt, mask);
-        if (is_interpolated(kSeen) && bits == 0) continue;
-        seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
-        std::uint32_t* const stored_at = run.memory.color + index;
-        const Int words = words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
-        kFull && writes_all_planes ? store_whole_words(stored_at, words, mask) : store_words(stored_at, words, mask, writable);
-      }
-    }
-  }
-  /// @param stored_at  what is there in the frame buffer, for what is mixed with it
-  template <class Edges>
-  HWY_INLINE Int words_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx, [[maybe_unused]] int by, [[maybe_unused]] int chunk, [[maybe_unused]] const std::int32_t* stored_at) const {
-    if constexpr (kSeen == Seen::word) return splat(word);
-    else if constexpr (kSeen == Seen::mix) return color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
-    else return color.words(barycentric_at(block_edges, bx, by, chunk));
-  }
-
-  /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
-  template <class Edges>
-  HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
-    if (triangle.wide >= 0) return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
-    return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk), block_edges.at(2, chunk));
-  }
-
-  /// One pixel of a small triangle.
-  HWY_INLINE void pixel(int x, int y) {
-    const int index = run.pixel_index(x, y);
-    const bool is_tested = kMayTestStencil && tests_stencil;
-    if (is_tested && !stencil.passes(index)) return;
-    if constexpr (kHasDepth<Depth>) {
-      const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
-      const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
-      if (is_tested) stencil.store_after_depth(index, passes);
-      if (!passes) return;
-      if (kTest == Test::less || draw.depth_write) run.memory.depth[index] = key;
-    } else if (is_tested) {
-      stencil.store_after_depth(index, true);
-    }
-    if constexpr (kSeen == Seen::collect) {
-      run.memory.ids[index] = static_cast<std::uint32_t>(id);
-      seen = splat(-1);
-    } else if constexpr (kSeen != Seen::nothing) {
-      ++run.counts.shaded_pixels;
-      const std::uint32_t new_word = pixel_word(x, y, run.memory.color[index]);
-      run.memory.color[index] = (new_word & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
-    }
-  }
-
-  /// color.words() for a single pixel, step by step the same.
-  HWY_INLINE std::uint32_t pixel_word(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
-    if constexpr (kSeen != Seen::mix) {  // those that are interpolated and nothing else stand in SmallPixels
-      return static_cast<std::uint32_t>(word);
-    } else {
-      float w[3];
-      for (int k = 0; k < 3; ++k) {
-        w[k] = std::fma(static_cast<float>(triangle.edges.at(k, x, y)), triangle.scale[k], triangle.shift[k]);
-      }
-      const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
-      const float b1 = w[1] * inverse, b2 = w[2] * inverse;
-      return color.word(b1, b2, stored);
-    }
-  }
-};
 
 HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t element) {
   const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.element_corners) + static_cast<std::size_t>(draw.provoking);
@@ -292,7 +60,7 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileR
 /// The triangle as shading sees it.
 inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& run, std::uint32_t draw, int i, bool back) {
   const TriangleGroup& g = run.memory.group;
-  t.edges = tile_edges(g, i);
+  set_tile_edges(t.edges, g, i);  // in place: a copy would have to wait for each of its parts
   for (int k = 0; k < 3; ++k) {
     t.scale[k] = g.wide[i] != 0 ? g.unit_scale[k][i] : g.scale[k][i];
     t.shift[k] = g.shift[k][i];
@@ -348,6 +116,20 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
   pixels.count = 0;
 }
 
+/// Keeps triangle i of the group, some of whose pixels were seen, until these are shaded.
+/// @param wide_edges  of a wide triangle; else null
+inline HWY_NOINLINE void collect_triangle(TileRun& run, std::uint32_t draw_number, int i, bool back, const WideEdges* wide_edges) {
+  TileWorkspace::Memory& memory = run.memory;
+  ShadedTriangle& triangle = memory.triangles.emplace_back();
+  fill_shaded_triangle(triangle, run, draw_number, i, back);
+  if (wide_edges != nullptr) keep_wide_edges(triangle, memory, *wide_edges);
+  if (!run.frame.shade_at_once) return;
+  const TriangleGroup& g = memory.group;
+  shade_collected(run, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
+  memory.triangles.clear();
+  memory.wide.clear();
+}
+
 template <class Depth, Test kTest, Seen kSeen>
 void draw_group(TileRun& run, std::uint32_t draw_number) {
   TileWorkspace::Memory& memory = run.memory;
@@ -366,6 +148,11 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       cover_small(g, first, hits + first);
       without_pixel |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first), hn::Zero(kInt))) << first;
     }
+  [[maybe_unused]] BoxGroup boxes;
+  if constexpr (kHasBoxes<kTest, kSeen>) {
+    const std::uint32_t by_blocks = g.mask & ~small_ones;
+    if (by_blocks != 0 && !run.cut) boxes.set_up(run, g, by_blocks);
+  }
   [[maybe_unused]] SmallPixels small_pixels;
   for (std::uint32_t left = g.mask & ~(small_ones & without_pixel); left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
@@ -378,6 +165,17 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
     }
     const bool back = is_back(run, draw, i);
+    if constexpr (kHasBoxes<kTest, kSeen>) {
+      if ((boxes.triangles >> i & 1) != 0) {
+        std::int32_t value = 0;
+        if constexpr (kSeen == Seen::word) value = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
+        if constexpr (kSeen == Seen::collect) value = static_cast<std::int32_t>(memory.triangles.size());
+        const std::uint32_t seen = draw_in_boxes<Depth, kSeen>(run, draw, boxes, i, value, back);
+        if constexpr (kSeen != Seen::collect) run.counts.shaded_pixels += seen;
+        else if (seen != 0) collect_triangle(run, draw_number, i, back, nullptr);
+        continue;
+      }
+    }
     TileEdges edges = tile_edges(g, i);
     WideEdges wide_edges;
     if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
@@ -400,15 +198,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kSeen == Seen::collect) {
-      if (hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)))) continue;
-      fill_shaded_triangle(triangle, run, draw_number, i, back);
-      if (wide) keep_wide_edges(triangle, memory, wide_edges);
-      memory.triangles.push_back(triangle);
-      if (run.frame.shade_at_once) {
-        shade_collected(run, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
-        memory.triangles.clear();
-        memory.wide.clear();
-      }
+      if (!hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)))) collect_triangle(run, draw_number, i, back, wide ? &wide_edges : nullptr);
     }
     if constexpr (is_interpolated(kSeen)) memory.wide.clear();
     if constexpr (is_interpolated(kSeen) || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels;

@@ -68,19 +68,34 @@ HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) {
 /// Interpolated colours that are scaled to levels: three linear functions and the word's packing.
 struct ScaledColor {
   CornerLanes r, g, b;
-  int r_shift, g_shift;
+  Int r_shift, g_shift;
 
   HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, const ColorLayout& layout) {
-    r.set(corners(t, attribute));
-    g.set(corners(t, attribute + 1));
-    b.set(corners(t, attribute + 2));
-    r_shift = layout.r_shift();
-    g_shift = layout.g_shift();
+    set_up(t.attributes[0] + attribute, t.attributes[1] + attribute, t.attributes[2] + attribute, layout);
+  }
+  /// @param first  four floats can be read there, and at the others
+  HWY_INLINE void set_up(const float* first, const float* second, const float* third, const ColorLayout& layout) {
+#if HWY_TARGET == HWY_SCALAR
+    const auto of = [&](int c) { return Corners{first[c], second[c] - first[c], third[c] - first[c]}; };
+#else
+    constexpr hn::CappedTag<float, 4> four;
+    alignas(16) float at[3][4];
+    const auto at_first = hn::LoadU(four, first);
+    hn::Store(at_first, four, at[0]);
+    hn::Store(hn::Sub(hn::LoadU(four, second), at_first), four, at[1]);
+    hn::Store(hn::Sub(hn::LoadU(four, third), at_first), four, at[2]);
+    const auto of = [&](int c) { return Corners{at[0][c], at[1][c], at[2][c]}; };
+#endif
+    r.set(of(0));
+    g.set(of(1));
+    b.set(of(2));
+    r_shift = splat(layout.r_shift());
+    g_shift = splat(layout.g_shift());
   }
   HWY_INLINE Int words(const Barycentric& at) const {
     const Int red = truncate(interpolate(at, r)), green = truncate(interpolate(at, g));
     const Int blue = truncate(interpolate(at, b));
-    return hn::Or(hn::Or(hn::ShiftLeftSame(red, r_shift), hn::ShiftLeftSame(green, g_shift)), blue);
+    return hn::Or(hn::Or(hn::Shl(red, r_shift), hn::Shl(green, g_shift)), blue);
   }
 };
 

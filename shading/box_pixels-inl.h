@@ -1,0 +1,219 @@
+// Triangles of middle size, whose blocks are a few boxes: as many blocks as there are lanes, four beside each other. What each block of a box needs comes about
+// side by side, and all that the triangle is made of stays in registers while its blocks are drawn.
+#if defined(TESSERA_SHADING_BOX_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_BOX_PIXELS_INL_H_
+#undef TESSERA_SHADING_BOX_PIXELS_INL_H_
+#else
+#define TESSERA_SHADING_BOX_PIXELS_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+
+#include "raster/depth-inl.h"
+#include "raster/lanes-inl.h"
+#include "shading/draw_kinds-inl.h"
+#include "shading/tile_run-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+
+/// Which draws have them, where no rectangle cuts through blocks.
+template <Test kTest, Seen kSeen>
+inline constexpr bool kHasBoxes = kLanes > 1 && kTest == Test::less && kSeen != Seen::mix;
+inline constexpr int kBoxRows = kLanes / 4;  // of four blocks; the lanes of a box stand as the pixels of a block's first chunk
+
+/// Those of a box's blocks, a bit each, that are in the first `columns` and `rows`.
+HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
+  return ((1u << std::min(columns, 4)) - 1) * 0x1111u & ((1u << (4 * std::min(rows, kBoxRows))) - 1);  // the same four bits for each row
+}
+
+/// What is known of a group's triangles before one of them is drawn: so early that the ways that drawing them takes are foretold in time.
+struct BoxGroup {
+  /// Beside and below each other: above that there are rows of full blocks. With few registers more than one is no gain.
+  static constexpr int kMostBoxes = kLanes == 16 ? 4 : 1;
+  std::uint32_t triangles = 0;                          // those in boxes, a bit each
+  std::uint32_t singles = 0;                            // and those, among others, in one
+  alignas(64) std::int32_t block_index[kLanes];         // of each block's first pixel, from that of its box
+  alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];           // the first box's first pixel
+  alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];  // of blocks
+  alignas(64) std::int32_t e[3][kGroupSize];                       // the edges there
+  alignas(64) std::int32_t to_highest[3][kGroupSize];              // and from a block's first pixel to where an edge is highest
+  // Of triangles in one box: the edges at a block's pixels, from its first; those at the blocks' first pixels; which blocks the triangle may cover.
+  alignas(64) std::int32_t offset[kGroupSize][3][kBlockPixels];
+  alignas(64) std::int32_t start[kGroupSize][3][kLanes];
+  std::uint32_t touched[kGroupSize];
+
+  /// @param among  triangles that are drawn by blocks
+  HWY_INLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
+    const auto at = [](const std::int32_t* array, int first) HWY_ATTR { return hn::Load(kInt, array + first); };
+    hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt, block_index);
+    for (int first = 0; first < kGroupSize; first += kLanes) {
+      const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)), one = splat(1), zero = hn::Zero(kInt);
+      const Int across = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.x1, first), first_x)), one), down = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.y1, first), first_y)), one);
+      const auto fits = hn::And(hn::Lt(across, splat(4 * kMostBoxes + 1)), hn::Lt(down, splat(kBoxRows * kMostBoxes + 1)));
+      triangles |= mask_bits(kInt, hn::And(fits, hn::Eq(at(g.wide, first), zero))) << first;
+      singles |= mask_bits(kInt, hn::And(hn::Lt(across, splat(5)), hn::Lt(down, splat(kBoxRows + 1)))) << first;
+      hn::Store(across, kInt, columns + first);
+      hn::Store(down, kInt, rows + first);
+      hn::Store(first_x, kInt, x + first);
+      hn::Store(first_y, kInt, y + first);
+      for (int k = 0; k < 3; ++k) {
+        const Int a = at(g.a[k], first), b = at(g.b[k], first);
+        hn::Store(hn::Add(at(g.e[k], first), hn::Add(hn::Mul(a, first_x), hn::Mul(b, first_y))), kInt, e[k] + first);
+        hn::Store(hn::Mul(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), splat(3)), kInt, to_highest[k] + first);
+      }
+    }
+    triangles &= among;
+    for (std::uint32_t left = triangles & singles; left != 0; left &= left - 1) set_up_single(g, std::countr_zero(left));
+  }
+  HWY_INLINE bool is_single(int i) const { return (singles >> i & 1) != 0; }
+  /// Which blocks of a box the triangle may cover, of those in the first `across` and `down`.
+  HWY_INLINE std::uint32_t touched_blocks(int i, const Int (&at)[3], int across, int down) const {
+    Int highest = hn::Zero(kInt);
+    for (int k = 0; k < 3; ++k) highest = hn::Or(highest, hn::Add(at[k], splat(to_highest[k][i])));
+    return mask_bits(kInt, hn::Gt(highest, splat(-1))) & blocks_within(across, down);
+  }
+
+  /// The edges at the first pixels of the first box's blocks; `to_pixels` gets what they are from there at a block's pixels.
+  HWY_INLINE Int at_blocks(const TriangleGroup& g, int i, int k, Int (&to_pixels)[kChunksPerBlock]) const {
+    const Int a = splat(g.a[k][i]), b = splat(g.b[k][i]);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) to_pixels[chunk] = hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk)));
+    return hn::Add(splat(e[k][i]), hn::ShiftLeft<2>(to_pixels[0]));
+  }
+
+ private:
+  HWY_INLINE void set_up_single(const TriangleGroup& g, int i) {
+    Int at[3];
+    for (int k = 0; k < 3; ++k) {
+      Int to_pixels[kChunksPerBlock];
+      at[k] = at_blocks(g, i, k, to_pixels);
+      hn::Store(at[k], kInt, start[i][k]);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(to_pixels[chunk], kInt, offset[i][k] + chunk * kLanes);
+    }
+    touched[i] = touched_blocks(i, at, columns[i], rows[i]);
+  }
+};
+
+/// The weights of a narrow triangle's vertices in all lanes.
+struct WeightLanes {
+  Float scale[3], shift[3];
+  bool affine;
+
+  HWY_INLINE WeightLanes(const TriangleGroup& g, int i) : affine(g.affine[i] != 0) {
+    for (int k = 0; k < 3; ++k) scale[k] = splat(g.scale[k][i]), shift[k] = splat(g.shift[k][i]);
+  }
+  /// As barycentric_from_edges() has them.
+  HWY_INLINE Barycentric at(const Int (&edge)[3]) const {
+    const auto weight = [&](int k) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, edge[k]), scale[k], shift[k]); };
+    const Float w1 = weight(1), w2 = weight(2);
+    return from_weights(affine ? w1 : weight(0), w1, w2, affine);
+  }
+};
+
+/// A triangle in boxes, of a draw that nothing but the test `less` stops, and that its rectangle does not cut.
+template <class Depth, Seen kSeen>
+struct BoxPixels {
+  TileRun& run;
+  const BoxGroup& boxes;
+  const int i;                // which of the group
+  Depth depth;
+  WeightLanes weights;
+  ScaledColor color;
+  std::int32_t value;         // the colour's word, or the number of a triangle that is collected
+  Int writable;
+  Int offset[3][kChunksPerBlock];  // of the edges at a block's pixels
+  std::uint32_t seen = 0;     // how many pixels, or whether any that wait for their colour
+
+  HWY_INLINE BoxPixels(TileRun& tile_run, const TileDraw& draw, const BoxGroup& group_boxes, int triangle, std::int32_t word_or_number, bool back)
+      : run(tile_run), boxes(group_boxes), i(triangle), weights(tile_run.memory.group, triangle), value(word_or_number), writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
+    const TriangleGroup& g = run.memory.group;
+    if constexpr (kSeen == Seen::interpolate) {
+      const auto from = [&](int corner) { return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0]; };
+      color.set_up(from(0), from(1), from(2), run.frame.layout);
+    }
+    depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+    depth.prepare_blocks();
+  }
+
+  HWY_INLINE void draw_single_box() {
+    for (int k = 0; k < 3; ++k)
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) offset[k][chunk] = hn::Load(kInt, boxes.offset[i][k] + chunk * kLanes);
+    draw_blocks(boxes.touched[i], boxes.x[i], boxes.y[i], boxes.start[i]);
+  }
+  HWY_INLINE void draw_boxes() {
+    const TriangleGroup& g = run.memory.group;
+    Int in_row[3];
+    for (int k = 0; k < 3; ++k) in_row[k] = boxes.at_blocks(g, i, k, offset[k]);
+    for (int row = 0; row < boxes.rows[i]; row += kBoxRows) {
+      Int at_blocks[3] = {in_row[0], in_row[1], in_row[2]};
+      for (int column = 0; column < boxes.columns[i]; column += 4) {
+        alignas(64) std::int32_t start[3][kLanes];
+        for (int k = 0; k < 3; ++k) hn::Store(at_blocks[k], kInt, start[k]);
+        draw_blocks(boxes.touched_blocks(i, at_blocks, boxes.columns[i] - column, boxes.rows[i] - row), boxes.x[i] + 4 * column, boxes.y[i] + 4 * row, start);
+        for (int k = 0; k < 3; ++k) at_blocks[k] = hn::Add(at_blocks[k], splat(16 * g.a[k][i]));
+      }
+      for (int k = 0; k < 3; ++k) in_row[k] = hn::Add(in_row[k], splat(4 * kBoxRows * g.b[k][i]));
+    }
+  }
+
+ private:
+  /// Those blocks of the box at (x, y) whose bit is set. @param start  the edges at their first pixels
+  HWY_INLINE void draw_blocks(std::uint32_t touched, int x, int y, const std::int32_t (&start)[3][kLanes]) {
+    const auto box_depth = depth.box(x, y);
+    for (const int index = run.block_index(x, y); touched != 0; touched &= touched - 1) {
+      const int block = std::countr_zero(touched);
+      draw_block(index + boxes.block_index[block], depth.block(box_depth, block), start[0][block], start[1][block], start[2][block]);
+    }
+  }
+  /// @param start  the edges at the block's first pixel
+  HWY_INLINE void draw_block(int index, const typename Depth::Block& block_depth, std::int32_t start0, std::int32_t start1, std::int32_t start2) {
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
+      const Int edge[3] = {hn::Add(offset[0][chunk], splat(start0)), hn::Add(offset[1][chunk], splat(start1)), hn::Add(offset[2][chunk], splat(start2))};
+      const auto covered = hn::Gt(hn::Or(hn::Or(edge[0], edge[1]), edge[2]), splat(-1));
+      std::int32_t* const depth_at = run.memory.depth + index;
+      const Int stored = hn::Load(kInt, depth_at), key = depth.keys(block_depth, chunk);
+      const auto mask = hn::And(covered, hn::Lt(key, stored));
+      hn::Store(hn::IfThenElse(mask, key, stored), kInt, depth_at);
+      if constexpr (kSeen != Seen::nothing) color_pixels(index, edge, mask);
+    }
+  }
+  template <class Mask>
+  HWY_INLINE void color_pixels(int index, const Int (&edge)[3], Mask mask) {
+    const std::uint32_t bits = mask_bits(kInt, mask);
+    if constexpr (kSeen == Seen::collect) {
+      auto* const id_at = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
+      hn::Store(hn::IfThenElse(mask, splat(value), hn::Load(kInt, id_at)), kInt, id_at);
+      seen |= bits;
+    } else {
+      if (kSeen == Seen::interpolate && bits == 0) return;  // words are stored without a look at the mask: a branch on it could not be foretold
+      seen += static_cast<std::uint32_t>(std::popcount(bits));
+      Int words = splat(value);
+      if constexpr (kSeen == Seen::interpolate) words = color.words(weights.at(edge));
+      store_words(run.memory.color + index, words, mask, writable);
+    }
+  }
+};
+
+template <class Depth, Seen kSeen, bool kSingle>
+HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i, std::int32_t value, bool back) {
+  BoxPixels<Depth, kSeen> pixels(run, draw, boxes, i, value, back);
+  if constexpr (kSingle) pixels.draw_single_box();
+  else pixels.draw_boxes();
+  return pixels.seen;
+}
+/// Draws triangle i of the group, one of those in boxes.
+/// @param value  the colour's word, or the number of a triangle that is collected
+/// @return how many pixels were seen; if they wait for their colour, whether any was
+template <class Depth, Seen kSeen>
+HWY_INLINE std::uint32_t draw_in_boxes(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i, std::int32_t value, bool back) {
+  if (BoxGroup::kMostBoxes == 1 || boxes.is_single(i)) return draw_in_boxes_of<Depth, kSeen, true>(run, draw, boxes, i, value, back);
+  return draw_in_boxes_of<Depth, kSeen, BoxGroup::kMostBoxes == 1>(run, draw, boxes, i, value, back);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#endif
