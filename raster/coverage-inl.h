@@ -1,5 +1,5 @@
 // Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane, all sample
-// points at once. All others go by 4x4 blocks: as many as there are lanes, of a row or of several short ones, are sorted at once into those
+// points at once. All others go by 4x4 blocks (some in boxes of these, shading/box_pixels-inl.h): as many as there are lanes, of a row or of several short ones, are sorted at once into those
 // outside, which are passed over, those inside, whose pixels need no look, and those in between. Twin: coverage_reference.h.
 #if defined(TESSERA_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_COVERAGE_INL_H_
@@ -93,6 +93,13 @@ struct RowEdges {
 
 alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
+inline constexpr int kBoxRows = kLanes / 4;  ///< of four blocks: so many lanes hold
+
+/// Those of a box's blocks, a bit each, that are in the first `columns` and `rows`.
+HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
+  return ((1u << std::min(columns, 4)) - 1) * 0x1111u & ((1u << (4 * std::min(rows, kBoxRows))) - 1);  // the same four bits for each row
+}
+
 /// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their first. Each sum is the edge's value at one of those
 /// pixels, so that it fits (fixed_point.h).
 HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns, int rows) {
@@ -104,9 +111,8 @@ HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, s
 /// there is such a function. Lanes are blocks: those of a row, or of several short rows. @pre the offsets are those of the edges
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
-  constexpr int kRowsOfFour = kLanes / 4;
   const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1, rows = ((y1 - first_y) >> 2) + 1;
-  const bool is_box = columns <= 4 && rows <= kRowsOfFour;
+  const bool is_box = columns <= 4 && rows <= kBoxRows;
   const int row_shift = is_box ? 2 : std::countr_zero(static_cast<unsigned>(kLanes)), in_row = 1 << row_shift;
   // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first; to the blocks of the lanes, and to the next row.
   Int to_highest[3], to_lowest[3], to_lane[3], down[3];
@@ -120,8 +126,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
   }
   for (int column = 0; column < columns; column += in_row) {
     const int left = first_x + 4 * column;
-    std::uint32_t in_bounds = (1u << std::min(columns - column, in_row)) - 1;
-    if (is_box) in_bounds *= 0x1111u & ((1u << (4 * rows)) - 1);  // the same four bits for each row
+    const std::uint32_t in_bounds = is_box ? blocks_within(columns, rows) : (1u << std::min(columns - column, in_row)) - 1;
     Int e[3];
     for (int k = 0; k < 3; ++k) e[k] = hn::Add(splat(t.at(k, left, first_y)), to_lane[k]);
     for (int row = 0; row < rows; row += is_box ? rows : 1) {

@@ -83,11 +83,11 @@ struct UnormDepth {
   HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
   /// The first pixels of a box's blocks, which stand as the pixels of a block do. @pre prepare_blocks()
   struct Box {
-    alignas(64) std::uint64_t start[16];
+    alignas(64) std::uint64_t start[kLanes];
   };
   HWY_INLINE Box box(int x, int y) const {
     Box box;
-    for (std::size_t p = 0; p < 16; p += hn::MaxLanes(Uint64Tag()))
+    for (std::size_t p = 0; p < kLanes; p += hn::MaxLanes(Uint64Tag()))
       hn::Store(hn::Add(hn::ShiftLeft<2>(hn::Load(kUint64, offset + p)), hn::Set(kUint64, at(x, y))), kUint64, box.start + p);
     return box;
   }

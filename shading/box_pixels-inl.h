@@ -1,5 +1,6 @@
-// Triangles of middle size, whose blocks are a few boxes: as many blocks as there are lanes, four beside each other. What each block of a box needs comes about
-// side by side, and all that the triangle is made of stays in registers while its blocks are drawn.
+// Triangles whose blocks are a few boxes: as many blocks as there are lanes, four beside each other. What each block of a box needs comes about side by
+// side, and all that the triangle is made of stays in registers while its blocks are drawn. Twin: TrianglePixels, which draws the same pixels by any test
+// and of any size, with one lane or more.
 #if defined(TESSERA_SHADING_BOX_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_BOX_PIXELS_INL_H_
 #undef TESSERA_SHADING_BOX_PIXELS_INL_H_
@@ -10,8 +11,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "framebuffer/check.h"
+#include "raster/coverage-inl.h"
 #include "raster/depth-inl.h"
-#include "raster/lanes-inl.h"
 #include "shading/draw_kinds-inl.h"
 #include "shading/tile_run-inl.h"
 
@@ -20,22 +22,16 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// Which draws have them, where no rectangle cuts through blocks.
-template <Test kTest, Seen kSeen>
-inline constexpr bool kHasBoxes = kLanes > 1 && kTest == Test::less && kSeen != Seen::mix;
-inline constexpr int kBoxRows = kLanes / 4;  // of four blocks; the lanes of a box stand as the pixels of a block's first chunk
-
-/// Those of a box's blocks, a bit each, that are in the first `columns` and `rows`.
-HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
-  return ((1u << std::min(columns, 4)) - 1) * 0x1111u & ((1u << (4 * std::min(rows, kBoxRows))) - 1);  // the same four bits for each row
-}
+template <Test kTest>
+inline constexpr bool kHasBoxes = kLanes > 1 && kTest == Test::less;
 
 /// What is known of a group's triangles before one of them is drawn: so early that the ways that drawing them takes are foretold in time.
 struct BoxGroup {
-  /// Beside and below each other: above that there are rows of full blocks. With few registers more than one is no gain.
-  static constexpr int kMostBoxes = kLanes == 16 ? 4 : 1;
-  std::uint32_t triangles = 0;                          // those in boxes, a bit each
-  std::uint32_t singles = 0;                            // and those, among others, in one
-  alignas(64) std::int32_t block_index[kLanes];         // of each block's first pixel, from that of its box
+  /// So many beside, and so many below each other: beyond that most blocks are full, and rows of those are faster. With few registers more than one is no gain.
+  static constexpr int kMostBoxes = kLanes == 16 ? 3 : 1;
+  std::uint32_t triangles = 0;                                     // those in boxes, a bit each
+  std::uint32_t singles = 0;                                       // and those of them in one
+  alignas(64) std::int32_t to_block[kLanes];                       // from the index of a box's first pixel to that of each block's
   alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];           // the first box's first pixel
   alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];  // of blocks
   alignas(64) std::int32_t e[3][kGroupSize];                       // the edges there
@@ -48,25 +44,32 @@ struct BoxGroup {
   /// @param among  triangles that are drawn by blocks
   HWY_INLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first) HWY_ATTR { return hn::Load(kInt, array + first); };
-    hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt, block_index);
+    hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt, to_block);
     for (int first = 0; first < kGroupSize; first += kLanes) {
       const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)), one = splat(1), zero = hn::Zero(kInt);
       const Int across = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.x1, first), first_x)), one), down = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.y1, first), first_y)), one);
-      const auto fits = hn::And(hn::Lt(across, splat(4 * kMostBoxes + 1)), hn::Lt(down, splat(kBoxRows * kMostBoxes + 1)));
-      triangles |= mask_bits(kInt, hn::And(fits, hn::Eq(at(g.wide, first), zero))) << first;
-      singles |= mask_bits(kInt, hn::And(hn::Lt(across, splat(5)), hn::Lt(down, splat(kBoxRows + 1)))) << first;
       hn::Store(across, kInt, columns + first);
       hn::Store(down, kInt, rows + first);
       hn::Store(first_x, kInt, x + first);
       hn::Store(first_y, kInt, y + first);
+      Int lowest = hn::Zero(kInt);
       for (int k = 0; k < 3; ++k) {
         const Int a = at(g.a[k], first), b = at(g.b[k], first);
-        hn::Store(hn::Add(at(g.e[k], first), hn::Add(hn::Mul(a, first_x), hn::Mul(b, first_y))), kInt, e[k] + first);
+        const Int at_first = hn::Add(at(g.e[k], first), hn::Add(hn::Mul(a, first_x), hn::Mul(b, first_y)));
+        hn::Store(at_first, kInt, e[k] + first);
         hn::Store(hn::Mul(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), splat(3)), kInt, to_highest[k] + first);
+        // As lowest_over_blocks() has it.
+        const auto to_last = [&](Int blocks) HWY_ATTR { return hn::Sub(hn::ShiftLeft<2>(blocks), one); };
+        lowest = hn::Or(lowest, hn::Add(at_first, hn::Add(hn::Mul(to_last(across), hn::Min(a, zero)), hn::Mul(to_last(down), hn::Min(b, zero)))));
       }
+      const auto fit_in = [&](int boxes) HWY_ATTR { return mask_bits(kInt, hn::And(hn::Lt(across, splat(4 * boxes + 1)), hn::Lt(down, splat(kBoxRows * boxes + 1)))); };
+      const std::uint32_t narrow = mask_bits(kInt, hn::Eq(at(g.wide, first), zero)), has_borders = mask_bits(kInt, hn::Lt(lowest, zero));
+      triangles |= (fit_in(kMostBoxes) & narrow & has_borders) << first;
+      singles |= fit_in(1) << first;
     }
     triangles &= among;
-    for (std::uint32_t left = triangles & singles; left != 0; left &= left - 1) set_up_single(g, std::countr_zero(left));
+    singles &= triangles;
+    for (std::uint32_t left = singles; left != 0; left &= left - 1) set_up_single(g, std::countr_zero(left));
   }
   HWY_INLINE bool is_single(int i) const { return (singles >> i & 1) != 0; }
   /// Which blocks of a box the triangle may cover, of those in the first `across` and `down`.
@@ -138,6 +141,7 @@ struct BoxPixels {
   }
 
   HWY_INLINE void draw_single_box() {
+    TESSERA_ASSERT(boxes.is_single(i));
     for (int k = 0; k < 3; ++k)
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) offset[k][chunk] = hn::Load(kInt, boxes.offset[i][k] + chunk * kLanes);
     draw_blocks(boxes.touched[i], boxes.x[i], boxes.y[i], boxes.start[i]);
@@ -164,7 +168,8 @@ struct BoxPixels {
     const auto box_depth = depth.box(x, y);
     for (const int index = run.block_index(x, y); touched != 0; touched &= touched - 1) {
       const int block = std::countr_zero(touched);
-      draw_block(index + boxes.block_index[block], depth.block(box_depth, block), start[0][block], start[1][block], start[2][block]);
+      TESSERA_ASSERT(index + boxes.to_block[block] <= run.tile_size * run.tile_size - kBlockPixels);
+      draw_block(index + boxes.to_block[block], depth.block(box_depth, block), start[0][block], start[1][block], start[2][block]);
     }
   }
   /// @param start  the edges at the block's first pixel

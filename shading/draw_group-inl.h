@@ -13,6 +13,7 @@
 #include "raster/triangle_setup-inl.h"
 #include "shading/box_pixels-inl.h"
 #include "shading/deferred-inl.h"
+#include "shading/draw_kinds-inl.h"
 #include "shading/fragment_word.h"
 #include "shading/small_pixels-inl.h"
 #include "shading/triangle_pixels-inl.h"
@@ -149,7 +150,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       without_pixel |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first), hn::Zero(kInt))) << first;
     }
   [[maybe_unused]] BoxGroup boxes;
-  if constexpr (kHasBoxes<kTest, kSeen>) {
+  if constexpr (kHasBoxes<kTest>) {
     const std::uint32_t by_blocks = g.mask & ~small_ones;
     if (by_blocks != 0 && !run.cut) boxes.set_up(run, g, by_blocks);
   }
@@ -165,7 +166,7 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
     }
     const bool back = is_back(run, draw, i);
-    if constexpr (kHasBoxes<kTest, kSeen>) {
+    if constexpr (kHasBoxes<kTest>) {
       if ((boxes.triangles >> i & 1) != 0) {
         std::int32_t value = 0;
         if constexpr (kSeen == Seen::word) value = static_cast<std::int32_t>(triangle_word(run, draw, i, back));

@@ -7,10 +7,12 @@
 #endif
 
 #include <bit>
+#include <cmath>
 
 #include "raster/coverage-inl.h"
 #include "shading/draw_kinds-inl.h"
 #include "shading/fragment_ops-inl.h"
+#include "shading/fragment_word.h"
 #include "shading/tile_run-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,15 +28,6 @@ template <>
 struct ColorOf<Seen::mix> {
   using Type = MixedColor;
 };
-
-/// The sum of lanes of minus how many.
-HWY_INLINE std::uint64_t count_of(Int negative) {
-  alignas(64) std::int32_t lanes[kLanes];
-  hn::Store(negative, kInt, lanes);
-  std::int64_t sum = 0;
-  for (const std::int32_t lane : lanes) sum -= lane;
-  return static_cast<std::uint64_t>(sum);
-}
 
 /// The stencil test of one face's pixels, one by one.
 struct PixelStencil {

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tests/raster/random_triangles.h"
@@ -14,10 +15,16 @@
 namespace tessera::test {
 namespace {
 
+// Depth words of triangles that each are nearer than those before: the depth test, which has ways of its own to draw them, stops none. At most 120.
+void bring_nearer(DepthKind kind, Triangle& triangle, std::uint32_t i) {
+  for (WindowVertex& vertex : triangle) vertex.z = (120 - i) << (kind == DepthKind::float32 ? 23 : 25);
+}
+constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
+
 // Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
-void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect) {
+void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect, DepthKind depth = DepthKind::none) {
   RandomTriangles source(seed, tile_size);
-  TileStage stage(tile_size, tile_size, tile_size);
+  TileStage stage(tile_size, tile_size, tile_size, depth);
   std::vector<WindowVertex> vertices(3 * 32);
   std::vector<Triangle> triangles(32);
   std::vector<std::uint32_t> expected(static_cast<std::size_t>(tile_size * tile_size));
@@ -28,9 +35,11 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
     for (std::uint32_t bit = 0; bit < 32; ++bit) {
       const auto shape = static_cast<std::size_t>(source.any_shape());
       triangles[bit] = source.next(static_cast<Shape>(shape));
+      bring_nearer(depth, triangles[bit], bit);
       std::copy(triangles[bit].begin(), triangles[bit].end(), vertices.begin() + 3 * bit);
       TileDraw& draw = stage.add_draw(vertices.data() + 3 * bit);
       draw.rect = rect;
+      draw.uses_depth = depth != DepthKind::none;
       draw.word = 0xffffffffu;
       draw.write_mask = 1u << bit;
       if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
@@ -44,7 +53,7 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
       seen[shape] += visible ? 1 : 0;
     }
     for (const Isa isa : available_isas()) {
-      stage.render(isa, 0);
+      stage.render(isa, 0, 0, kFarthest);
       for (int y = 0; y < tile_size; ++y) {
         for (int x = 0; x < tile_size; ++x) {
           const std::uint32_t wrong = stage.color(x, y) ^ expected[static_cast<std::size_t>(y * tile_size + x)];
@@ -64,13 +73,17 @@ int rounds_of_32(int normal) { return long_tests() ? normal * 33 : normal; }
 TEST(Coverage, EqualsExactIntegersInTilesOf32) { compare_by_bits(1, 32, rounds_of_32(320), {0, 0, 32, 32}); }
 TEST(Coverage, EqualsExactIntegersInTilesOf64) { compare_by_bits(2, 64, rounds_of_32(320), {0, 0, 64, 64}); }
 TEST(Coverage, EqualsExactIntegersInTilesOf128) { compare_by_bits(3, 128, rounds_of_32(160), {0, 0, 128, 128}); }
+TEST(Coverage, EqualsExactIntegersThroughTheDepthTest) {
+  for (const DepthKind depth : {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
+    for (const int size : {32, 64, 128}) compare_by_bits(30 + static_cast<std::uint32_t>(size), size, rounds_of_32(size == 128 ? 20 : 40), {0, 0, size, size}, depth);
+}
 TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
   RandomTriangles source(4, 64);
   for (int i = 0; i < 40; ++i) {
     PixelRect rect{source.between(0, 40), source.between(0, 40), 0, 0};
     rect.x1 = source.between(rect.x0 + 1, 64);
     rect.y1 = source.between(rect.y0 + 1, 64);
-    compare_by_bits(100 + static_cast<std::uint32_t>(i), 64, rounds_of_32(4), rect);
+    compare_by_bits(100 + static_cast<std::uint32_t>(i), 64, rounds_of_32(4), rect, i % 2 == 0 ? DepthKind::none : DepthKind::unorm24);
   }
 }
 
@@ -78,17 +91,20 @@ TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
 TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
   constexpr int kTile = 64, kTriangles = 100;
   RandomTriangles source(5, kTile);
-  TileStage stage(kTile, kTile, kTile);
   std::vector<WindowVertex> vertices(3 * kTriangles);
   std::vector<std::uint32_t> words(kTriangles), expected(kTile * kTile);
-  for (int round = 0; round < (long_tests() ? 2000 : 60); ++round) {
-    stage.forget_draws();
+  constexpr DepthKind kDepths[] = {DepthKind::none, DepthKind::unorm24, DepthKind::float32};
+  for (int round = 0; round < (long_tests() ? 2000 : 90); ++round) {
+    const DepthKind depth = kDepths[round % 3];
+    TileStage stage(kTile, kTile, kTile, depth);
     TileDraw& draw = stage.add_draw(vertices.data());
+    draw.uses_depth = depth != DepthKind::none;
     draw.source = ColorSource::triangle_word;
     draw.words[0] = draw.words[1] = words.data();
     std::fill(expected.begin(), expected.end(), 0u);
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
-      const Triangle t = source.next(round % 3 == 0 ? Shape::tiny : source.any_shape());
+      Triangle t = source.next(round % 4 == 0 ? Shape::tiny : source.any_shape());
+      bring_nearer(depth, t, i);
       std::copy(t.begin(), t.end(), vertices.begin() + 3 * i);
       words[i] = i + 1;
       if (reference_of(t).area == 0) continue;
@@ -96,7 +112,7 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
       reference_of(t).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) { expected[static_cast<std::size_t>(y * kTile + x)] = i + 1; });
     }
     for (const Isa isa : available_isas()) {
-      stage.render(isa, 0);
+      stage.render(isa, 0, 0, kFarthest);
       for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)
           ASSERT_EQ(stage.color(x, y), expected[static_cast<std::size_t>(y * kTile + x)]) << name_of(isa) << " round " << round << ", pixel " << x << " " << y;

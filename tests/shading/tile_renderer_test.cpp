@@ -117,9 +117,10 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
   RandomTriangles source(43, kTile);
   for (const bool deferred : {false, true}) {
     for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
-      TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
-      const Mesh mesh = random_mesh(source, 1, 3, DepthKind::unorm24, 0.5, 255.5);
-      const Isa isa = available_isas()[static_cast<std::size_t>(round) % available_isas().size()];
+      const DepthKind depth = round % 3 == 0 ? DepthKind::float32 : DepthKind::unorm24;
+      TileStage stage(kTile, kTile, kTile, depth);
+      const Mesh mesh = random_mesh(source, 1, 3, depth, 0.5, 255.5);
+      const Isa isa = available_isas()[static_cast<std::size_t>(round / 3) % available_isas().size()];
       const auto draw_in = [&](int step) {
         stage.forget_draws();
         for (int y = 0; y < kTile; y += step) {
@@ -130,7 +131,7 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
             draw.deferred = deferred;
           }
         }
-        stage.render(isa, 0, 0x123456, 0xffffff);
+        stage.render(isa, 0, 0x123456, depth == DepthKind::float32 ? 0x3f800000 : 0xffffff);
         return std::pair(stage.colors(), stage.depths());
       };
       const auto whole = draw_in(kTile);
