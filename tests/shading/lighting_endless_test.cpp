@@ -1,0 +1,169 @@
+// Lighting by numbers that no float holds: what is lit is full, what is black stays black, and every instruction set has the same.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "shading/lighting.h"
+#include "tests/shading/lighting_expectations.h"
+
+namespace tessera::test {
+namespace {
+
+// Long normals (of scaled models, not normalized) to a high power, times a bright light: red is full, the others know nothing of it.
+TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
+  for (const float length : {1.5f, 3.0f, 100.0f}) {
+    Special s;
+    s.c.material.specular = {1, 0, 0};
+    s.c.material.shininess = 1000;
+    s.light().diffuse = {0, 0, 0};
+    s.light().ambient = {1e-3f, 1e-3f, 1e-3f};
+    s.light().attenuation = {1e-3f, 0, 0};
+    for (LightingPoint& p : s.points) p.normal = {0, 0, length};
+    for (const Isa isa : available_isas()) {
+      const Rgb color = test::light(s.c.program(), s.points, isa)[3];
+      EXPECT_EQ(color[0], 1.0f);
+      EXPECT_NEAR(color[1], kBase + 0.1, 2e-6);
+    }
+  }
+}
+/// A light that brings more than any number, or one of whose factors is more.
+struct EndlessLight {
+  const char* name;
+  std::array<float, 3> normal, position;
+  EyeLight light;
+};
+std::vector<EndlessLight> endless_lights() {
+  constexpr float kThird = 0.57735026f, kSixth = 0.4082483f, kMost = std::numeric_limits<float>::max();
+  std::vector<EndlessLight> all;
+  const auto add = [&](const char* name, const std::array<float, 3>& normal, const auto& change) {
+    EyeLight light = Special().light();
+    light.ambient = light.diffuse = light.specular = {0, 1, 0};
+    all.push_back({name, normal, {0, 0, -2}, light});
+    change(all.back());
+  };
+  const auto attenuated = [](float constant) { return [constant](EndlessLight& e) { e.light.attenuation = {constant, 0, 0}; }; };
+  add("the inverse of a small denominator", {0, 0, 1}, attenuated(1e-42f));
+  add("the same of the largest colour", {0, 0, 1}, [&](EndlessLight& e) { e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kMost, 0}; });
+  add("the same on long normals", {0, 0, 100}, attenuated(1e-42f));
+  add("the same on longer ones", {0, 0, 1e10f}, attenuated(1e-42f));
+  add("the longest normals", {0, 0, 3e38f}, attenuated(0.5f));
+  add("the longest normals, of no attenuation", {3e38f, 3e38f, 3e38f}, [&](EndlessLight& e) { e.light.directional = true, e.light.position = {kThird, kThird, kThird}; });
+  // Squares of such distances have few digits: |L| and V.D are 1.2.
+  add("a cone and attenuation, from a hair away", {0, 0, 1}, [](EndlessLight& e) {
+    e.position = {0, 0, 0};
+    e.light.position = {0, 0, 4.5e-23f};
+    e.light.attenuation = {0, 1, 0};
+    e.light.spot_direction = {0, 0, -1};
+    e.light.spot_cutoff = 90;
+    e.light.spot_exponent = 16384;
+  });
+  // The cosine of its direction and its axis is 1 + 2^-23.
+  add("the largest colour in a cone's axis", {0, 0, 1}, [&](EndlessLight& e) {
+    e.light.directional = true;
+    e.light.position = {kSixth, kSixth, 2 * kSixth};
+    e.light.spot_direction = {-kSixth, -kSixth, -2 * kSixth};
+    e.light.spot_cutoff = 90;
+    e.light.spot_exponent = 16384;
+    e.light.diffuse = e.light.specular = {0, kMost, 0};
+  });
+  return all;
+}
+// What is lit is full, what faces away is not, and black stays black: of the light, of the vertices, and also under highlights without end.
+TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
+  for (const EndlessLight& endless : endless_lights())
+    for (const bool tracked : {false, true})
+      for (const float ambient : {0.0f, 1.0f}) {
+        Special s;
+        s.light() = endless.light;
+        s.light().ambient[1] = ambient;
+        s.c.material.diffuse = {1, 1, 1};
+        s.c.material.specular = tracked ? Rgb{} : Rgb{1, 1, 1};
+        s.c.material.shininess = 1000;
+        s.c.tracked.diffuse = tracked;
+        s.points.resize(kBatchPoints);
+        for (std::size_t i = 0; i < s.points.size(); ++i) {
+          LightingPoint& p = s.points[i];
+          p = {endless.normal, endless.position, i % 4 == 3 ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
+          if (i >= 16 && i % 2 == 0)
+            for (float& n : p.normal) n = -n;
+        }
+        SCOPED_TRACE(std::string(endless.name) + (tracked ? ", tracked" : "") + (ambient != 0 ? ", ambient" : ""));
+        for (const Isa isa : available_isas()) {
+          const std::vector<Rgb> colors = test::light(s.c.program(), s.points, isa);
+          for (std::size_t i = 0; i < colors.size(); ++i) {
+            EXPECT_NEAR(colors[i][0], kGlow + kBase, 1e-7) << name_of(isa) << " " << i;
+            if (i < 16 && (!tracked || i % 4 != 3)) { EXPECT_EQ(colors[i][1], 1) << name_of(isa) << " " << i; }
+            if (((i >= 16 && i % 2 == 0) || (tracked && i % 4 == 3)) && ambient == 0) { EXPECT_NEAR(colors[i][1], kBase, 1e-7) << name_of(isa) << " " << i; }
+            EXPECT_NEAR(colors[i][2], kBase, 1e-7) << name_of(isa) << " " << i;
+          }
+        }
+        expect_same_bits(s.c.program(), s.points);
+        // And where no point of a batch is lit.
+        std::vector<LightingPoint> away;
+        for (std::size_t i = 16; i < s.points.size(); i += 2) away.push_back(s.points[i]);
+        expect_same_bits(s.c.program(), away);
+      }
+}
+// Vertex colours are any numbers, and what is between them may be none: black light makes nothing of them.
+TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Special s;
+  s.c.tracked.diffuse = true;
+  s.light().diffuse = {1, 0, 0};
+  s.light().ambient = s.light().specular = {0, 0, 0};
+  const float odd[] = {3e38f, -3e38f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
+  for (std::size_t i = 0; i < s.points.size(); ++i) s.points[i].vertex = {1, odd[i % 5], odd[(i + 1) % 5]};
+  for (const Isa isa : available_isas())
+    for (const Rgb& color : test::light(s.c.program(), s.points, isa)) {
+      EXPECT_EQ(color[0], 1);
+      EXPECT_NEAR(color[1], kBase, 1e-7);
+      EXPECT_NEAR(color[2], kBase, 1e-7);
+    }
+  expect_same_bits(s.c.program(), s.points);
+}
+// A highlight without end is full as one is that has an end: the index is the specular one at most, and masked.
+TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
+  for (const float brightness : {1e20f, 3e38f}) {
+    Special s;
+    s.light().diffuse = s.light().ambient = {0, 0, 0};
+    s.light().specular = {brightness, brightness, brightness};
+    s.light().attenuation = {1e-30f, 0, 0};
+    LightingProgram program = plan_index_lighting({{100, 120, 50}, 10, 256}, s.c.lights, s.c.model, nullptr);
+    for (const Isa isa : available_isas()) EXPECT_EQ(test::light(program, s.points, isa)[1][0], 0) << brightness;  // far below 0: no digits are left to mask
+    program = plan_index_lighting({{100, 120, 200}, 10, 256}, s.c.lights, s.c.model, nullptr);
+    for (const Isa isa : available_isas()) EXPECT_EQ(test::light(program, s.points, isa)[1][0], 200) << brightness;
+  }
+}
+// What has an end is not cut: a normal as long as numbers go, under a light or on a material as weak as they are.
+TEST(LightingSpecialCase, LongNormalsAndWeakColorsMakeUpForEachOther) {
+  Special s;
+  s.light().ambient = s.light().specular = {0, 0, 0};
+  s.light().diffuse = {1e-19f, 1e-19f, 1e-19f};
+  s.c.material.diffuse = {1e-19f, 1e-19f, 1e-19f};
+  for (LightingPoint& p : s.points) p.normal = {0, 0, 0.25e38f};
+  s.expect(kGlow + kBase + 0.25, kBase + 0.25);
+}
+// Numbers that overflow give some colour within 0..1, and the same one on every instruction set.
+TEST(LightingSpecialCase, OverflowStaysWithinRange) {
+  RandomLighting random(9);
+  for (const float size : {1e-30f, 1e-20f, 1e15f, 1e20f, 1e30f, 3e38f}) {
+    for (int round = 0; round < 50; ++round) {
+      const LightingCase c = random.next();
+      std::vector<LightingPoint> points(kBatchPoints);
+      for (LightingPoint& p : points) {
+        p = random.point();
+        for (std::size_t k = 0; k < 3; ++k) (round % 2 != 0 ? p.normal : p.position)[k] *= size;
+      }
+      for (const Isa isa : available_isas())
+        for (const Rgb& color : light(c.program(), points, isa))
+          for (const float component : color) ASSERT_TRUE(component >= 0 && component <= 1) << name_of(isa) << " " << component;
+      expect_same_bits(c.program(), points);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
