@@ -71,6 +71,11 @@ double TracedFrame::seconds_in_tasks() const {
   return std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double sum, const FrameTask& task) { return sum + length(task); });
 }
 
+void count_taking(std::vector<FrameTask>& tasks) {
+  for (std::size_t i = 1; i < tasks.size(); ++i)
+    if (tasks[i].stage == tasks[i - 1].stage) tasks[i].begin = tasks[i - 1].end;
+}
+
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) {
   std::vector<TracedFrame> frames = frames_of(entry, setup);
   std::nth_element(frames.begin(), frames.begin() + kFrames / 2, frames.end(), [](const TracedFrame& a, const TracedFrame& b) { return a.seconds < b.seconds; });
@@ -81,7 +86,8 @@ TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup
   WorkloadSetup one_by_one = setup;
   one_by_one.options.threads = workers;
   one_by_one.options.executor = std::make_shared<OneByOne>(workers);
-  const std::vector<TracedFrame> frames = frames_of(entry, one_by_one);
+  std::vector<TracedFrame> frames = frames_of(entry, one_by_one);
+  for (TracedFrame& frame : frames) count_taking(frame.tasks);
   TracedFrame least = frames.front();
   double between = least.seconds - least.seconds_in_tasks();
   for (const TracedFrame& frame : frames) {

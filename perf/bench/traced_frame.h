@@ -19,7 +19,11 @@ struct TracedFrame {
 
 /// Of several frames after the first ones the one in the middle, by time.
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
-/// What the work costs, cut for so many workers, when one thread does all of it: of each task, and of what is in none, the least of several frames.
+/// What lies between two tasks of a stage becomes a part of the second: its worker was taking it, and of many workers each does so for its own.
+/// @pre one worker had all tasks, which stand in their order
+void count_taking(std::vector<FrameTask>& tasks);
+/// What the work costs, cut for so many workers, when one thread does all of it: of each task, with its taking, and of what is in none, the least of several
+/// frames.
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
 
 /// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes, workers its threads.
