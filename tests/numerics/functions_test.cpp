@@ -117,14 +117,16 @@ struct PowerErrors {
 };
 
 // Exponents are 0 .. 16384. Of the large ones every float near enough to 1 to have a power.
-TEST(Functions, Powers) {
-  for (const float y : {0.25f, 0.5f, 2.0f, 20.0f, 128.0f, 1000.0f, 7661.0f, 10000.0f, 16384.0f}) {
-    PowerErrors errors;
-    const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kSmallestNormal);
-    for_floats(bits_of(least), bits_of(1), [&](const std::vector<float>& arguments) { errors.add(y, arguments); }, y > 5000 ? 1 : y > 500 ? 7 : kSampled);
-    errors.expect("x^" + std::to_string(y).substr(0, 5));
-  }
+// A test for each: with TESSERA_LONG one takes minutes.
+class FunctionsPowers : public testing::TestWithParam<float> {};
+TEST_P(FunctionsPowers, OfAllFloats) {
+  const float y = GetParam();
+  PowerErrors errors;
+  const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kSmallestNormal);
+  for_floats(bits_of(least), bits_of(1), [&](const std::vector<float>& arguments) { errors.add(y, arguments); }, y > 5000 ? 1 : y > 500 ? 7 : kSampled);
+  errors.expect("x^" + std::to_string(y).substr(0, 5));
 }
+INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsPowers, testing::Values(0.25f, 0.5f, 2.0f, 20.0f, 128.0f, 1000.0f, 7661.0f, 10000.0f, 16384.0f));
 
 // Exponents evenly in 0 .. 16384 and in their logarithms, and the powers evenly in theirs.
 TEST(Functions, PowersOfAnyExponent) {
