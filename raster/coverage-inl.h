@@ -1,6 +1,7 @@
 // Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane, all sample
-// points at once. All others go by 4x4 blocks (some in boxes of these, shading/box_pixels-inl.h): as many as there are lanes, of a row or of several short ones, are sorted at once into those
-// outside, which are passed over, those inside, whose pixels need no look, and those in between. Twin: coverage_reference.h.
+// points at once. All others go by 4x4 blocks (some of them in boxes of these, see shading/box_pixels-inl.h): as many as there
+// are lanes, of a row or of several short ones, are sorted at once into those outside, which are passed over, those inside,
+// whose pixels need no look, and those in between. Twin: coverage_reference.h.
 #if defined(TESSERA_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_COVERAGE_INL_H_
 #undef TESSERA_RASTER_COVERAGE_INL_H_

@@ -123,15 +123,6 @@ HWY_INLINE auto mask_from_bits(std::uint32_t bits) {
   return hn::TestBit(splat(static_cast<std::int32_t>(bits)), hn::LoadU(kInt, kBits));
 }
 
-/// The sum of lanes of minus how many.
-HWY_INLINE std::uint64_t count_of(Int negative) {
-  alignas(64) std::int32_t lanes[kLanes];
-  hn::Store(negative, kInt, lanes);
-  std::int64_t sum = 0;
-  for (const std::int32_t lane : lanes) sum -= lane;
-  return static_cast<std::uint64_t>(sum);
-}
-
 /// The bits of one chunk's lanes, of a block's 16.
 HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) { return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); }
 

@@ -52,7 +52,7 @@ struct BoxGroup {
       hn::Store(down, kInt, rows + first);
       hn::Store(first_x, kInt, x + first);
       hn::Store(first_y, kInt, y + first);
-      Int lowest = hn::Zero(kInt);
+      Int lowest = zero;
       for (int k = 0; k < 3; ++k) {
         const Int a = at(g.a[k], first), b = at(g.b[k], first);
         const Int at_first = hn::Add(at(g.e[k], first), hn::Add(hn::Mul(a, first_x), hn::Mul(b, first_y)));
@@ -104,7 +104,8 @@ struct WeightLanes {
   Float scale[3], shift[3];
   bool affine;
 
-  HWY_INLINE WeightLanes(const TriangleGroup& g, int i) : affine(g.affine[i] != 0) {
+  HWY_INLINE void set_up(const TriangleGroup& g, int i) {
+    affine = g.affine[i] != 0;
     for (int k = 0; k < 3; ++k) scale[k] = splat(g.scale[k][i]), shift[k] = splat(g.shift[k][i]);
   }
   /// As barycentric_from_edges() has them.
@@ -130,9 +131,10 @@ struct BoxPixels {
   std::uint32_t seen = 0;     // how many pixels, or whether any that wait for their colour
 
   HWY_INLINE BoxPixels(TileRun& tile_run, const TileDraw& draw, const BoxGroup& group_boxes, int triangle, std::int32_t word_or_number, bool back)
-      : run(tile_run), boxes(group_boxes), i(triangle), weights(tile_run.memory.group, triangle), value(word_or_number), writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
+      : run(tile_run), boxes(group_boxes), i(triangle), value(word_or_number), writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
     const TriangleGroup& g = run.memory.group;
     if constexpr (kSeen == Seen::interpolate) {
+      weights.set_up(g, i);
       const auto from = [&](int corner) { return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0]; };
       color.set_up(from(0), from(1), from(2), run.frame.layout);
     }
@@ -213,8 +215,10 @@ HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileRun& run, const TileDraw& draw, 
 /// @return how many pixels were seen; if they wait for their colour, whether any was
 template <class Depth, Seen kSeen>
 HWY_INLINE std::uint32_t draw_in_boxes(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i, std::int32_t value, bool back) {
-  if (BoxGroup::kMostBoxes == 1 || boxes.is_single(i)) return draw_in_boxes_of<Depth, kSeen, true>(run, draw, boxes, i, value, back);
-  return draw_in_boxes_of<Depth, kSeen, BoxGroup::kMostBoxes == 1>(run, draw, boxes, i, value, back);
+  if constexpr (BoxGroup::kMostBoxes > 1) {
+    if (!boxes.is_single(i)) return draw_in_boxes_of<Depth, kSeen, false>(run, draw, boxes, i, value, back);
+  }
+  return draw_in_boxes_of<Depth, kSeen, true>(run, draw, boxes, i, value, back);
 }
 
 }  // namespace HWY_NAMESPACE

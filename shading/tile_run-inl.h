@@ -36,6 +36,15 @@ struct TileRun {
   }
 };
 
+/// The sum of lanes of minus how many.
+HWY_INLINE std::uint64_t count_of(Int negative) {
+  alignas(64) std::int32_t lanes[kLanes];
+  hn::Store(negative, kInt, lanes);
+  std::int64_t sum = 0;
+  for (const std::int32_t lane : lanes) sum -= lane;
+  return static_cast<std::uint64_t>(sum);
+}
+
 inline constexpr std::int32_t kFarthestKey = std::numeric_limits<std::int32_t>::max();
 /// What is known of all blocks of a tile with several samples: none of their depth keys is greater.
 HWY_INLINE void set_farthest(TileRun& run, std::int32_t key) { std::fill_n(run.memory.samples->farthest, run.tile_size * run.tile_size / kBlockPixels, key); }

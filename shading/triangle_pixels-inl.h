@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Its colour, where it is interpolated.
+/// The colour of a pixel that is seen, where it is interpolated.
 template <Seen kSeen>
 struct ColorOf {
   using Type = ScaledColor;

@@ -18,13 +18,13 @@ constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// Until the last core is done.
-double scheduled(std::span<const FrameTask> tasks, int cores) {
+/// Until the last core is done. @param taking  seconds before each task
+double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
   std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
   for (int k = 0; k < cores; ++k) free_at.push(0);
   double end = 0;
   for (const FrameTask& task : tasks) {
-    const double done = free_at.top() + length(task);
+    const double done = free_at.top() + taking + length(task);
     free_at.pop();
     free_at.push(done);
     end = std::max(end, done);
@@ -48,10 +48,11 @@ CoreModel measure_core_model(int threads) {
 }
 
 double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
-  double seconds = frame.seconds - frame.seconds_in_tasks();
+  double seconds = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking;
+  const double taking = frame.seconds_taking / std::max<double>(1, static_cast<double>(frame.tasks.size()));
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
     const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.stage != first->stage; });
-    seconds += scheduled({first, last}, cores) + model.barrier_seconds;
+    seconds += scheduled({first, last}, taking, cores) + model.barrier_seconds;
     first = last;
   }
   const double memory_rate = 1e9 * model.core_bytes * std::min(cores, model.most_cores_of_memory);

@@ -22,7 +22,7 @@ struct CoreModel {
 CoreModel measure_core_model(int threads);
 
 /// Seconds that a frame takes on so many cores, from cost_of_tasks() for as many workers. Its tasks go in their order to whoever is free
-/// first; stages wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
+/// first, who takes as long for each to be taken; stages wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
 double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
 
 struct Scaling {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -34,31 +35,41 @@ void paint(std::uint8_t* rgba, double share) {
   for (int c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
 }
 
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 /// Pretends to have so many workers, which come one after the other.
 class OneByOne : public Executor {
  public:
   explicit OneByOne(int workers) : workers_(workers) {}
   int workers() const noexcept override { return workers_; }
   void run(int count, void (*work)(void*, int), void* context) override {
+    const Clock::time_point start = Clock::now();
     for (int k = 0; k < count; ++k) work(context, k);
+    seconds_ += seconds_since(start);
   }
+  /// In which workers ran, since it was asked last.
+  double take_seconds() { return std::exchange(seconds_, 0); }
 
  private:
   int workers_;
+  double seconds_ = 0;
 };
 
-std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup) {
-  using Clock = std::chrono::steady_clock;
+/// @param workers  null, or the executor of `setup`
+std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup, OneByOne* workers = nullptr) {
   WorkloadSetup traced = setup;
   std::vector<FrameTask> tasks;
   traced.options.trace = [&tasks](std::span<const FrameTask> of_frame) { tasks.assign(of_frame.begin(), of_frame.end()); };
   const std::unique_ptr<Workload> workload = entry.make(traced);
   std::vector<TracedFrame> frames;
   for (int i = 0; i < kWarmUps + kFrames; ++i) {
+    if (workers != nullptr) workers->take_seconds();
     const Clock::time_point start = Clock::now();
     const FrameStats stats = workload->draw();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (i >= kWarmUps) frames.push_back({entry.name, seconds, tasks, workload->work(stats)});
+    TracedFrame frame{.workload = entry.name, .seconds = seconds_since(start), .tasks = tasks, .work = workload->work(stats)};
+    if (workers != nullptr) frame.seconds_taking = workers->take_seconds() - frame.seconds_in_tasks();
+    if (i >= kWarmUps) frames.push_back(std::move(frame));
   }
   return frames;
 }
@@ -71,11 +82,6 @@ double TracedFrame::seconds_in_tasks() const {
   return std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double sum, const FrameTask& task) { return sum + length(task); });
 }
 
-void count_taking(std::vector<FrameTask>& tasks) {
-  for (std::size_t i = 1; i < tasks.size(); ++i)
-    if (tasks[i].stage == tasks[i - 1].stage) tasks[i].begin = tasks[i - 1].end;
-}
-
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) {
   std::vector<TracedFrame> frames = frames_of(entry, setup);
   std::nth_element(frames.begin(), frames.begin() + kFrames / 2, frames.end(), [](const TracedFrame& a, const TracedFrame& b) { return a.seconds < b.seconds; });
@@ -84,18 +90,20 @@ TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) 
 
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
   WorkloadSetup one_by_one = setup;
+  const auto executor = std::make_shared<OneByOne>(workers);
   one_by_one.options.threads = workers;
-  one_by_one.options.executor = std::make_shared<OneByOne>(workers);
-  std::vector<TracedFrame> frames = frames_of(entry, one_by_one);
-  for (TracedFrame& frame : frames) count_taking(frame.tasks);
+  one_by_one.options.executor = executor;
+  const std::vector<TracedFrame> frames = frames_of(entry, one_by_one, executor.get());
+  const auto rest = [](const TracedFrame& frame) { return frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking; };
   TracedFrame least = frames.front();
-  double between = least.seconds - least.seconds_in_tasks();
+  double least_rest = rest(least);
   for (const TracedFrame& frame : frames) {
-    between = std::min(between, frame.seconds - frame.seconds_in_tasks());
+    least_rest = std::min(least_rest, rest(frame));
+    least.seconds_taking = std::min(least.seconds_taking, frame.seconds_taking);
     for (std::size_t i = 0; i < least.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(least.tasks[i])) least.tasks[i] = frame.tasks[i];
   }
-  least.seconds = between + least.seconds_in_tasks();
+  least.seconds = least_rest + least.seconds_taking + least.seconds_in_tasks();
   return least;
 }
 

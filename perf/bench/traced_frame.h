@@ -12,6 +12,7 @@ struct TracedFrame {
   std::string workload;
   double seconds = 0;               ///< from its first command to its end
   std::vector<FrameTask> tasks{};   ///< in the order in which they began
+  double seconds_taking = 0;        ///< between tasks of one call for workers, in which these took their next ones; where cost_of_tasks() measured it
   FrameWork work{};
 
   double seconds_in_tasks() const;  ///< of all workers together
@@ -19,10 +20,7 @@ struct TracedFrame {
 
 /// Of several frames after the first ones the one in the middle, by time.
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
-/// What lies between two tasks of a stage becomes a part of the second: its worker was taking it, and of many workers each does so for its own.
-/// @pre one worker had all tasks, which stand in their order
-void count_taking(std::vector<FrameTask>& tasks);
-/// What the work costs, cut for so many workers, when one thread does all of it: of each task, with its taking, and of what is in none, the least of several
+/// What the work costs, cut for so many workers, when one thread does all of it: of each task, of the taking of all, and of the rest, the least of several
 /// frames.
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
 

@@ -60,6 +60,14 @@ TEST(BenchScaling, WhatIsInNoTaskStaysOneCores) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}, 2), 4, kFastMemory), 3);
 }
 
+TEST(BenchScaling, CoresTakeTheirOwnTasks) {
+  TracedFrame frame = tiles_of({1, 1, 1, 1}, 2 + 4 * 0.5);
+  frame.seconds_taking = 4 * 0.5;
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 1, kFastMemory), 2 + 4 * 1.5);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory), 2 + 2 * 1.5);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 4, kFastMemory), 2 + 1.5);
+}
+
 TEST(BenchScaling, StagesWaitForEachOther) {
   const TracedFrame frame = frame_of({{FrameStage::vertices, 2}, {FrameStage::vertices, 1}, {FrameStage::binning, 1}, {FrameStage::tiles, 1}, {FrameStage::tiles, 4}}, 0);
   EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory), 2 + 1 + 4);

@@ -22,16 +22,6 @@ TracedFrame three_tiles() {
 
 TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().seconds_in_tasks(), 1e-4 + 28e-9, 1e-15); }
 
-TEST(TracedFrame, CountsTheTakingOfTasksWithinAStage) {
-  std::vector<FrameTask> tasks = three_tiles().tasks;
-  count_taking(tasks);
-  EXPECT_EQ(tasks[0].begin, 0);
-  EXPECT_EQ(tasks[1].begin, 2e-4) << "between stages nobody takes anything";
-  EXPECT_EQ(tasks[2].begin, tasks[1].end);
-  EXPECT_EQ(tasks[3].begin, tasks[2].end);
-  EXPECT_EQ(tasks[3].end, 4e-4 + 8e-9);
-}
-
 TEST(TracedFrame, IsAChromeTrace) {
   TracedFrame other = three_tiles();
   other.workload = "other \"one\"";

@@ -29,6 +29,7 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
     }
   }
 }
+
 /// A light that brings more than any number, or one of whose factors is more.
 struct EndlessLight {
   const char* name;

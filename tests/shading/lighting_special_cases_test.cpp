@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "shading/lighting.h"
 #include "tests/shading/lighting_expectations.h"
