@@ -1,4 +1,5 @@
-// Triangles that add one level each to what they cover, counted pixel by pixel. No tolerance.
+// Triangles that add one level each to what they cover, counted pixel by pixel; and opaque ones, each nearer than all before it, of which the last one is
+// seen. No tolerance.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -62,26 +63,39 @@ Triangles shared_edges(Dice& dice) {
   return triangles;
 }
 
-Counts exact_counts(const Triangles& triangles) {
-  Counts counts(static_cast<std::size_t>(kSide) * kSide);
+/// What each pixel should hold.
+struct Expected {
+  Counts counts = Counts(static_cast<std::size_t>(kSide) * kSide);  ///< of the triangles that cover it
+  Counts last = counts;                                            ///< the number of the last of them, from 1 on; 0: none
+};
+Expected exactly(const Triangles& triangles) {
+  Expected expected;
+  std::uint32_t number = 0;
   for (const auto& [a, b, c] : triangles) {
+    ++number;
     const auto [left, right] = std::minmax({a[0], b[0], c[0]});
     const auto [top, bottom] = std::minmax({a[1], b[1], c[1]});
     const WindowVertex vertices[3] = {{a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]}};
     TriangleReference(vertices).for_each_covered(std::max(first_pixel(left), 0), std::max(first_pixel(top), 0), std::min(last_pixel(right) + 1, kSide), std::min(last_pixel(bottom) + 1, kSide),
-                                                 [&](int x, int y) { ++counts[static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x)]; });
+                                                 [&](int x, int y) {
+                                                   const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+                                                   ++expected.counts[at];
+                                                   expected.last[at] = number;
+                                                 });
   }
-  return counts;
+  return expected;
 }
 
-/// In clip space, either winding.
+/// In clip space, either winding, each nearer than the one before.
 std::vector<float> clip_positions(const Triangles& triangles, Dice& dice) {
   std::vector<float> positions;
+  float depth = 1;
   for (const auto& triangle : triangles) {
+    depth -= 1.0f / (kTriangles + 1);
     const bool turned = dice.between(0, 1) != 0;
     for (const std::size_t k : {0, turned ? 2 : 1, turned ? 1 : 2}) {
       const Corner& corner = triangle[k];
-      positions.insert(positions.end(), {static_cast<float>(corner[0]) / (128 * kSide) - 1, 1 - static_cast<float>(corner[1]) / (128 * kSide), 0});
+      positions.insert(positions.end(), {static_cast<float>(corner[0]) / (128 * kSide) - 1, 1 - static_cast<float>(corner[1]) / (128 * kSide), depth});
     }
   }
   return positions;
@@ -100,13 +114,26 @@ Counts drawn_counts(const std::vector<float>& positions, Renderer& renderer) {
   return color_words(buffer);
 }
 
+/// The number of each pixel's triangle, as its colour.
+Counts drawn_numbers(const std::vector<float>& positions, Shading shading, Renderer& renderer) {
+  std::vector<float> colors;
+  for (std::size_t corner = 0; corner < positions.size() / 3; ++corner) colors.insert(colors.end(), {0, 0, static_cast<float>(corner / 3 + 1) / 255, 1});
+  FrameBuffer buffer({.width = kSide, .height = kSide});
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+  frame.draw({.positions = positions, .colors = colors}, {.shading = shading, .lighting = false});
+  renderer.finish(frame);
+  return color_words(buffer);
+}
+
 }  // namespace
 
 OracleReport check_coverage(const Ways& ways) {
   Dice dice{std::mt19937(1)};
   struct Case {
     std::vector<float> positions;
-    Counts exact;
+    Expected exact;
+    Shading shading;
   };
   std::vector<Case> cases;
   std::size_t triangle_count = 0;
@@ -114,7 +141,8 @@ OracleReport check_coverage(const Ways& ways) {
     for (const bool shared : {false, true}) {
       const Triangles triangles = shared ? shared_edges(dice) : random_triangles(dice);
       triangle_count += triangles.size();
-      cases.push_back({clip_positions(triangles, dice), shared ? Counts(static_cast<std::size_t>(kSide) * kSide, 1) : exact_counts(triangles)});
+      cases.push_back({clip_positions(triangles, dice), exactly(triangles), round % 2 == 0 ? Shading::gouraud : Shading::flat});
+      if (shared) cases.back().exact.counts.assign(cases.back().exact.counts.size(), 1);
     }
   OracleReport report{.oracle = "coverage, 128-bit integers", .measured = {}, .first_wrong = {}};
   std::size_t wrong_pixels = 0;
@@ -122,12 +150,15 @@ OracleReport check_coverage(const Ways& ways) {
     Renderer renderer(way);
     std::size_t wrong = 0;
     std::string first;
-    for (const Case& each : cases) {
-      const Counts drawn = drawn_counts(each.positions, renderer);
+    const auto compare = [&](const Counts& drawn, const Counts& exact, const char* before, const char* after) {
       for (std::size_t i = 0; i < drawn.size(); ++i) {
-        if (drawn[i] == each.exact[i]) continue;
-        if (wrong++ == 0) first = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") is covered " + std::to_string(drawn[i]) + " times, expected " + std::to_string(each.exact[i]);
+        if (drawn[i] == exact[i]) continue;
+        if (wrong++ == 0) first = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " + before + std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
       }
+    };
+    for (const Case& each : cases) {
+      compare(drawn_counts(each.positions, renderer), each.exact.counts, "is covered ", " times");
+      compare(drawn_numbers(each.positions, each.shading, renderer), each.exact.last, "shows triangle ", "");
     }
     wrong_pixels += wrong;
     if (wrong != 0) report.add(first, way);
