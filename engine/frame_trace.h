@@ -14,15 +14,18 @@ class FrameTrace {
   /// @param workers  0: nobody asked, and no clock is read
   explicit FrameTrace(int workers) : tasks_(static_cast<std::size_t>(workers)) {}
 
-  /// Tasks from here on belong to that stage. Between tasks only.
-  void begin_stage(FrameStage stage) { stage_ = stage; }
+  /// Tasks from here on belong to a pass of that stage. Between tasks only.
+  void begin_stage(FrameStage stage) {
+    stage_ = stage;
+    ++pass_;
+  }
   /// Runs `work` as a task. Workers are told apart: theirs may run at the same time.
   template <class Work>
   void task(int worker, const Rect& pixels, const Work& work) {
     if (tasks_.empty()) return work();
     const double begin = now();
     work();
-    tasks_[static_cast<std::size_t>(worker)].add({stage_, worker, begin, now(), pixels});
+    tasks_[static_cast<std::size_t>(worker)].add({stage_, worker, begin, now(), pixels, pass_});
   }
   /// Of all workers, in the order in which they began. Without memory for them: none.
   std::vector<FrameTask> tasks() const noexcept;
@@ -39,6 +42,7 @@ class FrameTrace {
 
   Clock::time_point start_ = Clock::now();
   FrameStage stage_ = FrameStage::vertices;
+  int pass_ = -1;
   std::vector<Tasks> tasks_;  // of each worker
 };
 

@@ -647,6 +647,7 @@ struct FrameTask {
   int worker = 0;                           ///< below RendererOptions::threads
   double begin = 0, end = 0;                ///< seconds since finish() was called
   Rect pixels{};                            ///< of tiles: their part of the frame, origin lower left
+  int pass = 0;                             ///< counts up through the frame: those of one pass may run side by side, the next one's begin after all of them
 };
 
 inline constexpr std::size_t kLeastBinMemory = std::size_t{64} << 10;  ///< bytes

@@ -25,7 +25,12 @@ class Easel {
 
   FrameStats draw() {
     drawing_.record(drawing_, frame_);
-    return drawing_.keeps_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target());
+    return finish();
+  }
+  FrameStats draw_to_be_judged() {
+    drawing_.record(drawing_, frame_);
+    if (drawing_.reveal) drawing_.reveal(drawing_, frame_);
+    return finish();
   }
   const Picture& picture() {
     if (drawing_.keeps_planes) buffer_.read_color(picture_.target());
@@ -36,6 +41,7 @@ class Easel {
   std::uint64_t kept_bytes() const { return plane_bytes() + picture_.rgba.size(); }
 
  private:
+  FrameStats finish() { return drawing_.keeps_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target()); }
   std::uint64_t plane_bytes() const {
     std::uint64_t bytes = 0;
     for (const Buffer buffer : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation}) bytes += buffer_.allocated_bytes(buffer);
@@ -53,13 +59,10 @@ class DrawnWorkload : public Workload {
  public:
   DrawnWorkload(Drawing drawing, const RendererOptions& options) : drawing_(std::move(drawing)), options_(options) {}
 
-  FrameStats draw() override {
-    if (!easel_) easel_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
-    return easel_->draw();
-  }
+  FrameStats draw() override { return easel().draw(); }
 
   std::string fault() override {
-    const FrameStats stats = draw();
+    const FrameStats stats = easel().draw_to_be_judged();
     if (drawing_.fragments != 0 && stats.shaded_pixels != drawing_.fragments)
       return "shaded " + std::to_string(stats.shaded_pixels) + " pixels, expected " + std::to_string(drawing_.fragments);
     const Picture& picture = easel_->picture();
@@ -69,7 +72,7 @@ class DrawnWorkload : public Workload {
     RendererOptions others = options_;
     others.instruction_set = options_.instruction_set == InstructionSet::scalar ? InstructionSet::automatic : InstructionSet::scalar;
     Easel reference(drawing_, others);
-    reference.draw();
+    reference.draw_to_be_judged();
     const Picture& expected = reference.picture();
     const auto found = std::mismatch(picture.rgba.begin(), picture.rgba.end(), expected.rgba.begin()).first;
     if (found == picture.rgba.end()) return {};
@@ -94,6 +97,11 @@ class DrawnWorkload : public Workload {
   }
 
  private:
+  Easel& easel() {
+    if (!easel_) easel_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
+    return *easel_;
+  }
+
   Drawing drawing_;
   RendererOptions options_;
   std::optional<Easel> easel_;

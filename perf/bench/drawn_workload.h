@@ -19,9 +19,10 @@ struct Drawing {
   std::vector<Texture> textures{};
   std::function<void(const Drawing&, Frame&)> record{};
   std::function<void(const Drawing&, Frame&)> before{};  ///< drawn once, into planes that the frames start from; may be empty
+  std::function<void(const Drawing&, Frame&)> reveal{};  ///< drawn after it in the frame that is judged alone: shows what is in no colour. May be empty
   bool shades_at_once = false;      ///< also what is hidden later on
   bool keeps_planes = false;        ///< the picture stays in the frame buffer's planes; otherwise it leaves by an image
-  std::uint64_t fragments = 0;      ///< what FrameStats::shaded_pixels has to be; 0: anything
+  std::uint64_t fragments = 0;      ///< what FrameStats::shaded_pixels of the judged frame has to be; 0: anything
   Limit limit = Limit::none;
   std::uint64_t limited_bytes = 0;  ///< what that limit counts; 0: the planes, where a frame reads or keeps them, and the image
   std::function<std::string(const Picture&)> fault{};  ///< of the picture; may be empty

@@ -55,6 +55,14 @@ std::function<RivalForm(const Drawing&)> as_rivals_draw(Varying varying, const C
   };
 }
 
+std::function<std::string(const Picture&)> all_of(int r, int g, int b) {
+  return [=](const Picture& picture) {
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+      if (picture.rgba[i] != r || picture.rgba[i + 1] != g || picture.rgba[i + 2] != b) return std::string("a pixel does not have the last layer's colour");
+    return std::string();
+  };
+}
+
 /// In one colour, without those of the vertices.
 Drawing flat_layers(int width, int height) {
   Drawing drawing = layers(width, height, 1, [](int k, DrawState& state) { state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1}; });
@@ -62,11 +70,7 @@ Drawing flat_layers(int width, int height) {
   drawing.limit = Limit::l1_stores;
   drawing.limited_bytes = 4 * drawing.fragments;
   drawing.rival = as_rivals_draw(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});  // what is seen in the end: one colour is fastest
-  drawing.fault = [](const Picture& picture) {
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-      if (picture.rgba[i] != 255 || picture.rgba[i + 1] != 128 || picture.rgba[i + 2] != kLayers - 1) return std::string("a pixel does not have the last layer's colour");
-    return std::string();
-  };
+  drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
 }
 
@@ -96,10 +100,17 @@ Drawing depth_layers(int width, int height) {
     with_depth(k, state);
     state.color_mask = {false, false, false, false};
   });
-  drawing.fragments = 0;  // none has a colour
-  drawing.rival = as_rivals_draw(Varying::nothing, {}, [](RivalForm& form) {
+  for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
+  // White wherever the last layer's depth is what is stored.
+  drawing.reveal = [](const Drawing& d, Frame& frame) {
+    frame.draw(d.meshes.back().view(), {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
+  };
+  drawing.fragments = area(width, height);
+  drawing.fault = all_of(255, 255, 255);
+  drawing.rival = as_rivals_draw(Varying::nothing, {1, 1, 1, 1}, [indices = static_cast<int>(drawing.meshes.back().indices.size())](RivalForm& form) {
     form.tests_depth = true;
     form.writes_color = false;
+    form.revealed_indices = indices;
   });
   return drawing;
 }

@@ -20,6 +20,7 @@ struct RivalForm {
   ShaderSources shaders{};
   bool tests_depth = false;         ///< less, and writes it
   bool writes_color = true;
+  int revealed_indices = 0;         ///< the last of them, which are drawn once more to be judged, in colour, where the depth is equal to theirs; 0: none are
   bool blends = false;              ///< by the source's alpha
   bool counts_in_stencil = false;   ///< cleared to 1; passes where it is greater than 0, and counts up
   bool culls_back = false;

@@ -51,7 +51,7 @@ double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
   double seconds = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking;
   const double taking = frame.seconds_taking / std::max<double>(1, static_cast<double>(frame.tasks.size()));
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
-    const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.stage != first->stage; });
+    const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.pass != first->pass; });
     seconds += scheduled({first, last}, taking, cores) + model.barrier_seconds;
     first = last;
   }

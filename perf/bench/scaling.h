@@ -16,13 +16,13 @@ namespace tessera::bench {
 struct CoreModel {
   double core_bytes = 0;             ///< 10^9 a second, that one core moves
   int most_cores_of_memory = 8;      ///< so many cores move all that the memory does
-  double barrier_seconds = 0;        ///< until all workers have begun a stage
+  double barrier_seconds = 0;        ///< until all workers have begun a pass
 };
 /// Measured, on one thread and on all.
 CoreModel measure_core_model(int threads);
 
 /// Seconds that a frame takes on so many cores, from cost_of_tasks() for as many workers. Its tasks go in their order to whoever is free
-/// first, who takes as long for each to be taken; stages wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
+/// first, who takes as long for each to be taken; passes wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
 double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
 
 struct Scaling {

@@ -49,6 +49,7 @@ MesaFunctions load() {
   library.load(f.clear_color, "glClearColor");
   library.load(f.clear_stencil, "glClearStencil");
   library.load(f.color_mask, "glColorMask");
+  library.load(f.depth_func, "glDepthFunc");
   library.load(f.disable, "glDisable");
   library.load(f.draw_arrays, "glDrawArrays");
   library.load(f.draw_elements, "glDrawElements");

@@ -18,6 +18,7 @@ struct MesaFunctions {
   decltype(&glClearColor) clear_color;
   decltype(&glClearStencil) clear_stencil;
   decltype(&glColorMask) color_mask;
+  decltype(&glDepthFunc) depth_func;
   decltype(&glDisable) disable;
   decltype(&glDrawArrays) draw_arrays;
   decltype(&glDrawElements) draw_elements;

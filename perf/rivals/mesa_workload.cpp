@@ -13,6 +13,8 @@ namespace {
 
 using bench::RivalForm;
 
+std::string text_of(GLenum what) { return reinterpret_cast<const char*>(mesa().get_string(what)); }
+
 /// A context that draws into a picture, rows from the top.
 class MesaWindow {
  public:
@@ -23,6 +25,8 @@ class MesaWindow {
     context_ = mesa().create_context(kAttributes, nullptr);
     if (context_ == nullptr) throw std::runtime_error("OSMesa makes no context");
     make_current();
+    const std::string wanted = driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe", found = text_of(GL_RENDERER);
+    if (found.find(wanted) == std::string::npos) throw std::runtime_error("OSMesa's driver is \"" + found + "\", expected " + wanted);
     mesa().pixel_store(OSMESA_Y_UP, 0);
   }
   ~MesaWindow() { mesa().destroy_context(context_); }
@@ -114,6 +118,7 @@ class MesaWorkload : public bench::Workload {
     give_attribute(3, 2, form.mesh.texcoords);
     if (!form.mesh.indices.empty()) fill_buffer(GL_ELEMENT_ARRAY_BUFFER, form.mesh.indices);
     index_count_ = static_cast<GLsizei>(form.mesh.indices.size());
+    revealed_indices_ = form.revealed_indices;
     vertex_count_ = static_cast<GLsizei>(form.mesh.vertex_count());
     if (form.texture_size != 0) give_texture(form);
     mesa().disable(GL_DITHER);
@@ -149,17 +154,27 @@ class MesaWorkload : public bench::Workload {
   }
   std::string fault() override {
     draw();
+    if (revealed_indices_ > 0) reveal();
     return mesa().get_error() == GL_NO_ERROR ? "" : "an OpenGL error";
   }
   const Picture& picture() override { return window_.picture(); }
   bench::FrameWork work(const FrameStats&) const override { return {}; }
 
  private:
+  void reveal() {
+    mesa().color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    mesa().depth_func(GL_EQUAL);
+    mesa().draw_elements(mode_, revealed_indices_, GL_UNSIGNED_INT, reinterpret_cast<const void*>(sizeof(GLuint) * static_cast<std::size_t>(index_count_ - revealed_indices_)));
+    mesa().finish();
+    mesa().depth_func(GL_LESS);
+    mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  }
+
   static constexpr GLbitfield kDepthAndStencil = GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;  // they share words: one alone would be read and written
 
   MesaWindow window_;
   GLenum mode_;
-  GLsizei index_count_ = 0, vertex_count_ = 0;
+  GLsizei index_count_ = 0, vertex_count_ = 0, revealed_indices_ = 0;
   GLbitfield cleared_ = GL_COLOR_BUFFER_BIT;
 };
 
@@ -189,8 +204,7 @@ double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {
 
 std::string mesa_name(MesaDriver driver, int threads) {
   const MesaWindow window(1, 1, driver, threads);
-  const auto text = [](GLenum what) { return std::string(reinterpret_cast<const char*>(mesa().get_string(what))); };
-  return text(GL_RENDERER) + ", " + text(GL_VERSION);
+  return text_of(GL_RENDERER) + ", " + text_of(GL_VERSION);
 }
 
 }  // namespace tessera::rivals

@@ -115,6 +115,30 @@ TEST_F(BenchProgram, MeasuresPlanesAndPicturesBesideTheMean) {
   }
 }
 
+TEST_F(BenchProgram, MeasuresMeshesPointsAndLines) {
+  const Result result = run("bench vertex-20k-8 phong-20k-8-spot points-1M lines-1M --size 64x48 --repeats 1 --seconds 0.001 --json -");
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const Json rows = Json::parse(result.out)["workloads"];
+  EXPECT_EQ(rows.size(), 4u);
+  for (const Json& row : rows) EXPECT_FALSE(row.contains("fault")) << row;
+}
+
+TEST_F(BenchProgram, DrawsAsItIsTold) {
+  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --cores 0 --threads 1 --json -");
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const Json report = Json::parse(result.out);
+  EXPECT_EQ(report["instruction_set"], "scalar");
+  EXPECT_EQ(report["threads"], 1);
+  for (const Json& row : report["workloads"]) EXPECT_FALSE(row.contains("fault")) << row;
+}
+
+TEST_F(BenchProgram, LightsAsRivalsDo) {
+  const Result table = run("bench vertex-20k-8 phong-20k-1 phong-20k-8-spot --rivals --size 320x200 --repeats 1 --seconds 0.001 --json -");
+  if (contains(table.err, "libosmesa6")) GTEST_SKIP() << table.err;
+  ASSERT_EQ(table.code, 0) << table.out << table.err;
+  for (const Json& row : Json::parse(table.out)["rivalry"]["workloads"]) EXPECT_FALSE(row.contains("fault")) << row;
+}
+
 TEST_F(BenchProgram, TracesAFrameOfEachWorkload) {
   const Result result = run("bench fill-flat grid-20k --size 96x64 --threads 2 --trace trace.json");
   ASSERT_EQ(result.code, 0) << result.err;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "tests/engine/api_support.h"
 
@@ -73,12 +74,33 @@ void expect_sound_times(const Tasks& tasks, int threads) {
   }
 }
 
+void expect_that_passes_wait(const Tasks& tasks) {
+  double all_ended = 0, ended = 0;
+  int pass = 0;
+  for (const FrameTask& task : tasks) {
+    ASSERT_GE(task.pass, pass);
+    if (task.pass != pass) pass = task.pass, all_ended = ended;
+    EXPECT_GE(task.begin, all_ended) << "pass " << pass;
+    ended = std::max(ended, task.end);
+  }
+}
+
+int passes_of(const Tasks& tasks, FrameStage stage) {
+  std::set<int> passes;
+  for (const FrameTask& task : tasks)
+    if (task.stage == stage) passes.insert(task.pass);
+  return static_cast<int>(passes.size());
+}
+
 TEST(FrameTrace, HoldsEachStageAndEachPixel) {
   for (const int threads : {1, 2, 3}) {
     const Traced frame = traced({.threads = threads, .tile_size = 32});
     EXPECT_EQ(frame.calls, 1);
     expect_sound_times(frame.tasks, threads);
     expect_each_pixel_once(frame.tasks);
+    expect_that_passes_wait(frame.tasks);
+    EXPECT_EQ(passes_of(frame.tasks, FrameStage::binning), 2) << "triangles go into bins, and what tiles have in theirs is counted";
+    EXPECT_EQ(passes_of(frame.tasks, FrameStage::tiles), 1);
     EXPECT_TRUE(std::is_sorted(frame.tasks.begin(), frame.tasks.end(), [](const FrameTask& a, const FrameTask& b) { return a.stage < b.stage; }));
     for (const FrameStage stage : {FrameStage::vertices, FrameStage::binning, FrameStage::tiles})
       EXPECT_TRUE(std::any_of(frame.tasks.begin(), frame.tasks.end(), [&](const FrameTask& task) { return task.stage == stage; })) << static_cast<int>(stage);
@@ -89,6 +111,8 @@ TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
   const Traced frame = traced({.threads = 2, .tile_size = 32, .bin_memory = kLeastBinMemory});
   expect_sound_times(frame.tasks, 2);
   expect_each_pixel_once(frame.tasks);
+  expect_that_passes_wait(frame.tasks);
+  EXPECT_GT(passes_of(frame.tasks, FrameStage::tiles), 1);
   const auto is_tile = [](const FrameTask& task) { return task.stage == FrameStage::tiles; };
   const auto first_tile = std::find_if(frame.tasks.begin(), frame.tasks.end(), is_tile);
   EXPECT_TRUE(std::any_of(first_tile, frame.tasks.end(), [](const FrameTask& task) { return task.stage == FrameStage::binning; }));

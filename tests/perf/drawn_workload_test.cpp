@@ -1,0 +1,53 @@
+// What a workload says of its own pictures: nothing is timed that drew too little, or nothing.
+#include "perf/bench/drawn_workload.h"
+
+#include <gtest/gtest.h>
+
+#include "perf/bench/bench_meshes.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr int kSide = 16;
+
+/// A layer of depth alone, if it is drawn at all, which white reveals.
+Drawing depth_alone(bool is_drawn) {
+  Drawing drawing{.format = {.width = kSide, .height = kSide}};
+  drawing.meshes.push_back(window_grid(1, 1));
+  drawing.meshes.back().colors.clear();
+  drawing.record = [is_drawn](const Drawing& d, Frame& frame) {
+    frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+    if (is_drawn) frame.draw(d.meshes.front().view(), {.lighting = false, .color_mask = {false, false, false, false}});
+  };
+  drawing.reveal = [](const Drawing& d, Frame& frame) {
+    frame.draw(d.meshes.front().view(), {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
+  };
+  drawing.fragments = kSide * kSide;
+  return drawing;
+}
+
+std::unique_ptr<Workload> workload_of(const std::function<Drawing()>& make) {
+  return drawn("drawn", "", [make](int, int, std::uint32_t) { return make(); }).make({.width = kSide, .height = kSide, .options = {.threads = 1}});
+}
+
+TEST(BenchDrawing, RevealsWhatHasNoColorToItsJudgeAlone) {
+  const auto workload = workload_of([] { return depth_alone(true); });
+  EXPECT_EQ(workload->fault(), "");
+  EXPECT_EQ(workload->picture().rgba[0], 255);
+  EXPECT_EQ(workload->draw().shaded_pixels, 0u) << "what is timed";
+  EXPECT_EQ(workload->picture().rgba[0], 0);
+}
+
+TEST(BenchDrawing, OfNothingIsNotTimed) { EXPECT_EQ(workload_of([] { return depth_alone(false); })->fault(), "shaded 0 pixels, expected 256"); }
+
+TEST(BenchDrawing, SaysWhatItsPictureLacks) {
+  const auto white = [] {
+    Drawing drawing = depth_alone(true);
+    drawing.fault = [](const Picture& picture) { return picture.rgba[0] == 255 ? "too white" : ""; };
+    return drawing;
+  };
+  EXPECT_EQ(workload_of(white)->fault(), "too white");
+}
+
+}  // namespace
+}  // namespace tessera::bench
