@@ -17,12 +17,22 @@
 #include "framebuffer/format.h"
 #include "framebuffer/tile_grid.h"
 #include "raster/fixed_point.h"
+#include "raster/lanes-inl.h"
 #include "raster/sample_positions.h"
 #include "raster/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
+
+/// A bit for each triangle of a group whose number is not 0.
+HWY_INLINE std::uint32_t bits_of(const std::int32_t (&numbers)[kGroupSize]) {
+  std::uint32_t bits = 0;
+  for (int first = 0; first < kGroupSize; first += kLanes) bits |= mask_bits(kInt, hn::Ne(hn::Load(kInt, numbers + first), hn::Zero(kInt))) << first;
+  return bits;
+}
+/// And for the first ones.
+HWY_INLINE std::uint32_t of_first(int count) { return (1u << count) - 1; }
 
 /// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0) is the tile's
 /// top left. Triangles without a pixel in `rect` get no bit in group.mask.
@@ -68,8 +78,7 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
     g.wide[i] = greatest(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
     visible[i] = ((g.x0[i] <= g.x1[i]) & (g.y0[i] <= g.y1[i])) ? 1 : 0;
   }
-  g.mask = 0;
-  for (int i = 0; i < g.count; ++i) g.mask |= static_cast<std::uint32_t>(visible[i]) << i;
+  g.mask = bits_of(visible) & of_first(g.count);
 }
 
 /// `value` * 2^kFraction modulo 2^64, to the nearest: whole and broken part each by the bits of a double, which is how lanes
@@ -159,10 +168,10 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGrou
     rough[i] = off[i] > kLift * g.area[i] ? 1 : 0;
   }
   constexpr double kTolerated = kFraction == 32 ? 0x1p24 : 0x1p22;  // 2^-8 of a word
-  g.rough = g.steep = 0;
-  for (int i = 0; i < g.count; ++i) {
-    if (rough[i] == 0 || (g.mask >> i & 1) == 0) continue;
-    g.rough |= 1u << i;
+  g.rough = bits_of(rough) & g.mask;
+  g.steep = 0;
+  for (std::uint32_t left = g.rough; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
     if (off[i] <= kTolerated * g.area[i]) {
       g.further[i] = static_cast<std::uint64_t>(off[i] / g.area[i]);
       g.fixed_base[i] += g.further[i];

@@ -99,23 +99,6 @@ struct BoxGroup {
   }
 };
 
-/// The weights of a narrow triangle's vertices in all lanes.
-struct WeightLanes {
-  Float scale[3], shift[3];
-  bool affine;
-
-  HWY_INLINE void set_up(const TriangleGroup& g, int i) {
-    affine = g.affine[i] != 0;
-    for (int k = 0; k < 3; ++k) scale[k] = splat(g.scale[k][i]), shift[k] = splat(g.shift[k][i]);
-  }
-  /// As barycentric_from_edges() has them.
-  HWY_INLINE Barycentric at(const Int (&edge)[3]) const {
-    const auto weight = [&](int k) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, edge[k]), scale[k], shift[k]); };
-    const Float w1 = weight(1), w2 = weight(2);
-    return from_weights(affine ? w1 : weight(0), w1, w2, affine);
-  }
-};
-
 /// A triangle in boxes, of a draw that nothing but the test `less` stops, and that its rectangle does not cut.
 template <class Depth, Seen kSeen>
 struct BoxPixels {
@@ -134,7 +117,8 @@ struct BoxPixels {
       : run(tile_run), boxes(group_boxes), i(triangle), value(word_or_number), writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
     const TriangleGroup& g = run.memory.group;
     if constexpr (kSeen == Seen::interpolate) {
-      weights.set_up(g, i);
+      weights.affine = g.affine[i] != 0;
+      for (int k = 0; k < 3; ++k) weights.set(k, g.scale[k][i], g.shift[k][i]);
       const auto from = [&](int corner) { return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0]; };
       color.set_up(from(0), from(1), from(2), run.frame.layout);
     }
@@ -197,7 +181,7 @@ struct BoxPixels {
       if (kSeen == Seen::interpolate && bits == 0) return;  // words are stored without a look at the mask: a branch on it could not be foretold
       seen += static_cast<std::uint32_t>(std::popcount(bits));
       Int words = splat(value);
-      if constexpr (kSeen == Seen::interpolate) words = color.words(weights.at(edge));
+      if constexpr (kSeen == Seen::interpolate) words = color.words(weights.at(edge[0], edge[1], edge[2]));
       store_words(run.memory.color + index, words, mask, writable);
     }
   }

@@ -31,11 +31,30 @@ HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
   return {hn::Mul(w1, inverse), hn::Mul(w2, inverse), inverse};
 }
 
-/// From the edges' values at the pixels.
+/// The weights of a narrow triangle's vertices in all lanes.
+struct WeightLanes {
+  Float scale[3], shift[3];
+  bool affine;
+
+  HWY_INLINE void set(int k, float scale_k, float shift_k) {
+    scale[k] = splat(scale_k);
+    shift[k] = splat(shift_k);
+  }
+  HWY_INLINE void set_up(const ShadedTriangle& t) {
+    affine = t.affine;
+    for (int k = 0; k < 3; ++k) set(k, t.scale[k], t.shift[k]);
+  }
+  /// From the edges' values at the pixels.
+  HWY_INLINE Barycentric at(Int e0, Int e1, Int e2) const {
+    const auto weight = [&](int k, Int e) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), scale[k], shift[k]); };
+    const Float w1 = weight(1, e1), w2 = weight(2, e2);
+    return from_weights(affine ? w1 : weight(0, e0), w1, w2, affine);
+  }
+};
 HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, Int e1, Int e2) {
-  const auto weight = [&](int k, Int e) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), splat(t.scale[k]), splat(t.shift[k])); };
-  const Float w1 = weight(1, e1), w2 = weight(2, e2);
-  return from_weights(t.affine ? w1 : weight(0, e0), w1, w2, t.affine);
+  WeightLanes weights;
+  weights.set_up(t);
+  return weights.at(e0, e1, e2);
 }
 
 /// The three edges at a pixel, side by side. @param at  on 16 bytes; the fourth means nothing
@@ -107,11 +126,22 @@ struct CornerLanes {
     to_third = splat(c.to_third);
   }
 };
+/// And what it is kept within.
+struct RangeLanes {
+  CornerLanes corner;
+  Float low, high;
+  HWY_INLINE void set(const Corners& c) {
+    corner.set(c);
+    low = splat(c.low);
+    high = splat(c.high);
+  }
+};
 HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) { return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first)); }
 /// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of the triangle.
 HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
   return lesser_of(greater_of(interpolate(b, c), splat(c.low)), splat(c.high));
 }
+HWY_INLINE Float interpolate_within(const Barycentric& b, const RangeLanes& c) { return lesser_of(greater_of(interpolate(b, c.corner), c.low), c.high); }
 
 /// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.
 struct CornerArrays {

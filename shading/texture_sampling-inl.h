@@ -40,10 +40,12 @@ HWY_INLINE TexelPlace linear_place(Float unit, const TexelAxis& axis, Wrap wrap)
   return {hn::ShiftRight<16>(at), twice(at)};
 }
 
-HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
+/// @param words  of the level
+HWY_INLINE Int nearest_words(const std::uint32_t* words, const TextureLevel& level, Float s, Float t) {
   const Int column = nearest_texel(s, level.columns), row = nearest_texel(t, level.rows);
-  return texels_of(load_words(texture.words + level.first, hn::Add(column, hn::Mul(row, splat(level.stride)))));
+  return load_words(words, hn::Add(column, hn::Mul(row, splat(level.stride))));
 }
+HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) { return texels_of(nearest_words(texture.words + level.first, level, s, t)); }
 
 /// Which four texels of a level are mixed, and by how much.
 struct LinearTexels {

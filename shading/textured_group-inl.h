@@ -75,6 +75,36 @@ struct TexturedBlocks {
     full = kFull;  // no argument: the compiler would make a copy of draw_block for each
     draw_block(bx, by, edges);
   }
+  /// Full blocks side by side. Of nearest texels alone what they have in common stays in registers: copies, since the compiler must read again what a
+  /// stored word might have changed.
+  HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) requires(kFilter == TexelFilter::nearest) {
+    if (!at_once || !texels_alone || triangle.wide >= 0) {
+      BlockEdges edges = first;
+      for (int i = 0; i < count; ++i) {
+        (*this).template operator()<true>(bx + 4 * i, by, edges);
+        for (int k = 0; k < 3; ++k) edges.start[k] += 4 * triangle.edges.a[k];
+      }
+      return;
+    }
+    const TextureLevels& levels = *draw.texture->levels;
+    const TextureLevel level = levels.level[0];
+    const std::uint32_t* const words = levels.words + level.first;
+    const Wrap wrap_s = levels.wrap_s, wrap_t = levels.wrap_t;
+    WeightLanes weights;
+    weights.set_up(triangle);
+    RangeLanes s, t;
+    s.set(coordinates.s.corner);
+    t.set(coordinates.t.corner);
+    RowEdges edges(triangle.edges, first);
+    auto* stored = reinterpret_cast<std::int32_t*>(run.memory.color + run.block_index(bx, by));
+    for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
+        const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
+        const Int texels = nearest_words(words, level, wrapped(interpolate_within(where, s), wrap_s), wrapped(interpolate_within(where, t), wrap_t));
+        hn::Store(hn::And(texels, splat(0xffffff)), kInt, stored);
+      }
+    blocks += static_cast<std::uint64_t>(count);
+  }
   /// Those that no more company comes for.
   HWY_INLINE void finish() {
     full = true;
