@@ -42,7 +42,7 @@ TEST(LightLimits, LightsAsFarAwayAsNumbersGo) {
     light.spot_exponent = std::min(light.spot_exponent, 20.0f);
     worst = std::max(worst, scene.error_in_levels());
   }
-  expect_within("lights from 10^-4 to 10^76 away", worst, 1.5, "levels of 255");
+  expect_within("lights from 10^-4 to 10^76 away", worst, 1, "levels of 255");
   EXPECT_GT(scene.unsaturated, std::size_t{40 * LitPatches::kCount});
 }
 
@@ -60,7 +60,7 @@ TEST(LightLimits, ScenesOfAnySize) {
       scene.lights = {any_light(draws, 2, scene.extent), any_light(draws, 2, scene.extent)};
       worst = std::max(worst, scene.error_in_levels());
     }
-  expect_within("scenes from 2^-60 to 2^60", worst, 1.5, "levels of 255");
+  expect_within("scenes from 2^-60 to 2^60", worst, 1, "levels of 255");
 }
 
 // Where normals are normalized at the vertex any length will do, and so it will where Phong renormalizes them, if all of a mesh have about the same.
@@ -84,7 +84,7 @@ TEST(LightLimits, NormalsOfAnyLength) {
       scene.lights = {any_light(draws, 2, 1), any_light(draws, 2, 1)};
       worst = std::max(worst, scene.error_in_levels());
     }
-  expect_within("normals from 2^-120 to 2^126", worst, 1.5, "levels of 255");
+  expect_within("normals from 2^-120 to 2^126", worst, 1, "levels of 255");
 }
 
 // Flat and Gouraud take normals as they are, whatever comes of that; a normal of 0 sees neither diffuse light nor highlights.

@@ -1,7 +1,7 @@
 // Whole sums of lights through the public interface, within one level of 255 of long double (lighting_oracle.h).
 //
-// Why one level: a stored level is half a level off what is stored; everything else is roundings of terms, each at most some 2^-24 times the exponent
-// (light_terms_test.cpp), of which one level is 65,800.
+// Why one level: half a level is what storing rounds by; everything else is roundings of terms, each at most some 2^-24 times the exponent
+// (light_terms_test.cpp), of which half a level is 32,900.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
     scene.shading = shading;
     for (int variant = 0; variant < 16; ++variant)
       for (int n = 0; n < frames; ++n) {
-        if (count > 100 && (variant + n) % 4 != 0) continue;
+        // A quarter of the variants, where both values of each of their bits are.
+        if (count > 100 && ((variant ^ variant >> 2) + n) % 4 != 0) continue;
         scene.model.local_viewer = (variant & 1) != 0;
         scene.model.specular = (variant & 2) != 0 ? Highlight::phong : Highlight::blinn;
         scene.model.two_sided = (variant & 4) != 0;
@@ -45,7 +46,7 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
         any_patches(draws, scene);
         worst = std::max(worst, scene.error_in_levels());
       }
-    expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) + (count == 1 ? " light" : " lights"), worst, 1.5, "levels of 255");
+    expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) + (count == 1 ? " light" : " lights"), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{LitPatches::kCount}) << "nothing was measured";
   }
 }
@@ -79,7 +80,7 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
       }
       worst = std::max(worst, scene.error_in_levels());
     }
-    expect_within("highlight of exponent " + std::to_string(shininess).substr(0, 7), worst, 1.5, "levels of 255");
+    expect_within("highlight of exponent " + std::to_string(shininess).substr(0, 7), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{20 * LitPatches::kCount});
   }
 }
@@ -99,7 +100,7 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
       scene.lights = {Light{.ambient = {1, 1, 1, 1}, .position = {distance * x, distance * y, distance * std::abs(z), 1}, .spot_direction = {-x, -y, -std::abs(z)}, .spot_exponent = exponent, .spot_cutoff = 60}};
       worst = std::max(worst, scene.error_in_levels());
     }
-    expect_within("cone of exponent " + std::to_string(exponent).substr(0, 7), worst, 1.5, "levels of 255");
+    expect_within("cone of exponent " + std::to_string(exponent).substr(0, 7), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{8 * LitPatches::kCount});
   }
 }
@@ -147,7 +148,7 @@ TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
     scene.lights[0].position = {at[0], at[1], at[2], 1};
     worst = std::max(worst, scene.error_in_levels());
   }
-  expect_within("light at the vertex or at the eye", worst, 1.5, "levels of 255");
+  expect_within("light at the vertex or at the eye", worst, 1, "levels of 255");
 }
 
 // 1 / (kc + kl d + kq d^2), and a million where that is not above 0.

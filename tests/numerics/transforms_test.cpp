@@ -102,7 +102,7 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
     mirrored += is_mirrored;
   }
   EXPECT_TRUE(fronts > 300 && backs > 300 && mirrored > 300) << fronts << " " << backs << " " << mirrored;
-  expect_within("lit faces under mirrored transforms", worst, 1.5, "levels of 255");
+  expect_within("lit faces under mirrored transforms", worst, 1, "levels of 255");
 }
 
 // Mirrored and seen with clockwise fronts, a closed mesh shows the same pixels as the mesh that was mirrored by hand.
