@@ -67,8 +67,9 @@ struct FrameBufferState {
       default: return accumulation[0];
     }
   }
-  /// What a buffer consists of, in the order of its planes.
+  /// What a buffer consists of, in the order of its planes; what is no Buffer, of nothing.
   std::span<StoredBuffer> parts(Buffer which) {
+    if (which > Buffer::accumulation) return {};
     if (which == Buffer::accumulation) return accumulation;
     return {&buffer(which), 1};
   }

@@ -157,6 +157,7 @@ Camera calibrated_camera(const Intrinsics& i, const Matrix& camera_from_world, d
     throw Error("calibrated_camera: the principal point is " + std::to_string(i.cx) + ", " + std::to_string(i.cy) + ", must be finite");
   if (i.width < 1 || i.height < 1)
     throw Error("calibrated_camera: the picture's size is " + std::to_string(i.width) + "x" + std::to_string(i.height) + ", must be at least 1x1");
+  require_finite({"calibrated_camera: camera_from_world"}, camera_from_world);
   Camera camera{.view = camera_from_world, .projection = frustum(-1, 1, -1, 1, near, far, reversed), .reversed = reversed};
   auto& m = camera.projection.m;
   m[0] = 2 * i.fx / i.width;

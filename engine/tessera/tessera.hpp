@@ -79,7 +79,8 @@ struct Color {
 struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
 };
-/// 4x4, in rows as on paper: m[4 * row + column]; applies to column vectors.
+/// 4x4, in rows as on paper: m[4 * row + column]; applies to column vectors. Elements may be any numbers until something is done by them: what takes
+/// a matrix throws Error where one is not finite.
 struct Matrix {
   std::array<double, 16> m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 };
@@ -164,9 +165,9 @@ class TESSERA_API FrameBuffer {
   /// stays and shows through it; frames finished from here on look for the nearest of its entries. Throws Error for an RGB
   /// buffer, for entries out of range or too many, and where memory runs out; then nothing changed.
   void set_palette(std::span<const Color> entries);
-  /// Planes of a buffer: colour bits and alpha bits, depth bits (0, 16, 24, 32), stencil bits, four times the accumulation bits.
+  /// Planes of a buffer: colour bits and alpha bits, depth bits (0, 16, 24, 32), stencil bits, four times the accumulation bits; 0 of what is no Buffer.
   int plane_count(Buffer buffer) const noexcept;
-  /// Bytes that the planes of a buffer take now; 0 while it is not allocated.
+  /// Bytes that the planes of a buffer take now; 0 while it is not allocated, and of what is no Buffer.
   std::size_t allocated_bytes(Buffer buffer) const noexcept;
   /// Plane k of a buffer, 0 the lowest bit (of blue, of the index, of depth); of accumulation all of red's come first, then
   /// green's, blue's and alpha's. Allocates it if need be. Throws Error for a plane that does not exist or a buffer that the
@@ -179,7 +180,8 @@ class TESSERA_API FrameBuffer {
   void read_depth(std::span<float> depth) const;                   ///< 0 near .. 1 far
   void read_depth_words(std::span<std::uint32_t> words) const;     ///< stored levels; the bits of the float for float32
   /// Distances from the eye's plane along the view, in the camera's units (metres), for draws with that projection and the
-  /// whole depth range; `background` where the depth is the far end's.
+  /// whole depth range; `background`, which may be any float, a NaN, too, where the depth is the far end's. The camera's view has no say. Throws Error,
+  /// too, for a projection by which a depth has no distance of its own: not finite, or with depths that depend on x and y, or on nothing.
   void read_view_depth(std::span<float> depth, const Camera& camera, float background = 0) const;
   void read_stencil(std::span<std::uint8_t> stencil) const;
   void read_accumulation(std::span<float> rgba) const;             ///< r g b a for each pixel, -1 .. 1: 4 * width * height
@@ -374,7 +376,7 @@ struct Intrinsics {
   int width = 0, height = 0;                ///< of the picture that they are meant for, pixels
 };
 /// In a frame buffer of another size the picture is stretched. `camera_from_world` is the 4x4 extrinsic matrix, in the given axes; near and far as in perspective(), in its units (metres).
-/// Throws Error for focal lengths, sizes and volumes out of range.
+/// Throws Error for focal lengths, sizes and volumes out of range, and a matrix that is not finite.
 TESSERA_API Camera calibrated_camera(const Intrinsics& intrinsics, const Matrix& camera_from_world, double near, double far,
                                      CameraAxes axes = CameraAxes::opencv, bool reversed = false);
 

@@ -1,12 +1,18 @@
-// Odd numbers in the helpers that make matrices, one and two at a time: an error, or a matrix of finite numbers.
+// Odd numbers in the helpers that make matrices, one and two at a time: an error, or a matrix of finite numbers. Those that do not compute, and products, have no
+// errors: what takes a matrix has.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "tests/numerics/odd_values.h"
 #include "tests/engine/api_support.h"
+#include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
 namespace {
@@ -35,6 +41,11 @@ std::vector<Helper> helpers() {
           {"orthographic", {-0.1, 0.3, -0.7, 0.2, -2, 33}, [](const Numbers& n) { return orthographic(n[0], n[1], n[2], n[3], n[4], n[5]); }},
           {"orthographic, reversed", {-0.1, 0.3, -0.7, 0.2, -2, 33}, [](const Numbers& n) { return orthographic(n[0], n[1], n[2], n[3], n[4], n[5], true); }},
           {"calibrated_camera", {333, 313, 100, 77, 0.1, 33}, [](const Numbers& n) { return calibrated_camera({n[0], n[1], n[2], n[3], 201, 151}, {}, n[4], n[5]).projection; }},
+          {"calibrated_camera, camera_from_world", {0.9, 0.1, 0.3, 2, -0.1, 0.8, 0.2, 1, 0.3, -0.2, 0.9, 5, 0, 0, 0, 1}, [](const Numbers& n) {
+             Matrix camera_from_world;
+             std::copy(n.begin(), n.end(), camera_from_world.m.begin());
+             return calibrated_camera({333, 313, 100, 77, 201, 151}, camera_from_world, 0.1, 33).view;
+           }},
           {"planar_shadow", {0.1, 0.9, 0.2, 0.3, 0.1, 3.3, 0.7, 1}, [](const Numbers& n) { return planar_shadow({n[0], n[1], n[2], n[3]}, light_at(n, 4)); }}};
 }
 
@@ -100,6 +111,61 @@ TEST(OddMatrices, OfPicturesWithoutPixelsAreErrors) {
       const auto make = [&] { return calibrated_camera({333, 313, 100, 77, wide ? size : 200, wide ? 150 : size}, {}, 0.1, 33); };
       EXPECT_EQ(error_of(make).has_value(), size < 1) << size;
     }
+}
+
+TEST(OddMatrices, OfAxesThatThereAreNoneOfAreErrors) {
+  for (const int odd : {2, 127, 255})
+    EXPECT_THAT(error_of([&] { calibrated_camera({333, 313, 100, 77, 201, 151}, {}, 0.1, 33, static_cast<CameraAxes>(odd)); }).value_or(""), testing::HasSubstr("axes is " + std::to_string(odd)));
+}
+
+// Each number in its own place, to the bit, and nothing else changed.
+TEST(OddMatrices, OfTranslationsAndScalesHoldTheNumbersThemselves) {
+  const std::vector<double> odd = values();
+  for (std::size_t i = 0; i < odd.size(); ++i) {
+    const double x = odd[i], y = odd[(i + 7) % odd.size()], z = odd[(i + 19) % odd.size()];
+    Matrix moved, stretched;
+    moved.m[3] = stretched.m[0] = x, moved.m[7] = stretched.m[5] = y, moved.m[11] = stretched.m[10] = z;
+    const auto bits = [](const Matrix& matrix) { return std::bit_cast<std::array<std::uint64_t, 16>>(matrix.m); };
+    EXPECT_EQ(bits(translate(x, y, z)), bits(moved)) << x << " " << y << " " << z;
+    EXPECT_EQ(bits(scale(x, y, z)), bits(stretched)) << x << " " << y << " " << z;
+  }
+}
+
+// Each element is the sum of its four products: a NaN where one of them is or infinities differ, infinite where one is, else within its roundings. (Where sizes
+// of finite products sum up to more than a number can be, what comes out is a matter of their order.)
+TEST(OddMatrices, OfProductsAreWhatTheNumbersComeTo) {
+  const std::vector<double> odd = values();
+  Random random(24);
+  std::size_t numbers = 0, infinite = 0, not_numbers = 0;
+  for (int n = 0; n < 20000; ++n) {
+    Matrix left, right;
+    for (Matrix* const matrix : {&left, &right})
+      for (double& element : matrix->m) element = random.next() % 8 == 0 ? odd[random.next() % odd.size()] : random.between(-3, 3);
+    const Matrix product = left * right;
+    for (std::size_t at = 0; at < 16; ++at) {
+      long double sum = 0, sizes = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const long double term = static_cast<long double>(left.m[at / 4 * 4 + k]) * static_cast<long double>(right.m[4 * k + at % 4]);
+        const double product_of_two = static_cast<double>(term);  // beyond the doubles' range it is infinite
+        sum += product_of_two;
+        if (std::isfinite(product_of_two)) sizes += std::abs(term);
+      }
+      const double found = product.m[at];
+      if (std::isnan(sum)) {
+        ASSERT_TRUE(std::isnan(found)) << found;
+        ++not_numbers;
+      } else if (sizes > std::numeric_limits<double>::max()) {
+        continue;
+      } else if (std::isinf(sum)) {
+        ASSERT_EQ(found, static_cast<double>(sum));
+        ++infinite;
+      } else {
+        ASSERT_LE(std::abs(found - sum), 4 * (0x1p-53L * sizes + 0x1p-1074L)) << found;
+        ++numbers;
+      }
+    }
+  }
+  EXPECT_TRUE(numbers > 10000 && infinite > 10000 && not_numbers > 10000) << numbers << " " << infinite << " " << not_numbers;
 }
 
 }  // namespace
