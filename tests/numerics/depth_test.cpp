@@ -38,8 +38,13 @@ CaseDraw mesh_in(Dice& dice, const Window& window, const std::function<double()>
 // From `scale` z + `start`, a depth within 0 .. 1, to clip space.
 Matrix depth_transform(double scale, double start) { return {.m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2 * scale, 2 * start - 1, 0, 0, 0, 1}}; }
 
+/// How draws are tested: the nearer one after the farther one, and all others.
+struct Tests {
+  Compare nearer = Compare::less, others = Compare::less;
+};
+
 // Of the pixels that the mesh covers, those that do not show the nearer one.
-long double wrong_pixels(CaseRenderer& renderer, CaseDraw draw, const Matrix& nearer, const Matrix& farther, Compare nearer_passes = Compare::less) {
+long double wrong_pixels(CaseRenderer& renderer, CaseDraw draw, const Matrix& nearer, const Matrix& farther, const Tests& tests = {}) {
   const auto colored = [&](const Color& color, const Matrix& transform, Compare func) {
     draw.color = color;
     draw.transform = transform;
@@ -50,8 +55,8 @@ long double wrong_pixels(CaseRenderer& renderer, CaseDraw draw, const Matrix& ne
   behind.test_depth = false;
   long double wrong = 0, seen = 0;
   for (const bool near_first : {false, true}) {
-    const CaseDraw first = near_first ? colored(kNear, nearer, Compare::less) : colored(kFar, farther, Compare::less);
-    const CaseDraw second = near_first ? colored(kFar, farther, Compare::less) : colored(kNear, nearer, nearer_passes);
+    const CaseDraw first = near_first ? colored(kNear, nearer, tests.others) : colored(kFar, farther, tests.others);
+    const CaseDraw second = near_first ? colored(kFar, farther, tests.others) : colored(kNear, nearer, tests.nearer);
     for (const std::array<float, 3>& color : renderer.draw({behind, first, second}).colors) {
       wrong += color[0] > 0 || color[2] > 0;
       seen += color[0] > 0 || color[1] > 0 || color[2] > 0;
@@ -71,7 +76,8 @@ TEST(Depth, ParallelSurfacesOneStepApartStayApart) {
     expect_figure("depth, " + std::string(depth.name) + ", one step apart, facing the viewer", 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
       Dice dice(11);
       long double wrong = 0;
-      const std::int64_t first = depth.is_float() ? 0x38000000 : 0, last = depth.is_float() ? 0x3f800000 : depth.levels();  // the far end is never less than what is cleared
+      // Doubles of -1 .. 1 hold twice a float less one exactly from 2^-31 on.
+      const std::int64_t first = depth.is_float() ? 0x30000000 : 0, last = depth.is_float() ? 0x3f800000 : depth.levels();  // the far end is never less than what is cleared
       for (const Window& window : kWindows) {
         const auto renderer = make({.width = window.width, .height = window.height, .depth = depth.format});
         std::vector<std::int64_t> nearer{first, first + 1, (first + last) / 2, last - 2};
@@ -81,6 +87,25 @@ TEST(Depth, ParallelSurfacesOneStepApartStayApart) {
       }
       return wrong;
     });
+}
+
+// Reversed depth is z itself: floats stay apart down to the smallest there is.
+TEST(Depth, ParallelSurfacesOneFloatApartStayApartInReversedDepth) {
+  expect_figure("depth, floats, reversed, one step apart, facing the viewer", 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
+    Dice dice(15);
+    long double wrong = 0;
+    for (const Window& window : kWindows) {
+      const auto renderer = make({.width = window.width, .height = window.height, .depth = DepthFormat::float32, .reversed = true, .cleared_depth = 0});
+      const auto flat = [](std::int64_t word) { return Matrix{.m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, float_of(static_cast<std::uint32_t>(word)), 0, 0, 0, 1}}; };
+      for (int exponent = 0; exponent < 127; exponent += window.width == 64 ? 1 : 21) {  // of 2^-126 and less .. 1
+        const std::int64_t first = std::int64_t{exponent} << 23, last = first + 0x7fffff;
+        std::vector<std::int64_t> farther{std::max(first, std::int64_t{1}), last};
+        for (int n = 0; n < (is_tessera && long_tests() ? 50 : 1); ++n) farther.push_back(dice.between(first + 1, last - 1));
+        for (const std::int64_t word : farther) wrong += wrong_pixels(*renderer, mesh_in(dice, window, [] { return 0.0; }), flat(word + 1), flat(word), {Compare::greater, Compare::greater});
+      }
+    }
+    return wrong;
+  });
 }
 
 // The same tilted triangles, moved by one level: with vertices anywhere between two levels, or in the middle of one.
@@ -106,22 +131,23 @@ TEST(Depth, TiltedSurfacesOneLevelApartStayApart) {
 }
 
 // Between the vertices floats are rounded, so what is one float nearer at the vertices may be as near; it is never farther. (The steps of the depth
-// are the same numbers for both, and every operation on the way to a pixel's depth is monotonic.)
-TEST(Depth, TiltedSurfacesOneFloatNearerNeverFallBehind) {
-  expect_figure("depth, floats, one step apart, tilted, tested by lequal", 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
-    Dice dice(13);
-    long double wrong = 0;
-    for (const Window& window : kWindows) {
-      const auto renderer = make({.width = window.width, .height = window.height, .depth = DepthFormat::float32});
-      for (int n = 0; n < (is_tessera && long_tests() ? 500 : window.width == 64 ? 40 : 4); ++n) {
-        // Depths in 2^-24: a step is the smallest difference at 1/2 and more.
-        const std::int64_t spread = std::int64_t{1} << dice.between(0, 23), middle = dice.between(0, 1 << 24);
-        const CaseDraw mesh = mesh_in(dice, window, [&] { return static_cast<double>(std::clamp<std::int64_t>(middle + dice.between(-spread, spread), 1 << 10, (1 << 24) - 2)); });
-        wrong += wrong_pixels(*renderer, mesh, depth_transform(0x1p-24, 0), depth_transform(0x1p-24, 0x1p-24), Compare::lequal);
+// are the same numbers for both, and every operation on the way to a pixel's depth is monotonic.) What is two floats nearer is nearer.
+TEST(Depth, TiltedSurfacesOneFloatNearerNeverFallBehindAndTwoAreNearer) {
+  for (const int floats : {1, 2})
+    expect_figure(std::string("depth, floats, tilted, ") + (floats == 1 ? "one step apart, tested by lequal" : "two steps apart"), 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
+      Dice dice(13);
+      long double wrong = 0;
+      for (const Window& window : kWindows) {
+        const auto renderer = make({.width = window.width, .height = window.height, .depth = DepthFormat::float32});
+        for (int n = 0; n < (is_tessera && long_tests() ? 500 : window.width == 64 ? 40 : 4); ++n) {
+          // Depths in 2^-24: a step is the smallest difference at 1/2 and more.
+          const std::int64_t spread = std::int64_t{1} << dice.between(0, 23), middle = dice.between(0, 1 << 24);
+          const CaseDraw mesh = mesh_in(dice, window, [&] { return static_cast<double>(std::clamp<std::int64_t>(middle + dice.between(-spread, spread), 1 << 10, (1 << 24) - 3)); });
+          wrong += wrong_pixels(*renderer, mesh, depth_transform(0x1p-24, 0), depth_transform(0x1p-24, floats * 0x1p-24), {floats == 1 ? Compare::lequal : Compare::less, Compare::less});
+        }
       }
-    }
-    return wrong;
-  });
+      return wrong;
+    });
 }
 
 // Pixels of a decal that do not show on the plane that it lies in.
