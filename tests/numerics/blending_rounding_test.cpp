@@ -1,8 +1,8 @@
 // Blending against long double: every pair of levels for the usual factors, every factor and equation for some, in buffers of 1 to 24 bits.
 //
-// The bound. A stored level and a texel become components by a float's 1 / levels and a product: 2^-23 off at most. A factor is one of them, or 1 minus it: 2^-25 more. Each
-// product of a component and a factor is off by the sum of both, one of the two is rounded (2^-25), and their sum, below 2, is rounded (2^-24). That is less than
-// 1.5 * 2^-21 of 1.0. The result times the levels, plus a half, is rounded once more (2^(bits - 24)) before its fraction is cut off.
+// The bound, in u = 2^-24 of 1.0. A stored level and a texel become components by a float's 1 / levels and a product: off by 1 and 0.5 at most. A factor is one of them, or 1 minus it:
+// 0.5 more. Each product of a component and a factor is off by the sum of both, 3.5; one of the two is rounded (0.5), and so is their sum (0.5 where it is no more than 1, which a greater one
+// becomes). That is 8. The result times the levels, plus a half, is rounded once more (2^(bits - 25)) before its fraction is cut off.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Components = std::array<long double, 4>;
 
-long double bound_of(int bits) { return ((1 << bits) - 1) * 1.5L * 0x1p-21L + std::ldexp(1.0L, bits - 24); }
+long double bound_of(int bits) { return ((1 << bits) - 1) * 8 * 0x1p-24L + std::ldexp(1.0L, bits - 25); }
 
 long double factor(BlendFactor factor, std::size_t c, const Components& s, const Components& d, const Components& constant) {
   switch (factor) {
@@ -104,8 +104,8 @@ class Blender {
         const int bits = split_.bits[c];
         if (bits == 0) continue;
         const long double beyond = std::abs(static_cast<long double>(split_.level(after[i], c)) - exact[c] * split_.levels(c)) - 0.5L;
-        // Luminance: weights and sums of floats, 5 * 2^-25 of 1.0 more.
-        const long double bound = bound_of(bits) + (grey && c < 3 ? split_.levels(c) * 5 * 0x1p-25L : 0);
+        // Luminance: weights and sums of floats, 1.875 u more (color_rounding_test.cpp).
+        const long double bound = bound_of(bits) + (grey && c < 3 ? split_.levels(c) * 1.875L * 0x1p-24L : 0);
         ASSERT_LE(beyond, bound) << "factors " << static_cast<int>(state.src) << ", " << static_cast<int>(state.dst) << ", equation " << static_cast<int>(state.equation) << ", component " << c << ": level "
                                  << split_.level(after[i], c) << ", exactly " << exact[c] * split_.levels(c) << ", of " << split_.levels(c);
         long double& most = worst_[static_cast<std::size_t>(bits)];

@@ -115,8 +115,8 @@ void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, in
     }
 }
 
-// The component times the levels, plus a half, is rounded to a float once before its fraction is cut off: to 2^-24 of the next power of two.
-long double beyond_half(int bits) { return std::ldexp(1.0L, bits - 25 + 1); }
+// The component times the levels, plus a half, less than 2^bits, is rounded to a float once before its fraction is cut off.
+long double beyond_half(int bits) { return std::ldexp(1.0L, bits - 25); }
 
 TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
   std::array<long double, 9> worst{};
@@ -146,10 +146,11 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
     expect_within("colour of " + std::to_string(bits) + " bits a component, beyond half a level", std::max(0.0L, worst[static_cast<std::size_t>(bits)] - 0.5L), beyond_half(bits), "levels");
 }
 
-// 0.30 R + 0.59 G + 0.11 B: weights that are floats (each off by 2^-26 at most, the largest by 2^-25), three rounded sums of numbers up to 1 (2^-25 each), and the rounding above.
+// 0.30 R + 0.59 G + 0.11 B: weights that are floats (off by 2^-26, 2^-25 and 2^-28 at most), the product for blue (2^-28) and two sums up to 1 (2^-25 each), rounded, and the rounding
+// above. That is 1.875 * 2^-24 of 1.0.
 TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
   for (const int color_bits : {1, 2}) {
-    const long double bound = ((1 << color_bits) - 1) * (2 * 0x1p-26L + 0x1p-25L + 3 * 0x1p-25L) + beyond_half(color_bits);
+    const long double bound = ((1 << color_bits) - 1) * 1.875L * 0x1p-24L + beyond_half(color_bits);
     long double worst = 0;
     const auto colors = [](int bits) {
       Random random(static_cast<std::uint64_t>(bits));

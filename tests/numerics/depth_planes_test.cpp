@@ -50,8 +50,8 @@ TEST(DepthPlanes, AreWithinTheirLevelsInNarrowedAndReversedRanges) {
     });
 }
 
-// The plane is one of doubles, off by 2^-52 of its gradients' terms and of its own, which only needles feel; the depth is rounded once, and cut to the
-// vertices' range.
+// The plane is one of doubles. Each of its gradients' terms goes through 8 roundings of 2^-53 (a difference, two products and a sum, the area's reciprocal,
+// the distance's product, two sums), which only needles feel; the depth is rounded once, and cut to the vertices' range.
 TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
   for (const WindowShape shape : kWindowShapes)
     expect_figure("depth, floats, triangles " + name_of(shape), 1, "of one rounding", [&](const MakeRenderer& make, bool is_tessera) {
