@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "framebuffer/tile_grid.h"
+
 namespace tessera {
 
 inline constexpr int kSubpixelBits = 8;
@@ -24,21 +26,22 @@ static_assert((std::int64_t{kGuardBandPixels} + kMaxViewportPixels / 2 + kMaxVie
 
 /// Largest extent, in pixels, of a triangle between any two vertices after clipping.
 inline constexpr std::int64_t kWidestExtent = 2 * kGuardBandPixels;
-static_assert((kWidestExtent + 128 + 1) * kSubpixelScale <= (1 << 24), "from a vertex to a pixel of a tile that the triangle touches is exact in a float");
+static_assert((kWidestExtent + kMaxTileSize + 1) * kSubpixelScale <= (1 << 24), "from a vertex to a pixel of a tile that the triangle touches is exact in a float");
 
 // An edge function is E(p) = A (px - vx) + B (py - vy), with A and B differences of coordinates. Divided by 256 and rounded
 // down, E at pixel centres keeps its sign and steps by exactly A and B from pixel to pixel.
 //
 // Narrow triangles: at a pixel within `extent` + one tile of the triangle, |A|, |B| <= 256 extent, so
-// |E / 256| <= 2 * 256 extent * (extent + 128). A sample, less than a pixel from the centre, adds less than 2 * 256 extent.
+// |E / 256| <= 2 * 256 extent * (extent + one tile). A sample, less than a pixel from the centre, adds less than 2 * 256 extent.
 inline constexpr std::int64_t kNarrowExtent = 1984;
-static_assert(2 * kSubpixelScale * kNarrowExtent * (kNarrowExtent + 128 + 1) <= INT32_MAX);
-// All others: an edge that crosses a tile is smaller in the whole tile than its own span over 127 pixels.
-static_assert(127 * 2 * kWidestExtent * kSubpixelScale <= INT32_MAX, "an edge that crosses a tile fits 32 bits in it");
+constexpr std::int64_t narrow_bound(std::int64_t extent) { return 2 * kSubpixelScale * extent * (extent + kMaxTileSize + 1); }
+static_assert(narrow_bound(kNarrowExtent) <= INT32_MAX && narrow_bound(kNarrowExtent + 1) > INT32_MAX, "the widest that fits, and not a pixel more");
+// All others: an edge that crosses a tile is smaller in the whole tile than its own span from the first pixel's centre to the last one's.
+static_assert((kMaxTileSize - 1) * 2 * kWidestExtent * kSubpixelScale <= INT32_MAX, "an edge that crosses a tile fits 32 bits in it");
 // Twice a triangle's area is exact in a double.
 static_assert(2 * (kWidestExtent * kSubpixelScale) * (kWidestExtent * kSubpixelScale) < (std::int64_t{1} << 53));
 // Binning looks at the undivided edges at the corners of tiles, in 64 bits.
-static_assert(2 * (kWidestExtent * kSubpixelScale) * ((kWidestExtent + 2 * 128) * kSubpixelScale) < INT64_MAX / 4);
+static_assert(2 * (kWidestExtent * kSubpixelScale) * ((kWidestExtent + 2 * kMaxTileSize) * kSubpixelScale) < INT64_MAX / 4);
 // The numerators of a depth plane: two products of a coordinate's difference and a depth word's.
 static_assert(2 * kWidestExtent * kSubpixelScale * std::int64_t{0xffffffff} < (std::int64_t{1} << 57));
 

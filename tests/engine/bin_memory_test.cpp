@@ -133,6 +133,11 @@ TEST(BinMemory, MayBeAsMuchAsThereIs) {
   EXPECT_EQ(render(scene, {.threads = 1, .bin_memory = std::numeric_limits<std::size_t>::max()}).stats.bin_passes, 1u);
 }
 
+TEST(BinMemory, IsAQuarterOfAGigabyteUnlessSaidOtherwise) {
+  EXPECT_EQ(RendererOptions{}.bin_memory, std::size_t{256} << 20);
+  EXPECT_EQ(Renderer({.threads = 1}).options().bin_memory, std::size_t{256} << 20);
+}
+
 TEST(BinMemory, ALimitThatIsTooSmallIsAnError) {
   EXPECT_THAT(error_of([] { Renderer renderer({.bin_memory = 1000}); }).value_or(""), testing::AllOf(testing::HasSubstr("bin_memory is 1000"), testing::HasSubstr("65536")));
 }
