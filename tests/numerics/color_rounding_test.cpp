@@ -157,15 +157,15 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
       std::vector<Color> all;
       const int levels = (1 << bits) - 1;
       for (int half = 0; half <= 2 * levels; ++half)
-        for (int i = 0; i < 60; ++i) {
-          // Greys, and colours whose luminance comes next to that number of halves.
+        for (int i = 0; i < 200; ++i) {
+          // Greys, and colours whose luminance comes next to that number of halves, or as far beside it as would be wrong.
           const double wanted = static_cast<double>(half) / (2 * levels);
           const float grey = static_cast<float>(wanted), r = random.between(0, 1), b = random.between(0, 1);
-          const float g = static_cast<float>((wanted - 0.30 * r - 0.11 * b) / 0.59);
+          const float g = static_cast<float>((wanted - 0.30 * r - 0.11 * b) / 0.59 + (i % 9 - 4) * (i % 2 == 0 ? 0x1p-25 : 0x1p-23));
           if (i < 3)
             all.push_back({grey, grey, grey, 1});
           else if (g >= 0 && g <= 1)
-            all.push_back({r, i % 3 == 0 ? std::nextafter(g, 0.0f) : i % 3 == 1 ? g : std::nextafter(g, 1.0f), b, 1});
+            all.push_back({r, g, b, 1});
         }
       return all;
     };
