@@ -67,7 +67,7 @@ class Commands {
         const std::int64_t nearest = saturated(value.rounded(), bits_);
         const bool is_saturated = nearest != value.rounded();
         if (is_saturated && after[i][c] != nearest) ADD_FAILURE() << "at the end of the range: " << after[i][c] << ", not " << nearest;
-        if (!is_saturated) worst = std::max(worst, value.distance(after[i][c]));
+        if (!is_saturated) keep_worst(worst, value.distance(after[i][c]));
       }
   }
   Frame& frame() { return frame_; }
@@ -145,7 +145,7 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
             const bool has = split.bits[c] > 0;
             const std::int64_t level = has ? split.level(before[i], c) : 1, levels = has ? split.levels(c) : 1;
             ASSERT_EQ(sums[i][c], saturated(256 * (Ratio{level * one_of(bits), 256 * levels}.rounded()), bits)) << "level " << level << " of " << levels;
-            worst = std::max(worst, static_cast<long double>(std::abs(split.level(after[i], c) - split.level(before[i], c))));
+            keep_worst(worst, std::abs(split.level(after[i], c) - split.level(before[i], c)));
           }
       }
     expect_within("accumulation, 256 passes of 1/256, " + std::to_string(bits) + " bits", worst, bits == 16 ? 1 : 0, "levels of the colour");
@@ -174,7 +174,7 @@ TEST(Accumulation, Of256PicturesIsTheirMean) {
       const auto after = color_words(commands.buffer());
       for (std::size_t i = 0; i < after.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
-          if (split.bits[c] > 0) worst = std::max(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
+          if (split.bits[c] > 0) keep_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
     }
     // Half a level of the last rounding, and 256 halves of the passes' (0.5 / 32767 or 0.5 / (2^31 - 1) of 1.0 each, 255 levels).
     expect_within("accumulation, mean of 256 pictures, " + std::to_string(bits) + " bits", worst, 0.5L + 128 * 255.0L / static_cast<long double>(one_of(bits)) + 0x1p-40L, "levels of 255");
@@ -212,7 +212,7 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
             const Ratio exact = Ratio::of(value) * (levels[i][c] * split.levels(c)) / one_of(bits);
             const std::int64_t most = split.levels(c);
             const Ratio clamped = exact.over <= 0 ? Ratio{} : exact.over >= most * exact.under ? Ratio{most, 1} : exact;
-            worst = std::max(worst, clamped.distance(split.level(words[i], c)));
+            keep_worst(worst, clamped.distance(split.level(words[i], c)));
           }
         // In doubles, but for the three weights of luminance, which are floats: off by 2^-26, 2^-25 and 2^-28 at most.
         const long double beyond = std::max(0.0L, worst - 0.5L), bound = (color_bits <= 2 ? 3 * 13 * 0x1p-28L : 0) + 255 * 4 * 0x1p-53L;

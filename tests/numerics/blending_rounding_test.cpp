@@ -109,7 +109,7 @@ class Blender {
         ASSERT_LE(beyond, bound) << "factors " << static_cast<int>(state.src) << ", " << static_cast<int>(state.dst) << ", equation " << static_cast<int>(state.equation) << ", component " << c << ": level "
                                  << split_.level(after[i], c) << ", exactly " << exact[c] * split_.levels(c) << ", of " << split_.levels(c);
         long double& most = worst_[static_cast<std::size_t>(bits)];
-        most = std::max(most, beyond);
+        keep_worst(most, beyond);
       }
     }
   }

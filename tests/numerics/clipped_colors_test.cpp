@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/numerics/bounds.h"
 #include "tests/numerics/plane_mesh.h"
 #include "tests/raster/random_triangles.h"
 
@@ -58,7 +59,7 @@ long double worst_of(const CasePicture& picture, const SeenPlane& seen, const Ex
       for (std::size_t a = 0; a < attributes.size(); ++a) {
         const Range range = range_around(seen, attributes[a], x, y);
         const long double level = 255 * static_cast<long double>(picture.colors[static_cast<std::size_t>(row * kSide + column)][a]);
-        worst = std::max({worst, level - level_of(range.high), level_of(range.low) - level});
+        keep_worst(worst, level - level_of(range.high), level_of(range.low) - level);
       }
     }
   return worst;
@@ -98,7 +99,7 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
     const long double here = worst_of(renderer->draw({draw}), *seen, plane.region(*seen, kSize, reversed), view, attributes, level_of, pixels);
     clipped += pixels != before && std::any_of(grid.points.begin(), grid.points.end(), [&](const WindowPoint& p) { return plane.at(p.x, p.y).w <= 0; });
     if (is_tessera && here > bound && worst <= bound) ADD_FAILURE() << "plane " << n << " is off by " << static_cast<double>(here) << " levels";
-    worst = std::max(worst, here);
+    keep_worst(worst, here);
   }
   EXPECT_GT(pixels, 100000);
   EXPECT_GT(clipped, 200);  // planes that are seen and reach behind the eye

@@ -138,7 +138,7 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
         const double exact = static_cast<double>(components[c]) * split.levels(c);  // 24 + 8 bits
         const long double off = std::abs(static_cast<long double>(level) - exact);
         ASSERT_LE(off, 0.5L + beyond_half(split.bits[c])) << source << ": " << components[c] << " of component " << c << " is level " << level << " of " << split.levels(c);
-        worst[static_cast<std::size_t>(split.bits[c])] = std::max(worst[static_cast<std::size_t>(split.bits[c])], off);
+        keep_worst(worst[static_cast<std::size_t>(split.bits[c])], off);
       }
     }
   });
@@ -175,7 +175,7 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
         const long double exact = split.levels(0) * (0.30L * c.r + 0.59L * c.g + 0.11L * c.b);
         const long double off = std::abs(static_cast<long double>(split.level(words[i], 0)) - exact);
         ASSERT_LE(off, 0.5L + bound) << source << ": " << c.r << ", " << c.g << ", " << c.b;
-        worst = std::max(worst, off);
+        keep_worst(worst, off);
       }
     });
     expect_within("luminance of " + std::to_string(color_bits) + (color_bits > 1 ? " bits" : " bit") + ", beyond half a level", std::max(0.0L, worst - 0.5L), bound, "levels");
@@ -254,7 +254,7 @@ TEST(ColorRounding, OfIndicesIsExact) {
         }
         const double off = std::abs(std::remainder(words[i] - index, modulus));  // sums of less than 2^28 and of more than 2^-25: exact
         ASSERT_LE(off, 0.5 + std::ldexp(1.0, bits - 25)) << indices[i] << " in " << bits << " bits";
-        worst = std::max(worst, off - 0.5);
+        keep_worst(worst, off - 0.5);
       }
     }
   }

@@ -1,7 +1,6 @@
 // How far a depth buffer sees: a reversed projection into floats, and projections without a far end.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -103,7 +102,7 @@ TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
         const long double exact = 1 - 1.0L / static_cast<long double>(distance);
         const std::int64_t expected = depth.is_float() ? std::bit_cast<std::uint32_t>(static_cast<float>(exact)) : static_cast<std::int64_t>(std::floor(exact * static_cast<long double>(depth.levels()) + 0.5L));
         for (std::size_t i = 0; i < picture.depth.size(); ++i)
-          worst = std::max(worst, picture.colors[i][0] > 0 ? static_cast<long double>(std::abs(picture.depth[i] - expected)) : static_cast<long double>(depth.levels()));
+          keep_worst(worst, picture.colors[i][0] > 0 ? std::abs(picture.depth[i] - expected) : depth.levels());
       }
       return worst;
     });

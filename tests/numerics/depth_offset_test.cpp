@@ -78,7 +78,7 @@ TEST(DepthOffset, OfSlopesIsRoundedOnce) {
         const long double move = offset.factor * slope.steepest * levels + offset.units;
         const long double of_vertices = 0.5L * word * factor * slope.of_rounding, of_gradients = 0x1p-51L * factor * slope.terms * levels;
         const long double bound = (depth.bits == 32 ? 0.5L : 1.0L) + 0.5L * word + of_vertices + of_gradients;
-        worst = std::max(worst, std::abs(stored - std::clamp(plain + move, 0.0L, levels)) / bound);
+        keep_worst(worst, std::abs(stored - std::clamp(plain + move, 0.0L, levels)) / bound);
       });
       return worst;
     });
@@ -93,7 +93,7 @@ TEST(DepthOffset, OfFloatsIsRoundedTwice) {
       const long double unit = std::ldexp(1.0L, (largest > 0 ? std::ilogb(static_cast<double>(largest)) - kFraction : -126) - 23);  // at the triangle's largest depth
       const long double move = offset.factor * slope.steepest + offset.units * unit, exact = std::clamp(float_of(plain) + move, 0.0L, 1.0L);
       const long double bound = 0x1p-24L * (exact + std::abs(move)) + 0x1p-51L * std::abs(offset.factor) * slope.terms + 0x1p-149L;
-      worst = std::max(worst, std::abs(float_of(stored) - exact) / bound);
+      keep_worst(worst, std::abs(float_of(stored) - exact) / bound);
     });
     return worst;
   });

@@ -71,7 +71,7 @@ TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
         const auto [low, high] = std::minmax({depth(0), depth(1), depth(2)});
         const long double exact = static_cast<long double>(depth_numerator(t, at)) / area * 0x1p-24L, bound = std::min(0x1p-24L * exact + 0x1p-50L * (depth(anchor) + terms), high - low);
         const long double error = std::abs(float_of(stored) - exact);
-        if (error > bound || bound > 0) worst = std::max(worst, bound > 0 ? error / bound : 0x1p24L * error);  // all the same: exactly that
+        if (!(error <= bound) || bound > 0) keep_worst(worst, bound > 0 ? error / bound : 0x1p24L * error);  // all the same: exactly that
       });
       return worst;
     });

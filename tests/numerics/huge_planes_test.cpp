@@ -126,7 +126,7 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
       ++seen_pixels;
       for (std::size_t c = 0; c < 3; ++c) {
         const long double expected = 255 * (0.25L * colors[c] + 0.25L * colors[4 + c] + 0.5L * colors[8 + c]);
-        worst = std::max(worst, std::abs(static_cast<long double>(words[i] >> (16 - 8 * c) & 255) - expected));
+        keep_worst(worst, std::abs(static_cast<long double>(words[i] >> (16 - 8 * c) & 255) - expected));
       }
     }
   }

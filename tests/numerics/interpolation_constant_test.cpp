@@ -54,7 +54,7 @@ TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
         for (std::size_t k = 0; k < 3; ++k) {
           // Mesa's colours are not rounded to levels.
           const float expected = is_tessera ? std::floor(std::fma(c[k], 255.0f, 0.5f)) / 255.0f : c[k];
-          worst = std::max(worst, 255 * std::abs(static_cast<long double>(color[k]) - expected));
+          keep_worst(worst, 255 * std::abs(static_cast<long double>(color[k]) - expected));
         }
       }
     }
@@ -106,7 +106,7 @@ TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
         float low = 2, high = 0;
         for (const std::array<float, 3>& color : renderer->draw({draw}).colors)
           if (color[0] > 0) low = std::min(low, color[0]), high = std::max(high, color[0]);
-        if (high > 0) worst = std::max(worst, 255 * (static_cast<long double>(high) - low));
+        if (high > 0) keep_worst(worst, 255 * (static_cast<long double>(high) - low));
       }
       return worst;
     });

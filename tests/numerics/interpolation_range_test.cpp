@@ -73,7 +73,7 @@ TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
       const Corners a = random_corners(dice, one_sign);
       const auto [low, high] = std::minmax({a[0], a[1], a[2]});
       const long double value = at.interpolate(a[0], a[1], a[2]);
-      worst[one_sign] = std::max(worst[one_sign], std::max(low - value, value - high) / (kUnit * largest_of(a)));
+      keep_worst(worst[one_sign], std::max(low - value, value - high) / (kUnit * largest_of(a)));
       ++count;
     }
   });
@@ -92,7 +92,7 @@ TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
     for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * v[k].rw;
     const bool is_affine = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
     for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
-      worst[is_affine] = std::max(worst[is_affine], exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
+      keep_worst(worst[is_affine], exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
   });
   expect_within("barycentric coordinates, linear in the window", worst[1], 3, "2^-24 of themselves");
   expect_within("barycentric coordinates, w apart by up to 10^6", worst[0], 12, "2^-24 of themselves");
@@ -112,7 +112,7 @@ TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
     }
     const long double differences = std::abs(static_cast<long double>(a[1]) - a[0]) + std::abs(static_cast<long double>(a[2]) - a[0]);
     const long double bound = kUnit * (10 * differences + 2.01L * largest_of(a));
-    worst = std::max(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
+    keep_worst(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
   });
   expect_within("interpolated, w apart by up to 10^6: error", worst, 1, "of 10 roundings of differences and 2 of the largest");
 }

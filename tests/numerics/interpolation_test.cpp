@@ -94,7 +94,7 @@ TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
               sum += weight * t.color[k][c];
               weights += weight;
             }
-            worst = std::max(worst, std::abs(level_of(color[c]) - 255 * sum / weights));
+            keep_worst(worst, std::abs(level_of(color[c]) - 255 * sum / weights));
           }
         });
         return worst;
@@ -135,7 +135,7 @@ TEST(Interpolation, OfColorsStaysInTheRangeOfTheVertices) {
             for (std::size_t c = 0; c < 2; ++c) {
               const auto [low, high] = std::minmax({t.color[0][c], t.color[1][c], t.color[2][c]});
               const auto level = [](float each) { return static_cast<long double>(std::floor(std::fma(each, 255.0f, 0.5f))); };
-              worst = std::max({worst, level(low) - level_of(color[c]), level_of(color[c]) - level(high)});
+              keep_worst(worst, level(low) - level_of(color[c]), level_of(color[c]) - level(high));
             }
           });
         return worst;
@@ -171,7 +171,7 @@ TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
               const float color = picture.colors[static_cast<std::size_t>(y * kSide + x)][0];
               if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
               const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
-              worst = std::max({worst, static_cast<long double>(low - taken), static_cast<long double>(taken - high)});
+              keep_worst(worst, low - taken, taken - high);
               seen += 1;
             }
         }

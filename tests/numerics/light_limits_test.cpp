@@ -40,7 +40,7 @@ TEST(LightLimits, LightsAsFarAwayAsNumbersGo) {
     if (light.spot_cutoff < 10 || light.spot_cutoff > 80) light.spot_cutoff = 180;
     if (light.spot_cutoff == 180 && draws.one_in(3)) light.spot_cutoff = 90;
     light.spot_exponent = std::min(light.spot_exponent, 20.0f);
-    worst = std::max(worst, scene.error_in_levels());
+    keep_worst(worst, scene.error_in_levels());
   }
   expect_within("lights from 10^-4 to 10^76 away", worst, 1, "levels of 255");
   EXPECT_GT(scene.unsaturated, std::size_t{40 * LitPatches::kCount});
@@ -58,7 +58,7 @@ TEST(LightLimits, ScenesOfAnySize) {
       scene.material = any_material(draws);
       any_patches(draws, scene);
       scene.lights = {any_light(draws, 2, scene.extent), any_light(draws, 2, scene.extent)};
-      worst = std::max(worst, scene.error_in_levels());
+      keep_worst(worst, scene.error_in_levels());
     }
   expect_within("scenes from 2^-60 to 2^60", worst, 1, "levels of 255");
 }
@@ -82,7 +82,7 @@ TEST(LightLimits, NormalsOfAnyLength) {
       scene.material = any_material(draws);
       scene.material.shininess = std::min(scene.material.shininess, 128.0f);
       scene.lights = {any_light(draws, 2, 1), any_light(draws, 2, 1)};
-      worst = std::max(worst, scene.error_in_levels());
+      keep_worst(worst, scene.error_in_levels());
     }
   expect_within("normals from 2^-120 to 2^126", worst, 1, "levels of 255");
 }

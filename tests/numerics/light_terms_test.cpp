@@ -96,7 +96,7 @@ TEST(LightTerms, Ambient) {
     light.ambient = {static_cast<float>(draws.unit()) / 2, 0, 0};
     const LightingModel model{.scene_ambient = {static_cast<float>(draws.unit()) / 2, 0, 0}};
     const Real exact = Real{material.ambient[0]} * (Real{model.scene_ambient[0]} + light.ambient[0]);
-    for (const float found : lit_red(material, light, model, false, any_points(draws, false))) worst = std::max(worst, std::abs(found - exact) / exact);
+    for (const float found : lit_red(material, light, model, false, any_points(draws, false))) keep_worst(worst, std::abs(found - exact) / exact);
   }
   expect_within("ambient term, relative", worst / kUnit, 2, "2^-24");
 }
@@ -117,7 +117,7 @@ TEST(LightTerms, Attenuation) {
     const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, false, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Real att = LightAtPoint(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0).att;
-      if (att < 0x1p19L) worst = std::max(worst, std::abs(found[i] * 0x1p20L / att - 1));
+      if (att < 0x1p19L) keep_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
     }
   }
   expect_within("attenuation, relative", worst / kUnit, 7, "2^-24");
@@ -144,7 +144,7 @@ TEST(LightTerms, Diffuse) {
         const std::vector<float> found = lit_red({.diffuse = {1, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, renormalize, points);
         for (std::size_t i = 0; i < points.size(); ++i) {
           const Real cosine = std::max<Real>(LightAtPoint(real_light(light), real_point(points[i], renormalize), false, Highlight::blinn, 0, 0).n_dot_l, 0);
-          worst = std::max(worst, std::abs(2 * found[i] - cosine));
+          keep_worst(worst, std::abs(2 * found[i] - cosine));
         }
       }
       expect_within(std::string("max(L.n, 0) of ") + (directional ? "a direction" : "a point") + (renormalize ? ", renormalized, absolute" : ", absolute"), worst / kUnit,
@@ -180,8 +180,8 @@ TEST(LightTerms, Spot) {
         const LightAtPoint exact(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0);
         const Real spot = exact.spot.high, error = std::abs(2 * found[i] - spot);
         if (exact.spot_cosine < 64 * 9.5L * kUnit || spot < 0x1p-120L) continue;
-        share = std::max(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
-        levels = std::max(levels, error * 255);
+        keep_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
+        keep_worst(levels, error * 255);
       }
     }
     const std::string quantity = "spot of exponent " + std::to_string(y).substr(0, 5);
@@ -246,9 +246,9 @@ TEST(LightTerms, Highlights) {
           const Real shine = exact.highlight.high, cosine_error = way.cosine_error(exact), error = std::abs(2 * found[i] - shine);
           if (exact.n_dot_l < 20 * kUnit || exact.highlight_base < 64 * cosine_error * kUnit) continue;  // another formula, or none
           // Those below 2^-32 are left out.
-          share = std::max(share, error / (shine * of_power(cosine_error, exact.highlight_base, y, shine, way.of_square() ? y / 2 : y) * kUnit + 0x1p-31L));
+          keep_worst(share, error / (shine * of_power(cosine_error, exact.highlight_base, y, shine, way.of_square() ? y / 2 : y) * kUnit + 0x1p-31L));
           // Where light comes from just behind what is seen, nothing is left of L + E but their roundings.
-          if (kind == Highlight::phong || exact.half_length >= 0.125L) levels = std::max(levels, error * 255);
+          if (kind == Highlight::phong || exact.half_length >= 0.125L) keep_worst(levels, error * 255);
         }
       }
       const std::string quantity = std::string(kind == Highlight::blinn ? "Blinn" : "Phong") + " highlight of exponent " + std::to_string(y).substr(0, 5);

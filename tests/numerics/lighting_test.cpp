@@ -44,7 +44,7 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
         scene.view = scene.world_from_eye = {};
         if (n % 2 != 0 || count > 100) scene.move_camera(draws);
         any_patches(draws, scene);
-        worst = std::max(worst, scene.error_in_levels());
+        keep_worst(worst, scene.error_in_levels());
       }
     expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) + (count == 1 ? " light" : " lights"), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{LitPatches::kCount}) << "nothing was measured";
@@ -78,7 +78,7 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
           for (std::size_t c = 0; c < 3; ++c) patch.normals[static_cast<std::size_t>(k)][c] = static_cast<float>(peak[c] + off * bend[c]);
         }
       }
-      worst = std::max(worst, scene.error_in_levels());
+      keep_worst(worst, scene.error_in_levels());
     }
     expect_within("highlight of exponent " + std::to_string(shininess).substr(0, 7), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{20 * LitPatches::kCount});
@@ -98,7 +98,7 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
       // So far that the cone fades within the frame.
       const auto distance = static_cast<float>(std::min(std::sqrt(exponent), 30.0f) + 2);
       scene.lights = {Light{.ambient = {1, 1, 1, 1}, .position = {distance * x, distance * y, distance * std::abs(z), 1}, .spot_direction = {-x, -y, -std::abs(z)}, .spot_exponent = exponent, .spot_cutoff = 60}};
-      worst = std::max(worst, scene.error_in_levels());
+      keep_worst(worst, scene.error_in_levels());
     }
     expect_within("cone of exponent " + std::to_string(exponent).substr(0, 7), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{8 * LitPatches::kCount});
@@ -146,7 +146,7 @@ TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
     if (draws.one_in(3))  // the middle of the patch, which Phong lights
       for (std::size_t c = 0; c < 3; ++c) at[c] = (scene.corner(p, 0)[c] + scene.corner(p, 2)[c]) / 2;
     scene.lights[0].position = {at[0], at[1], at[2], 1};
-    worst = std::max(worst, scene.error_in_levels());
+    keep_worst(worst, scene.error_in_levels());
   }
   expect_within("light at the vertex or at the eye", worst, 1, "levels of 255");
 }
@@ -215,7 +215,7 @@ TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
     if (left == 0)
       EXPECT_LE(error, 0.001L);
     else
-      worst = std::max(worst, error / 255 / (3 * 0x1p-24L / (left / 2) + kCosineSlack));
+      keep_worst(worst, error / 255 / (3 * 0x1p-24L / (left / 2) + kCosineSlack));
   }
   expect_within("Phong between opposite normals, of 3 * 2^-24 over the length of their mean", worst, 1, "");
 }

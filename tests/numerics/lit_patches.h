@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tests/numerics/bounds.h"
 #include "tests/numerics/lighting_oracle.h"
 
 namespace tessera::test {
@@ -92,7 +93,7 @@ class LitPatches {
       const std::array<RealRange, 3> exact = color(p);
       for (std::size_t c = 0; c < 3; ++c) {
         const Real level = levels[static_cast<std::size_t>(p)][c];
-        worst = std::max({worst, exact[c].low * 255 - level, level - exact[c].high * 255});
+        keep_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
         unsaturated += level > 0 && level < 255;
       }
     }

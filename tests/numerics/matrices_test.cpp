@@ -122,7 +122,7 @@ Real worst_direction(NormalProbe& probe, const std::vector<NormalProbe::Case>& c
     if (!(length(exact) > 0) || bound.direction > 1) continue;  // any direction, or none
     Real error = length(got - normalized(exact));
     if (std::abs(determinant) <= bound.determinant) error = std::min(error, length(got + normalized(exact)));  // which side is anybody's guess
-    worst = std::max(worst, error / bound.direction);
+    keep_worst(worst, error / bound.direction);
   }
   return worst;
 }
@@ -140,7 +140,7 @@ TEST(Matrices, NormalsAreThoseOfTheInverseTranspose) {
         const Matrix view = draws.one_in(2) ? turn(draws) : turn(draws) * scale(1e6, 1e6, 1e6);
         cases.push_back({view, scale(all, all, all) * turn(draws) * stretch(draws, std::min(decades, 6.0)) * turn(draws), draws.direction(), draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
       }
-      worst = std::max(worst, worst_direction(probe, cases));
+      keep_worst(worst, worst_direction(probe, cases));
     }
     expect_within("normals under scalings of 10^" + std::to_string(static_cast<int>(decades)) + ", of (12 double eps of the condition + 6 * 2^-24)", worst, 1, "");
   }
@@ -164,7 +164,7 @@ TEST(Matrices, NormalsUnderNearlySingularTransforms) {
       }
       cases.push_back({draws.one_in(2) ? Matrix{} : turn(draws), draws.one_in(20) ? scale(0, draws.between(-1, 1), 0) : m, draws.direction(), draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
     }
-    worst = std::max(worst, worst_direction(probe, cases));
+    keep_worst(worst, worst_direction(probe, cases));
   }
   expect_within("normals under nearly singular transforms, of (12 double eps of the condition + 6 * 2^-24)", worst, 1, "");
 }

@@ -34,8 +34,8 @@ struct Sum {
       sizes += product < 0 ? -product : product;
     }
   }
-  /// How far `found` is off, of the sum of the sizes.
-  long double error(double found) const { return sizes == 0 ? 0 : std::abs(static_cast<long double>((Quad{found} - exact) / sizes)); }
+  /// How far `found` is off, of the sum of the sizes; where all of them are 0, so must it be.
+  long double error(double found) const { return sizes == 0 ? (found == 0 ? 0 : HUGE_VALL) : std::abs(static_cast<long double>((Quad{found} - exact) / sizes)); }
 };
 
 double any_number(Dice& dice, int octaves) {
@@ -75,7 +75,7 @@ TEST(TransformRounding, ProductsOfMatrices) {
     const Matrix product = a * b;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
-        worst = std::max(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; }, [&](std::size_t j) { return b.m[4 * j + k]; }).error(product.m[4 * i + k]));
+        keep_worst(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; }, [&](std::size_t j) { return b.m[4 * j + k]; }).error(product.m[4 * i + k]));
   }
   expect_within("product of matrices, of the sum of sizes", worst / kDouble, 4, "2^-53");
 }
@@ -90,7 +90,7 @@ TEST(TransformRounding, PositionsInClipSpace) {
     std::copy(m.begin(), m.end(), t.clip_from_object);
     const ClipPosition found = clip_position(t, p[0], p[1], p[2], p[3]);
     const double coordinates[] = {found.x, found.y, found.z, found.w};
-    for (std::size_t row = 0; row < 4; ++row) worst = std::max(worst, row_times(m, row, p).error(coordinates[row]));
+    for (std::size_t row = 0; row < 4; ++row) keep_worst(worst, row_times(m, row, p).error(coordinates[row]));
   }
   expect_within("clip coordinates, of the sum of sizes", worst / kDouble, 4, "2^-53");
 }
@@ -111,7 +111,7 @@ TEST(TransformRounding, PositionsInEyeSpace) {
         for (std::size_t row = 0; row < 3; ++row) {
           const Sum sum = row_times(m, row, points[i]);
           const long double exact = static_cast<long double>(sum.exact), bound = kFloat * std::abs(exact) + 4 * kDouble * static_cast<long double>(sum.sizes) + 0x1p-149L;
-          worst = std::max(worst, std::abs(found[row][i] - exact) / bound);
+          keep_worst(worst, std::abs(found[row][i] - exact) / bound);
         }
     }
   }
@@ -162,7 +162,7 @@ TEST(TransformRounding, ClipCodes) {
       for (const std::uint8_t code : codes) {
         const bool outside = plane.bit == kNoPositiveW ? !(plane.distance > 0) : plane.distance < 0;
         if (outside == ((code & plane.bit) != 0)) ++right;
-        else worst = std::max(worst, plane.size == 0 ? HUGE_VALL : std::abs(static_cast<long double>(plane.distance / plane.size)));
+        else keep_worst(worst, plane.size == 0 ? HUGE_VALL : std::abs(static_cast<long double>(plane.distance / plane.size)));
       }
   }
   EXPECT_GT(right, 1e5L);

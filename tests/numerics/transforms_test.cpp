@@ -96,7 +96,7 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
     const auto exact = lit_color(front ? state.material : *state.back_material, lights, model, {normal, {}}, kCosineSlack, front);
     for (std::size_t c = 0; c < 3; ++c) {
       const Real level = word >> (16 - 8 * c) & 255;
-      worst = std::max({worst, exact[c].low * 255 - level, level - exact[c].high * 255});
+      keep_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
     }
     (front ? fronts : backs) += 1;
     mirrored += is_mirrored;

@@ -1,7 +1,6 @@
 // x^y, log2 and 2^x: the bits of their scalar twins on every instruction set, and how far they are from the truth.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "shading/power_reference.h"
+#include "tests/numerics/bounds.h"
 #include "tests/raster/tile_stage.h"
 #include "tests/shading/power_lanes.h"
 
@@ -97,7 +97,7 @@ TEST(Power, Log2HasTheBitsOfItsTwin) {
   long double worst = 0;
   for (const float x : arguments) {
     const long double exact = std::log2(static_cast<long double>(x));
-    if (exact != 0) worst = std::max(worst, std::abs((log2_reference(x) - exact) / exact));
+    if (exact != 0) keep_worst(worst, std::abs((log2_reference(x) - exact) / exact));
   }
   std::printf("[  figure  ] log2, largest relative error: %.3Lg\n", worst);
   EXPECT_LE(worst, 9.2e-8L);
@@ -110,7 +110,7 @@ TEST(Power, Exp2HasTheBitsOfItsTwin) {
   long double worst = 0;
   for (const float x : arguments) {
     const long double exact = std::exp2(static_cast<long double>(x));
-    worst = std::max(worst, std::abs((exp2_reference(x) - exact) / exact));
+    keep_worst(worst, std::abs((exp2_reference(x) - exact) / exact));
   }
   std::printf("[  figure  ] exp2, largest relative error: %.3Lg\n", worst);
   EXPECT_LE(worst, 7.2e-8L);
@@ -138,9 +138,9 @@ TEST(Power, IsAsExactAsItSays) {
       const float power = power_reference(x, y);
       const int exponent = std::ilogb(static_cast<float>(exact));
       const double error = static_cast<double>(std::abs(power - exact)), ulp = error / std::ldexp(1.0, exponent - 23);
-      absolute = std::max(absolute, error);
-      any = std::max(any, ulp);
-      if (exact >= 1 / 256.0L) visible = std::max(visible, ulp);
+      keep_worst(absolute, error);
+      keep_worst(any, ulp);
+      if (exact >= 1 / 256.0L) keep_worst(visible, ulp);
     }
     std::printf("[  figure  ] x^%g for x in 0..1: absolute error at most %.3g, %.3g ulp where it is at least 1/256, %.4g ulp anywhere\n", y, absolute, visible, any);
     EXPECT_LE(absolute, 1.0e-7);

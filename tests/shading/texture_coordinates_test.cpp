@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/clip.h"
+#include "tests/numerics/bounds.h"
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_stage.h"
 #include "tests/shading/texture_lanes.h"
@@ -87,8 +88,8 @@ TEST(TextureCoordinates, LevelsOfDetailAreWithinOneSixteenthOfEquation3_14) {
         if (expected.level_of_detail < -20) return;  // no slope to speak of
         const double off = std::abs(0.5 * std::log2(double{squared[i]}) - expected.level_of_detail);
         ASSERT_LE(off, 1.0 / 16) << name_of(isa) << " " << x << " " << y << ", " << levels.level[0].width << "x" << levels.level[0].height << ", expected " << expected.level_of_detail << ": " << Describe{triangle};
-        worst = std::max(worst, off);
-        worst_coordinate = std::max({worst_coordinate, std::abs(at_s[i] - expected.s), std::abs(at_t[i] - expected.t)});
+        keep_worst(worst, off);
+        keep_worst(worst_coordinate, std::abs(at_s[i] - expected.s), std::abs(at_t[i] - expected.t));
       });
       if (::testing::Test::HasFatalFailure()) return;
     }
