@@ -41,19 +41,26 @@ Corners random_corners(Dice& dice, bool one_sign) {
   return a;
 }
 
+/// 1/w: the largest of a triangle, and how many octaves below it the others may be.
+struct Reciprocals {
+  float largest = 1;
+  int octaves = 20;
+};
+
 // Calls pixel(triangle, 1/w, barycentric, x, y) for all pixels within, in the window's far corner.
 template <class Pixel>
-void for_each_pixel(std::uint32_t seed, const Pixel& pixel) {
+void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tests() ? 200000 : 8000, const Reciprocals& reciprocals = {}) {
   Dice dice(seed);
   std::vector<float> b1(kTile * kTile), b2(kTile * kTile);
-  for (int n = 0; n < (long_tests() ? 200000 : 8000); ++n) {
+  for (int n = 0; n < count; ++n) {
     const bool is_wide = n % 4 == 0;
-    const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile, octaves = n % 3 == 0 ? 0 : 20;
+    const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile, octaves = n % 3 == 0 ? 0 : reciprocals.octaves;
     WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), width, kTile);
     WindowVertex v[3];
     for (std::size_t k = 0; k < 3; ++k) {
       t.at[k].x += (16384 - width) * kGrid;
-      v[k] = {static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0, octaves == 0 ? 1.0f : static_cast<float>(std::exp2(-octaves * dice.unit()))};
+      const bool is_largest = octaves == 0 || k == static_cast<std::size_t>(n / 3 % 3);
+      v[k] = {static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0, reciprocals.largest * (is_largest ? 1.0f : static_cast<float>(std::exp2(-octaves * dice.unit())))};
     }
     for (const Isa isa : available_isas()) {
       if (!tile_barycentrics(isa)(v, tile_x, 0, kTile, b1.data(), b2.data())) continue;
@@ -82,20 +89,48 @@ TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
   expect_within("interpolated, of both signs, beyond the range", worst[0], 12, "2^-24 of the largest");
 }
 
+/// Raises to how far weights are off, in u of themselves. Linear in the window where all 1/w count as the same.
+void keep_worst_weight(long double& worst, const WindowTriangle& t, const std::array<float, 3>& rw, const BarycentricReference& at, const GridPoint& p) {
+  long double weights[3], sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * rw[k];
+  for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
+    keep_worst(worst, exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
+}
+
 // Of what is linear in the window: 1/area, its product with what is left of an edge, and the multiply-add of the edge. Under perspective 1/area is the same in all
 // weights, and each has a ratio of 1/w besides and that ratio's product: four apart from it, so that two weights are eight apart; two sums, quotient, product.
 // None is a difference, so zero is exactly that.
 TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
-  long double worst[2] = {0, 0};
+  long double worst[2] = {0, 0}, count[2] = {0, 0};
   for_each_pixel(44, [&](Dice&, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
-    long double weights[3], sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * v[k].rw;
     const bool is_affine = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
-    for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
-      keep_worst(worst[is_affine], exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
+    keep_worst_weight(worst[is_affine], t, {v[0].rw, v[1].rw, v[2].rw}, at, p);
+    ++count[is_affine];
   });
+  for (const long double seen : count) EXPECT_GT(seen, 50000);
   expect_within("barycentric coordinates, linear in the window", worst[1], 3, "2^-24 of themselves");
   expect_within("barycentric coordinates, w apart by up to 10^6", worst[0], 12, "2^-24 of themselves");
+}
+
+// Ratios of what is beyond would not be floats.
+TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
+  constexpr float kLow = 0x1p-120f, kHigh = 0x1p120f;
+  struct Case {
+    float largest;
+    bool has_perspective;
+  };
+  const Case cases[] = {{0x1p-121f, false}, {std::nextafter(kLow, 0.0f), false}, {std::nextafter(kLow, 1.0f), true}, {0x1p-119f, true},
+                        {0x1p119f, true},   {std::nextafter(kHigh, 1.0f), true}, {std::nextafter(kHigh, HUGE_VALF), false}, {0x1p121f, false}};
+  long double worst[2] = {0, 0}, count[2] = {0, 0};
+  for (const auto& [largest, has_perspective] : cases)
+    for_each_pixel(45, [&, perspective = has_perspective](Dice&, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
+      if (v[0].rw == v[1].rw && v[1].rw == v[2].rw) return;
+      keep_worst_weight(worst[perspective], t, perspective ? std::array{v[0].rw, v[1].rw, v[2].rw} : std::array{1.0f, 1.0f, 1.0f}, at, p);
+      ++count[perspective];
+    }, 800, {largest, 4});
+  for (const long double seen : count) EXPECT_GT(seen, 10000);
+  expect_within("barycentric coordinates, 1/w beyond 2^-120 .. 2^120: linear in the window", worst[0], 3, "2^-24 of themselves");
+  expect_within("barycentric coordinates, 1/w just within", worst[1], 12, "2^-24 of themselves");
 }
 
 // Barycentric coordinates are within 9 u of perspective, and count by their differences, which are rounded themselves; each sum

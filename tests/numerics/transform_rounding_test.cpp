@@ -1,7 +1,9 @@
-// The vertex stage's sums in double, beside what they are exactly: products of matrices, positions in clip space and in eye space, and the codes of what lies
-// beside a clip plane. Elements of all sizes at once, and some that cancel out.
+// The vertex stage's sums in double, beside what they are exactly: products of matrices, positions in clip space and in eye space, 1/w, and the codes of what
+// lies beside a clip plane. Elements of all sizes at once, and some that cancel out.
 //
-// w = 2^-53, u = 2^-24. Exact is __float128: it has 113 bits, so that a product of two doubles is exact and sums round 2^-60 times as finely as theirs.
+// w = 2^-53, u = 2^-24. Exact is __float128: it has 113 bits, so that a product of two doubles is exact and sums round 2^-60 times as finely as theirs. Of sums
+// that leave next to nothing of their terms, exact are fractions.
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,19 +82,89 @@ TEST(TransformRounding, ProductsOfMatrices) {
   expect_within("product of matrices, of the sum of sizes", worst / kDouble, 4, "2^-53");
 }
 
+mpq_class exact_row_times(const std::array<double, 16>& m, std::size_t row, const std::array<float, 4>& p) {
+  mpq_class sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += mpq_class(m[4 * row + k]) * mpq_class(p[k]);
+  return sum;
+}
+
+/// How far `found` is off, of what is exact.
+long double relative_error(double found, const mpq_class& exact) {
+  if (!std::isfinite(found)) return HUGE_VALL;
+  if (exact == 0) return found == 0 ? 0 : HUGE_VALL;
+  return mpq_class(abs(mpq_class(found) / exact - 1)).get_d();
+}
+
+/// Changes the matrix so that a sum of the point's leaves hardly any digit of its terms: w, the distance from the near or the far plane, or that from the guard band.
+void cancel(Dice& dice, std::array<double, 16>& m, const std::array<float, 4>& p, double guard) {
+  if (p[0] == 0) return;
+  const auto any_sign = [&](double size) { return dice.maybe() ? size : -size; };
+  const auto last_digit = [&](double d) { return d == 0 || dice.maybe() ? d : std::nextafter(d, any_sign(HUGE_VAL)); };
+  const auto row = [&](std::size_t n) { return m.data() + 4 * n; };
+  const std::int64_t kind = dice.between(0, 2);
+  if (kind == 0) {
+    row(3)[0] = last_digit(-(row(3)[1] * p[1] + row(3)[2] * p[2] + row(3)[3] * p[3]) / p[0]);
+  } else {
+    const std::size_t beside_w = kind == 1 ? 2 : static_cast<std::size_t>(dice.between(0, 1));
+    const double factor = any_sign(kind == 1 ? 1 : guard);
+    for (std::size_t k = 0; k < 4; ++k) row(beside_w)[k] = last_digit(factor * row(3)[k]);
+  }
+}
+
 TEST(TransformRounding, PositionsInClipSpace) {
   Dice dice(72);
-  long double worst = 0;
+  long double worst = 0, worst_w = 0, worst_rough = 0;
+  int rough = 0, smooth = 0;
   for (int n = 0; n < rounds(50000); ++n) {
-    const std::array<double, 16> m = any_matrix(dice);
+    std::array<double, 16> m = any_matrix(dice);
     const std::array<float, 4> p = any_point(dice, m);
     VertexTransform t;
+    t.half_width = t.half_height = static_cast<double>(dice.between(1, 16384)) / 2;
+    t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
+    t.reversed = dice.maybe();
+    if (n % 4 == 0) cancel(dice, m, p, t.guard_x);
     std::copy(m.begin(), m.end(), t.clip_from_object);
-    const ClipPosition found = clip_position(t, p[0], p[1], p[2], p[3]);
-    const double coordinates[] = {found.x, found.y, found.z, found.w};
-    for (std::size_t row = 0; row < 4; ++row) keep_worst(worst, row_times(m, row, p).error(coordinates[row]));
+    t.set_roughness();
+    const auto coordinates = [](const ClipPosition& position) { return std::array{position.x, position.y, position.z, position.w}; };
+    const std::array<double, 4> rounded = coordinates(clip_position(t, p[0], p[1], p[2], p[3]));
+    for (std::size_t row = 0; row < 4; ++row) keep_worst(worst, row_times(m, row, p).error(rounded[row]));
+    const TransformedVertex v = transform_vertex(t, p);
+    (v.is_rough ? rough : smooth) += 1;
+    const std::array<double, 4> found = coordinates(v.position);
+    if (v.is_rough)
+      for (std::size_t row = 0; row < 4; ++row) keep_worst(worst_rough, relative_error(found[row], exact_row_times(m, row, p)));
+    else
+      keep_worst(worst_w, relative_error(found[3], exact_row_times(m, 3, p)));
   }
+  EXPECT_GT(rough, rounds(5000));
+  EXPECT_GT(smooth, rounds(30000));
   expect_within("clip coordinates, of the sum of sizes", worst / kDouble, 4, "2^-53");
+  expect_within("w of vertices that are rounded four times, relative", worst_w * 0x1p20L, 1, "2^-20");
+  expect_within("clip coordinates of those whose sums are exact, relative", worst_rough * 0x1p52L, 1, "2^-52");
+}
+
+// w is a product of two numbers, which rounds once, by w of itself.
+TEST(TransformRounding, ReciprocalsOfW) {
+  Dice dice(75);
+  long double worst = 0;
+  const auto any_size = [&] { return (1 + dice.unit()) * std::exp2(static_cast<double>(dice.between(-59, 58))); };
+  for (int n = 0; n < rounds(1500); ++n) {
+    VertexTransform t;
+    t.half_width = t.half_height = 32;
+    t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
+    t.clip_from_object[15] = any_size();
+    t.set_roughness();
+    float positions[kVertexBatch][4] = {};
+    for (auto& [x, y, z, w] : positions) w = static_cast<float>(any_size());
+    for (const Isa isa : available_isas()) {
+      WindowVertex found[kVertexBatch];
+      std::uint8_t codes[kVertexBatch];
+      EXPECT_EQ(transform_vertices(isa)(t, {positions[0], 4}, 4, kVertexBatch, found, codes), 0);
+      for (std::size_t i = 0; i < kVertexBatch; ++i)
+        keep_worst(worst, std::abs(static_cast<long double>(Quad{found[i].rw} * Quad{t.clip_from_object[15]} * Quad{positions[i][3]} - 1)));
+    }
+  }
+  expect_within("1/w, relative", worst / kFloat, 1 + 0x1p-20L, "2^-24");
 }
 
 TEST(TransformRounding, PositionsInEyeSpace) {
@@ -133,7 +205,8 @@ std::array<PlaneDistance, 7> plane_distances(const VertexTransform& t, const Cli
 // Coordinates within 8 steps of the planes, which the last column of a matrix gives to the vertex 0 0 0 1: where rounding might decide, codes are exact.
 TEST(TransformRounding, ClipCodes) {
   Dice dice(74);
-  long double worst = 0, right = 0;
+  long double worst = 0;
+  std::size_t right = 0, wrong = 0, on_planes = 0;
   for (int n = 0; n < rounds(40000); ++n) {
     VertexTransform t;
     const auto width = static_cast<double>(dice.between(1, 16384)), height = static_cast<double>(dice.between(1, 16384));
@@ -158,14 +231,22 @@ TEST(TransformRounding, ClipCodes) {
       transform_vertices(isa)(t, {vertex, 4}, 4, 1, &window, &code);
       codes.push_back(code);
     }
-    for (const PlaneDistance& plane : plane_distances(t, position))
+    for (const PlaneDistance& plane : plane_distances(t, position)) {
+      const bool outside = plane.bit == kNoPositiveW ? !(plane.distance > 0) : plane.distance < 0;
+      on_planes += plane.distance == 0 ? 1 : 0;
       for (const std::uint8_t code : codes) {
-        const bool outside = plane.bit == kNoPositiveW ? !(plane.distance > 0) : plane.distance < 0;
-        if (outside == ((code & plane.bit) != 0)) ++right;
-        else keep_worst(worst, plane.size == 0 ? HUGE_VALL : std::abs(static_cast<long double>(plane.distance / plane.size)));
+        if (outside == ((code & plane.bit) != 0)) {
+          ++right;
+          continue;
+        }
+        ++wrong;
+        keep_worst(worst, plane.size == 0 ? HUGE_VALL : std::abs(static_cast<long double>(plane.distance / plane.size)));
       }
+    }
   }
-  EXPECT_GT(right, 1e5L);
+  EXPECT_GT(right, 100000u);
+  EXPECT_GT(on_planes, 5000u);
+  expect_within("codes of vertices within 8 steps of a clip plane, wrong", static_cast<long double>(wrong), 0, "codes");  // those on it as well, at distance 0
   expect_within("distance from a clip plane of vertices on its wrong side, of the sum of sizes", worst / kDouble, 0, "2^-53");
 }
 
