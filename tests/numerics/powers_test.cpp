@@ -129,7 +129,8 @@ TEST_P(FunctionsWholePowers, OfExponents) {
   expect_within("x^n, n = " + std::to_string(first) + " .. " + std::to_string(last) + ", relative", share, 1, "(n - 1) 2^-24");
 }
 INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsWholePowers,
-                         testing::Values(WholeExponents{2, 4}, WholeExponents{5, 8}, WholeExponents{9, 16}, WholeExponents{17, 32}, WholeExponents{33, kLargestWholePower}));
+                         testing::Values(WholeExponents{2, 4}, WholeExponents{5, 8}, WholeExponents{9, 16}, WholeExponents{17, 32}, WholeExponents{33, kLargestWholePower}),
+                         [](const auto& range) { return "Of" + std::to_string(range.param.first) + "To" + std::to_string(range.param.last); });
 
 // They have no logarithm of ours: each counts as the smallest normal float. Nothing has the power 0.
 TEST(Functions, PowersOfSubnormalFloats) {
