@@ -13,7 +13,7 @@ namespace {
 struct Tally {
   long double cracks = 0, doubles = 0, strays = 0;
   int meshes = 0, overlapping = 0;
-  bool has_outside = false;
+  std::size_t pixels = 0, once = 0, never = 0;  // of what is expected
 
   /// Adds what is wrong; returns the first wrong pixel, or how many there are.
   std::size_t add(const std::vector<int>& counts, const Expected& expected) {
@@ -31,7 +31,9 @@ struct Tally {
       cracks += crack;
       doubles += again;
       strays += stray;
-      has_outside |= cover == Cover::never;
+      ++pixels;
+      once += cover == Cover::once;
+      never += cover == Cover::never;
       if ((crack || again || stray) && first == counts.size()) first = i;
     }
     return first;
@@ -105,13 +107,15 @@ void expect_coverage(const std::string& what, const CaseFormat& format, const st
   if (mesa)
     meshes([&](const std::vector<CaseDraw>& draws, const std::string&, const Expected& expected) { mesas.add(mesa->count(draws), expected); }, false);
   EXPECT_LE(ours.overlapping, ours.meshes / 100);
+  EXPECT_GT(ours.pixels, 10000u) << what;
+  EXPECT_TRUE(ours.once > 10000 || ours.never == ours.pixels) << what << ": hardly a pixel is sure to be covered";
   const auto row = [&](const std::string& kind, long double measured, long double by_mesa) {
     expect_within(what + ": " + kind, measured, 0, "pixels");
     if (mesa) set_beside(what + ": " + kind, by_mesa);
   };
   row("left out", ours.cracks, mesas.cracks);
   row("covered again", ours.doubles, mesas.doubles);
-  if (ours.has_outside) row("covered beyond the edge", ours.strays, mesas.strays);
+  if (ours.never > 0) row("covered beyond the edge", ours.strays, mesas.strays);
 }
 
 }  // namespace tessera::test

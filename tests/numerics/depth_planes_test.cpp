@@ -44,7 +44,7 @@ TEST(DepthPlanes, AreWithinTheirLevelsInNarrowedAndReversedRanges) {
           const Whole moved = denominator * range.near + depth_numerator(t, WindowTriangle::center(x, y)) * (range.far - range.near);
           worst = std::max(worst, stored < ends.first || stored > ends.second ? depth.levels() : std::abs(stored - exact_level(depth, moved, denominator * 8)));
         };
-        for_each_pixel(make, depth, WindowShape::any, rounds_of(is_tessera), check, {.range = range});
+        EXPECT_GT(for_each_pixel(make, depth, WindowShape::any, rounds_of(is_tessera), check, {.range = range}), 10000u);
       }
       return static_cast<long double>(worst);
     });
@@ -56,7 +56,7 @@ TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
   for (const WindowShape shape : kWindowShapes)
     expect_figure("depth, floats, triangles " + name_of(shape), 1, "of one rounding", [&](const MakeRenderer& make, bool is_tessera) {
       long double worst = 0;
-      for_each_pixel(make, kFloat32, shape, rounds_of(is_tessera), [&](const Tilted& t, int x, int y, std::uint32_t stored) {
+      const std::size_t seen = for_each_pixel(make, kFloat32, shape, rounds_of(is_tessera), [&](const Tilted& t, int x, int y, std::uint32_t stored) {
         const std::size_t anchor = t.triangle.topmost();
         const GridPoint at = WindowTriangle::center(x, y), &first = t.triangle.at[anchor];
         const auto area = static_cast<long double>(t.triangle.area());
@@ -73,6 +73,7 @@ TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
         const long double error = std::abs(float_of(stored) - exact);
         if (!(error <= bound) || bound > 0) keep_worst(worst, bound > 0 ? error / bound : 0x1p24L * error);  // all the same: exactly that
       });
+      EXPECT_GT(seen, 300u);
       return worst;
     });
 }
@@ -81,8 +82,9 @@ TEST(DepthPlanes, NeverLeaveTheRangeOfTheVertices) {
   for (const DepthCase& depth : kDepthCases)
     expect_figure("depth, " + std::string(depth.name) + ", beyond the vertices' own", 0, "levels", [&](const MakeRenderer& make, bool is_tessera) {
       std::int64_t worst = 0;
+      std::size_t seen = 0;
       for (const WindowShape shape : kWindowShapes)
-        for_each_pixel(make, depth, shape, rounds_of(is_tessera), [&](const Tilted& t, int, int, std::uint32_t stored) {
+        seen += for_each_pixel(make, depth, shape, rounds_of(is_tessera), [&](const Tilted& t, int, int, std::uint32_t stored) {
           const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
           const auto level = [&](std::int64_t z) {
             if (depth.is_float()) return std::int64_t{std::bit_cast<std::uint32_t>(std::ldexp(static_cast<float>(z), -kFraction))};  // floats above 0 count upwards as their bits do
@@ -90,6 +92,7 @@ TEST(DepthPlanes, NeverLeaveTheRangeOfTheVertices) {
           };
           worst = std::max({worst, level(low) - stored, stored - level(high)});
         });
+      EXPECT_GT(seen, 10000u);
       return static_cast<long double>(worst);
     });
 }

@@ -150,19 +150,23 @@ TEST(Depth, TiltedSurfacesOneFloatNearerNeverFallBehindAndTwoAreNearer) {
     });
 }
 
-// Pixels of a decal that do not show on the plane that it lies in.
-long double hidden_pixels(CaseRenderer& renderer, const CaseDraw& base, CaseDraw decal, const Matrix& plane, const PolygonOffset& offset) {
+// Pixels of a decal that do not show on the plane that it lies in; `seen` counts those that it has on it.
+long double hidden_pixels(CaseRenderer& renderer, const CaseDraw& base, CaseDraw decal, const Matrix& plane, const PolygonOffset& offset, long& seen) {
   CaseDraw below = base;
   below.color = kFar;
   decal.color = kNear;
   decal.test_depth = false;
   below.transform = decal.transform = plane;
   const std::vector<std::array<float, 3>> alone = renderer.draw({decal}).colors;
+  const std::vector<std::array<float, 3>> covered = renderer.draw({below}).colors;
   decal.test_depth = true;
   decal.offset = offset;
   const std::vector<std::array<float, 3>>& both = renderer.draw({below, decal}).colors;
   long double hidden = 0;
-  for (std::size_t i = 0; i < alone.size(); ++i) hidden += alone[i][1] > 0 && both[i][0] > 0;
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    seen += alone[i][1] > 0 && covered[i][0] > 0;
+    hidden += alone[i][1] > 0 && both[i][0] > 0;
+  }
   return hidden;
 }
 
@@ -174,6 +178,7 @@ TEST(Depth, OffsetByAUnitSeparatesWhatLiesInOnePlane) {
       expect_figure("depth, " + std::string(depth.name) + ", offset by a " + (same ? "unit, the same triangles" : "slope and two units, another in the same plane"), 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
         Dice dice(14);
         long double hidden = 0;
+        long seen = 0;
         const int size = 64;
         const auto renderer = make({.width = size, .height = size, .depth = depth.format});
         for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 200); ++n) {
@@ -191,9 +196,10 @@ TEST(Depth, OffsetByAUnitSeparatesWhatLiesInOnePlane) {
           plane.m[8] = slope * std::cos(turn);
           plane.m[9] = slope * std::sin(turn);
           const double rounding = depth.is_float() ? std::abs(slope) / 32 * 0x1p24 : 1;  // steps a pixel: with fewer than one, floats between the vertices are rounded farther than a slope goes
-          if (same) hidden += hidden_pixels(*renderer, decal, decal, plane, {0, -1});
-          else if (slope == 0 || rounding >= 1) hidden += hidden_pixels(*renderer, base, decal, plane, {-1, slope == 0 ? -1.0f : -2.0f});
+          if (same) hidden += hidden_pixels(*renderer, decal, decal, plane, {0, -1}, seen);
+          else if (slope == 0 || rounding >= 1) hidden += hidden_pixels(*renderer, base, decal, plane, {-1, slope == 0 ? -1.0f : -2.0f}, seen);
         }
+        EXPECT_GT(seen, 10000);
         return hidden;
       });
 }

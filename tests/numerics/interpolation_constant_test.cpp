@@ -99,15 +99,17 @@ TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
       const auto renderer = make({.width = kSide, .height = kSide, .texture_width = 2, .texture_height = 2, .texture = {32, 255, 255, 32}, .nearest_texel = nearest});
       Dice dice(52);
       long double worst = 0;
+      long seen = 0;
       for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
         CaseDraw draw{.positions = random_positions(dice), .textured = true};
         const float s = dice.maybe() ? 0.5f : random_constant(dice), t = dice.maybe() ? 0.5f : random_constant(dice);
         for (int k = 0; k < 3; ++k) draw.texcoords.insert(draw.texcoords.end(), {s, t});
         float low = 2, high = 0;
         for (const std::array<float, 3>& color : renderer->draw({draw}).colors)
-          if (color[0] > 0) low = std::min(low, color[0]), high = std::max(high, color[0]);
+          if (color[0] > 0) low = std::min(low, color[0]), high = std::max(high, color[0]), ++seen;
         if (high > 0) keep_worst(worst, 255 * (static_cast<long double>(high) - low));
       }
+      EXPECT_GT(seen, 100000);
       return worst;
     });
 }

@@ -106,6 +106,7 @@ TEST(LightTerms, Ambient) {
 TEST(LightTerms, Attenuation) {
   Draws draws{std::mt19937(22)};
   Real worst = 0;
+  int measured = 0;
   for (int n = 0; n < rounds(3000); ++n) {
     const double scale = any_scale(draws);
     EyeLight light = any_light(draws, false, scale);
@@ -117,9 +118,12 @@ TEST(LightTerms, Attenuation) {
     const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, false, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Real att = LightAtPoint(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0).att;
-      if (att < 0x1p19L) keep_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
+      if (!(att < 0x1p19L)) continue;
+      keep_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
+      ++measured;
     }
   }
+  EXPECT_GT(measured, rounds(3000) * static_cast<int>(kPoints) / 2);
   expect_within("attenuation, relative", worst / kUnit, 7, "2^-24");
 }
 
@@ -164,6 +168,7 @@ TEST(LightTerms, Spot) {
   Draws draws{std::mt19937(24)};
   for (const float y : {0.5f, 1.0f, 20.0f, 64.0f, 128.0f, 10000.0f}) {
     Real share = 0, levels = 0;
+    int measured = 0;
     for (int n = 0; n < rounds(500); ++n) {
       EyeLight light = any_light(draws, false);
       light.ambient = {0.5f, 0, 0};
@@ -182,8 +187,10 @@ TEST(LightTerms, Spot) {
         if (exact.spot_cosine < 64 * 9.5L * kUnit || spot < 0x1p-120L) continue;
         keep_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
         keep_worst(levels, error * 255);
+        ++measured;
       }
     }
+    EXPECT_GT(measured, rounds(500) * static_cast<int>(kPoints) / 2) << y;
     const std::string quantity = "spot of exponent " + std::to_string(y).substr(0, 5);
     expect_within(quantity + ", of its roundings", share, 1, "");
     expect_within(quantity + ", absolute", levels, 1, "levels of 255");
@@ -231,6 +238,7 @@ TEST(LightTerms, Highlights) {
   for (const Highlight kind : {Highlight::blinn, Highlight::phong})
     for (const float y : {0.1f, 0.5f, 1.0f, 50.0f, 128.0f, 2000.0f, 10000.0f}) {
       Real share = 0, levels = 0;
+      int measured = 0;
       for (int n = 0; n < rounds(1600); ++n) {
         const HighlightWay way{kind, (n & 1) != 0, (n & 2) != 0, (n & 4) != 0, y > kSharpShininess, y > kSharpShininess || (n & 8) != 0, y >= 1 && (n & 8) != 0};
         EyeLight light = any_light(draws, way.directional);
@@ -249,8 +257,10 @@ TEST(LightTerms, Highlights) {
           keep_worst(share, error / (shine * of_power(cosine_error, exact.highlight_base, y, shine, way.of_square() ? y / 2 : y) * kUnit + 0x1p-31L));
           // Where light comes from just behind what is seen, nothing is left of L + E but their roundings.
           if (kind == Highlight::phong || exact.half_length >= 0.125L) keep_worst(levels, error * 255);
+          ++measured;
         }
       }
+      EXPECT_GT(measured, rounds(1600) * static_cast<int>(kPoints) / 2) << y;
       const std::string quantity = std::string(kind == Highlight::blinn ? "Blinn" : "Phong") + " highlight of exponent " + std::to_string(y).substr(0, 5);
       expect_within(quantity + ", of its roundings", share, 1, "");
       expect_within(quantity + ", absolute", levels, 1, "levels of 255");

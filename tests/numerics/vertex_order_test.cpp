@@ -49,11 +49,13 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
   const std::unique_ptr<CaseRenderer> renderer = make({.width = kBuffer, .height = kBuffer, .depth = depth});
   RandomTriangles source(clipped ? 2 : 1, kView);
   long double changed = 0;
+  std::size_t seen = 0;
   for (int batch = 0; batch < (is_tessera && long_tests() ? 600 : 6); ++batch) {
     std::vector<Corners> triangles(kBatch);
     for (Corners& corners : triangles) corners = random_corners(source, clipped);
     std::array<std::uint32_t, 3> order{0, 1, 2};
     const CasePicture first = renderer->draw(draws_of(triangles, order));
+    for (const std::array<float, 3>& color : first.colors) seen += color[0] > 0;
     while (std::next_permutation(order.begin(), order.end())) {
       const CasePicture& other = renderer->draw(draws_of(triangles, order));
       for (std::size_t i = 0; i < first.colors.size(); ++i) {
@@ -64,6 +66,7 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
       }
     }
   }
+  EXPECT_GT(seen, 10000u);
   return changed;
 }
 
