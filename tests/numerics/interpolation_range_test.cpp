@@ -1,5 +1,5 @@
-// Interpolated values before anything is rounded to levels: their error, how far they leave the range of the three vertices, and that constants are
-// constants; from the kernels' barycentric coordinates on each instruction set, whose last step is the twin's.
+// Interpolated values before anything is rounded to levels: their error, and how far they leave the range of the three vertices; from the kernels' barycentric
+// coordinates on each instruction set. The last step is that of the twin, whose bits the kernels have (Interpolate in tests/shading).
 //
 // u = 2^-24. A weight is a product of positive factors, each rounded once. Where vertex 0 has none (on the opposite edge), b1 + b2 is off by 4 u at most: two
 // sums, quotient, product, or, without perspective, 1/area, its product, the edge and the multiply-add. So first + b1 (second - first) + b2 (third - first) leaves
@@ -150,15 +150,6 @@ TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
     keep_worst(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
   });
   expect_within("interpolated, w apart by up to 10^6: error", worst, 1, "of 10 roundings of differences and 2 of the largest");
-}
-
-TEST(InterpolationRange, ConstantsAreConstants) {
-  long double wrong = 0;
-  for_each_pixel(43, [&](Dice& dice, const WindowTriangle&, const WindowVertex (&)[3], const BarycentricReference& at, const GridPoint&) {
-    const float c = static_cast<float>((dice.unit() - 0.5) * std::exp2(200 * dice.unit() - 100));
-    wrong += at.interpolate(c, c, c) != c;
-  });
-  expect_within("interpolated constants, changed", wrong, 0, "values");
 }
 
 }  // namespace

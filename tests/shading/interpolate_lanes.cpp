@@ -48,6 +48,26 @@ bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int 
   return true;
 }
 
+void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, const float* b2, std::size_t count, const test::InterpolatedValues& values) {
+  alignas(64) float attributes[3][kAttributePadding] = {};
+  ShadedTriangle t;
+  for (int k = 0; k < 3; ++k) {
+    attributes[k][0] = at_vertices[k];
+    t.attributes[k] = attributes[k];
+  }
+  const Corners one = corners(t, 0), kept = corners(t, 0, true);
+  const CornerArrays several(t, 0, 1);
+  CornerLanes lanes;
+  lanes.set(one);
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Barycentric at{hn::LoadU(kFloat, b1 + i), hn::LoadU(kFloat, b2 + i), splat(1.0f)};
+    hn::StoreU(interpolate(at, one), kFloat, values.alone + i);
+    hn::StoreU(interpolate(at, lanes), kFloat, values.in_lanes + i);
+    hn::StoreU(interpolate(at, several[0]), kFloat, values.of_several + i);
+    hn::StoreU(interpolate_within(at, kept), kFloat, values.within + i);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera
 HWY_AFTER_NAMESPACE();
@@ -55,5 +75,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera::test {
 TileBarycentrics* tile_barycentrics(Isa isa) { return TESSERA_KERNEL(isa, tile_barycentrics_lanes); }
+InterpolateValues* interpolate_values(Isa isa) { return TESSERA_KERNEL(isa, interpolate_values_lanes); }
 }  // namespace tessera::test
 #endif
