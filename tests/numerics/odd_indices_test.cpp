@@ -29,13 +29,22 @@ MeshData mesh_of(Primitive primitive, std::uint32_t wrong) {
   return mesh;
 }
 
-template <class Check>
-void for_each_mesh(const Check& check) {
-  for (int primitive = 0; primitive <= static_cast<int>(Primitive::polygon); ++primitive)
-    for (const std::uint32_t wrong : {1000u, 0x7fffffffu, 0xffffffffu}) {
-      SCOPED_TRACE("primitive " + std::to_string(primitive) + ", index " + std::to_string(wrong));
-      check(mesh_of(static_cast<Primitive>(primitive), wrong));
-    }
+/// Calls check(frame, buffer, wrong index) for a frame of each way and primitive that draws a whole window, then a mesh with that index.
+template <std::size_t n, class Check>
+void for_each_frame(const Way (&ways)[n], const Check& check) {
+  const MeshData whole = rectangle(-1, -1, 1, 1);
+  for (const Way& way : ways)
+    for (int primitive = 0; primitive <= static_cast<int>(Primitive::polygon); ++primitive)
+      for (const std::uint32_t wrong : {1000u, 0x7fffffffu, 0xffffffffu}) {
+        SCOPED_TRACE(way.name + std::string(", primitive ") + std::to_string(primitive) + ", index " + std::to_string(wrong));
+        const MeshData mesh = mesh_of(static_cast<Primitive>(primitive), wrong);
+        DrawState state = unlit({0, 1, 0, 1});
+        way.set(state);
+        FrameBuffer buffer(kFormat);
+        Frame frame(buffer);
+        record(frame, whole, mesh, state);
+        check(frame, buffer, mesh.indices[1]);
+      }
 }
 
 TEST(OddIndices, OfDrawsThatChangeNothingAreNotLookedAt) {
@@ -51,40 +60,23 @@ TEST(OddIndices, OfDrawsThatChangeNothingAreNotLookedAt) {
   once.draw(whole.view(), unlit({1, 0, 0, 1}));
   Renderer({.threads = 1}).finish(once);
   const Fingerprint expected = fingerprint(plain);
-  for (const Way& way : ways) {
-    SCOPED_TRACE(way.name);
-    for_each_mesh([&](const MeshData& mesh) {
-      DrawState state = unlit({0, 1, 0, 1});
-      way.set(state);
-      FrameBuffer buffer(kFormat);
-      Frame frame(buffer);
-      record(frame, whole, mesh, state);
-      EXPECT_EQ(error_of([&] { Renderer({.threads = 1, .count_fragments = true}).finish(frame); }).value_or(""), "");
-      EXPECT_EQ(fingerprint(buffer), expected);
-    });
-  }
+  for_each_frame(ways, [&](Frame& frame, const FrameBuffer& buffer, std::uint32_t) {
+    EXPECT_EQ(error_of([&] { Renderer({.threads = 1, .count_fragments = true}).finish(frame); }).value_or(""), "");
+    EXPECT_EQ(fingerprint(buffer), expected);
+  });
 }
 
 TEST(OddIndices, OfDrawsThatCanChangeSomethingAreRefusedBeforeAnythingHasChanged) {
   const Way ways[] = {{"colour", [](DrawState&) {}},
                       {"depth alone", [](DrawState& s) { s.color_mask = {false, false, false, false}; }},
                       {"stencil alone", [](DrawState& s) { s.color_mask = {false, false, false, false}, s.depth.write = false, s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }}};
-  const MeshData whole = rectangle(-1, -1, 1, 1);
-  for (const Way& way : ways) {
-    SCOPED_TRACE(way.name);
-    for_each_mesh([&](const MeshData& mesh) {
-      DrawState state = unlit({0, 1, 0, 1});
-      way.set(state);
-      FrameBuffer buffer(kFormat);
-      const Fingerprint before = fingerprint(buffer);
-      Frame frame(buffer);
-      record(frame, whole, mesh, state);
-      EXPECT_THAT(error_of([&] { Renderer({.threads = 1}).finish(frame); }).value_or(""),
-                  testing::AllOf(testing::StartsWith("Renderer::finish: index 1 of the mesh of draw 1 is "), testing::HasSubstr(std::to_string(mesh.indices[1]))));
-      EXPECT_EQ(fingerprint(buffer), before);
-      EXPECT_EQ(frame.draw_count(), 2u) << "still recorded";
-    });
-  }
+  const Fingerprint before = fingerprint(FrameBuffer(kFormat));
+  for_each_frame(ways, [&](Frame& frame, const FrameBuffer& buffer, std::uint32_t wrong) {
+    EXPECT_THAT(error_of([&] { Renderer({.threads = 1}).finish(frame); }).value_or(""),
+                testing::AllOf(testing::StartsWith("Renderer::finish: index 1 of the mesh of draw 1 is "), testing::HasSubstr(std::to_string(wrong))));
+    EXPECT_EQ(fingerprint(buffer), before);
+    EXPECT_EQ(frame.draw_count(), 2u) << "still recorded";
+  });
 }
 
 }  // namespace
