@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "engine/out_of_memory.h"
 #include "engine/parallel.h"
 #include "engine/tessera/tessera.hpp"
+#include "engine/view_depth.h"
 #include "framebuffer/accumulation.h"
 #include "framebuffer/bit_transpose.h"
 #include "framebuffer/scan_out.h"
@@ -306,46 +306,14 @@ void FrameBuffer::read_depth_words(std::span<std::uint32_t> words) const {
                [&](std::span<const std::uint32_t> row, std::size_t y) { std::copy(row.begin(), row.end(), words.begin() + static_cast<std::ptrdiff_t>(y * row.size())); });
 }
 
-namespace {
-
-// Depth is (a z + b) / (c z + e) of eye space's z, or half of one more than that.
-struct DepthOfZ {
-  double a, b, c, e;
-};
-// Of a projection by which each depth has one z.
-DepthOfZ depth_of_z(const Matrix& projection) {
-  constexpr const char* kFunction = "FrameBuffer::read_view_depth";
-  require_finite({kFunction, ": projection"}, projection);
-  const auto& m = projection.m;
-  const auto refuse = [&](const std::string& needed) {
-    std::string rows;
-    for (std::size_t i = 8; i < 16; ++i) rows += (i == 8 ? "" : i == 12 ? " and " : ", ") + text(m[i]);
-    throw Error(std::string(kFunction) + ": projection's rows of z and w are " + rows + ", they must " + needed);
-  };
-  if (m[8] != 0 || m[9] != 0 || m[12] != 0 || m[13] != 0) refuse("have 0 for x and y, or a depth has no distance of its own");
-  // By the largest of them, for products that are numbers; that changes no quotient.
-  const double largest = std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
-  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
-  const auto scaled = [&](double element) { return std::scalbn(element, exponent); };
-  const DepthOfZ d{scaled(m[10]), scaled(m[11]), scaled(m[14]), scaled(m[15])};
-  // Where the two differ by more than products of 2^-53 are rounded by, no z is 0/0.
-  if (!(std::abs(d.a * d.e - d.b * d.c) > 0x1p-50 * (std::abs(d.a * d.e) + std::abs(d.b * d.c)))) refuse("not be multiples of each other, or all depths are the same");
-  return d;
-}
-
-}  // namespace
-
 void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, float background) const {
-  require_pixels(depth, state_->format, "FrameBuffer::read_view_depth");
+  constexpr const char* kFunction = "FrameBuffer::read_view_depth";
+  require_pixels(depth, state_->format, kFunction);
   const DepthKind kind = state_->depth_kind;
   const FloatingPointMode mode;
-  const DepthOfZ of = depth_of_z(camera.projection);
-  const double far_end = camera.reversed ? 0 : 1;
-  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_view_depth", [&](std::span<const std::uint32_t> row, std::size_t y) {
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      const double stored = depth_from_word(kind, row[x]), z_ndc = camera.reversed ? stored : 2 * stored - 1;
-      depth[y * row.size() + x] = stored == far_end ? background : static_cast<float>((of.e * z_ndc - of.b) / (of.c * z_ndc - of.a));
-    }
+  const ViewDepth distance(camera, background, kFunction);
+  for_each_row(*state_, Buffer::depth, kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
+    for (std::size_t x = 0; x < row.size(); ++x) depth[y * row.size() + x] = distance.at(depth_from_word(kind, row[x]));
   });
 }
 
