@@ -152,7 +152,7 @@ HWY_INLINE void drop_missed(Group& g) {
 HWY_INLINE std::uint32_t bits_of(const Group& g, Fate fate) {
   std::uint32_t bits = 0;
   for (int k = 0; k < kGroup; k += kLanes) bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.fate + k), splat(std::int32_t{fate}))) << k;
-  return bits & ((1u << g.count) - 1);
+  return bits & of_first(g.count);
 }
 
 HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, Group& g) {

@@ -123,6 +123,9 @@ HWY_INLINE auto mask_from_bits(std::uint32_t bits) {
   return hn::TestBit(splat(static_cast<std::int32_t>(bits)), hn::LoadU(kInt, kBits));
 }
 
+/// A bit for each of the first `count`, fewer than 32.
+HWY_INLINE std::uint32_t of_first(int count) { return (1u << count) - 1; }
+
 /// The bits of one chunk's lanes, of a block's 16.
 HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) { return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); }
 

@@ -31,8 +31,6 @@ HWY_INLINE std::uint32_t bits_of(const std::int32_t (&numbers)[kGroupSize]) {
   for (int first = 0; first < kGroupSize; first += kLanes) bits |= mask_bits(kInt, hn::Ne(hn::Load(kInt, numbers + first), hn::Zero(kInt))) << first;
   return bits;
 }
-/// And for the first ones.
-HWY_INLINE std::uint32_t of_first(int count) { return (1u << count) - 1; }
 
 /// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0) is the tile's
 /// top left. Triangles without a pixel in `rect` get no bit in group.mask.

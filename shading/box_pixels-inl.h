@@ -15,6 +15,7 @@
 #include "raster/coverage-inl.h"
 #include "raster/depth-inl.h"
 #include "shading/draw_kinds-inl.h"
+#include "shading/interpolate-inl.h"
 #include "shading/tile_run-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -117,8 +118,7 @@ struct BoxPixels {
       : run(tile_run), boxes(group_boxes), i(triangle), value(word_or_number), writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
     const TriangleGroup& g = run.memory.group;
     if constexpr (kSeen == Seen::interpolate) {
-      weights.affine = g.affine[i] != 0;
-      for (int k = 0; k < 3; ++k) weights.set(k, g.scale[k][i], g.shift[k][i]);
+      weights.set_up(g, i);
       const auto from = [&](int corner) { return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0]; };
       color.set_up(from(0), from(1), from(2), run.frame.layout);
     }

@@ -36,19 +36,26 @@ struct WeightLanes {
   Float scale[3], shift[3];
   bool affine;
 
-  HWY_INLINE void set(int k, float scale_k, float shift_k) {
-    scale[k] = splat(scale_k);
-    shift[k] = splat(shift_k);
-  }
   HWY_INLINE void set_up(const ShadedTriangle& t) {
     affine = t.affine;
     for (int k = 0; k < 3; ++k) set(k, t.scale[k], t.shift[k]);
+  }
+  /// @pre set_up_weights
+  HWY_INLINE void set_up(const TriangleGroup& g, int i) {
+    affine = g.affine[i] != 0;
+    for (int k = 0; k < 3; ++k) set(k, g.scale[k][i], g.shift[k][i]);
   }
   /// From the edges' values at the pixels.
   HWY_INLINE Barycentric at(Int e0, Int e1, Int e2) const {
     const auto weight = [&](int k, Int e) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), scale[k], shift[k]); };
     const Float w1 = weight(1, e1), w2 = weight(2, e2);
     return from_weights(affine ? w1 : weight(0, e0), w1, w2, affine);
+  }
+
+ private:
+  HWY_INLINE void set(int k, float scale_k, float shift_k) {
+    scale[k] = splat(scale_k);
+    shift[k] = splat(shift_k);
   }
 };
 HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, Int e1, Int e2) {
@@ -138,10 +145,12 @@ struct RangeLanes {
 };
 HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) { return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first)); }
 /// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of the triangle.
-HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
-  return lesser_of(greater_of(interpolate(b, c), splat(c.low)), splat(c.high));
-}
 HWY_INLINE Float interpolate_within(const Barycentric& b, const RangeLanes& c) { return lesser_of(greater_of(interpolate(b, c.corner), c.low), c.high); }
+HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
+  RangeLanes lanes;
+  lanes.set(c);
+  return interpolate_within(b, lanes);
+}
 
 /// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.
 struct CornerArrays {

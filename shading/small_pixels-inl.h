@@ -7,6 +7,7 @@
 #endif
 
 #include <bit>
+#include <cmath>
 #include <type_traits>
 
 #include "raster/depth-inl.h"

@@ -75,36 +75,6 @@ struct TexturedBlocks {
     full = kFull;  // no argument: the compiler would make a copy of draw_block for each
     draw_block(bx, by, edges);
   }
-  /// Full blocks side by side. Of nearest texels alone what they have in common stays in registers: copies, since the compiler must read again what a
-  /// stored word might have changed.
-  HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) requires(kFilter == TexelFilter::nearest) {
-    if (!at_once || !texels_alone || triangle.wide >= 0) {
-      BlockEdges edges = first;
-      for (int i = 0; i < count; ++i) {
-        (*this).template operator()<true>(bx + 4 * i, by, edges);
-        for (int k = 0; k < 3; ++k) edges.start[k] += 4 * triangle.edges.a[k];
-      }
-      return;
-    }
-    const TextureLevels& levels = *draw.texture->levels;
-    const TextureLevel level = levels.level[0];
-    const std::uint32_t* const words = levels.words + level.first;
-    const Wrap wrap_s = levels.wrap_s, wrap_t = levels.wrap_t;
-    WeightLanes weights;
-    weights.set_up(triangle);
-    RangeLanes s, t;
-    s.set(coordinates.s.corner);
-    t.set(coordinates.t.corner);
-    RowEdges edges(triangle.edges, first);
-    auto* stored = reinterpret_cast<std::int32_t*>(run.memory.color + run.block_index(bx, by));
-    for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
-        const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
-        const Int texels = nearest_words(words, level, wrapped(interpolate_within(where, s), wrap_s), wrapped(interpolate_within(where, t), wrap_t));
-        hn::Store(hn::And(texels, splat(0xffffff)), kInt, stored);
-      }
-    blocks += static_cast<std::uint64_t>(count);
-  }
   /// Those that no more company comes for.
   HWY_INLINE void finish() {
     full = true;
@@ -176,6 +146,40 @@ struct TexturedBlocks {
   HWY_INLINE Colors own_colors(const Barycentric& at) const { return {{interpolate_within(at, color[0]), interpolate_within(at, color[1]), interpolate_within(at, color[2]), splat(1.0f)}}; }
 };
 
+/// Of full blocks side by side, whose nearest texels are stored as they are, what they have in common stays in registers: copies, since the compiler must
+/// read again what a stored word might have changed.
+struct NearestRows {
+  TexturedBlocks<TexelFilter::nearest>& blocks;
+
+  HWY_INLINE bool do_for_all() const { return blocks.at_once && blocks.texels_alone && blocks.triangle.wide < 0; }
+
+  template <bool kFull>
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
+    static_assert(!kFull);  // those come by rows
+    blocks.template operator()<false>(bx, by, edges);
+  }
+  HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
+    const TextureLevels& levels = *blocks.draw.texture->levels;
+    const TextureLevel level = levels.level[0];
+    const std::uint32_t* const words = levels.words + level.first;
+    const Wrap wrap_s = levels.wrap_s, wrap_t = levels.wrap_t;
+    WeightLanes weights;
+    weights.set_up(blocks.triangle);
+    RangeLanes s, t;
+    s.set(blocks.coordinates.s.corner);
+    t.set(blocks.coordinates.t.corner);
+    RowEdges edges(blocks.triangle.edges, first);
+    auto* stored = reinterpret_cast<std::int32_t*>(blocks.run.memory.color + blocks.run.block_index(bx, by));
+    for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
+        const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
+        const Int texels = nearest_words(words, level, wrapped(interpolate_within(where, s), wrap_s), wrapped(interpolate_within(where, t), wrap_t));
+        hn::Store(hn::And(texels, splat(0xffffff)), kInt, stored);
+      }
+    blocks.blocks += static_cast<std::uint64_t>(count);
+  }
+};
+
 inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
   TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
@@ -195,7 +199,14 @@ inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
       TexturedBlocks<kFilter> blocks{.run = run, .draw = draw, .triangle = triangle};
       blocks.set_up(i);
       const BlockOffsets offsets(edges);
-      for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
+      const auto draw_by = [&](auto& drawn) HWY_ATTR { for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn); };
+      bool by_rows = false;
+      if constexpr (kFilter == TexelFilter::nearest) {
+        NearestRows rows{blocks};
+        by_rows = rows.do_for_all();
+        if (by_rows) draw_by(rows);
+      }
+      if (!by_rows) draw_by(blocks);
       blocks.finish();
       run.counts.shaded_pixels += blocks.shaded_pixels();
     });
