@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/stored_words.h"

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -119,8 +118,8 @@ TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
     float largest;
     bool has_perspective;
   };
-  const Case cases[] = {{0x1p-121f, false}, {std::nextafter(kLow, 0.0f), false}, {std::nextafter(kLow, 1.0f), true}, {0x1p-119f, true},
-                        {0x1p119f, true},   {std::nextafter(kHigh, 1.0f), true}, {std::nextafter(kHigh, HUGE_VALF), false}, {0x1p121f, false}};
+  const Case cases[] = {{0x1p-121f, false}, {std::nextafter(kLow, 0.0f), false}, {kLow, false}, {std::nextafter(kLow, 1.0f), true}, {0x1p-119f, true},
+                        {0x1p119f, true},   {std::nextafter(kHigh, 1.0f), true}, {kHigh, false}, {std::nextafter(kHigh, HUGE_VALF), false}, {0x1p121f, false}};
   long double worst[2] = {0, 0}, count[2] = {0, 0};
   for (const auto& [largest, has_perspective] : cases)
     for_each_pixel(45, [&, perspective = has_perspective](Dice&, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <string>
 #include <vector>
 
 #include "shading/lighting.h"

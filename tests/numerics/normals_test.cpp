@@ -42,6 +42,7 @@ struct Vectors {
 };
 
 /// A quarter of the floats from `first` to `last`.
+static_assert(kFloatBatch % kVertexBatch == 0);
 class FunctionsNormals : public testing::TestWithParam<unsigned> {
  protected:
   /// @param found  makes units of so many vectors, x y z each, and puts them into three arrays

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "engine/tessera/tessera.hpp"
@@ -90,6 +91,7 @@ class OwnedPixels {
     constexpr std::int32_t kFarthest = 16000 * 256;  // within the guard band
     for (const WindowVertex& v : triangle)
       if (std::max(std::abs(v.x), std::abs(v.y)) > kFarthest) return;
+    if (triangles_.size() == kMost) throw std::length_error("OwnedPixels: no depth is left for another triangle");
     const auto id = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
     const std::uint32_t word = word_of(id);

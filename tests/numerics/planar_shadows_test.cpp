@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/random_lit_scenes.h"

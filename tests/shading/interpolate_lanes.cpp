@@ -59,12 +59,15 @@ void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, co
   const CornerArrays several(t, 0, 1);
   CornerLanes lanes;
   lanes.set(one);
+  RangeLanes kept_lanes;
+  kept_lanes.set(kept);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Barycentric at{hn::LoadU(kFloat, b1 + i), hn::LoadU(kFloat, b2 + i), splat(1.0f)};
     hn::StoreU(interpolate(at, one), kFloat, values.alone + i);
     hn::StoreU(interpolate(at, lanes), kFloat, values.in_lanes + i);
     hn::StoreU(interpolate(at, several[0]), kFloat, values.of_several + i);
     hn::StoreU(interpolate_within(at, kept), kFloat, values.within + i);
+    hn::StoreU(interpolate_within(at, kept_lanes), kFloat, values.within_lanes + i);
   }
 }
 

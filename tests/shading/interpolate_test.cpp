@@ -82,7 +82,7 @@ constexpr std::size_t kPoints = 64;
 
 /// A value at points in a triangle and, as pixels' centres may be with several samples, beside it.
 struct InterpolatedPoints {
-  std::array<float, kPoints> b1, b2, alone, in_lanes, of_several, within;
+  std::array<float, kPoints> b1, b2, alone, in_lanes, of_several, within, within_lanes;
 
   explicit InterpolatedPoints(RandomTriangles& source) {
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -93,8 +93,8 @@ struct InterpolatedPoints {
     b1[2] = b2[3] = 1;
   }
   void interpolate(Isa isa, const float (&at_vertices)[3]) {
-    for (auto* values : {&alone, &in_lanes, &of_several, &within}) values->fill(std::numeric_limits<float>::quiet_NaN());
-    interpolate_values(isa)(at_vertices, b1.data(), b2.data(), kPoints, {alone.data(), in_lanes.data(), of_several.data(), within.data()});
+    for (auto* values : {&alone, &in_lanes, &of_several, &within, &within_lanes}) values->fill(std::numeric_limits<float>::quiet_NaN());
+    interpolate_values(isa)(at_vertices, b1.data(), b2.data(), kPoints, {alone.data(), in_lanes.data(), of_several.data(), within.data(), within_lanes.data()});
   }
 };
 
@@ -111,7 +111,7 @@ TEST(Interpolate, ValuesHaveTheBitsOfTheirTwin) {
         const float expected = BarycentricReference{points.b1[i], points.b2[i]}.interpolate(v[0], v[1], v[2]);
         for (const float found : {points.alone[i], points.in_lanes[i], points.of_several[i]})
           ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected)) << name_of(isa) << ", " << points.b1[i] << " " << points.b2[i] << ", of " << v[0] << " " << v[1] << " " << v[2];
-        ASSERT_EQ(points.within[i], std::clamp(expected, low, high)) << name_of(isa);
+        for (const float found : {points.within[i], points.within_lanes[i]}) ASSERT_EQ(found, std::clamp(expected, low, high)) << name_of(isa);
       }
     }
   }
@@ -124,7 +124,7 @@ TEST(Interpolate, ConstantsStayExactlyConstant) {
     for (const float value : {0.0f, 0.1f, 1.0f, 255.5f, -3e30f})
       for (const Isa isa : available_isas()) {
         points.interpolate(isa, {value, value, value});
-        for (const auto* values : {&points.alone, &points.in_lanes, &points.of_several, &points.within})
+        for (const auto* values : {&points.alone, &points.in_lanes, &points.of_several, &points.within, &points.within_lanes})
           for (const float found : *values) ASSERT_EQ(found, value) << name_of(isa);
       }
   }
