@@ -16,8 +16,8 @@ constexpr int kSide = 64;  // of the frame: a point in each pixel
 constexpr int kPoints = kSide * kSide;
 constexpr int kOctaves = 8;  // results of at least 1/256
 constexpr double kSeenTo = 64 / 510.0;  // 1/510 of full colour, to which a stored level is known
-/// In ulp: of whole exponents up to 64, which are products, what so many roundings come to; of these few others the most that tests/shading/power_test.cpp
-/// measures, where what is promised of all is 15.6 (tests/numerics/README.md).
+/// In ulp: of whole exponents up to 64, which are products, what so many roundings come to; of these few others what tests/shading/power_test.cpp
+/// holds them to, near what it measures, where what is promised of all is 15.6 (tests/numerics/README.md).
 double promised(float exponent) { return exponent == std::floor(exponent) && exponent <= 64 ? std::max(double{exponent} - 1, 1.0) : 14; }
 
 /// Points with powers in 2^-(octave + 1) .. 2^-octave.
