@@ -136,7 +136,8 @@ TEST_F(BenchProgram, LightsAsRivalsDo) {
   const Result table = run("bench vertex-20k-8 phong-20k-1 phong-20k-8-spot --rivals --size 320x200 --repeats 1 --seconds 0.001 --json -");
   if (contains(table.err, "libosmesa6")) GTEST_SKIP() << table.err;
   ASSERT_EQ(table.code, 0) << table.out << table.err;
-  for (const Json& row : Json::parse(table.out)["rivalry"]["workloads"]) EXPECT_FALSE(row.contains("fault")) << row;
+  const Json report = Json::parse(table.out);
+  for (const Json& row : report["rivalry"]["workloads"]) EXPECT_FALSE(row.contains("fault")) << row;
 }
 
 TEST_F(BenchProgram, TracesAFrameOfEachWorkload) {
