@@ -1,6 +1,7 @@
 #include "perf/bench/scaling.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <functional>
@@ -15,6 +16,7 @@ namespace tessera::bench {
 namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
+constexpr int kManyCores = 64;  // whose seconds are shown in parts
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
@@ -32,6 +34,10 @@ double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
   return end;
 }
 
+std::array<std::pair<const char*, double>, 4> parts_of(const CoreSeconds& seconds) {
+  return {{{"working", seconds.working}, {"waiting", seconds.waiting}, {"alone", seconds.alone}, {"memory", seconds.memory}}};
+}
+
 double barrier_seconds(int threads) {
   constexpr int kTimes = 2000;
   Parallel parallel(threads);
@@ -47,16 +53,20 @@ CoreModel measure_core_model(int threads) {
   return {.core_bytes = measure_limit(Limit::memory_copies, 1, kMuch), .barrier_seconds = barrier_seconds(threads)};
 }
 
-double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
-  double seconds = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking;
+CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
+  CoreSeconds seconds{.alone = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking};
   const double taking = frame.seconds_taking / std::max<double>(1, static_cast<double>(frame.tasks.size()));
+  double passes = 0;
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
     const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.pass != first->pass; });
-    seconds += scheduled({first, last}, taking, cores) + model.barrier_seconds;
+    passes += scheduled({first, last}, taking, cores) + model.barrier_seconds;
     first = last;
   }
+  seconds.working = (frame.seconds_in_tasks() + taking * static_cast<double>(frame.tasks.size())) / cores;
+  seconds.waiting = passes - seconds.working;
   const double memory_rate = 1e9 * model.core_bytes * std::min(cores, model.most_cores_of_memory);
-  return std::max(seconds, static_cast<double>(frame.work.bytes) / memory_rate);
+  seconds.memory = std::max(0.0, static_cast<double>(frame.work.bytes) / memory_rate - seconds.sum());
+  return seconds;
 }
 
 std::vector<int> measured_threads(int threads) {
@@ -90,8 +100,12 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
   }
   try {
-    const double one = seconds_on(cost_of_tasks(entry, setup, 1), 1, model);
-    for (const int cores : kCores) scaling.predicted.emplace_back(cores, one / seconds_on(cost_of_tasks(entry, setup, cores), cores, model));
+    const double one = seconds_on(cost_of_tasks(entry, setup, 1), 1, model).sum();
+    for (const int cores : kCores) {
+      const CoreSeconds seconds = seconds_on(cost_of_tasks(entry, setup, cores), cores, model);
+      scaling.predicted.emplace_back(cores, one / seconds.sum());
+      if (cores == kManyCores) scaling.of_64 = seconds;
+    }
   } catch (const std::bad_alloc&) {
     scaling.fault = "out of memory";
   } catch (const std::exception& error) {
@@ -105,7 +119,7 @@ std::string scaling_heading(int threads) {
   for (const int count : measured_threads(threads)) text += formatted(" %19s", (std::to_string(count) + " threads").c_str());
   text += "  computed:";
   for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
-  return text + "   of 64\n";
+  return text + "   of 64:  working waiting   alone  memory\n";
 }
 
 std::string scaling_line(const Scaling& scaling) {
@@ -116,9 +130,11 @@ std::string scaling_line(const Scaling& scaling) {
   double of_64 = 0;
   for (const auto& [cores, speed] : scaling.predicted) {
     text += formatted(" %7.2f", speed);
-    if (cores == 64) of_64 = speed / 64;
+    if (cores == kManyCores) of_64 = speed / kManyCores;
   }
-  return text + formatted("  %4.0f %%\n", 100 * of_64);
+  text += formatted("  %4.0f %%", 100 * of_64);
+  for (const auto& [what, seconds] : parts_of(scaling.of_64)) text += formatted("  %4.0f %%", 100 * seconds / scaling.of_64.sum());
+  return text + "\n";
 }
 
 nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
@@ -133,6 +149,7 @@ nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
     entry["one_thread_ms"] = scaling.one_ms;
     for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = {{"speed_up", speed.value}, {"low", speed.low}, {"high", speed.high}};
     for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
+    for (const auto& [what, seconds] : parts_of(scaling.of_64)) entry["ms_of_64"][what] = 1e3 * seconds;
     json.push_back(std::move(entry));
   }
   return json;

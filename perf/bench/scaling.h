@@ -21,15 +21,25 @@ struct CoreModel {
 /// Measured, on one thread and on all.
 CoreModel measure_core_model(int threads);
 
-/// Seconds that a frame takes on so many cores, from cost_of_tasks() for as many workers. Its tasks go in their order to whoever is free
-/// first, who takes as long for each to be taken; passes wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
-double seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
+/// Seconds of a frame on several cores, by what these do.
+struct CoreSeconds {
+  double working = 0;  ///< at tasks, and at taking them
+  double waiting = 0;  ///< for the last task of a pass to end and the next pass to begin: all that stages could win by overlapping
+  double alone = 0;    ///< one core does what is in no task
+  double memory = 0;   ///< the memory moves what it could not meanwhile
+
+  double sum() const { return working + waiting + alone + memory; }
+};
+/// From cost_of_tasks() for as many workers. The frame's tasks go in their order to whoever is free first, who takes as long for each to be taken; passes
+/// wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
+CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
 
 struct Scaling {
   std::string workload;
   double one_ms = 0;                             ///< on one thread
   std::vector<std::pair<int, Ratio>> measured{};    ///< threads, and how many times as fast
   std::vector<std::pair<int, double>> predicted{};  ///< cores, and the same
+  CoreSeconds of_64{};                              ///< what its seconds on 64 cores go to
   std::string fault;                             ///< why there are no figures; empty: there are
 };
 /// Thread counts that are measured beside 1: all up to 8, and beyond them powers of 2 and the last.

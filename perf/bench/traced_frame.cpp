@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -76,6 +77,20 @@ std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSet
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
+/// Seconds of a frame in which no worker runs, the least of several frames. Nobody traces them: handing tasks over would take longer than much of this.
+double seconds_outside(const WorkloadEntry& entry, const WorkloadSetup& setup, OneByOne& workers) {
+  const std::unique_ptr<Workload> workload = entry.make(setup);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kWarmUps + kFrames; ++i) {
+    workers.take_seconds();
+    const Clock::time_point start = Clock::now();
+    workload->draw();
+    const double seconds = seconds_since(start) - workers.take_seconds();
+    if (i >= kWarmUps) least = std::min(least, seconds);
+  }
+  return least;
+}
+
 }  // namespace
 
 double TracedFrame::seconds_in_tasks() const {
@@ -94,16 +109,13 @@ TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup
   one_by_one.options.threads = workers;
   one_by_one.options.executor = executor;
   const std::vector<TracedFrame> frames = frames_of(entry, one_by_one, executor.get());
-  const auto rest = [](const TracedFrame& frame) { return frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking; };
   TracedFrame least = frames.front();
-  double least_rest = rest(least);
   for (const TracedFrame& frame : frames) {
-    least_rest = std::min(least_rest, rest(frame));
     least.seconds_taking = std::min(least.seconds_taking, frame.seconds_taking);
     for (std::size_t i = 0; i < least.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(least.tasks[i])) least.tasks[i] = frame.tasks[i];
   }
-  least.seconds = least_rest + least.seconds_taking + least.seconds_in_tasks();
+  least.seconds = seconds_outside(entry, one_by_one, *executor) + least.seconds_taking + least.seconds_in_tasks();
   return least;
 }
 

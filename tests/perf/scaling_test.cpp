@@ -25,16 +25,16 @@ TracedFrame tiles_of(const std::vector<double>& seconds, double between = 0) {
 }
 
 TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 2}, 0.5), 1, kFastMemory), 6.5);
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({}, 0.5), 64, kFastMemory), 0.5);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 2}, 0.5), 1, kFastMemory).sum(), 6.5);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({}, 0.5), 64, kFastMemory).sum(), 0.5);
 }
 
 TEST(BenchScaling, TasksGoInTheirOrderToWhoeverIsFree) {
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}), 2, kFastMemory), 2);
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 3}), 2, kFastMemory), 4) << "what is long begins last";
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 1, 1}), 2, kFastMemory), 3);
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2, 2, 1}), 3, kFastMemory), 4);
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2}), 64, kFastMemory), 3) << "the longest";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}), 2, kFastMemory).sum(), 2);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 3}), 2, kFastMemory).sum(), 4) << "what is long begins last";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 1, 1}), 2, kFastMemory).sum(), 3);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2, 2, 1}), 3, kFastMemory).sum(), 4);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2}), 64, kFastMemory).sum(), 3) << "the longest";
 }
 
 TEST(BenchScaling, MeasuresEachOfFewThreadsAndDoublesBeyond) {
@@ -57,33 +57,46 @@ TEST(BenchScaling, WhatStopsAWorkloadIsItsFault) {
 }
 
 TEST(BenchScaling, WhatIsInNoTaskStaysOneCores) {
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}, 2), 4, kFastMemory), 3);
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}, 2), 4, kFastMemory).sum(), 3);
 }
 
 TEST(BenchScaling, CoresTakeTheirOwnTasks) {
   TracedFrame frame = tiles_of({1, 1, 1, 1}, 2 + 4 * 0.5);
   frame.seconds_taking = 4 * 0.5;
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 1, kFastMemory), 2 + 4 * 1.5);
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory), 2 + 2 * 1.5);
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 4, kFastMemory), 2 + 1.5);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 1, kFastMemory).sum(), 2 + 4 * 1.5);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory).sum(), 2 + 2 * 1.5);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 4, kFastMemory).sum(), 2 + 1.5);
 }
 
 // Whatever stage they are of: one may have several.
 TEST(BenchScaling, PassesWaitForEachOther) {
   const TracedFrame frame = frame_of({{0, 2}, {0, 1}, {1, 1}, {3, 1}, {3, 4}}, 0);
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory), 2 + 1 + 4);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory).sum(), 2 + 1 + 4);
   CoreModel slow_to_begin = kFastMemory;
   slow_to_begin.barrier_seconds = 0.25;
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin), 2 + 1 + 4 + 3 * 0.25);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin).sum(), 2 + 1 + 4 + 3 * 0.25);
+}
+
+TEST(BenchScaling, SecondsGoToWorkWaitsOneCoreAndMemory) {
+  TracedFrame frame = frame_of({{0, 2}, {0, 1}, {1, 1}, {3, 1}, {3, 4}}, 2 + 5 * 0.5);
+  frame.seconds_taking = 5 * 0.5;
+  const CoreModel slow_to_begin{.core_bytes = 1e9, .barrier_seconds = 0.25};
+  const CoreSeconds seconds = seconds_on(frame, 2, slow_to_begin);
+  EXPECT_DOUBLE_EQ(seconds.working, (9 + 2.5) / 2);
+  EXPECT_DOUBLE_EQ(seconds.waiting, (2.5 + 1.5 + 4.5) - seconds.working + 3 * 0.25) << "one idles while the other does the last of a pass";
+  EXPECT_DOUBLE_EQ(seconds.alone, 2);
+  EXPECT_DOUBLE_EQ(seconds.memory, 0);
+  frame.work.bytes = 40'000'000'000;
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, {.core_bytes = 1, .barrier_seconds = 0.25}).memory, 20 - seconds.sum());
 }
 
 TEST(BenchScaling, MemoryGivesTheBytesNoFaster) {
   TracedFrame frame = tiles_of(std::vector<double>(64, 1));
   frame.work.bytes = 32'000'000'000;
   const CoreModel memory{.core_bytes = 2, .most_cores_of_memory = 4};  // 8e9 bytes a second at most
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 1, memory), 64) << "memory would do it in 16";
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 8, memory), 8);
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 64, memory), 4);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 1, memory).sum(), 64) << "memory would do it in 16";
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 8, memory).sum(), 8);
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 64, memory).sum(), 4);
 }
 
 }  // namespace
