@@ -103,8 +103,10 @@ bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
     counts_ += bins_[b].counts;
     fits &= !bins_[b].overflowed();
   }
-  batches_ = {bins_.data(), static_cast<std::uint32_t>(batch_count_)};
-  if (fits) return true;
+  if (fits) {
+    batches_.set({bins_.data(), batch_count_}, tiles.count(), tiles.first(grid_));
+    return true;
+  }
   // Memory that went to batches as this range or earlier frames needed it may be wanted by others now.
   for (Bins& bins : bins_) bins = Bins();
   if (tiles.count() > 1) return false;
@@ -115,10 +117,10 @@ bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
 void BinStage::fill_one_by_one(const TileRange& tile) {
   const std::size_t elements = first_element_.back(), each = std::max<std::size_t>(limit_ / kMostBytesOfATriangle, 1);
   const auto count = static_cast<std::uint32_t>((elements + each - 1) / each);
-  batches_ = {bins_.data(), count, [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
-                bins_.front().reset(1, first_tile);
-                bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
-              }};
+  batches_.set_one_by_one(bins_.front(), count, [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
+    bins_.front().reset(1, first_tile);
+    bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
+  });
 }
 
 /// Elements [begin, end) of the frame.

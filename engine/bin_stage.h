@@ -38,8 +38,8 @@ class BinStage {
   /// Fills the bins of some tiles. False if there are several and their bins would pass the limit. A single tile is always filled: if its bins
   /// would pass the limit they will be made while it is rendered, a batch at a time.
   bool fill(const TileRange& tiles, FrameWatch& watch);
-  /// What was filled last. It stays in one place.
-  const BinBatches& batches() const { return batches_; }
+  /// What was filled last. It stays in one place. Tiles are looked through before they are rendered.
+  BinBatches& batches() { return batches_; }
   /// What was filled last, all batches together; complete if it did not fit, too.
   const BinCounts& counts() const { return counts_; }
 

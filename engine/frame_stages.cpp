@@ -164,7 +164,10 @@ void RendererState::weigh_tiles(const TileStage& stage, const TileRange& tiles, 
   parallel.for_each(tasks, [&](std::size_t task, int worker) {
     const std::size_t first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, loads.size());
     watch.task(worker, [&] {
-      for (std::size_t i = first; i < last; ++i) loads[i] = stage.load_of(tiles.first(stage.grid()) + static_cast<int>(i));
+      for (std::size_t i = first; i < last; ++i) {
+        const int tile = tiles.first(stage.grid()) + static_cast<int>(i);
+        loads[i] = stage.load_of(tile, bin_stage.batches().look_through(tile));
+      }
     });
   });
 }

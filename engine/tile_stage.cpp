@@ -1,7 +1,10 @@
 #include "engine/tile_stage.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
+#include <utility>
 
 #include "engine/image_target.h"
 
@@ -12,6 +15,14 @@ constexpr int kPlaneLinePixels = 512;  // one cache line of a plane: stored by o
 
 bool covers_frame(const TileClear& clear, const TileGrid& grid) {
   return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px && clear.rect.y1 == grid.height_px;
+}
+
+/// Loads that differ by less than a quarter may be of one class; a greater one is never of a lower class.
+constexpr std::size_t kLoadClasses = 4 * 64;
+std::size_t load_class(std::uint64_t triangles) {
+  if (triangles < 8) return static_cast<std::size_t>(triangles);
+  const int below_first = std::bit_width(triangles) - 1;
+  return static_cast<std::size_t>(4 * below_first - 4) + static_cast<std::size_t>(triangles >> (below_first - 2) & 3);
 }
 
 }  // namespace
@@ -41,30 +52,31 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize) show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x), show.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
-TileLoad TileStage::load_of(int tile) const {
-  const BinBatches& batches = *frame_.batches;
-  const bool cleared = shows_clears_ && batches.untouched(tile);
-  return {cleared ? 0 : batches.triangles(tile), cleared};
-}
-
-void TileStage::cut_into_strips(const TileRange& tiles, const std::vector<TileLoad>& loads, std::vector<TileStrip>& strips) const {
+template <class Visit>
+void TileStage::for_each_strip(const TileRange& tiles, const std::vector<TileLoad>& loads, const Visit& visit) const {
   const TileGrid& grid = frame_.grid;
   const auto load_at = [&](int row, int column) -> const TileLoad& { return loads[static_cast<std::size_t>(row * grid.columns() + column - tiles.first(grid))]; };
   // Tiles that share a cache line of a plane belong to one worker.
-  const bool planes = commands_.stores();
-  const int length = planes ? kPlaneLinePixels / grid.tile_size : 1;
-  strips.clear();
+  const int length = commands_.stores() ? kPlaneLinePixels / grid.tile_size : 1;
   for (int row = tiles.y0; row < tiles.y1; ++row) {
-    for (int column = tiles.x0; column < tiles.x1; column = strips.back().last_column + 1) {
+    for (int column = tiles.x0, next; column < tiles.x1; column = next) {
       TileStrip strip{row, column, std::min(column + length, tiles.x1) - 1};
       strip.cleared = load_at(row, column).cleared;
       while (strip.cleared && strip.last_column + 1 < tiles.x1 && load_at(row, strip.last_column + 1).cleared) ++strip.last_column;
       for (int c = column; c <= strip.last_column; ++c) strip.triangles += load_at(row, c).triangles;
-      strips.push_back(strip);
+      next = strip.last_column + 1;
+      visit(strip);
     }
   }
-  const auto place = [](const TileStrip& strip) { return std::pair(strip.row, strip.first_column); };
-  std::sort(strips.begin(), strips.end(), [&](const TileStrip& a, const TileStrip& b) { return a.triangles != b.triangles ? a.triangles > b.triangles : place(a) < place(b); });
+}
+
+void TileStage::cut_into_strips(const TileRange& tiles, const std::vector<TileLoad>& loads, std::vector<TileStrip>& strips) const {
+  std::array<std::size_t, kLoadClasses> next{};  // where the next strip of a class goes
+  for_each_strip(tiles, loads, [&](const TileStrip& strip) { ++next[load_class(strip.triangles)]; });
+  std::size_t count = 0;
+  for (std::size_t c = kLoadClasses; c-- > 0;) count += std::exchange(next[c], count);
+  strips.resize(count);
+  for_each_strip(tiles, loads, [&](const TileStrip& strip) { strips[next[load_class(strip.triangles)]++] = strip; });
 }
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {

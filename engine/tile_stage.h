@@ -46,9 +46,9 @@ class TileStage {
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa);
 
   const TileGrid& grid() const { return frame_.grid; }
-  /// Of a tile whose bins are filled. As many look-ups as there are batches.
-  TileLoad load_of(int tile) const;
-  /// Those with most triangles first: nobody waits for one that began last. Their order changes no bit.
+  /// Of a tile whose bins hold so many triangles, and were looked through.
+  TileLoad load_of(int tile, std::uint64_t triangles) const { return {triangles, shows_clears_ && frame_.batches->untouched(tile)}; }
+  /// Those with most triangles first, give or take a quarter: nobody waits for one that began last. Their order changes no bit.
   ///
   /// @param loads  of these tiles, row by row
   /// @param strips  are replaced
@@ -57,6 +57,9 @@ class TileStage {
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
  private:
+  /// In the order of their places.
+  template <class Visit>
+  void for_each_strip(const TileRange& tiles, const std::vector<TileLoad>& loads, const Visit& visit) const;
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;

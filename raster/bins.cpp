@@ -1,6 +1,7 @@
 #include "raster/bins.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera {
 
@@ -75,6 +76,37 @@ Piece& Bins::add_piece(std::uint32_t source, int corners, int attribute_count) {
 void Bins::drop_last_piece() {
   attributes_.resize(pieces_.back().first_attribute + kAttributePadding);
   pieces_.pop_back();
+}
+
+void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile) {
+  const std::size_t words = (bins.size() + 63) / 64;
+  holding_.resize(static_cast<std::size_t>(tile_count) * words);
+  bins_ = bins.data();
+  count_ = static_cast<std::uint32_t>(bins.size());
+  words_ = static_cast<std::uint32_t>(words);
+  first_tile_ = first_tile;
+  fill_ = nullptr;
+}
+
+void BinBatches::set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill) {
+  bins_ = &place;
+  count_ = count;
+  fill_ = std::move(fill);
+}
+
+std::uint64_t BinBatches::look_through(int tile) {
+  if (one_by_one()) return 0;
+  std::uint64_t* const words = holding_.data() + static_cast<std::size_t>(tile - first_tile_) * words_;
+  std::uint64_t triangles = 0;
+  for (std::uint32_t word = 0; word < words_; ++word) {
+    std::uint64_t holding = 0;
+    for (std::uint32_t b = 64 * word; b < std::min(count_, 64 * (word + 1)); ++b) {
+      triangles += bins_[b].triangles(tile);
+      holding |= std::uint64_t{bins_[b].first(tile) != Bins::kNone} << b % 64;
+    }
+    words[word] = holding;
+  }
+  return triangles;
 }
 
 }  // namespace tessera

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -153,36 +154,41 @@ class Bins {
 /// The batches of a frame in submission order, as its tiles read them.
 class BinBatches {
  public:
-  BinBatches() = default;
-  BinBatches(const Bins* bins, std::uint32_t count) : bins_(bins), count_(count) {}
+  /// Batches of tiles first_tile, first_tile + 1, ..., each of which is looked through before it is read. Throws std::bad_alloc.
+  void set(std::span<const Bins> bins, int tile_count, int first_tile = 0);
   /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much.
-  BinBatches(const Bins* bins, std::uint32_t count, std::function<void(std::uint32_t)> fill) : bins_(bins), count_(count), fill_(std::move(fill)) {}
+  void set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
 
   std::uint32_t count() const { return count_; }
   bool one_by_one() const { return fill_ != nullptr; }
+  /// How many triangles a tile's bins hold; 0 one by one. Of many batches few hold any: which, is remembered, and the tile reads no others. Distinct
+  /// tiles may be looked through at the same time.
+  std::uint64_t look_through(int tile);
+  /// True where a tile has no entries, and that is known without a look at all batches.
+  bool untouched(int tile) const { return !one_by_one() && next(tile, 0) == count_; }
+  /// The first batch from `batch` on that may hold something of a tile, or count().
+  std::uint32_t next(int tile, std::uint32_t batch) const {
+    if (one_by_one() || batch >= count_) return std::min(batch, count_);
+    const std::uint64_t* const words = holding(tile);
+    std::uint32_t word = batch / 64;
+    std::uint64_t left = words[word] & ~std::uint64_t{0} << batch % 64;
+    while (left == 0 && ++word < words_) left = words[word];
+    return left == 0 ? count_ : 64 * word + static_cast<std::uint32_t>(std::countr_zero(left));
+  }
   /// Batch b. One by one: what was read of another one is gone; throws what `fill` throws.
   const Bins& read(std::uint32_t b) const {
     if (!fill_) return bins_[b];
     fill_(b);
     return *bins_;
   }
-  /// True where a tile has no entries, and that is known without a look at all batches.
-  bool untouched(int tile) const {
-    if (one_by_one()) return false;
-    for (std::uint32_t b = 0; b < count_; ++b)
-      if (bins_[b].first(tile) != Bins::kNone) return false;
-    return true;
-  }
-  /// How many triangles a tile's bins hold; 0 one by one.
-  std::uint64_t triangles(int tile) const {
-    std::uint64_t sum = 0;
-    for (std::uint32_t b = 0; b < count_ && !one_by_one(); ++b) sum += bins_[b].triangles(tile);
-    return sum;
-  }
 
  private:
+  const std::uint64_t* holding(int tile) const { return holding_.data() + static_cast<std::size_t>(tile - first_tile_) * words_; }
+
   const Bins* bins_ = nullptr;
-  std::uint32_t count_ = 0;
+  std::uint32_t count_ = 0, words_ = 0;
+  int first_tile_ = 0;
+  std::vector<std::uint64_t> holding_;  // words_ for each tile: a bit for each batch that holds something of it
   std::function<void(std::uint32_t)> fill_;
 };
 

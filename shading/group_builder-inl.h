@@ -78,6 +78,10 @@ struct GroupBuilder {
   /// Draws what was added; `bins` held the last of it.
   HWY_INLINE void flush(const Bins& bins) {
     leave(bins);
+    finish();
+  }
+  /// Draws what is left.
+  HWY_INLINE void finish() {
     load_waiting();
     draw_all();
   }

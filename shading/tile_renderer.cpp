@@ -73,7 +73,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     }
     clears_before(draw, frame.clear_count);
   };
-  for (std::uint32_t b = 0; b < frame.batches->count(); ++b) {
+  for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count(); b = frame.batches->next(tile, b + 1)) {
     if (frame.batches->one_by_one()) shade_whole_tile(run);  // triangles that were seen refer to the batch before
     const Bins& bins = frame.batches->read(b);
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
@@ -95,8 +95,9 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
       }
     }
     // Groups go on in the next batch, if this one is still there.
-    frame.batches->one_by_one() || b + 1 == frame.batches->count() ? builder.flush(bins) : builder.leave(bins);
+    frame.batches->one_by_one() ? builder.flush(bins) : builder.leave(bins);
   }
+  builder.finish();
   commands_before(frame.draw_count);
   shade_whole_tile(run);
   if (run.samples > 1) resolve_samples(run);

@@ -118,6 +118,30 @@ TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
   EXPECT_TRUE(std::any_of(first_tile, frame.tasks.end(), [](const FrameTask& task) { return task.stage == FrameStage::binning; }));
 }
 
+// Rows of tiles whose planes are stored are tasks. Those with nearly as many go from the top down.
+TEST(FrameTrace, BeginsWithTheTilesThatHoldMost) {
+  constexpr int kTile = 32, kRows = 12, kHeight = kTile * kRows;
+  constexpr int kTriangles[kRows] = {3, 40, 0, 700, 5, 3, 1, 100, 41, 2, 900, 7};
+  std::vector<float> positions;
+  for (int row = 0; row < kRows; ++row)
+    for (int i = 0; i < kTriangles[row]; ++i)
+      for (const auto& [x, y] : {std::pair{8, 8}, std::pair{10, 8}, std::pair{8, 10}})
+        for (const float value : {2.0f * static_cast<float>(x + i % 10 * kTile) / 300 - 1, 2.0f * static_cast<float>(y + row * kTile) / kHeight - 1, 0.0f}) positions.push_back(value);
+  std::vector<int> rows;
+  RendererOptions options{.threads = 1, .tile_size = kTile};
+  options.trace = [&](std::span<const FrameTask> tasks) {
+    for (const FrameTask& task : tasks)
+      if (task.stage == FrameStage::tiles) rows.push_back(task.pixels.y / kTile);
+  };
+  FrameBuffer buffer({.width = 300, .height = kHeight});
+  Renderer renderer(options);
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+  frame.draw({.positions = positions}, {.lighting = false});
+  EXPECT_EQ(renderer.finish(frame).binned, positions.size() / 9);
+  EXPECT_EQ(rows, (std::vector{10, 3, 7, 8, 1, 11, 4, 5, 0, 9, 6, 2}));
+}
+
 TEST(FrameTrace, OfAFrameThatFailsIsNotTold) {
   static constexpr float kTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   static constexpr std::uint32_t kWrong[] = {0, 1, 3};

@@ -1,4 +1,4 @@
-// Bins that share a budget of memory.
+// Bins that share a budget of memory, and batches of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,6 +52,59 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
     }
     EXPECT_EQ(any_overflow, limit < 1000000);
   }
+}
+
+/// The batches that a tile reads.
+std::vector<std::uint32_t> read_by(const BinBatches& batches, int tile) {
+  std::vector<std::uint32_t> read;
+  for (std::uint32_t b = batches.next(tile, 0); b < batches.count(); b = batches.next(tile, b + 1)) read.push_back(b);
+  return read;
+}
+
+TEST(BinBatches, TilesReadThoseThatHoldSomethingOfThemInOrder) {
+  std::mt19937 random(5);
+  constexpr int kFirst = 30, kTiles = 12;
+  BinBatches batches;
+  for (const std::size_t count : {1, 2, 63, 64, 65, 128, 200}) {
+    for (const std::uint32_t one_of : {1u, 3u, 100u, 100000u}) {
+      std::vector<Bins> bins(count);
+      std::vector<std::uint32_t> expected[kTiles];
+      std::uint64_t triangles[kTiles] = {};
+      for (std::uint32_t b = 0; b < count; ++b) {
+        bins[b].reset(kTiles, kFirst);
+        for (int t = 0; t < kTiles; ++t) {
+          if (random() % one_of != 0) continue;
+          expected[t].push_back(b);
+          const std::uint32_t pushed = random() % 4;
+          for (std::uint32_t i = 0; i < pushed; ++i) bins[b].push(kFirst + t, 0, i);
+          if (pushed == 0) bins[b].push_draw(kFirst + t, 1);
+          triangles[t] += std::max(pushed, 1u);
+        }
+      }
+      batches.set(bins, kTiles, kFirst);
+      for (int t = 0; t < kTiles; ++t) EXPECT_EQ(batches.look_through(kFirst + t), triangles[t]);
+      for (int t = 0; t < kTiles; ++t) {
+        EXPECT_EQ(read_by(batches, kFirst + t), expected[t]) << count;
+        EXPECT_EQ(batches.untouched(kFirst + t), expected[t].empty());
+      }
+    }
+  }
+}
+
+TEST(BinBatches, OneByOneAreAllRead) {
+  Bins place;
+  std::vector<std::uint32_t> filled;
+  BinBatches batches;
+  batches.set_one_by_one(place, 70, [&](std::uint32_t b) { filled.push_back(b); });
+  EXPECT_EQ(batches.look_through(7), 0);
+  EXPECT_FALSE(batches.untouched(7)) << "nobody looked";
+  const std::vector<std::uint32_t> read = read_by(batches, 7);
+  ASSERT_EQ(read.size(), 70);
+  for (std::uint32_t b = 0; b < 70; ++b) {
+    EXPECT_EQ(read[b], b);
+    EXPECT_EQ(&batches.read(b), &place);
+  }
+  EXPECT_EQ(filled, read);
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ class TileStage {
     if (frame_.depth_kind != DepthKind::none) std::fill_n(workspace_.depth(), pixels, depth);
     frame_.draws = draws_.data();
     frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
-    batches_ = {&bins_, 1};
+    batches_.set({&bins_, 1}, frame_.grid.count());
+    batches_.look_through(tile);
     frame_.batches = &batches_;
     if (frame_.samples > 1) workspace_.allocate_samples();
     frame_.loads_color = frame_.loads_depth = true;
