@@ -17,12 +17,12 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
   return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px && clear.rect.y1 == grid.height_px;
 }
 
-/// Loads that differ by less than a quarter may be of one class; a greater one is never of a lower class.
 constexpr std::size_t kLoadClasses = 4 * 64;
+/// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load is never of a lower class.
 std::size_t load_class(std::uint64_t triangles) {
   if (triangles < 8) return static_cast<std::size_t>(triangles);
-  const int below_first = std::bit_width(triangles) - 1;
-  return static_cast<std::size_t>(4 * below_first - 4) + static_cast<std::size_t>(triangles >> (below_first - 2) & 3);
+  const int highest_bit = std::bit_width(triangles) - 1;
+  return static_cast<std::size_t>(4 * highest_bit - 4) + static_cast<std::size_t>(triangles >> (highest_bit - 2) & 3);
 }
 
 }  // namespace

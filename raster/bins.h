@@ -154,19 +154,20 @@ class Bins {
 /// The batches of a frame in submission order, as its tiles read them.
 class BinBatches {
  public:
-  /// Batches of tiles first_tile, first_tile + 1, ..., each of which is looked through before it is read. Throws std::bad_alloc.
+  /// Batches of tiles first_tile, first_tile + 1, ..., which stay where they are. A tile is looked through before anything else is asked of it.
+  /// Throws std::bad_alloc.
   void set(std::span<const Bins> bins, int tile_count, int first_tile = 0);
   /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much.
   void set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
 
   std::uint32_t count() const { return count_; }
   bool one_by_one() const { return fill_ != nullptr; }
-  /// How many triangles a tile's bins hold; 0 one by one. Of many batches few hold any: which, is remembered, and the tile reads no others. Distinct
-  /// tiles may be looked through at the same time.
+  /// How many triangles a tile's bins hold; 0 one by one. Notes which batches hold any, often few of many, so that the tile need not read the others.
+  /// Distinct tiles may be looked through at the same time.
   std::uint64_t look_through(int tile);
-  /// True where a tile has no entries, and that is known without a look at all batches.
+  /// True where a tile has no entries, and that is known. @pre the tile was looked through
   bool untouched(int tile) const { return !one_by_one() && next(tile, 0) == count_; }
-  /// The first batch from `batch` on that may hold something of a tile, or count().
+  /// The first batch from `batch` on that may hold something of a tile, or count(). @pre the tile was looked through
   std::uint32_t next(int tile, std::uint32_t batch) const {
     if (one_by_one() || batch >= count_) return std::min(batch, count_);
     const std::uint64_t* const words = holding(tile);

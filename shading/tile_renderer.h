@@ -107,7 +107,7 @@ struct TileFrame {
   std::uint32_t clear_count = 0;
   const TileAccumulation* accumulations = nullptr;
   std::uint32_t accumulation_count = 0;
-  const BinBatches* batches = nullptr;
+  const BinBatches* batches = nullptr;            ///< @pre tiles are looked through there before they are rendered
   bool shade_at_once = false;                     ///< shade after each triangle, with several samples after each group of them
   int samples = 1;                                ///< 1, 4 or 8 coverage samples a pixel
   /// Samples start from what the workspace holds of the buffer; else a command replaces all of it before it is looked at.

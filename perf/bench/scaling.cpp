@@ -5,6 +5,7 @@
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <new>
 #include <queue>
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
 constexpr int kManyCores = 64;  // whose seconds are shown in parts
+static_assert(std::find(std::begin(kCores), std::end(kCores), kManyCores) != std::end(kCores));
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
@@ -62,8 +64,8 @@ CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& mod
     passes += scheduled({first, last}, taking, cores) + model.barrier_seconds;
     first = last;
   }
-  seconds.working = (frame.seconds_in_tasks() + taking * static_cast<double>(frame.tasks.size())) / cores;
-  seconds.waiting = passes - seconds.working;
+  seconds.working = (frame.seconds_in_tasks() + frame.seconds_taking) / cores;
+  if (!frame.tasks.empty()) seconds.waiting = passes - seconds.working;
   const double memory_rate = 1e9 * model.core_bytes * std::min(cores, model.most_cores_of_memory);
   seconds.memory = std::max(0.0, static_cast<double>(frame.work.bytes) / memory_rate - seconds.sum());
   return seconds;
@@ -100,9 +102,9 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
   }
   try {
-    const double one = seconds_on(cost_of_tasks(entry, setup, 1), 1, model).sum();
+    const double one = seconds_on(cost_of_frame(entry, setup, 1), 1, model).sum();
     for (const int cores : kCores) {
-      const CoreSeconds seconds = seconds_on(cost_of_tasks(entry, setup, cores), cores, model);
+      const CoreSeconds seconds = seconds_on(cost_of_frame(entry, setup, cores), cores, model);
       scaling.predicted.emplace_back(cores, one / seconds.sum());
       if (cores == kManyCores) scaling.of_64 = seconds;
     }
@@ -119,7 +121,7 @@ std::string scaling_heading(int threads) {
   for (const int count : measured_threads(threads)) text += formatted(" %19s", (std::to_string(count) + " threads").c_str());
   text += "  computed:";
   for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
-  return text + "   of 64:  working waiting   alone  memory\n";
+  return text + "   of 64  working  waiting    alone   memory\n";
 }
 
 std::string scaling_line(const Scaling& scaling) {
@@ -133,7 +135,7 @@ std::string scaling_line(const Scaling& scaling) {
     if (cores == kManyCores) of_64 = speed / kManyCores;
   }
   text += formatted("  %4.0f %%", 100 * of_64);
-  for (const auto& [what, seconds] : parts_of(scaling.of_64)) text += formatted("  %4.0f %%", 100 * seconds / scaling.of_64.sum());
+  for (const auto& [what, seconds] : parts_of(scaling.of_64)) text += formatted("  %5.0f %%", 100 * seconds / scaling.of_64.sum());
   return text + "\n";
 }
 

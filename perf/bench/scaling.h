@@ -23,14 +23,14 @@ CoreModel measure_core_model(int threads);
 
 /// Seconds of a frame on several cores, by what these do.
 struct CoreSeconds {
-  double working = 0;  ///< at tasks, and at taking them
-  double waiting = 0;  ///< for the last task of a pass to end and the next pass to begin: all that stages could win by overlapping
+  double working = 0;  ///< at tasks, and at taking them; also where workers run that no task tells of, as if that went to all of them evenly
+  double waiting = 0;  ///< for the last task of a pass to end and the next pass to begin: no more could be won if passes ran into each other
   double alone = 0;    ///< one core does what is in no task
   double memory = 0;   ///< the memory moves what it could not meanwhile
 
   double sum() const { return working + waiting + alone + memory; }
 };
-/// From cost_of_tasks() for as many workers. The frame's tasks go in their order to whoever is free first, who takes as long for each to be taken; passes
+/// From cost_of_frame() for as many workers. The frame's tasks go in their order to whoever is free first, who takes as long for each to be taken; passes
 /// wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
 CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
 

@@ -77,19 +77,15 @@ std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSet
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// Seconds of a frame in which no worker runs, the least of several frames. Nobody traces them: handing tasks over would take longer than much of this.
-double seconds_outside(const WorkloadEntry& entry, const WorkloadSetup& setup, OneByOne& workers) {
-  const std::unique_ptr<Workload> workload = entry.make(setup);
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kWarmUps + kFrames; ++i) {
-    workers.take_seconds();
-    const Clock::time_point start = Clock::now();
-    workload->draw();
-    const double seconds = seconds_since(start) - workers.take_seconds();
-    if (i >= kWarmUps) least = std::min(least, seconds);
+/// What pretends to be so many workers, and a workload's setup for it.
+struct OneByOneSetup {
+  OneByOneSetup(const WorkloadSetup& plain, int workers) : executor(std::make_shared<OneByOne>(workers)), setup(plain) {
+    setup.options.threads = workers;
+    setup.options.executor = executor;
   }
-  return least;
-}
+  std::shared_ptr<OneByOne> executor;
+  WorkloadSetup setup;
+};
 
 }  // namespace
 
@@ -104,19 +100,32 @@ TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) 
 }
 
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
-  WorkloadSetup one_by_one = setup;
-  const auto executor = std::make_shared<OneByOne>(workers);
-  one_by_one.options.threads = workers;
-  one_by_one.options.executor = executor;
-  const std::vector<TracedFrame> frames = frames_of(entry, one_by_one, executor.get());
+  const OneByOneSetup one_by_one(setup, workers);
+  const std::vector<TracedFrame> frames = frames_of(entry, one_by_one.setup, one_by_one.executor.get());
   TracedFrame least = frames.front();
   for (const TracedFrame& frame : frames) {
     least.seconds_taking = std::min(least.seconds_taking, frame.seconds_taking);
     for (std::size_t i = 0; i < least.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(least.tasks[i])) least.tasks[i] = frame.tasks[i];
   }
-  least.seconds = seconds_outside(entry, one_by_one, *executor) + least.seconds_taking + least.seconds_in_tasks();
+  least.seconds = least.seconds_taking + least.seconds_in_tasks();
   return least;
+}
+
+TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
+  TracedFrame cost = cost_of_tasks(entry, setup, workers);
+  const OneByOneSetup one_by_one(setup, workers);
+  const std::unique_ptr<Workload> workload = entry.make(one_by_one.setup);
+  double least_rest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kWarmUps + kFrames; ++i) {
+    one_by_one.executor->take_seconds();
+    const Clock::time_point start = Clock::now();
+    workload->draw();
+    const double rest = seconds_since(start) - one_by_one.executor->take_seconds();
+    if (i >= kWarmUps) least_rest = std::min(least_rest, rest);
+  }
+  cost.seconds += least_rest;
+  return cost;
 }
 
 std::string chrome_trace(const std::vector<TracedFrame>& frames) {

@@ -10,7 +10,7 @@ namespace tessera::bench {
 
 struct TracedFrame {
   std::string workload;
-  double seconds = 0;               ///< from its first command to its end
+  double seconds = 0;               ///< from its first command to its end; of costs their sum
   std::vector<FrameTask> tasks{};   ///< in the order in which they began
   double seconds_taking = 0;        ///< between tasks of one call for workers, in which these took their next ones; where cost_of_tasks() measured it
   FrameWork work{};
@@ -20,9 +20,11 @@ struct TracedFrame {
 
 /// Of several frames after the first ones the one in the middle, by time.
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
-/// What the work costs, cut for so many workers, when one thread does all of it: of each task, of the taking of all, and of the rest, the least of several
-/// frames.
+/// What the work costs, cut for so many workers, when one thread does all of it: of each task and of the taking of all the least of several frames. (Their
+/// taking has them noted, too.)
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
+/// Also of what is in no worker's time: the least of several frames that are not traced, for handing tasks over takes longer than much of it.
+TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
 
 /// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes, workers its threads.
 /// Source: Trace Event Format, complete events ("X"), times in microseconds.

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <thread>
+#include <vector>
 
 #include "tests/engine/api_random_frame.h"
 
@@ -30,10 +32,14 @@ class OwnThreads : public Executor {
 
 class Backwards : public Executor {
  public:
-  int workers() const noexcept override { return 5; }
+  explicit Backwards(int count = 5) : count_(count) {}
+  int workers() const noexcept override { return count_; }
   void run(int count, void (*work)(void*, int), void* context) override {
     for (int k = count; k-- > 0;) work(context, k);
   }
+
+ private:
+  int count_;
 };
 
 class Idle : public Executor {
@@ -71,6 +77,60 @@ TEST(Executors, GiveTheSameBits) {
   EXPECT_EQ(drawn({.executor = own}), expected);
   EXPECT_GT(own->runs, 2);
   EXPECT_EQ(drawn({.executor = std::make_shared<Backwards>()}), expected);
+}
+
+/// Small triangles on the left, then clipped ones everywhere, then small lines and points on the right, then a triangle everywhere: of many batches most tiles
+/// find something in some that do not follow each other.
+struct ManyBatches {
+  static constexpr int kSmall = 30000;
+  std::vector<float> triangles, lines, points, colors;
+  ManyBatches() {
+    Random random(11);
+    for (int i = 0; i < kSmall; ++i) {
+      add(triangles, random.between(-1, -0.1f), random.between(-1, 1), random.between(-1, 1), 3);
+      add(lines, random.between(0.1f, 1), random.between(-1, 1), random.between(-1, 1), 2);
+      add(points, random.between(0.1f, 1), random.between(-1, 1), random.between(-1, 1), 1);
+    }
+    for (int i = 0; i < 3 * kSmall; ++i)
+      for (int c = 0; c < 4; ++c) colors.push_back(random.between(0, 1));
+  }
+  static void add(std::vector<float>& positions, float x, float y, float z, int corners) {
+    constexpr float kOffset[3][2] = {{0, 0}, {0.04f, 0.01f}, {0.01f, 0.05f}};
+    for (int k = 0; k < corners; ++k) positions.insert(positions.end(), {x + kOffset[k][0], y + kOffset[k][1], z});
+  }
+  /// @param binned  batches of the first binning pass
+  Fingerprint drawn(RendererOptions options, std::size_t& binned) const {
+    static constexpr float kClipped[] = {-3, -2, -4, 3, -2, 0.9f, 0, 5, 0.2f, -2, 3, 0.1f, 2, 3, 3, 0, -4, 0.3f}, kWide[] = {-0.9f, -0.8f, 0.2f, 0.9f, -0.7f, -0.4f, 0.1f, 0.95f, 0.1f};
+    options.trace = [&](std::span<const FrameTask> tasks) {
+      const auto first = std::find_if(tasks.begin(), tasks.end(), [](const FrameTask& task) { return task.stage == FrameStage::binning; });
+      binned = static_cast<std::size_t>(std::count_if(first, tasks.end(), [&](const FrameTask& task) { return task.pass == first->pass; }));
+    };
+    Renderer renderer(std::move(options));
+    FrameBuffer buffer({.width = 300, .height = 200});
+    Frame frame(buffer);
+    frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+    const auto draw = [&](Primitive primitive, std::span<const float> positions) {
+      frame.draw({.primitive = primitive, .positions = positions, .colors = std::span(colors).first(positions.size() / 3 * 4)}, {.lighting = false});
+    };
+    draw(Primitive::triangles, triangles);
+    draw(Primitive::triangles, kClipped);
+    draw(Primitive::lines, lines);
+    draw(Primitive::points, points);
+    draw(Primitive::triangles, kWide);
+    renderer.finish(frame);
+    return fingerprint(buffer);
+  }
+};
+
+TEST(Executors, OfManyWorkersGiveTheSameBits) {
+  const ManyBatches scene;
+  std::size_t batches = 0;
+  const Fingerprint expected = scene.drawn({.threads = 1, .tile_size = 32}, batches);
+  EXPECT_EQ(batches, 4);
+  for (const int workers : {3, 17, 32, 64}) {
+    EXPECT_EQ(scene.drawn({.tile_size = 32, .executor = std::make_shared<Backwards>(workers)}, batches), expected) << workers;
+    EXPECT_EQ(batches, std::min(4 * workers, 3 * ManyBatches::kSmall / 1024)) << workers;
+  }
 }
 
 TEST(Executors, NumberOfWorkersIsTheNumberOfThreads) {

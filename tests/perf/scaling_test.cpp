@@ -27,6 +27,9 @@ TracedFrame tiles_of(const std::vector<double>& seconds, double between = 0) {
 TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 2}, 0.5), 1, kFastMemory).sum(), 6.5);
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({}, 0.5), 64, kFastMemory).sum(), 0.5);
+  TracedFrame untold{.workload = "made up", .seconds = 3, .seconds_taking = 2};  // of workers without tasks
+  EXPECT_DOUBLE_EQ(seconds_on(untold, 1, kFastMemory).sum(), 3);
+  EXPECT_DOUBLE_EQ(seconds_on(untold, 4, kFastMemory).sum(), 1.5);
 }
 
 TEST(BenchScaling, TasksGoInTheirOrderToWhoeverIsFree) {

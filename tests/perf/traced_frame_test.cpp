@@ -37,7 +37,7 @@ TEST(TracedFrame, MeasuresTasksTheirTakingAndTheRestApart) {
     return drawing;
   });
   for (const int workers : {1, 2, 64}) {
-    const TracedFrame frame = cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
+    const TracedFrame frame = cost_of_frame(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
     EXPECT_GT(frame.tasks.size(), 64u) << workers;
     EXPECT_GT(frame.seconds_taking, 0) << workers;
     EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
