@@ -41,6 +41,7 @@ struct Group {
   alignas(64) std::int32_t kept[kGroup];  // 1: the side that is seen is
   alignas(64) std::int32_t extent[kGroup];  // the greater one of width and height
   alignas(64) std::int32_t tile[kGroup];  // of the first pixel
+  alignas(64) std::int32_t to_other[kGroup];  // from there to the other one, of two
   alignas(64) std::int32_t fate[kGroup];
 
   HWY_INLINE void add(const BinDraw& draw, std::uint32_t triangle, std::uint32_t i0, std::uint32_t i1, std::uint32_t i2) {
@@ -82,7 +83,7 @@ struct Group {
 };
 
 // What becomes of a triangle: the first of these that is true.
-enum Fate : std::int32_t { kWithoutArea = 1, kCulled = 2, kOutside = 4, kInOneTile = 8, kInSeveralTiles = 16 };
+enum Fate : std::int32_t { kWithoutArea = 1, kCulled = 2, kOutside = 4, kInOneTile = 8, kInTwoTiles = 16, kInSeveralTiles = 32 };
 
 HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int columns) {
   for (int k = g.count; k < kGroup; ++k)
@@ -100,7 +101,7 @@ HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int colum
     for (int k = 0; k < kGroup; ++k) g.kept[k] = g.turn[k] < 0 ? of_negative : of_positive;
   }
   const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
-  const std::int32_t reach = draw.sample_reach;
+  const std::int32_t reach = draw.sample_reach, two_tiles = 2 << (shift + kSubpixelBits);
   for (int k = 0; k < kGroup; ++k) {
     const std::int32_t low_x = least(g.x[0][k], g.x[1][k], g.x[2][k]), high_x = greatest(g.x[0][k], g.x[1][k], g.x[2][k]);
     const std::int32_t low_y = least(g.y[0][k], g.y[1][k], g.y[2][k]), high_y = greatest(g.y[0][k], g.y[1][k], g.y[2][k]);
@@ -110,11 +111,13 @@ HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int colum
     g.py1[k] = least(last_pixel(high_y + reach), rect.y1 - 1);
     const std::int32_t first_column = g.px0[k] >> shift, first_row = g.py0[k] >> shift;
     g.tile[k] = first_row * columns + first_column;
-    const std::int32_t apart = ((g.px1[k] >> shift) ^ first_column) | ((g.py1[k] >> shift) ^ first_row);
-    const std::int32_t of_seen = apart == 0 ? kInOneTile : kInSeveralTiles;
+    const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
+    g.to_other[k] = down == 0 ? 1 : columns;
+    g.extent[k] = greatest(high_x - low_x, high_y - low_y);
+    const std::int32_t of_more = across + down == 1 && g.extent[k] <= two_tiles ? kInTwoTiles : kInSeveralTiles;  // the rectangle may have cut larger ones to two
+    const std::int32_t of_seen = across + down == 0 ? kInOneTile : of_more;
     const std::int32_t of_kept = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : of_seen;
     g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;
-    g.extent[k] = greatest(high_x - low_x, high_y - low_y);
   }
 }
 
@@ -155,37 +158,57 @@ HWY_INLINE std::uint32_t bits_of(const Group& g, Fate fate) {
   return bits & of_first(g.count);
 }
 
+/// Entries of a group for the two tiles that came last: what follows one another is mostly in one and the same tile, or along a border in the same two.
+struct WaitingEntries {
+  Bins& bins;
+  const std::uint32_t draw;
+  int tile[2] = {-1, -1};
+  std::uint32_t count[2] = {0, 0};
+  int last = 0;
+  std::uint32_t ids[2][kGroup];
+
+  HWY_INLINE WaitingEntries(Bins& to, std::uint32_t of_draw) : bins(to), draw(of_draw) {}
+  HWY_INLINE void add(int to, std::uint32_t id) {
+    if (tile[last] != to) {
+      last ^= 1;
+      if (tile[last] != to) push(last), tile[last] = to;
+    }
+    ids[last][count[last]++] = id;
+  }
+  HWY_INLINE void push() { push(0), push(1); }
+
+ private:
+  HWY_INLINE void push(int of) {
+    if (count[of] != 0) bins.push(tile[of], draw, std::span(ids[of], count[of]));
+    count[of] = 0;
+  }
+};
+
 HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, Group& g) {
   if (g.count == 0) return;
   const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7, columns = grid.columns();
   decide_fates(g, draw, shift, columns);
   if (draw.sample_reach == 0) drop_missed(g);
-  const std::uint32_t in_one = bits_of(g, kInOneTile), in_several = bits_of(g, kInSeveralTiles), binned = in_one | in_several;
+  const std::uint32_t in_one = bits_of(g, kInOneTile), in_two = bits_of(g, kInTwoTiles), in_few = in_one | in_two, binned = in_few | bits_of(g, kInSeveralTiles);
   BinCounts& counts = bins.counts;
   const auto count_of = [](std::uint32_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); };
   counts.zero_area += count_of(bits_of(g, kWithoutArea));
   counts.culled += count_of(bits_of(g, kCulled));
   counts.outside += count_of(bits_of(g, kOutside));
   counts.binned += count_of(binned);
-  std::uint32_t waiting[kGroup];  // for one and the same tile, as what follows one another mostly is
-  std::size_t count = 0;
-  int tile = 0;
-  const auto push = [&] {
-    if (count != 0) bins.push(tile, draw.draw, std::span(waiting, count));
-    count = 0;
-  };
+  WaitingEntries waiting(bins, draw.draw);
   for (std::uint32_t left = binned; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
-    if ((in_one >> k & 1) != 0) {
-      if (g.tile[k] != tile) push(), tile = g.tile[k];
-      waiting[count++] = g.ids[k];
+    if ((in_few >> k & 1) != 0) {
+      waiting.add(g.tile[k], g.ids[k]);
+      if ((in_two >> k & 1) != 0) waiting.add(g.tile[k] + g.to_other[k], g.ids[k]);
       continue;
     }
-    push();
+    waiting.push();
     const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
     bin_large_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift, g.px1[k] >> shift, g.py1[k] >> shift);
   }
-  push();
+  waiting.push();
   g.count = 0;
 }
 
