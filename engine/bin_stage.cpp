@@ -87,23 +87,22 @@ void BinStage::prepare_draws(int samples) {
 bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
   const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size, tiles.y1 * grid_.tile_size};
   for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(rects_[d], pixels);
-  std::size_t taken = 0;
-  for (const Bins& bins : bins_) taken += bins.bytes();
-  BinBudget budget(limit_ - std::min(taken, limit_));
+  // One core does this alone. Only after a batch was left in the middle it looks at one after the other.
+  if (!knows_taken_) start_budget();
+  knows_taken_ = false;
+  worker_counts_.assign(static_cast<std::size_t>(parallel_.threads()), {});
   const std::size_t elements = first_element_.back();
   parallel_.for_each(batch_count_, [&](std::size_t b, int worker) {
     watch.task(worker, [&] {
-      bins_[b].reset(tiles.count(), tiles.first(grid_), &budget);
+      bins_[b].reset(tiles.count(), tiles.first(grid_), &budget_);
       bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_);
+      worker_counts_[static_cast<std::size_t>(worker)].counts += bins_[b].counts;
     });
   });
-  bool fits = true;
   counts_ = {};
-  for (std::size_t b = 0; b < batch_count_; ++b) {
-    counts_ += bins_[b].counts;
-    fits &= !bins_[b].overflowed();
-  }
-  if (fits) {
+  for (const WorkerCounts& of_worker : worker_counts_) counts_ += of_worker.counts;
+  if (!budget_.refused()) {
+    knows_taken_ = true;
     batches_.set({bins_.data(), batch_count_}, tiles.count(), tiles.first(grid_));
     return true;
   }
@@ -112,6 +111,12 @@ bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
   if (tiles.count() > 1) return false;
   fill_one_by_one(tiles);
   return true;
+}
+
+void BinStage::start_budget() {
+  std::size_t taken = 0;
+  for (const Bins& bins : bins_) taken += bins.bytes();
+  budget_.start(limit_, taken);
 }
 
 void BinStage::fill_one_by_one(const TileRange& tile) {

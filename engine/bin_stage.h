@@ -26,7 +26,7 @@ class BinStage {
  public:
   /// For one frame after the other, in the same memory.
   ///
-  /// @param limit  bytes that the bins may take together
+  /// @param limit  bytes that the bins may take together; beside them 8 bytes a tile and one for every 8 batches say what they hold
   BinStage(std::size_t limit, Parallel& parallel, Isa isa) : limit_(limit), parallel_(parallel), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
@@ -44,7 +44,12 @@ class BinStage {
   const BinCounts& counts() const { return counts_; }
 
  private:
+  struct alignas(64) WorkerCounts {
+    BinCounts counts;
+  };
+
   void prepare_draws(int samples);
+  void start_budget();
   void bin(Bins& bins, std::size_t begin, std::size_t end) const;
   void fill_one_by_one(const TileRange& tile);
 
@@ -52,6 +57,8 @@ class BinStage {
   Parallel& parallel_;
   Isa isa_;
   std::vector<Bins> bins_;
+  BinBudget budget_;                       ///< of bins_
+  bool knows_taken_ = false;               ///< the budget tells, to the byte, what they take
   const FrameCommands* commands_ = nullptr;
   TileGrid grid_{};
   std::vector<BinDraw> draws_;
@@ -60,6 +67,7 @@ class BinStage {
   std::vector<DrawRange> polygons_;        ///< triangles whose polygons are faced together
   std::size_t batch_count_ = 1;
   BinBatches batches_;
+  std::vector<WorkerCounts> worker_counts_;
   BinCounts counts_;
 };
 

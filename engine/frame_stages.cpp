@@ -15,7 +15,8 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 512, kIndicesPerTask = std::size_t{1} << 14, kElementsPerTask = 4096, kTilesPerTask = 8;
+constexpr std::size_t kVerticesPerTask = 512, kIndicesPerTask = 4096, kElementsPerTask = 4096;
+constexpr int kTilesPerTask = 8;  // to be looked through
 // How much of a frame is done after the stages before the tiles, for a progress bar.
 constexpr double kIndicesDone = 0.02, kElementsDone = 0.05, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
 
@@ -157,25 +158,20 @@ void RendererState::cut_draws(const Count& count, std::size_t each) {
   for (std::size_t d = 0; d < commands.geometry.size(); ++d) cut_into_ranges(d, count(commands.geometry[d]), each, ranges);
 }
 
-void RendererState::weigh_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch) {
-  loads.resize(static_cast<std::size_t>(tiles.count()));
-  const std::size_t tasks = (loads.size() + kTilesPerTask - 1) / kTilesPerTask;
-  watch.begin_stage(FrameStage::binning, done_after(tiles.first(stage.grid()), stats), tasks);
+void RendererState::look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch) {
+  const int first = tiles.first(stage.grid()), last = first + tiles.count();
+  const auto tasks = static_cast<std::size_t>((tiles.count() + kTilesPerTask - 1) / kTilesPerTask);
+  watch.begin_stage(FrameStage::binning, done_after(first, stats), tasks);
   parallel.for_each(tasks, [&](std::size_t task, int worker) {
-    const std::size_t first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, loads.size());
-    watch.task(worker, [&] {
-      for (std::size_t i = first; i < last; ++i) {
-        const int tile = tiles.first(stage.grid()) + static_cast<int>(i);
-        loads[i] = stage.load_of(tile, bin_stage.batches().look_through(tile));
-      }
-    });
+    const int begin = first + static_cast<int>(task) * kTilesPerTask;
+    watch.task(worker, [&] { bin_stage.batches().look_through(begin, std::min(kTilesPerTask, last - begin)); });
   });
 }
 
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
   worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
-  weigh_tiles(stage, tiles, stats, watch);
-  stage.cut_into_strips(tiles, loads, strips);
+  look_through_tiles(stage, tiles, stats, watch);
+  stage.cut_into_strips(tiles, strips);
   watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
     watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], worker_counts[static_cast<std::size_t>(worker)]); });

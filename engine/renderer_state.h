@@ -32,7 +32,6 @@ struct RendererState {
   SmoothNormals normal_maker;
   BinStage bin_stage;
   std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
-  std::vector<TileLoad> loads;
   std::vector<TileStrip> strips;
   ShowMemory show_memory;
   std::vector<TileWorkspace> workspaces;  // one for each worker
@@ -60,8 +59,7 @@ struct RendererState {
   void prepare_workspaces(const TileMemory& memory);
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
   void render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
-  /// Makes `loads`: what the bins of tiles hold, row by row.
-  void weigh_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch);
+  void look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch);
   void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };

@@ -53,30 +53,32 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
 }
 
 template <class Visit>
-void TileStage::for_each_strip(const TileRange& tiles, const std::vector<TileLoad>& loads, const Visit& visit) const {
+void TileStage::for_each_strip(const TileRange& tiles, const Visit& visit) const {
   const TileGrid& grid = frame_.grid;
-  const auto load_at = [&](int row, int column) -> const TileLoad& { return loads[static_cast<std::size_t>(row * grid.columns() + column - tiles.first(grid))]; };
+  const BinBatches& batches = *frame_.batches;
+  const auto is_cleared = [&](int row, int column) { return shows_clears_ && batches.untouched(row * grid.columns() + column); };
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kPlaneLinePixels / grid.tile_size : 1;
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, next; column < tiles.x1; column = next) {
-      TileStrip strip{row, column, std::min(column + length, tiles.x1) - 1};
-      strip.cleared = load_at(row, column).cleared;
-      while (strip.cleared && strip.last_column + 1 < tiles.x1 && load_at(row, strip.last_column + 1).cleared) ++strip.last_column;
-      for (int c = column; c <= strip.last_column; ++c) strip.triangles += load_at(row, c).triangles;
-      next = strip.last_column + 1;
-      visit(strip);
+      const bool cleared = is_cleared(row, column);
+      next = std::min(column + length, tiles.x1);
+      while (cleared && next < tiles.x1 && is_cleared(row, next)) ++next;
+      std::uint64_t triangles = 0;
+      for (int c = column; c < next; ++c) triangles += batches.triangles(row * grid.columns() + c);
+      const auto small = [](int number) { return static_cast<std::int16_t>(number); };
+      visit(TileStrip{small(row), small(column), small(next - 1), cleared}, triangles);
     }
   }
 }
 
-void TileStage::cut_into_strips(const TileRange& tiles, const std::vector<TileLoad>& loads, std::vector<TileStrip>& strips) const {
+void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& strips) const {
   std::array<std::size_t, kLoadClasses> next{};  // where the next strip of a class goes
-  for_each_strip(tiles, loads, [&](const TileStrip& strip) { ++next[load_class(strip.triangles)]; });
+  for_each_strip(tiles, [&](const TileStrip&, std::uint64_t triangles) { ++next[load_class(triangles)]; });
   std::size_t count = 0;
   for (std::size_t c = kLoadClasses; c-- > 0;) count += std::exchange(next[c], count);
   strips.resize(count);
-  for_each_strip(tiles, loads, [&](const TileStrip& strip) { strips[next[load_class(strip.triangles)]++] = strip; });
+  for_each_strip(tiles, [&](const TileStrip& strip, std::uint64_t triangles) { strips[next[load_class(triangles)]++] = strip; });
 }
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {

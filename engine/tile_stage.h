@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,16 +18,10 @@ namespace tessera {
 
 /// Neighbouring tiles of a row that one worker takes.
 struct TileStrip {
-  int row = 0, first_column = 0, last_column = 0;
-  bool cleared = false;          ///< no triangle touches them: they show the last clear
-  std::uint64_t triangles = 0;
+  std::int16_t row = 0, first_column = 0, last_column = 0;  // few bytes: one core sorts them while the others wait
+  bool cleared = false;                                     ///< no triangle touches them: they show the last clear
 };
-
-/// What there is to do in a tile.
-struct TileLoad {
-  std::uint64_t triangles = 0;
-  bool cleared = false;          ///< as of a strip
-};
+static_assert(kMaxFrameBufferSize / 32 <= std::numeric_limits<std::int16_t>::max());
 
 struct StripCounts {
   std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
@@ -46,20 +41,17 @@ class TileStage {
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa);
 
   const TileGrid& grid() const { return frame_.grid; }
-  /// Of a tile whose bins hold so many triangles, and were looked through.
-  TileLoad load_of(int tile, std::uint64_t triangles) const { return {triangles, shows_clears_ && frame_.batches->untouched(tile)}; }
   /// Those with most triangles first, give or take a quarter: nobody waits for one that began last. Their order changes no bit.
   ///
-  /// @param loads  of these tiles, row by row
   /// @param strips  are replaced
-  void cut_into_strips(const TileRange& tiles, const std::vector<TileLoad>& loads, std::vector<TileStrip>& strips) const;
+  void cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& strips) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
  private:
-  /// In the order of their places.
+  /// Calls visit(strip, triangles) in the order of their places.
   template <class Visit>
-  void for_each_strip(const TileRange& tiles, const std::vector<TileLoad>& loads, const Visit& visit) const;
+  void for_each_strip(const TileRange& tiles, const Visit& visit) const;
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;

@@ -6,15 +6,16 @@
 namespace tessera {
 
 std::size_t Bins::bytes() const {
-  return tails_.capacity() * sizeof(Tail) + blocks_.capacity() * sizeof(Block) + pieces_.capacity() * sizeof(Piece) + attributes_.capacity() * sizeof(float);
+  return tails_.capacity() * sizeof(Tail) + triangles_.capacity() * sizeof(std::uint32_t) + blocks_.capacity() * sizeof(Block) + pieces_.capacity() * sizeof(Piece) + attributes_.capacity() * sizeof(float);
 }
 
 /// Room for `count` more, if the budget has what that takes: the old memory is given back only after the new is there.
+/// @param least  bytes of what is to grow step by step
 template <class T>
-bool Bins::reserve(std::vector<T>& items, std::size_t count) {
+bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t least) {
   const std::size_t wanted = items.size() + count, before = items.capacity();
   if (wanted <= before) return true;
-  const std::size_t after = std::max({wanted, 2 * before, 16384 / sizeof(T)});
+  const std::size_t after = least == 0 ? wanted : std::max({wanted, 2 * before, least / sizeof(T)});
   if (budget_ != nullptr && !budget_->take(after * sizeof(T))) return false;
   items.reserve(after);
   if (budget_ != nullptr) budget_->give_back(before * sizeof(T));
@@ -22,6 +23,7 @@ bool Bins::reserve(std::vector<T>& items, std::size_t count) {
 }
 
 void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
+  const auto tiles = static_cast<std::size_t>(tile_count);
   budget_ = budget;
   overflowed_ = false;
   first_tile_ = first_tile;
@@ -29,11 +31,15 @@ void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   pieces_.clear();
   counts = {};
   tails_.clear();
+  triangles_.clear();
+  const std::size_t before = bytes();
   if (blocks_.empty()) blocks_.resize(1);  // the one that is left after an overflow
   attributes_.clear();
-  if (!reserve(tails_, static_cast<std::size_t>(tile_count))) overflowed_ = true;
-  tails_.assign(static_cast<std::size_t>(tile_count), Tail{kNone, kNone, kNone, 0});
   attributes_.assign(kAttributePadding, 0.0f);
+  if (budget_ != nullptr) budget_->charge(bytes() - before);
+  if (!reserve(tails_, tiles, 0) || !reserve(triangles_, tiles, 0)) overflowed_ = true;
+  tails_.assign(tiles, Tail{kNone, kNone, kNone});
+  triangles_.assign(tiles, 0);
 }
 
 void Bins::overflow() {
@@ -79,8 +85,9 @@ void Bins::drop_last_piece() {
 }
 
 void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile) {
-  const std::size_t words = (bins.size() + 63) / 64;
-  holding_.resize(static_cast<std::size_t>(tile_count) * words);
+  const auto tiles = static_cast<std::size_t>(tile_count), words = (bins.size() + 63) / 64;
+  triangles_.resize(tiles);
+  holding_.resize(tiles * words);
   bins_ = bins.data();
   count_ = static_cast<std::uint32_t>(bins.size());
   words_ = static_cast<std::uint32_t>(words);
@@ -88,25 +95,26 @@ void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile)
   fill_ = nullptr;
 }
 
+void BinBatches::look_through(int first_tile, int count) {
+  if (one_by_one()) return;
+  const auto tiles = static_cast<std::size_t>(count);
+  std::uint64_t* const sums = triangles_.data() + index_of(first_tile);
+  std::uint64_t* const holding = holding_.data() + index_of(first_tile) * words_;
+  std::fill_n(sums, tiles, 0);
+  std::fill_n(holding, tiles * words_, 0);
+  for (std::uint32_t b = 0; b < count_; ++b) {
+    const std::uint32_t* const triangles = bins_[b].triangles_from(first_tile);
+    for (std::size_t t = 0; t < tiles; ++t) {
+      sums[t] += triangles[t];
+      holding[t * words_ + b / 64] |= std::uint64_t{triangles[t] != 0} << b % 64;
+    }
+  }
+}
+
 void BinBatches::set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill) {
   bins_ = &place;
   count_ = count;
   fill_ = std::move(fill);
-}
-
-std::uint64_t BinBatches::look_through(int tile) {
-  if (one_by_one()) return 0;
-  std::uint64_t* const words = holding_.data() + static_cast<std::size_t>(tile - first_tile_) * words_;
-  std::uint64_t triangles = 0;
-  for (std::uint32_t word = 0; word < words_; ++word) {
-    std::uint64_t holding = 0;
-    for (std::uint32_t b = 64 * word; b < std::min(count_, 64 * (word + 1)); ++b) {
-      triangles += bins_[b].triangles(tile);
-      holding |= std::uint64_t{bins_[b].first(tile) != Bins::kNone} << b % 64;
-    }
-    words[word] = holding;
-  }
-  return triangles;
 }
 
 }  // namespace tessera

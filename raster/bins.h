@@ -39,17 +39,28 @@ struct BinCounts {
 /// Bytes that the bins of several batches may take together; batches that are filled at the same time share it.
 class BinBudget {
  public:
-  explicit BinBudget(std::size_t bytes) : left_(static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 62))) {}
+  explicit BinBudget(std::size_t bytes = 0) { start(bytes, 0); }
+  /// Anew, when so much of it is taken, and nobody takes more at the same time.
+  void start(std::size_t bytes, std::size_t taken) {
+    left_ = static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 62)) - static_cast<std::int64_t>(taken);
+    refused_ = false;
+  }
   /// False, and nothing is taken, if there are not so many left.
   bool take(std::size_t bytes) {
     if (left_.fetch_sub(static_cast<std::int64_t>(bytes)) >= static_cast<std::int64_t>(bytes)) return true;
     give_back(bytes);
+    refused_ = true;
     return false;
   }
+  /// Takes what has to be there, left or not.
+  void charge(std::size_t bytes) { left_.fetch_sub(static_cast<std::int64_t>(bytes)); }
   void give_back(std::size_t bytes) { left_.fetch_add(static_cast<std::int64_t>(bytes)); }
+  /// Whether there was ever too little left, since it was started.
+  bool refused() const { return refused_; }
 
  private:
   std::atomic<std::int64_t> left_;
+  std::atomic<bool> refused_;
 };
 
 /// The boundary of what clipping leaves of a polygon.
@@ -80,11 +91,8 @@ class Bins {
   void push(int tile, std::uint32_t draw, std::uint32_t id) { push(tile, draw, std::span(&id, 1)); }
   void push(int tile, std::uint32_t draw, std::span<const std::uint32_t> ids) {
     Tail& tail = tail_of(tile);
-    if (tail.draw != draw) {
-      tail.draw = draw;
-      append(tail, kDrawMarker | draw);
-    }
-    tail.triangles += static_cast<std::uint32_t>(ids.size());
+    if (tail.draw != draw) mark(tail, draw);
+    triangles_[index_of(tile)] += static_cast<std::uint32_t>(ids.size());
     counts.entries += ids.size();
     while (!ids.empty()) {
       Block& block = block_with_room(tail);
@@ -97,15 +105,16 @@ class Bins {
   /// A draw that is a bitmap or an image.
   void push_draw(int tile, std::uint32_t draw) {
     Tail& tail = tail_of(tile);
-    tail.draw = draw;
-    append(tail, kDrawMarker | draw);
-    ++tail.triangles;
+    mark(tail, draw);
+    ++triangles_[index_of(tile)];
     ++counts.entries;
   }
   /// The first block of a tile, or kNone. @pre !overflowed()
   std::uint32_t first(int tile) const { return tail_of(tile).first; }
-  /// How many triangles a tile's bin holds, bitmaps and images counted as one each.
-  std::uint32_t triangles(int tile) const { return tail_of(tile).triangles; }
+  /// How many triangles a tile's bin holds, bitmaps and images counted as one each; 0: there are no entries. @pre !overflowed()
+  std::uint32_t triangles(int tile) const { return *triangles_from(tile); }
+  /// The same of that tile and those after it.
+  const std::uint32_t* triangles_from(int tile) const { return triangles_.data() + index_of(tile); }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
 
   /// A new piece at the end of the list, with room for the attributes of its corners. After an overflow it is the only one.
@@ -124,26 +133,29 @@ class Bins {
 
  private:
   struct Tail {
-    std::uint32_t first, last, draw, triangles;
+    std::uint32_t first, last, draw;
   };
-  Tail& tail_of(int tile) { return tails_[static_cast<std::size_t>(tile - first_tile_)]; }
-  const Tail& tail_of(int tile) const { return tails_[static_cast<std::size_t>(tile - first_tile_)]; }
+  std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_); }
+  Tail& tail_of(int tile) { return tails_[index_of(tile)]; }
+  const Tail& tail_of(int tile) const { return tails_[index_of(tile)]; }
   Block& block_with_room(Tail& tail) {
     if (tail.last == kNone || blocks_[tail.last].count == kBlockEntries) add_block(tail);
     return blocks_[tail.last];
   }
-  void append(Tail& tail, std::uint32_t entry) {
+  void mark(Tail& tail, std::uint32_t draw) {
     Block& block = block_with_room(tail);
-    block.entries[block.count++] = entry;
+    block.entries[block.count++] = kDrawMarker | draw;
+    tail.draw = draw;
   }
   void add_block(Tail& tail);
   void overflow();
   template <class T>
-  bool reserve(std::vector<T>& items, std::size_t count);
+  bool reserve(std::vector<T>& items, std::size_t count, std::size_t least = 16384);
 
   std::vector<Piece> pieces_;
   std::vector<float> attributes_;  // of the pieces, and padding
   std::vector<Tail> tails_;
+  std::vector<std::uint32_t> triangles_;  // of each tile: beside each other, for those who look at some of many batches
   std::vector<Block> blocks_;
   std::size_t used_ = 0;
   int first_tile_ = 0;
@@ -154,23 +166,25 @@ class Bins {
 /// The batches of a frame in submission order, as its tiles read them.
 class BinBatches {
  public:
-  /// Batches of tiles first_tile, first_tile + 1, ..., which stay where they are. A tile is looked through before anything else is asked of it.
-  /// Throws std::bad_alloc.
+  /// Batches of tiles first_tile, first_tile + 1, ..., which stay where they are. Throws std::bad_alloc.
   void set(std::span<const Bins> bins, int tile_count, int first_tile = 0);
-  /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much.
+  /// Notes what the batches hold of `count` tiles, often of few, so that these need not read the others. Before anything else is asked of those tiles, and if
+  /// there are others at the same time.
+  void look_through(int first_tile, int count);
+  /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much. Nothing is to be
+  /// looked through. Throws std::bad_alloc.
   void set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
 
   std::uint32_t count() const { return count_; }
   bool one_by_one() const { return fill_ != nullptr; }
-  /// How many triangles a tile's bins hold; 0 one by one. Notes which batches hold any, often few of many, so that the tile need not read the others.
-  /// Distinct tiles may be looked through at the same time.
-  std::uint64_t look_through(int tile);
-  /// True where a tile has no entries, and that is known. @pre the tile was looked through
-  bool untouched(int tile) const { return !one_by_one() && next(tile, 0) == count_; }
-  /// The first batch from `batch` on that may hold something of a tile, or count(). @pre the tile was looked through
+  /// How many triangles a tile's bins hold, bitmaps and images counted as one each; 0 one by one.
+  std::uint64_t triangles(int tile) const { return one_by_one() ? 0 : triangles_[index_of(tile)]; }
+  /// True where a tile has no entries, and that is known.
+  bool untouched(int tile) const { return !one_by_one() && triangles(tile) == 0; }
+  /// The first batch from `batch` on that may hold something of a tile, or count().
   std::uint32_t next(int tile, std::uint32_t batch) const {
     if (one_by_one() || batch >= count_) return std::min(batch, count_);
-    const std::uint64_t* const words = holding(tile);
+    const std::uint64_t* const words = holding_.data() + index_of(tile) * words_;
     std::uint32_t word = batch / 64;
     std::uint64_t left = words[word] & ~std::uint64_t{0} << batch % 64;
     while (left == 0 && ++word < words_) left = words[word];
@@ -184,12 +198,13 @@ class BinBatches {
   }
 
  private:
-  const std::uint64_t* holding(int tile) const { return holding_.data() + static_cast<std::size_t>(tile - first_tile_) * words_; }
+  std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_); }
 
   const Bins* bins_ = nullptr;
   std::uint32_t count_ = 0, words_ = 0;
   int first_tile_ = 0;
-  std::vector<std::uint64_t> holding_;  // words_ for each tile: a bit for each batch that holds something of it
+  std::vector<std::uint64_t> triangles_;  // of each tile
+  std::vector<std::uint64_t> holding_;    // words_ for each tile: a bit for each batch that holds something of it
   std::function<void(std::uint32_t)> fill_;
 };
 

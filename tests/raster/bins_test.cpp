@@ -54,6 +54,41 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
   }
 }
 
+TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
+  std::mt19937 random(9);
+  Bins bins;
+  int overflown = 0;
+  for (int round = 0; round < 60; ++round) {
+    const int tiles = round % 5 == 4 ? 70 : 40, pushes = static_cast<int>(random() % 30000);
+    const bool overflows = round % 3 == 2;
+    if (overflows) bins = Bins();
+    const std::size_t limit = overflows ? 60000 : 10000000;
+    BinBudget budget;
+    budget.start(limit, bins.bytes());
+    bins.reset(tiles, round, &budget);
+    for (int tile = round; tile < round + tiles; ++tile) ASSERT_TRUE(bins.first(tile) == Bins::kNone && bins.triangles(tile) == 0) << round;
+    std::vector<std::uint32_t> expected(static_cast<std::size_t>(tiles));
+    for (int i = 0; i < pushes; ++i) {
+      const int span = 1 + round % tiles;
+      const auto tile = static_cast<std::size_t>(overflows ? i * span / pushes : static_cast<int>(random() % 1000) * span / 1000);  // then some are first met after the overflow
+      bins.push(round + static_cast<int>(tile), 1, static_cast<std::uint32_t>(i));  // the same draw in every round
+      ++expected[tile];
+    }
+    ASSERT_EQ(bins.overflowed(), budget.refused());
+    if (bins.overflowed()) ++overflown;
+    if (bins.overflowed()) continue;
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), bins.triangles_from(round)));
+    for (int t = 0; t < tiles; ++t) {
+      const std::uint32_t first = bins.first(round + t);
+      ASSERT_EQ(first == Bins::kNone, expected[static_cast<std::size_t>(t)] == 0);
+      if (first != Bins::kNone) { ASSERT_EQ(bins.block(first).entries[0], kDrawMarker | 1); }
+    }
+    EXPECT_TRUE(budget.take(limit - bins.bytes())) << "more was taken than there is";
+    EXPECT_FALSE(budget.take(1)) << "less";
+  }
+  EXPECT_GT(overflown, 10);
+}
+
 /// The batches that a tile reads.
 std::vector<std::uint32_t> read_by(const BinBatches& batches, int tile) {
   std::vector<std::uint32_t> read;
@@ -82,8 +117,9 @@ TEST(BinBatches, TilesReadThoseThatHoldSomethingOfThemInOrder) {
         }
       }
       batches.set(bins, kTiles, kFirst);
-      for (int t = 0; t < kTiles; ++t) EXPECT_EQ(batches.look_through(kFirst + t), triangles[t]);
+      for (int t = 0; t < kTiles; t += 5) batches.look_through(kFirst + t, std::min(5, kTiles - t));
       for (int t = 0; t < kTiles; ++t) {
+        EXPECT_EQ(batches.triangles(kFirst + t), triangles[t]);
         EXPECT_EQ(read_by(batches, kFirst + t), expected[t]) << count;
         EXPECT_EQ(batches.untouched(kFirst + t), expected[t].empty());
       }
@@ -96,7 +132,8 @@ TEST(BinBatches, OneByOneAreAllRead) {
   std::vector<std::uint32_t> filled;
   BinBatches batches;
   batches.set_one_by_one(place, 70, [&](std::uint32_t b) { filled.push_back(b); });
-  EXPECT_EQ(batches.look_through(7), 0);
+  batches.look_through(7, 1);
+  EXPECT_EQ(batches.triangles(7), 0);
   EXPECT_FALSE(batches.untouched(7)) << "nobody looked";
   const std::vector<std::uint32_t> read = read_by(batches, 7);
   ASSERT_EQ(read.size(), 70);

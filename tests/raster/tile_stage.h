@@ -48,7 +48,7 @@ class TileStage {
     frame_.draws = draws_.data();
     frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
     batches_.set({&bins_, 1}, frame_.grid.count());
-    batches_.look_through(tile);
+    batches_.look_through(tile, 1);
     frame_.batches = &batches_;
     if (frame_.samples > 1) workspace_.allocate_samples();
     frame_.loads_color = frame_.loads_depth = true;
