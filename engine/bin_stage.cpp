@@ -87,7 +87,7 @@ void BinStage::prepare_draws(int samples) {
 bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
   const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size, tiles.y1 * grid_.tile_size};
   for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(rects_[d], pixels);
-  // One core does this alone. Only after a batch was left in the middle it looks at one after the other.
+  // One core does this alone. Unless the last fill was complete and fitted, it looks at one batch after the other.
   if (!knows_taken_) start_budget();
   knows_taken_ = false;
   worker_counts_.assign(static_cast<std::size_t>(parallel_.threads()), {});

@@ -26,7 +26,7 @@ class BinStage {
  public:
   /// For one frame after the other, in the same memory.
   ///
-  /// @param limit  bytes that the bins may take together; beside them 8 bytes a tile and one for every 8 batches say what they hold
+  /// @param limit  bytes that the bins may take together; beside them 8 bytes a tile and 8 for every 64 batches begun say what they hold
   BinStage(std::size_t limit, Parallel& parallel, Isa isa) : limit_(limit), parallel_(parallel), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
@@ -38,7 +38,7 @@ class BinStage {
   /// Fills the bins of some tiles. False if there are several and their bins would pass the limit. A single tile is always filled: if its bins
   /// would pass the limit they will be made while it is rendered, a batch at a time.
   bool fill(const TileRange& tiles, FrameWatch& watch);
-  /// What was filled last. It stays in one place. Tiles are looked through before they are rendered.
+  /// What was filled last, if that fitted. It stays in one place. Tiles are looked through before they are rendered.
   BinBatches& batches() { return batches_; }
   /// What was filled last, all batches together; complete if it did not fit, too.
   const BinCounts& counts() const { return counts_; }

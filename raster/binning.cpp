@@ -114,7 +114,7 @@ HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int colum
     const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
     g.to_other[k] = down == 0 ? 1 : columns;
     g.extent[k] = greatest(high_x - low_x, high_y - low_y);
-    const std::int32_t of_more = across + down == 1 && g.extent[k] <= two_tiles ? kInTwoTiles : kInSeveralTiles;  // the rectangle may have cut larger ones to two
+    const std::int32_t of_more = across + down == 1 && g.extent[k] <= two_tiles ? kInTwoTiles : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
     const std::int32_t of_seen = across + down == 0 ? kInOneTile : of_more;
     const std::int32_t of_kept = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : of_seen;
     g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;

@@ -18,7 +18,10 @@ bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t least) 
   const std::size_t after = least == 0 ? wanted : std::max({wanted, 2 * before, least / sizeof(T)});
   if (budget_ != nullptr && !budget_->take(after * sizeof(T))) return false;
   items.reserve(after);
-  if (budget_ != nullptr) budget_->give_back(before * sizeof(T));
+  if (budget_ != nullptr) {
+    budget_->charge((items.capacity() - after) * sizeof(T));
+    budget_->give_back(before * sizeof(T));
+  }
   return true;
 }
 

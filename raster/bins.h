@@ -168,11 +168,11 @@ class BinBatches {
  public:
   /// Batches of tiles first_tile, first_tile + 1, ..., which stay where they are. Throws std::bad_alloc.
   void set(std::span<const Bins> bins, int tile_count, int first_tile = 0);
-  /// Notes what the batches hold of `count` tiles, often of few, so that these need not read the others. Before anything else is asked of those tiles, and if
-  /// there are others at the same time.
+  /// Notes what the batches hold of `count` tiles, before anything else is asked of these: often few batches hold anything, and the others need not be read.
+  /// Different tiles may be looked through at the same time.
   void look_through(int first_tile, int count);
   /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much. Nothing is to be
-  /// looked through. Throws std::bad_alloc.
+  /// looked through.
   void set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
 
   std::uint32_t count() const { return count_; }
