@@ -8,9 +8,9 @@
 #include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/out_of_memory.h"
-#include "engine/parallel.h"
 #include "engine/planar_shadow.h"
 #include "engine/recording.h"
+#include "engine/renderer_state.h"
 #include "raster/fixed_point.h"
 
 namespace tessera {
@@ -98,6 +98,10 @@ Frame::Frame(FrameBuffer& target) : recording_(with_memory("Frame", [] { return 
   if (!target.state_) throw Error("Frame: the frame buffer was moved from");
   recording_->target = target.state_.get();
 }
+Frame::Frame(FrameBuffer& target, Renderer& helper) : Frame(target) {
+  if (!helper.state_) throw Error("Frame: the renderer was moved from");
+  recording_->workers = &helper.state_->parallel;
+}
 Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
@@ -173,6 +177,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
     check_fragment_state("Frame::draw", state, *recording_->target);
     draw.texture = check_texture(state, state.texture != nullptr ? state.texture->state_.get() : nullptr);
     if (state.shadow_on) turn_into_shadow(draw);
+    check_indices(draw.mesh, recording_->workers);
     recording_->draws.push_back(std::move(draw));
   });
 }

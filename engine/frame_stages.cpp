@@ -1,7 +1,6 @@
 // A frame, stage by stage: plan, vertices, bins, tiles, store.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -15,10 +14,10 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 512, kIndicesPerTask = 4096, kElementsPerTask = 4096;
+constexpr std::size_t kVerticesPerTask = 512, kElementsPerTask = 4096;
 constexpr int kTilesPerTask = 8;  // to be looked through
 // How much of a frame is done after the stages before the tiles, for a progress bar.
-constexpr double kIndicesDone = 0.02, kElementsDone = 0.05, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
+constexpr double kElementsDone = 0.05, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
 
 /// Seconds since it was last asked.
 class StopWatch {
@@ -102,23 +101,6 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
   // Large tiles repeat less setup; small ones keep more threads busy.
   const double pixels = static_cast<double>(format.width) * format.height;
   return pixels / parallel.threads() >= 64 * 128 * 128 / 4 ? 128 : 64;
-}
-
-// Before anything reads what they point to.
-void RendererState::check_indices(FrameWatch& watch) {
-  cut_draws([](const GeometryDraw& draw) { return draw.mesh->indexed() ? draw.mesh->corners : 0; }, kIndicesPerTask);
-  std::atomic<std::size_t> wrong_draw = commands.geometry.size();  // the first of them
-  watch.begin_stage(FrameStage::vertices, kIndicesDone, ranges.size());
-  parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
-    const auto [draw, first, last] = ranges[i];
-    watch.task(worker, [&] {
-      if (are_in_bounds(*commands.geometry[draw].mesh, first, last)) return;
-      std::size_t before = wrong_draw;
-      while (draw < before && !wrong_draw.compare_exchange_weak(before, draw)) {
-      }
-    });
-  });
-  if (wrong_draw < commands.geometry.size()) fail_at_index(*commands.geometry[wrong_draw].mesh, commands.plan_draw[wrong_draw]);
 }
 
 void RendererState::process_geometry(FrameWatch& watch) {
@@ -221,7 +203,6 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   FrameBufferState& target = *recording.target;
   plan_frame(commands, recording, image != nullptr, draw_buffers);
 
-  check_indices(watch);
   // Memory for what will be stored is taken before anything changes.
   for (const Buffer which : kBuffers) prepare_planes(commands.traffic(which), target.parts(which));
 

@@ -1,9 +1,12 @@
 #include "engine/mesh_arrays.h"
 
+#include <algorithm>
+#include <atomic>
 #include <span>
 #include <string>
 
 #include "engine/checks.h"
+#include "engine/parallel.h"
 #include "raster/binning.h"
 #include "raster/largest_index.h"
 
@@ -81,6 +84,23 @@ void add_indices(const IndexArray& array, MeshArrays& mesh) {
     fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
 }
 
+constexpr std::size_t kIndicesPerTask = 4096, kManyIndices = 65536;  // fewer than many are looked through before others could have begun
+
+bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
+  const std::size_t count = last - first;
+  return (mesh.indices ? largest_index(std::span(mesh.indices + first, count)) : largest_index(std::span(mesh.short_indices + first, count))) < mesh.vertices;
+}
+
+bool are_in_bounds(const MeshArrays& mesh, Parallel* workers) {
+  if (workers == nullptr || mesh.corners < kManyIndices) return are_in_bounds(mesh, 0, mesh.corners);
+  std::atomic<bool> all = true;
+  workers->for_each((mesh.corners + kIndicesPerTask - 1) / kIndicesPerTask, [&](std::size_t i, int) {
+    const std::size_t first = i * kIndicesPerTask;
+    if (!are_in_bounds(mesh, first, std::min(first + kIndicesPerTask, mesh.corners))) all = false;
+  });
+  return all;
+}
+
 }  // namespace
 
 MeshArrays check_mesh(const Mesh& mesh) {
@@ -110,16 +130,12 @@ MeshArrays check_mesh(const Mesh& mesh) {
   return arrays;
 }
 
-bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
-  const std::size_t count = last - first;
-  return (mesh.indices ? largest_index(std::span(mesh.indices + first, count)) : largest_index(std::span(mesh.short_indices + first, count))) < mesh.vertices;
-}
-
-void fail_at_index(const MeshArrays& mesh, std::size_t draw) {
+void check_indices(const MeshArrays& mesh, Parallel* workers) {
+  if (!mesh.indexed() || are_in_bounds(mesh, workers)) return;
   std::size_t wrong = 0;
   while (wrong + 1 < mesh.corners && mesh.vertex_at(wrong) < mesh.vertices) ++wrong;
-  throw Error("Renderer::finish: index " + std::to_string(wrong) + " of the mesh of draw " + std::to_string(draw) + " is " + std::to_string(mesh.vertex_at(wrong)) +
-              ", must be below the number of vertices, " + std::to_string(mesh.vertices));
+  throw Error("Frame::draw: index " + std::to_string(wrong) + " of the mesh is " + std::to_string(mesh.vertex_at(wrong)) + ", must be below the number of vertices, " +
+              std::to_string(mesh.vertices));
 }
 
 }  // namespace tessera

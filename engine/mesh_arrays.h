@@ -10,6 +10,8 @@
 
 namespace tessera {
 
+class Parallel;
+
 struct MeshArrays {
   Primitive primitive = Primitive::triangles;
   std::size_t vertices = 0;
@@ -38,12 +40,11 @@ struct MeshArrays {
   }
 };
 
-/// Checks a mesh but for what its indices are. Throws Error for arrays that do not fit together, and strides and pointers that floats cannot have.
+/// Checks a mesh but for what its indices are, which are many. Throws Error for arrays that do not fit together, and strides and pointers that floats cannot have.
 MeshArrays check_mesh(const Mesh& mesh);
 
-/// Whether indices [first, last) are all in bounds. @pre indexed()
-bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last);
-/// Throws Error that names the first index out of bounds. @pre there is one
-[[noreturn]] void fail_at_index(const MeshArrays& mesh, std::size_t draw);
+/// Throws Error that names the first index that is out of bounds, if there is one.
+/// @param workers  look through many together; null: the caller alone does
+void check_indices(const MeshArrays& mesh, Parallel* workers);
 
 }  // namespace tessera

@@ -15,6 +15,8 @@
 
 namespace tessera {
 
+class Parallel;
+
 /// Camera, lights and light model as they were when a draw was recorded.
 struct Surroundings {
   Camera camera;
@@ -48,6 +50,7 @@ struct RecordedAccum {
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
+  Parallel* workers = nullptr;           ///< of a renderer that helps to record, if there is one
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::vector<RecordedAccum> accums;

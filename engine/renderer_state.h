@@ -54,7 +54,6 @@ struct RendererState {
   /// Makes `ranges` of as many as `count(draw)` of each draw.
   template <class Count>
   void cut_draws(const Count& count, std::size_t each);
-  void check_indices(FrameWatch& watch);
   void process_geometry(FrameWatch& watch);
   void prepare_workspaces(const TileMemory& memory);
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.

@@ -212,14 +212,18 @@ int render(RenderRequest request) {
     input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
     const Scene& scene = input.scene();
     FrameBuffer buffer(scene.framebuffer);
-    Frame frame(buffer);
+    Frame frame(buffer, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
     const bool indexed = is_indexed_png(buffer.format(), path);
-    for (int r = 0; r < request.repeat; ++r, ++done_renders) {
+    if (request.explain && f == 0) {
       record(scene, frame);
-      if (request.explain && f == 0 && r == 0) print_explanations(scene, frame);
-      keep(!request.planes_folder.empty(), indexed, frame);
+      print_explanations(scene, frame);
+      frame.reset();
+    }
+    for (int r = 0; r < request.repeat; ++r, ++done_renders) {
       const auto render_start = std::chrono::steady_clock::now();
+      record(scene, frame);
+      keep(!request.planes_folder.empty(), indexed, frame);
       run.frame = renderer.finish(frame, picture.target());
       run.render_ms.push_back(milliseconds_since(render_start));
     }

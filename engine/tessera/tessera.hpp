@@ -18,8 +18,8 @@
 // Threads. Distinct objects may be used on distinct threads at the same time; one object by one thread at a time. There is
 // no global state. The same frame gives the same bits for any number of threads, tile size and instruction set.
 //
-// Lifetimes. Meshes, textures, bitmaps and images are borrowed: what a draw points to has to stay as it is until Renderer::finish returns;
-// indices are looked at there, by all threads. An object that was moved from may be assigned to or destroyed, and nothing else.
+// Lifetimes. Meshes, textures, bitmaps and images are borrowed: what a draw points to has to stay as it is until Renderer::finish returns.
+// An object that was moved from may be assigned to or destroyed, and nothing else.
 #pragma once
 
 #if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
@@ -570,10 +570,16 @@ struct FrameStats {
   double plan_seconds = 0, vertex_seconds = 0, binning_seconds = 0, tile_seconds = 0;  ///< of each stage; tiles with scan-out and store
 };
 
-/// Records what happens in a frame, in order. Nothing runs until Renderer::finish. The frame buffer must outlive it.
+class Renderer;
+
+/// Records what happens in a frame, in order. Nothing is rendered until Renderer::finish. The frame buffer must outlive it.
 class TESSERA_API Frame {
  public:
   explicit Frame(FrameBuffer& target);
+  /// One whose draws of large meshes go faster: the helper's workers look through the indices, of which the caller alone checks about
+  /// 5 10^9 a second. The helper must outlive the frame, too, and must not finish a frame on another thread meanwhile; any renderer
+  /// may finish this one.
+  Frame(FrameBuffer& target, Renderer& helper);
   ~Frame();
   Frame(Frame&&) noexcept;
   Frame& operator=(Frame&&) noexcept;
@@ -588,8 +594,8 @@ class TESSERA_API Frame {
   void clear(const Clear& clear);
   /// Throws Error without an accumulation buffer and for values out of range.
   void accumulate(const Accum& accum);
-  /// Throws Error for spans that do not fit together, values out of range, a texture that was moved from, and a shadow
-  /// that there is none of.
+  /// Throws Error for spans that do not fit together, values and indices out of range, a texture that was moved from, and a shadow
+  /// that there is none of; what was recorded stays.
   void draw(const Mesh& mesh, const DrawState& state = {});
   /// Throw Error without bits or pixels and for sizes and values out of range. They know no camera and no viewport; what reaches beyond the
   /// buffer is left out.
@@ -628,17 +634,17 @@ class TESSERA_API Executor {
   virtual int workers() const noexcept = 0;
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
   /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
-  /// of finish().
+  /// of finish(), or of the draw that the renderer helps with.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
-/// Everything on the thread that calls finish().
+/// Everything on the thread that calls.
 TESSERA_API std::shared_ptr<Executor> serial_executor();
 
 enum class LogLevel : std::uint8_t { debug, info, warning };
 
 /// What the work of a frame consists of, in this order; frames with little RendererOptions::bin_memory go back from tiles to binning. Each waits for all of the one before.
 enum class FrameStage : std::uint8_t {
-  vertices,  ///< indices, and what they make; positions and colours
+  vertices,  ///< what indices make; positions and colours
   faces,     ///< colours of whole triangles
   binning,   ///< triangles, in batches, into the lists of the tiles that they may touch
   tiles      ///< pixels
@@ -689,8 +695,7 @@ class TESSERA_API Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Runs the frame. It is empty afterwards and may be recorded anew; camera, lights and light model stay. If this throws, the
-  /// frame is still recorded: it may be finished again, or reset. Throws Error for indices out of bounds, too, of draws that can change
-  /// something, before anything changes.
+  /// frame is still recorded: it may be finished again, or reset.
   FrameStats finish(Frame& frame);
   /// Runs the frame and scans the colour buffer out into the caller's memory, straight from the tiles.
   FrameStats finish(Frame& frame, const ImageTarget& target);
@@ -698,6 +703,7 @@ class TESSERA_API Renderer {
   const RendererOptions& options() const noexcept;  ///< with the threads and the instruction set that were chosen
 
  private:
+  friend class Frame;
   std::unique_ptr<RendererState> state_;
 };
 

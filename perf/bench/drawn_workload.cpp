@@ -17,7 +17,7 @@ RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
 class Easel {
  public:
   Easel(const Drawing& drawing, const RendererOptions& options)
-      : drawing_(drawing), renderer_(options_for(drawing, options)), buffer_(drawing.format), frame_(buffer_), picture_(drawing.format.width, drawing.format.height) {
+      : drawing_(drawing), renderer_(options_for(drawing, options)), buffer_(drawing.format), frame_(buffer_, renderer_), picture_(drawing.format.width, drawing.format.height) {
     if (!drawing.before) return;
     drawing.before(drawing, frame_);
     renderer_.finish(frame_);

@@ -58,7 +58,7 @@ CoreModel measure_core_model(int threads) {
 CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
   CoreSeconds seconds{.alone = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking};
   const double taking = frame.seconds_taking / std::max<double>(1, static_cast<double>(frame.tasks.size()));
-  double passes = 0;
+  double passes = frame.calls_without_tasks * model.barrier_seconds;
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
     const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.pass != first->pass; });
     passes += scheduled({first, last}, taking, cores) + model.barrier_seconds;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -48,14 +49,22 @@ class OneByOne : public Executor {
     const Clock::time_point start = Clock::now();
     for (int k = 0; k < count; ++k) work(context, k);
     seconds_ += seconds_since(start);
+    ++calls_;
   }
   /// In which workers ran, since it was asked last.
   double take_seconds() { return std::exchange(seconds_, 0); }
+  int take_calls() { return std::exchange(calls_, 0); }
 
  private:
-  int workers_;
+  int workers_, calls_ = 0;
   double seconds_ = 0;
 };
+
+int passes_of(std::span<const FrameTask> tasks) {
+  std::set<int> passes;
+  for (const FrameTask& task : tasks) passes.insert(task.pass);
+  return static_cast<int>(passes.size());
+}
 
 /// @param workers  null, or the executor of `setup`
 std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup, OneByOne* workers = nullptr) {
@@ -65,11 +74,14 @@ std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSet
   const std::unique_ptr<Workload> workload = entry.make(traced);
   std::vector<TracedFrame> frames;
   for (int i = 0; i < kWarmUps + kFrames; ++i) {
-    if (workers != nullptr) workers->take_seconds();
+    if (workers != nullptr) workers->take_seconds(), workers->take_calls();
     const Clock::time_point start = Clock::now();
     const FrameStats stats = workload->draw();
     TracedFrame frame{.workload = entry.name, .seconds = seconds_since(start), .tasks = tasks, .work = workload->work(stats)};
-    if (workers != nullptr) frame.seconds_taking = workers->take_seconds() - frame.seconds_in_tasks();
+    if (workers != nullptr) {
+      frame.seconds_taking = workers->take_seconds() - frame.seconds_in_tasks();
+      frame.calls_without_tasks = workers->take_calls() - passes_of(frame.tasks);
+    }
     if (i >= kWarmUps) frames.push_back(std::move(frame));
   }
   return frames;

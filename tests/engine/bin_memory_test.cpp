@@ -138,6 +138,21 @@ TEST(BinMemory, IsAQuarterOfAGigabyteUnlessSaidOtherwise) {
   EXPECT_EQ(Renderer({.threads = 1}).options().bin_memory, std::size_t{256} << 20);
 }
 
+// What the bins were found to take is forgotten where it was too much.
+TEST(BinMemory, FramesAfterOneInPartsAreWholeIfTheyFit) {
+  const FullTile large({.width = 60, .height = 50});
+  const MeshData small = rectangle(-1, -1, 1, 1);
+  Renderer renderer(in_parts({.threads = 1, .tile_size = 32}));
+  FrameBuffer buffer(large.format);
+  Frame frame(buffer);
+  for (int round = 0; round < 3; ++round) {
+    large.record(frame);
+    EXPECT_GT(renderer.finish(frame).bin_passes, 1u);
+    frame.draw(small.view(), unlit({1, 0, 0, 1}));
+    EXPECT_EQ(renderer.finish(frame).bin_passes, 1u);
+  }
+}
+
 TEST(BinMemory, ALimitThatIsTooSmallIsAnError) {
   EXPECT_THAT(error_of([] { Renderer renderer({.bin_memory = 1000}); }).value_or(""), testing::AllOf(testing::HasSubstr("bin_memory is 1000"), testing::HasSubstr("65536")));
 }

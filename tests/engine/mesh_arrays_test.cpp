@@ -2,9 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <stdexcept>
 
+#include "engine/parallel.h"
 #include "tests/engine/api_support.h"
 
 namespace tessera {
@@ -135,41 +139,72 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
   }
 }
 
-// Many tasks look at them; the first wrong one of the first draw that has any is named, and nothing is lost.
+// Few are looked through by the caller, many by all that help; the first wrong one is named, and what was recorded before stays.
 TEST(MeshIndices, AreNamedWhereOutOfBounds) {
   const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
-  const auto indices = [](auto first, std::size_t wrong_at, auto wrong) {
+  const auto indices = [](auto first, std::size_t count, std::size_t wrong_at, auto wrong) {
     std::vector<decltype(first)> all;
-    for (std::size_t i = 0; i < 60'000; ++i) all.push_back(static_cast<decltype(first)>(i % 3));
+    for (std::size_t i = 0; i < count; ++i) all.push_back(static_cast<decltype(first)>(i % 3));
     if (wrong_at < all.size()) all[wrong_at] = wrong, all.back() = wrong;
     return all;
   };
-  const auto good = indices(std::uint32_t{}, 60'000, std::uint32_t{});
-  const auto last = indices(std::uint32_t{}, 59'999, std::uint32_t{3}), middle = indices(std::uint32_t{}, 30'000, 0xffff'ffffu);
-  const auto first = indices(std::uint16_t{}, 0, std::uint16_t{0xffff});
+  const auto good = indices(std::uint32_t{}, 90'000, 90'000, std::uint32_t{});
+  const auto last = indices(std::uint32_t{}, 90'000, 89'999, std::uint32_t{3}), middle = indices(std::uint32_t{}, 90'000, 50'000, 0xffff'ffffu);
+  const auto first = indices(std::uint16_t{}, 90'000, 0, std::uint16_t{0xffff}), few = indices(std::uint16_t{}, 300, 155, std::uint16_t{4});
   const struct {
-    std::vector<IndexArray> draws;
+    IndexArray indices;
     const char* says;
   } rows[] = {
-      {{good, last}, "index 59999 of the mesh of draw 1 is 3, must be below the number of vertices, 3"},
-      {{middle, good, last}, "index 30000 of the mesh of draw 0 is 4294967295, must be below"},
-      {{good, first, middle}, "index 0 of the mesh of draw 1 is 65535, must be below"},
+      {last, "Frame::draw: index 89999 of the mesh is 3, must be below the number of vertices, 3"},
+      {middle, "Frame::draw: index 50000 of the mesh is 4294967295, must be below"},
+      {first, "Frame::draw: index 0 of the mesh is 65535, must be below"},
+      {few, "Frame::draw: index 155 of the mesh is 4, must be below"},
   };
+  ThreadLimit limit(3);
   for (const auto& row : rows)
-    for (const int threads : {1, 3}) {
+    for (const int helpers : {0, 1, 3}) {
+      SCOPED_TRACE(row.says + std::string(", threads that help: ") + std::to_string(helpers));
       FrameBuffer buffer(kFormat);
-      const Fingerprint before = fingerprint(buffer);
-      Renderer renderer({.threads = threads});
-      Frame frame(buffer);
-      frame.clear({.color = Color{1, 1, 1, 1}});
-      for (const IndexArray& array : row.draws) frame.draw({.positions = triangle, .indices = array});
-      EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or("(none)"), testing::HasSubstr(row.says));
-      EXPECT_EQ(fingerprint(buffer), before);
-      EXPECT_EQ(frame.draw_count(), row.draws.size());
-      frame.reset();
-      frame.draw({.positions = triangle, .indices = good});
-      EXPECT_FALSE(error_of([&] { renderer.finish(frame); }));
+      Renderer renderer({.threads = std::max(1, helpers)});
+      Frame frame = helpers == 0 ? Frame(buffer) : Frame(buffer, renderer);
+      frame.draw({.positions = triangle, .indices = good}, {.lighting = false});
+      EXPECT_THAT(error_of([&] { frame.draw({.positions = triangle, .indices = row.indices}); }).value_or("(none)"), testing::StartsWith(row.says));
+      EXPECT_EQ(frame.draw_count(), 1u);
+      EXPECT_EQ(renderer.finish(frame).triangles_in, 30'000u);
     }
+}
+
+/// Says how often it was asked, and for how many workers at most.
+struct AskedExecutor : Executor {
+  int asked = 0, most = 0;
+  bool fails = false;
+  int workers() const noexcept override { return 3; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    if (fails) throw std::runtime_error("no workers today");
+    ++asked;
+    most = std::max(most, count);
+    for (int k = 0; k < count; ++k) work(context, k);
+  }
+};
+
+TEST(MeshIndices, AreLookedThroughByARenderersWorkersWhereManyAndTold) {
+  const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  const std::vector<std::uint32_t> many(90'000, 1), few(300, 1);
+  const auto executor = std::make_shared<AskedExecutor>();
+  Renderer renderer({.executor = executor});
+  FrameBuffer buffer(kFormat);
+  Frame alone(buffer), helped(buffer, renderer);
+  alone.draw({.positions = triangle, .indices = many});
+  helped.draw({.positions = triangle, .indices = few});
+  EXPECT_EQ(executor->asked, 0);
+  Renderer moved(std::move(renderer));
+  EXPECT_THAT(error_of([&] { Frame frame(buffer, renderer); }).value_or("(none)"), testing::HasSubstr("the renderer was moved from"));
+  helped.draw({.positions = triangle, .indices = many});
+  EXPECT_EQ(executor->asked, 1);
+  EXPECT_EQ(executor->most, 3);
+  executor->fails = true;
+  EXPECT_THROW(helped.draw({.positions = triangle, .indices = many}), std::runtime_error);
+  EXPECT_EQ(helped.draw_count(), 2u);
 }
 
 }  // namespace

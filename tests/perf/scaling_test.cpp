@@ -73,11 +73,13 @@ TEST(BenchScaling, CoresTakeTheirOwnTasks) {
 
 // Whatever stage they are of: one may have several.
 TEST(BenchScaling, PassesWaitForEachOther) {
-  const TracedFrame frame = frame_of({{0, 2}, {0, 1}, {1, 1}, {3, 1}, {3, 4}}, 0);
+  TracedFrame frame = frame_of({{0, 2}, {0, 1}, {1, 1}, {3, 1}, {3, 4}}, 0);
   EXPECT_DOUBLE_EQ(seconds_on(frame, 2, kFastMemory).sum(), 2 + 1 + 4);
   CoreModel slow_to_begin = kFastMemory;
   slow_to_begin.barrier_seconds = 0.25;
   EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin).sum(), 2 + 1 + 4 + 3 * 0.25);
+  frame.calls_without_tasks = 2;
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin).sum(), 2 + 1 + 4 + 5 * 0.25) << "workers wait there, too";
 }
 
 TEST(BenchScaling, SecondsGoToWorkWaitsOneCoreAndMemory) {

@@ -25,23 +25,32 @@ TracedFrame three_tiles() {
 
 TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().seconds_in_tasks(), 1e-4 + 28e-9, 1e-15); }
 
-// What one worker does between its tasks is neither theirs nor the frame's own.
-TEST(TracedFrame, MeasuresTasksTheirTakingAndTheRestApart) {
-  const WorkloadEntry grid = drawn("grid", "", [](int, int, std::uint32_t) {
+WorkloadEntry grid_of(int columns) {
+  return drawn("grid", "", [columns](int, int, std::uint32_t) {
     Drawing drawing{.format = {.width = 256, .height = 256}};
-    drawing.meshes.push_back(window_grid(64, 64));
+    drawing.meshes.push_back(window_grid(columns, 64));
     drawing.record = [](const Drawing& d, Frame& frame) {
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
       frame.draw(d.meshes.front().view(), {.lighting = false});
     };
     return drawing;
   });
+}
+
+// What one worker does between its tasks is neither theirs nor the frame's own.
+TEST(TracedFrame, MeasuresTasksTheirTakingAndTheRestApart) {
+  const WorkloadEntry grid = grid_of(64);
   for (const int workers : {1, 2, 64}) {
     const TracedFrame frame = cost_of_frame(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
     EXPECT_GT(frame.tasks.size(), 64u) << workers;
     EXPECT_GT(frame.seconds_taking, 0) << workers;
     EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
   }
+}
+
+TEST(TracedFrame, CountsCallsForWorkersThatNoTaskTellsOf) {
+  EXPECT_EQ(cost_of_frame(grid_of(64), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 0);
+  EXPECT_EQ(cost_of_frame(grid_of(256), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 1) << "so many indices that recording asks for help";
 }
 
 TEST(TracedFrame, IsAChromeTrace) {
