@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// Vertices, elements or indices [first, last) of a draw.
+/// Vertices or elements [first, last) of a draw.
 struct DrawRange {
   std::size_t draw, first, last;
 };

@@ -8,6 +8,7 @@
 #include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/out_of_memory.h"
+#include "engine/parallel.h"
 #include "engine/planar_shadow.h"
 #include "engine/recording.h"
 #include "engine/renderer_state.h"

@@ -13,6 +13,8 @@
 namespace tessera {
 namespace {
 
+constexpr std::size_t kIndicesPerTask = 4096, kManyIndices = 65536;  // fewer than many are looked through before others could have begun
+
 [[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
 
 // Packed arrays have floats, or vertices as those with a stride do.
@@ -83,8 +85,6 @@ void add_indices(const IndexArray& array, MeshArrays& mesh) {
   else
     fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
 }
-
-constexpr std::size_t kIndicesPerTask = 4096, kManyIndices = 65536;  // fewer than many are looked through before others could have begun
 
 bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   const std::size_t count = last - first;
