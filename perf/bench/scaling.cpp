@@ -65,7 +65,7 @@ CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& mod
     first = last;
   }
   seconds.working = (frame.seconds_in_tasks() + frame.seconds_taking) / cores;
-  if (!frame.tasks.empty()) seconds.waiting = passes - seconds.working;
+  seconds.waiting = frame.tasks.empty() ? passes : passes - seconds.working;
   const double memory_rate = 1e9 * model.core_bytes * std::min(cores, model.most_cores_of_memory);
   seconds.memory = std::max(0.0, static_cast<double>(frame.work.bytes) / memory_rate - seconds.sum());
   return seconds;

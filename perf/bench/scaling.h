@@ -23,7 +23,7 @@ CoreModel measure_core_model(int threads);
 
 /// Seconds of a frame on several cores, by what these do.
 struct CoreSeconds {
-  double working = 0;  ///< at tasks, and at taking them; also where workers run that no task tells of, as if that went to all of them evenly
+  double working = 0;  ///< at tasks, and at taking them; also where workers run that no task tells of, spread over the tasks, or without any over the cores
   double waiting = 0;  ///< for the last task of a pass to end and the next pass to begin: no more could be won if passes ran into each other
   double alone = 0;    ///< one core does what is in no task
   double memory = 0;   ///< the memory moves what it could not meanwhile

@@ -12,7 +12,7 @@ struct TracedFrame {
   std::string workload;
   double seconds = 0;               ///< from its first command to its end; of costs their sum
   std::vector<FrameTask> tasks{};   ///< in the order in which they began
-  double seconds_taking = 0;        ///< between tasks of one call for workers, in which these took their next ones; where cost_of_tasks() measured it
+  double seconds_taking = 0;        ///< where workers run, but not at tasks: they take their next ones, or do what no task tells of; where cost_of_tasks() measured it
   int calls_without_tasks = 0;      ///< for workers, who run in them all the same; where cost_of_tasks() counted them
   FrameWork work{};
 

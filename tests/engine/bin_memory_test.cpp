@@ -115,7 +115,7 @@ long most_bytes(int count, RendererOptions options, int tile_size) {
 TEST(BinMemory, IsTheMostThatTheBinsTake) {
   ThreadLimit limit(4);
   constexpr int kLayers = 2500;
-  // What each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow the ends of its tiles' lists, 16 bytes each, and one
+  // What each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow the ends of its tiles' lists and their counts, 16 bytes a tile, and one
   // piece with its attributes.
   constexpr long kBatches = 2 * kLayers / 1024, kTiles = 20, kAllowance = kBatches * static_cast<long>(sizeof(Bins::Block) + 16 * kTiles + sizeof(Piece) + 64 * sizeof(float));
   for (const int threads : {1, 4})

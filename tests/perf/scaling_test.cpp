@@ -30,6 +30,8 @@ TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
   TracedFrame untold{.workload = "made up", .seconds = 3, .seconds_taking = 2};  // of workers without tasks
   EXPECT_DOUBLE_EQ(seconds_on(untold, 1, kFastMemory).sum(), 3);
   EXPECT_DOUBLE_EQ(seconds_on(untold, 4, kFastMemory).sum(), 1.5);
+  untold.calls_without_tasks = 3;
+  EXPECT_DOUBLE_EQ(seconds_on(untold, 4, {.core_bytes = 1e9, .barrier_seconds = 0.25}).sum(), 1.5 + 3 * 0.25);
 }
 
 TEST(BenchScaling, TasksGoInTheirOrderToWhoeverIsFree) {
@@ -93,6 +95,12 @@ TEST(BenchScaling, SecondsGoToWorkWaitsOneCoreAndMemory) {
   EXPECT_DOUBLE_EQ(seconds.memory, 0);
   frame.work.bytes = 40'000'000'000;
   EXPECT_DOUBLE_EQ(seconds_on(frame, 2, {.core_bytes = 1, .barrier_seconds = 0.25}).memory, 20 - seconds.sum());
+}
+
+TEST(BenchScaling, TellsWhatTheTimeOf64CoresGoesTo) {
+  const Scaling scaling{.workload = "made up", .one_ms = 1, .predicted = {{32, 20}, {64, 32}}, .of_64 = {.working = 1, .waiting = 2, .alone = 3, .memory = 4}};
+  EXPECT_TRUE(scaling_line(scaling).ends_with("    50 %     10 %     20 %     30 %     40 %\n")) << scaling_line(scaling);
+  EXPECT_EQ(scaling_json({scaling})[0]["ms_of_64"], (nlohmann::ordered_json{{"working", 1000.0}, {"waiting", 2000.0}, {"alone", 3000.0}, {"memory", 4000.0}}));
 }
 
 TEST(BenchScaling, MemoryGivesTheBytesNoFaster) {

@@ -45,6 +45,8 @@ TEST(TracedFrame, MeasuresTasksTheirTakingAndTheRestApart) {
     EXPECT_GT(frame.tasks.size(), 64u) << workers;
     EXPECT_GT(frame.seconds_taking, 0) << workers;
     EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
+    const TracedFrame tasks = cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
+    EXPECT_DOUBLE_EQ(tasks.seconds, tasks.seconds_taking + tasks.seconds_in_tasks()) << workers;
   }
 }
 
