@@ -139,14 +139,11 @@ HWY_INLINE void store_wide_strip(const std::uint32_t* words, std::uint32_t flip,
   for (int i = 0; i < kBytes; ++i) {
     const std::uint32_t planes = kWholeBytes != 0 ? 0xff : mask >> (8 * i) & 0xff;
     if (planes == 0) continue;
-    __m512i byte = bytes[i];
-    for (int k = 7; k >= 0; --k) {
+    for (int k = 0; k < 8; ++k)
       if ((planes >> k & 1) != 0) {
-        const __mmask64 bits = _mm512_movepi8_mask(byte);
+        const __mmask64 bits = _mm512_test_epi8_mask(bytes[i], _mm512_set1_epi8(static_cast<char>(1 << k)));
         std::memcpy(to.plane(8 * i + k), &bits, sizeof bits);
       }
-      byte = _mm512_add_epi8(byte, byte);
-    }
   }
 }
 #endif
