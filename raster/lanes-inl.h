@@ -22,6 +22,7 @@ using UintTag = hn::RebindToUnsigned<FloatTag>;
 using Float = hn::Vec<FloatTag>;
 using Int = hn::Vec<IntTag>;
 using Uint = hn::Vec<UintTag>;
+using LaneMask = hn::Mask<IntTag>;
 inline constexpr FloatTag kFloat{};
 inline constexpr IntTag kInt{};
 inline constexpr UintTag kUint{};
@@ -117,10 +118,14 @@ HWY_INLINE std::uint32_t mask_bits(Tag tag, Mask mask) {
 #endif
 }
 /// The lanes whose bit is set; bits above the lanes are ignored.
-HWY_INLINE auto mask_from_bits(std::uint32_t bits) {
+HWY_INLINE LaneMask mask_from_bits(std::uint32_t bits) {
+#if HWY_TARGET == HWY_AVX3
+  return LaneMask{static_cast<__mmask16>(bits)};
+#else
   alignas(16) static constexpr std::int32_t kBits[16] = {1,     1 << 1,  1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
                                                          1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
   return hn::TestBit(splat(static_cast<std::int32_t>(bits)), hn::LoadU(kInt, kBits));
+#endif
 }
 
 /// A bit for each of the first `count`, fewer than 32.
@@ -128,6 +133,15 @@ HWY_INLINE std::uint32_t of_first(int count) { return (1u << count) - 1; }
 
 /// The bits of one chunk's lanes, of a block's 16.
 HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) { return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); }
+
+#if HWY_TARGET == HWY_AVX3
+/// The lanes that hold what a lane before them holds. In assembly, because Highway's AVX3 does not name AVX512CD, which all processors have that have the rest.
+HWY_INLINE LaneMask repeated(Int v) {
+  __m512i earlier;  // a bit for each lane that is equal
+  asm("vpconflictd %1, %0" : "=v"(earlier) : "v"(v.raw));
+  return hn::Ne(Int{earlier}, hn::Zero(kInt));
+}
+#endif
 
 // Pixel p of a 4x4 block stands in column p % 4 and row p / 4.
 alignas(64) inline constexpr std::int32_t kBlockColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};

@@ -1,6 +1,6 @@
 // Shading once for each visible pixel: tiles collect which triangle is seen where; then the colours of whole batches of
-// pixels come about with full lanes. Within a block the loop runs over its distinct triangles, with masks: nothing is
-// gathered by pixel.
+// pixels come about with full lanes. Attributes come about piece by piece, which is what one block shows of one triangle, with
+// masks: nothing is gathered by pixel.
 #if defined(TESSERA_SHADING_DEFERRED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_DEFERRED_INL_H_
 #undef TESSERA_SHADING_DEFERRED_INL_H_
@@ -10,7 +10,7 @@
 
 #include <bit>
 
-#include "shading/texture_coordinates-inl.h"
+#include "shading/batch_surface-inl.h"
 #include "shading/texture_env-inl.h"
 #include "shading/texture_sampling-inl.h"
 #include "shading/tile_run-inl.h"
@@ -23,26 +23,15 @@ void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int
 
 inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
 
-/// What the points of a batch share: one draw, one face.
-struct BatchSurface {
-  std::uint32_t draw = 0xffffffffu;
-  bool back = false;
-  // Which attributes of its triangles' vertices go into which arrays of the batch.
-  int first_attribute = 0, attribute_count = 0;
-  float* target[kMaxAttributes];
-  bool adjacent = false;     // the arrays follow each other
-  bool keeps_range = false;  // of the triangles' vertices
-  const DrawTexture* texture = nullptr;  // or none
-  TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
-
-  HWY_INLINE bool is_of(const ShadedTriangle& triangle) const { return draw == triangle.draw && back == triangle.back; }
-};
-
-/// Pixels of blocks that share a surface.
+/// Pixels of blocks that share a surface. What is seen of one triangle in one block is a piece.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
   int index[kBatchBlocks];              // of each block's first pixel in tile memory
+  int bx[kBatchBlocks], by[kBatchBlocks];
   std::uint32_t covered[kBatchBlocks];  // 16 bits
+  alignas(64) std::int32_t ids[kBatchPoints];  // of the triangles seen at the blocks' pixels
+  int pieces = 0;                       // block by block; each has a pixel at least, so that there is room for a whole block's
+  std::int32_t triangle[kBatchPoints], slot[kBatchPoints];
 };
 
 /// Words of one chunk of pixels from interpolated colours that are scaled to levels already.
@@ -84,16 +73,14 @@ HWY_INLINE Int index_words(const ColorLayout& layout, Float interpolated) {
 }
 
 /// Lit points have normals of length 1 in the batch.
-inline HWY_NOINLINE void store_normals(TileRun& run, const PixelBatch& pixels) {
-  for (int slot = 0; slot < pixels.blocks; ++slot)
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-      const auto covered = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(pixels.covered[slot], chunk)));
-      for (int c = 0; c < 3; ++c) {
-        float* const to = run.memory.normals->component[c] + pixels.index[slot] + chunk * kLanes;
-        const Float normal = hn::Load(kFloat, run.memory.batch.field[kNormalX + c] + slot * kBlockPixels + chunk * kLanes);
-        hn::Store(hn::IfThenElse(covered, normal, hn::Load(kFloat, to)), kFloat, to);
-      }
-    }
+/// @param index  of the block's first pixel in tile memory
+/// @param first  its point in the batch
+inline HWY_NOINLINE void store_normals(TileRun& run, int index, std::uint32_t covered, int first) {
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
+    for (int c = 0; c < 3; ++c)
+      store_where(mask, hn::Load(kFloat, run.memory.batch.field[kNormalX + c] + first + chunk * kLanes), kFloat, run.memory.normals->component[c] + index + chunk * kLanes);
+  }
 }
 
 /// The colours of a draw that has one, for a texture to work on.
@@ -122,13 +109,86 @@ inline HWY_NOINLINE void texture_points(const DrawTexture& texture, ShadingBatch
   }
 }
 
+/// The pixels of a block whose triangles' numbers compare so.
+template <class Compare>
+HWY_INLINE std::uint32_t pixels_where(const std::int32_t* ids, Compare compare) {
+  std::uint32_t bits = 0;
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) bits |= mask_bits(kInt, compare(hn::Load(kInt, ids + chunk * kLanes))) << (chunk * kLanes);
+  return bits;
+}
+HWY_INLINE std::uint32_t pixels_of(const std::int32_t* ids, std::int32_t id) {
+  const Int wanted = splat(id);
+  return pixels_where(ids, [wanted](Int at) HWY_ATTR { return hn::Eq(at, wanted); });
+}
+
+/// Gathers the pixels of one triangle in the block of a slot.
+template <int kCount>
+HWY_INLINE void gather_seen(const TileRun& run, PixelBatch& pixels, int slot, const ShadedTriangle& triangle, const TriangleCorners& corners, std::uint32_t covered) {
+  static_assert(kCount <= TriangleCorners::kMost);
+  const int bx = pixels.bx[slot], by = pixels.by[slot], first = slot * kBlockPixels;
+  if constexpr (kCount > 0) gather_piece<kCount>(run, pixels, triangle, corners, bx, by, covered, first);
+  else gather_piece<0>(run, pixels, triangle, CornerArrays(triangle, pixels.first_attribute, pixels.attribute_count), bx, by, covered, first);
+}
+
+#if HWY_TARGET == HWY_AVX3
+// The first pixels of a block's triangles are found side by side, and all that the batch shows of one triangle in one block is gathered afterwards, one after
+// the other: what cannot be foretold, how many triangles a block has, does not hold up the long sums.
+
+template <int kCount>
+HWY_NOINLINE void gather_pieces(const TileRun& run, PixelBatch& pixels) {
+  for (int i = 0; i < pixels.pieces; ++i) {
+    const int slot = pixels.slot[i];
+    const std::int32_t id = pixels.triangle[i];
+    gather_seen<kCount>(run, pixels, slot, run.memory.triangles[static_cast<std::size_t>(id)], run.memory.corners[id], pixels_of(pixels.ids + slot * kBlockPixels, id));
+  }
+  pixels.pieces = 0;
+}
+HWY_INLINE void gather_found(const TileRun& run, PixelBatch& pixels) {
+  with_known_count(pixels, [&](auto count) HWY_ATTR { gather_pieces<count.value>(run, pixels); });
+}
+
+/// Takes the pixels of the batch's surface into its next slot. Returns which they are.
+/// @param ids      of the block's pixels
+/// @param waiting  pixels whose triangles have not been taken
+HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting, bool one_surface) {
+  const Int at = hn::Load(kInt, ids);
+  std::uint32_t covered = waiting;
+  if (!one_surface) covered &= mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, run.memory.surfaces, hn::Max(at, hn::Zero(kInt))), splat(pixels.number())));
+  const std::uint32_t first = covered & ~mask_bits(kInt, repeated(at));
+  hn::StoreU(hn::Compress(at, mask_from_bits(first)), kInt, pixels.triangle + pixels.pieces);
+  hn::StoreU(splat(pixels.blocks), kInt, pixels.slot + pixels.pieces);
+  hn::Store(at, kInt, pixels.ids + pixels.blocks * kBlockPixels);
+  pixels.pieces += std::popcount(first);
+  return covered;
+}
+#else
+HWY_INLINE void gather_found(const TileRun&, PixelBatch&) {}
+
+HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting, bool) {
+  std::uint32_t taken = 0;
+  for (std::uint32_t left = waiting; left != 0;) {
+    const std::int32_t id = ids[std::countr_zero(left)];
+    const std::uint32_t covered = pixels_of(ids, id);
+    left &= ~covered;
+    const ShadedTriangle& triangle = run.memory.triangles[static_cast<std::size_t>(id)];
+    if (!pixels.is_of(triangle)) continue;
+    with_known_count(pixels, [&](auto count) HWY_ATTR { gather_seen<count.value>(run, pixels, pixels.blocks, triangle, run.memory.corners[id], covered); });
+    taken |= covered;
+  }
+  return taken;
+}
+#endif
+
+/// Shades the batch, and empties it.
 inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   if (pixels.blocks == 0) return;
+  gather_found(run, pixels);
   const TileDraw& draw = run.frame.draws[pixels.draw];
   ShadingBatch& batch = run.memory.batch;
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
-  if (draw.captures_normals) store_normals(run, pixels);
+  if (draw.captures_normals)
+    for (int slot = 0; slot < pixels.blocks; ++slot) store_normals(run, pixels.index[slot], pixels.covered[slot], slot * kBlockPixels);
   // Pixels of a line may lie beyond its ends.
   if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated && !draw.index[pixels.back ? 1 : 0]) clamp_colors(batch, pixels.blocks * kBlockPixels);
   if (pixels.texture != nullptr) {
@@ -150,132 +210,48 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   pixels.blocks = 0;
 }
 
-/// The texture of a draw's faces: where indices are drawn, none has a say.
-HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) { return draw.index[back ? 1 : 0] ? nullptr : draw.texture; }
-
-/// Whether a draw's attributes stay within those of a triangle's vertices: where pixels' centres may be outside; and colours, unless they keep away from the
-/// borders of levels already (scaled_colors). What lies beyond a line's end is as equation 3.6 has it.
-HWY_INLINE bool attributes_keep_range(const TileRun& run, const TileDraw& draw) {
-  return draw.topology != Topology::lines && (run.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
-}
-
-/// Makes the batch one of another surface. @pre it is empty
-HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
-  const TileDraw& draw = run.frame.draws[triangle.draw];
-  const bool per_pixel = draw.source == ColorSource::per_pixel, back = triangle.back;
-  surface.draw = triangle.draw;
-  surface.back = back;
-  surface.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
-  surface.attribute_count = per_pixel ? draw.attribute_count : draw.source == ColorSource::constant ? 0 : draw.index[back ? 1 : 0] ? 1 : 3;
-  surface.adjacent = true;
-  for (int j = 0; j < surface.attribute_count; ++j) {
-    surface.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
-    surface.adjacent &= surface.target[j] == surface.target[0] + j * kBatchPoints;
-  }
-  surface.keeps_range = attributes_keep_range(run, draw);
-  surface.texture = texture_of(draw, back);
-  surface.coordinates.triangle = nullptr;
-}
-
-/// Of a texture with levels: what its coordinates in a triangle are made of.
-HWY_INLINE const TextureCoordinates& coordinates_in(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
-  if (surface.coordinates.triangle != &triangle) surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture, run.frame.draws[surface.draw].topology == Topology::lines, run.samples);
-  return surface.coordinates;
-}
-HWY_INLINE bool has_coordinates(const BatchSurface& surface) { return surface.texture != nullptr && surface.texture->levels != nullptr; }
-
-HWY_INLINE Barycentric barycentric_of(const TileRun& run, const NarrowEdges& edges, int bx, int by, int chunk) {
-  const ShadedTriangle& t = edges.triangle;
-  return t.wide < 0 ? edges.barycentric(chunk) : barycentric_wide(t, run.memory.wide[static_cast<std::size_t>(t.wide)], bx, by, chunk);
-}
-
-/// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
-inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, const Barycentric& at, LaneMask mask, int point) {
-  const auto lanes = hn::RebindMask(kFloat, mask);
-  coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR {
-    float* const to = run.memory.batch.field[field] + point;
-    hn::Store(hn::IfThenElse(lanes, value, hn::Load(kFloat, to)), kFloat, to);
-  });
-}
-
-/// Adds the pixels of one triangle in one block to the batch's next slot; `taken`: those that triangles before it have there. Lanes
-/// that no triangle fills hold anything. kCount: attributes in adjacent arrays that need not be kept within a range, where known; else 0, and there may be
-/// texture coordinates.
-template <int kCount>
-HWY_INLINE void gather_counted(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
-  const int count = kCount > 0 ? kCount : pixels.attribute_count;
-  const CornerArrays values(triangle, pixels.first_attribute, count);
-  const auto value_of = [&](const Barycentric& at, int j) HWY_ATTR {
-    return kCount == 0 && pixels.keeps_range ? interpolate_within(at, corners(triangle, pixels.first_attribute + j, true)) : interpolate(at, values[j]);
-  };
-  const NarrowEdges edges(triangle, bx, by);
-  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-    if (chunk_bits(covered, chunk) == 0) continue;
-    const Barycentric at = barycentric_of(run, edges, bx, by, chunk);
-    const int point = pixels.blocks * kBlockPixels + chunk * kLanes;
-    const auto target = [&](int j) { return (kCount > 0 ? pixels.target[0] + j * kBatchPoints : pixels.target[j]) + point; };
-    if (chunk_bits(taken, chunk) == 0) {  // the first triangle of a chunk may fill all of it
-      for (int j = 0; j < count; ++j) hn::Store(value_of(at, j), kFloat, target(j));
-    } else {
-      const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
-      const auto store = [&](Float value, float* to) HWY_ATTR { hn::Store(hn::IfThenElse(mask, value, hn::Load(kFloat, to)), kFloat, to); };
-      for (int j = 0; j < count; ++j) store(value_of(at, j), target(j));
+/// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one surface.
+HWY_INLINE bool prepare_triangles(TileRun& run) {
+  TileWorkspace::Memory& memory = run.memory;
+  BatchSurface surface;
+  int changes = 0;
+  for (std::size_t i = 0; i < memory.triangles.size(); ++i) {
+    const ShadedTriangle& triangle = memory.triangles[i];
+    if (!surface.is_of(triangle)) {
+      begin_surface(run, surface, triangle);
+      ++changes;
     }
-    if (kCount == 0 && has_coordinates(pixels))
-      gather_coordinates(run, pixels, triangle, at, chunk_bits(taken, chunk) == 0 ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : mask_from_bits(chunk_bits(covered, chunk)), point);
+    memory.surfaces[i] = surface.number();
+    if (known_count(surface) > 0) keep_corners(triangle, surface.first_attribute, memory.corners[i]);
   }
-}
-HWY_INLINE void gather_attributes(const TileRun& run, PixelBatch& pixels, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, std::uint32_t taken) {
-  switch (pixels.adjacent && !pixels.keeps_range && !has_coordinates(pixels) ? pixels.attribute_count : 0) {
-    case 1: return gather_counted<1>(run, pixels, triangle, bx, by, covered, taken);
-    case 3: return gather_counted<3>(run, pixels, triangle, bx, by, covered, taken);
-    case 6: return gather_counted<6>(run, pixels, triangle, bx, by, covered, taken);
-    default: return gather_counted<0>(run, pixels, triangle, bx, by, covered, taken);
-  }
-}
-
-/// The pixels of a block whose triangles' numbers compare so.
-template <class Compare>
-HWY_INLINE std::uint32_t pixels_where(const std::uint32_t* ids, Compare compare) {
-  std::uint32_t bits = 0;
-  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-    bits |= mask_bits(kInt, compare(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(ids) + chunk * kLanes))) << (chunk * kLanes);
-  return bits;
+  return changes == 1;
 }
 
 /// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and forgets it.
 inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, int y1) {
   TileWorkspace::Memory& memory = run.memory;
+  const bool one_surface = prepare_triangles(run);
   PixelBatch pixels;
   for (int by = y0 & ~3; by <= y1; by += 4) {
     for (int bx = x0 & ~3; bx <= x1; bx += 4) {
       const int index = run.block_index(bx, by);
-      std::uint32_t* ids = memory.ids + index;
+      auto* const ids = reinterpret_cast<std::int32_t*>(memory.ids) + index;
       std::uint32_t waiting = pixels_where(ids, [](Int at) HWY_ATTR { return hn::Gt(at, splat(-1)); });
       if (waiting == 0) continue;
       while (waiting != 0) {
         // All pixels of the block that belong to the surface of the first one still waiting.
-        const ShadedTriangle& leader = memory.triangles[ids[std::countr_zero(waiting)]];
+        const ShadedTriangle& leader = memory.triangles[static_cast<std::size_t>(ids[std::countr_zero(waiting)])];
         const bool other_surface = !pixels.is_of(leader);
         if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(run, pixels);
         if (other_surface) begin_surface(run, pixels, leader);
-        std::uint32_t left = waiting, taken = 0;
-        while (left != 0) {
-          const std::uint32_t id = ids[std::countr_zero(left)];
-          const ShadedTriangle& triangle = memory.triangles[id];
-          const Int wanted = splat(static_cast<std::int32_t>(id));
-          const std::uint32_t same = pixels_where(ids, [wanted](Int at) HWY_ATTR { return hn::Eq(at, wanted); });
-          left &= ~same;
-          if (!pixels.is_of(triangle)) continue;
-          gather_attributes(run, pixels, triangle, bx, by, same, taken);
-          taken |= same;
-        }
-        waiting &= ~taken;
         pixels.index[pixels.blocks] = index;
-        pixels.covered[pixels.blocks] = taken;
-        ++pixels.blocks;
+        pixels.bx[pixels.blocks] = bx;
+        pixels.by[pixels.blocks] = by;
+        const std::uint32_t taken = take_triangles(run, pixels, ids, waiting, one_surface);
+        waiting &= ~taken;
+        pixels.covered[pixels.blocks++] = taken;
       }
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(splat(-1), kInt, reinterpret_cast<std::int32_t*>(ids) + chunk * kLanes);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(splat(-1), kInt, ids + chunk * kLanes);
     }
   }
   shade_batch(run, pixels);

@@ -84,18 +84,17 @@ inline HWY_NOINLINE void add_coordinates(const TileRun& run, SampledBatch& point
   coordinates_in(run, points, triangle).at(at, [&](int field, Float value) HWY_ATTR { hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, run.memory.batch.field[field] + points.count); });
 }
 
-/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: as in gather_counted.
+/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: as in gather_piece().
 template <int kCount>
 HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, int index, const SampleBits& seen) {
   const int count = kCount > 0 ? kCount : points.attribute_count;
   const CornerArrays values(triangle, points.first_attribute, count);
-  const NarrowEdges edges(triangle, bx, by);
   const std::uint32_t covered = at_any_sample(seen);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = chunk_bits(covered, chunk);
     if (bits == 0) continue;
     if (points.count > kBatchPoints - kLanes) shade_sampled_batch(run, points);  // whole vectors are stored
-    const Barycentric at = barycentric_of(run, edges, bx, by, chunk);
+    const Barycentric at = barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
     const auto packing = packing_of(kFloat, bits);
     for (int j = 0; j < count; ++j) {
       float* const target = kCount > 0 ? points.target[0] + j * kBatchPoints : points.target[j];
@@ -123,7 +122,7 @@ inline HWY_NOINLINE void add_points(TileRun& run, SampledBatch& points, const Sh
 template <int kSamples, class Compare>
 HWY_INLINE SampleBits samples_where(const TileRun& run, int index, Compare compare) {
   SampleBits bits;
-  for (int s = 0; s < kSamples; ++s) bits.word[s / 4] |= std::uint64_t{pixels_where(run.sample[s].ids + index, compare)} << (16 * (s % 4));
+  for (int s = 0; s < kSamples; ++s) bits.word[s / 4] |= std::uint64_t{pixels_where(reinterpret_cast<const std::int32_t*>(run.sample[s].ids) + index, compare)} << (16 * (s % 4));
   return bits;
 }
 

@@ -15,8 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-using LaneMask = hn::Mask<IntTag>;
-
 HWY_INLINE LaneMask no_lanes() { return hn::Gt(hn::Zero(kInt), hn::Zero(kInt)); }
 
 template <class Vector>

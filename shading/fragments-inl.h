@@ -37,7 +37,7 @@ struct FragmentTriangle {
   std::uint32_t word = 0;
   const float* flat = nullptr;    // r g b a, or an index
   const float* colors_given = nullptr;  // of a block's pixels, in place of the triangle's: r of all of them, then g, b and a
-  PixelBatch pixels;              // of this surface, for lighting
+  BatchSurface surface;           // for lighting
   bool seen = false;
   const DrawTexture* texture = nullptr;  // or none
   TextureCoordinates coordinates{};      // of a texture with levels
@@ -62,6 +62,13 @@ struct FragmentTriangle {
   }
   HWY_INLINE bool tests_texels() const { return ops.alpha_test && texture != nullptr && texture->changes_alpha(); }
 
+  /// Attributes of the block's pixels into the batch.
+  HWY_INLINE void gather_block(int bx, int by, std::uint32_t bits) {
+    with_known_count(surface, [&](auto count) HWY_ATTR {
+      const CornerArrays values(triangle, surface.first_attribute, count.value > 0 ? count.value : surface.attribute_count);
+      gather_piece<count.value>(run, surface, triangle, values, bx, by, bits, 0);
+    });
+  }
   /// Texels of the block's pixels into the batch.
   HWY_NOINLINE void sample_block(int bx, int by, std::uint32_t bits) {
     if (texture->levels == nullptr) return;
@@ -191,15 +198,9 @@ struct FragmentTriangle {
     }
     run.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
     if (draw.source == ColorSource::per_pixel) {
-      gather_attributes(run, pixels, triangle, bx, by, bits, 0);
+      gather_block(bx, by, bits);
       light_points_lanes(*draw.programs[face()], run.memory.batch, kBlockPixels);
-      if (draw.captures_normals) {
-        pixels.index[0] = index;
-        pixels.covered[0] = bits;
-        pixels.blocks = 1;
-        store_normals(run, pixels);
-        pixels.blocks = 0;
-      }
+      if (draw.captures_normals) store_normals(run, index, bits, 0);
     }
     if (texture != nullptr && !has_word && !tests_texels()) sample_block(bx, by, bits);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
@@ -276,14 +277,14 @@ template <class Blocks>
 HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i, const ShadedTriangle& triangle, const Blocks& blocks) {
   TileWorkspace::Memory& memory = run.memory;
   const TileDraw& draw = run.frame.draws[draw_number];
-  FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth(run.frame, draw), .pixels = {}};
+  FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth(run.frame, draw), .surface = {}};
   if (fragments.ops.stencil) fragments.stencil = stencil_steps(fragments.ops.faces[fragments.face()], fragments.ops.stencil_most);
   fragments.id = static_cast<std::int32_t>(memory.triangles.size());
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
   if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles : triangle_word(run, draw, i, triangle.back);
   if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
-  if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.pixels, triangle);
-  fragments.pixels.texture = nullptr;  // its texels come about block by block
+  if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.surface, triangle);
+  fragments.surface.texture = nullptr;  // its texels come about block by block
   fragments.texture = texture_of(draw, triangle.back);
   if (fragments.texture != nullptr && fragments.texture->levels != nullptr && (!draw.deferred || fragments.tests_texels()))
     fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture, draw.topology == Topology::lines, run.samples);

@@ -64,26 +64,14 @@ HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, I
   return weights.at(e0, e1, e2);
 }
 
-/// The three edges at a pixel, side by side. @param at  on 16 bytes; the fourth means nothing
-HWY_INLINE void edges_at(const TileEdges& t, int x, int y, std::int32_t (&at)[4]) {
-#if HWY_TARGET == HWY_SCALAR
-  for (int k = 0; k < 3; ++k) at[k] = t.at(k, x, y);
-#else
-  constexpr hn::CappedTag<std::int32_t, 4> four;
-  hn::Store(hn::Add(hn::LoadU(four, t.e), hn::Add(hn::Mul(hn::LoadU(four, t.a), hn::Set(four, x)), hn::Mul(hn::LoadU(four, t.b), hn::Set(four, y)))), four, at);
-#endif
-}
-
 /// The exact edges of a narrow triangle at the pixels of a block. Chunks are whole rows, or single pixels.
 struct NarrowEdges {
   const ShadedTriangle& triangle;
   Int first[3];  // at the first chunk
 
   HWY_INLINE NarrowEdges(const ShadedTriangle& t, int bx, int by) : triangle(t) {
-    alignas(16) std::int32_t start[4];
-    edges_at(t.edges, bx, by, start);
-    for (int k = 0; k < 3; ++k)
-      first[k] = hn::Add(splat(start[k]), hn::Add(hn::Mul(splat(t.edges.a[k]), block_columns(0)), hn::Mul(splat(t.edges.b[k]), block_rows(0))));
+    const Int x = hn::Add(splat(bx), block_columns(0)), y = hn::Add(splat(by), block_rows(0));
+    for (int k = 0; k < 3; ++k) first[k] = hn::Add(splat(t.edges.e[k]), hn::Add(hn::Mul(splat(t.edges.a[k]), x), hn::Mul(splat(t.edges.b[k]), y)));
   }
   HWY_INLINE Int at(int k, int chunk) const {
     return hn::Add(first[k], splat(triangle.edges.a[k] * kBlockColumn[chunk * kLanes] + triangle.edges.b[k] * kBlockRow[chunk * kLanes]));
@@ -104,7 +92,7 @@ inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const 
 }
 
 HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by, int chunk) {
-  return t.wide < 0 ? NarrowEdges(t, bx, by).barycentric(chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
+  return HWY_LIKELY(t.wide < 0) ? NarrowEdges(t, bx, by).barycentric(chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
 }
 
 /// One attribute at the three vertices, and what it is kept within.
@@ -152,6 +140,18 @@ HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
   return interpolate_within(b, lanes);
 }
 
+/// Keeps attributes from `attribute` on: as many as there is room for, of which what is read beyond the draw's own is padding.
+HWY_INLINE void keep_corners(const ShadedTriangle& t, int attribute, TriangleCorners& corners) {
+  constexpr hn::CappedTag<float, TriangleCorners::kMost> some;
+  for (int j = 0; j < TriangleCorners::kMost; j += static_cast<int>(hn::MaxLanes(some))) {
+    const auto a0 = hn::LoadU(some, t.attributes[0] + attribute + j);
+    hn::Store(a0, some, corners.first + j);
+    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[1] + attribute + j), a0), some, corners.to_second + j);
+    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[2] + attribute + j), a0), some, corners.to_third + j);
+  }
+}
+HWY_INLINE Float interpolate(const Barycentric& b, const TriangleCorners& c, int j) { return interpolate(b, Corners{c.first[j], c.to_second[j], c.to_third[j]}); }
+
 /// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.
 struct CornerArrays {
   alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
@@ -165,6 +165,7 @@ struct CornerArrays {
   }
   HWY_INLINE Corners operator[](int j) const { return {first[j], to_second[j], to_third[j]}; }
 };
+HWY_INLINE Float interpolate(const Barycentric& b, const CornerArrays& c, int j) { return interpolate(b, c[j]); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera

@@ -19,4 +19,10 @@ struct ShadedTriangle {
   const float* attributes[3] = {};  ///< kAttributePadding floats may be read from each
 };
 
+/// Attributes of a triangle that many blocks need: at vertex 0, and from there to the others.
+struct alignas(32) TriangleCorners {
+  static constexpr int kMost = 8;
+  float first[kMost], to_second[kMost], to_third[kMost];
+};
+
 }  // namespace tessera

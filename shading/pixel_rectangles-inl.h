@@ -25,7 +25,7 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileRun& run, std::uint32_t draw_n
                              .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
                              .triangle = face,
                              .has_depth = draw.uses_depth && run.frame.depth_kind != DepthKind::none,
-                             .pixels = {}};
+                             .surface = {}};
   if (fragments.ops.stencil) fragments.stencil = stencil_steps(fragments.ops.faces[0], fragments.ops.stencil_most);
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
   const bool is_first_primitive = draw.number == TileDraw::Number::primitive || draw.source == ColorSource::triangle_word;

@@ -125,7 +125,7 @@ struct TexturedBlocks {
     blocks += kBlocks;
   }
   HWY_INLINE Barycentric barycentric_at(int bx, int by, const BlockEdges& edges, int chunk) const {
-    return triangle.wide >= 0 ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk)
+    return HWY_UNLIKELY(triangle.wide >= 0) ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk)
                               : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
   }
   template <int kChunks>

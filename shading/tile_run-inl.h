@@ -63,16 +63,17 @@ HWY_INLINE void store_words(std::uint32_t* color, Int words, Mask mask, Int writ
   hn::Store(hn::Xor(stored, hn::And(hn::Xor(stored, words), changed)), kInt, target);
 }
 
-/// The same of whole words.
-template <class Mask>
-HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) {
-  auto* target = reinterpret_cast<std::int32_t*>(color);
+/// The lanes of `mask` alone.
+template <class Tag, class Mask>
+HWY_INLINE void store_where(Mask mask, hn::Vec<Tag> value, Tag tag, hn::TFromD<Tag>* to) {
 #if HWY_TARGET == HWY_AVX3
-  hn::BlendedStore(words, mask, kInt, target);
+  hn::BlendedStore(value, mask, tag, to);
 #else  // where masked stores are slow on some processors
-  hn::Store(hn::IfThenElse(mask, words, hn::Load(kInt, target)), kInt, target);
+  hn::Store(hn::IfThenElse(mask, value, hn::Load(tag, to)), tag, to);
 #endif
 }
+template <class Mask>
+HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) { store_where(mask, words, kInt, reinterpret_cast<std::int32_t*>(color)); }
 
 /// Interpolated colours that are scaled to levels: three linear functions and the word's packing.
 struct ScaledColor {

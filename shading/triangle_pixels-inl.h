@@ -179,7 +179,7 @@ struct TrianglePixels {
   /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
   template <class Edges>
   HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
-    if (triangle.wide >= 0) return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
+    if (HWY_UNLIKELY(triangle.wide >= 0)) return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
     return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk), block_edges.at(2, chunk));
   }
 
