@@ -41,12 +41,6 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
   return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
 }
 
-/// Whether triangle i of the group shows its back: by its own area, or as its polygon does.
-HWY_INLINE bool is_back(const TileRun& run, const TileDraw& draw, int i) {
-  if (draw.facing != nullptr) return draw.facing[run.memory.source[i]] == Facing::back;
-  return !is_front(run.memory.group.signed_area[i], draw.front_is_clockwise);
-}
-
 /// Everything but pixels of triangle i of the group.
 template <class Depth, Test kTest, Seen kSeen>
 HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw, int i, bool back) {
@@ -83,10 +77,9 @@ template <class Depth, Test kTest>
 HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
   const TileWorkspace::Memory& memory = run.memory;
   const TriangleGroup& g = memory.group;
-  pixels.set_up(run);
-  const PixelColor color(run.frame.layout);
+  pixels.set_up(run, draw);
   const std::uint32_t mask = draw.write_mask;
-  const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1], tests_stencil = has_stencil_test<kTest>(draw);
+  const bool tests_stencil = has_stencil_test<kTest>(draw);
   PixelStencil stencil[2];
   if (tests_stencil)
     for (const bool back : {false, true}) stencil[back ? 1 : 0] = pixel_stencil(run, draw, back);
@@ -96,7 +89,7 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
   Depth depth;
   for (int p = 0; p < pixels.count; ++p) {
     const int i = pixels.triangle(p), index = pixels.index[p];
-    const std::size_t face = (has_faces || tests_stencil) && is_back(run, draw, i) ? 1 : 0;
+    const std::size_t face = tests_stencil && is_back(run, draw, i) ? 1 : 0;
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
       if constexpr (!kHasKeys) depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
@@ -108,13 +101,13 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
     } else if (tests_stencil) {
       stencil[face].store_after_depth(index, true);
     }
-    const int attribute = draw.color_attribute[face];
-    const std::uint32_t word = color.word(memory.attributes[0][i] + attribute, memory.attributes[1][i] + attribute, memory.attributes[2][i] + attribute, pixels.b1[p], pixels.b2[p]);
+    const auto word = static_cast<std::uint32_t>(pixels.word[p]);
     run.memory.color[index] = (word & mask) | (run.memory.color[index] & ~mask);
     ++seen;
   }
   run.counts.shaded_pixels += seen;
   pixels.count = 0;
+  pixels.triangles = 0;
 }
 
 /// Keeps triangle i of the group, some of whose pixels were seen, until these are shaded.

@@ -6,8 +6,8 @@
 #define TESSERA_SHADING_SMALL_PIXELS_INL_H_
 #endif
 
+#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <type_traits>
 
 #include "raster/depth-inl.h"
@@ -38,14 +38,68 @@ struct PickByTriangle {
 #endif
 };
 
-/// Pixels of a group's small triangles, in the order in which they are drawn, and their barycentric coordinates.
+/// Colours at the vertices of a group's triangles, as arrays.
+struct SmallColors {
+  alignas(64) float component[3][3][kGroupSize];  // red, green and blue of each vertex
+  int r_shift, g_shift;
+
+  /// @param triangles  those that have pixels, a bit each; what others get means nothing
+  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw, std::uint32_t triangles) {
+    r_shift = run.frame.layout.r_shift();
+    g_shift = run.frame.layout.g_shift();
+    const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1];
+    for (int first = 0; first < kGroupSize; first += 4) {
+      if ((triangles >> first & 15) == 0) continue;
+      int triangle[4], attribute[4];
+      for (int t = 0; t < 4; ++t) {
+        triangle[t] = std::min(first + t, run.memory.group.count - 1);
+        attribute[t] = draw.color_attribute[has_faces && is_back(run, draw, triangle[t]) ? 1 : 0];
+      }
+      for (int k = 0; k < 3; ++k) {
+        const auto of = [&](int t) HWY_ATTR { return run.memory.attributes[k][triangle[t]] + attribute[t]; };
+        set_up_four(of(0), of(1), of(2), of(3), component[k], first);
+      }
+    }
+  }
+  /// ScaledColor's words, of pixels of several triangles.
+  HWY_INLINE Int words(const PickByTriangle& pick, Float b1, Float b2) const {
+    const auto level = [&](int c) HWY_ATTR {
+      const Float at_first = pick(component[0][c]);
+      const Float to_second = hn::Sub(pick(component[1][c]), at_first), to_third = hn::Sub(pick(component[2][c]), at_first);
+      return truncate(mul_add(b1, to_second, mul_add(b2, to_third, at_first)));
+    };
+    return hn::Or(hn::Or(hn::ShiftLeftSame(level(0), r_shift), hn::ShiftLeftSame(level(1), g_shift)), level(2));
+  }
+
+ private:
+#if HWY_TARGET == HWY_SCALAR
+  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3, float (&to)[3][kGroupSize], int first) {
+    for (int c = 0; c < 3; ++c) to[c][first] = c0[c], to[c][first + 1] = c1[c], to[c][first + 2] = c2[c], to[c][first + 3] = c3[c];
+  }
+#else
+  // Four rows of r g b and what follows: three columns. Four floats can be read from each.
+  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3, float (&to)[3][kGroupSize], int first) {
+    constexpr hn::CappedTag<float, 4> four;
+    constexpr hn::Repartition<double, decltype(four)> pairs;
+    const auto r0 = hn::LoadU(four, c0), r1 = hn::LoadU(four, c1), r2 = hn::LoadU(four, c2), r3 = hn::LoadU(four, c3);
+    const auto rg01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)), rg23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // r r g g
+    const auto b01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)), b23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
+    hn::Store(hn::BitCast(four, hn::InterleaveLower(pairs, rg01, rg23)), four, to[0] + first);
+    hn::Store(hn::BitCast(four, hn::InterleaveUpper(pairs, rg01, rg23)), four, to[1] + first);
+    hn::Store(hn::BitCast(four, hn::InterleaveLower(pairs, b01, b23)), four, to[2] + first);
+  }
+#endif
+};
+
+/// Pixels of a group's small triangles, in the order in which they are drawn, and their colours.
 struct SmallPixels {
   static constexpr int kMost = kGroupSize * kBlockPixels;
   int count = 0;
   alignas(64) std::int32_t place[kMost + kLanes];                       // the triangle's number in the group, and y and x in the tile: 8 bits each
   alignas(64) std::int32_t index[kMost + kLanes];                       // of the pixel
   alignas(64) std::int32_t key[kMost + kLanes];                         // of its depth, where kHasKeys
-  alignas(64) float b1[kMost + kLanes], b2[kMost + kLanes];
+  alignas(64) std::int32_t word[kMost + kLanes];                        // of its colour
+  std::uint32_t triangles = 0;                                          // that have pixels
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
   HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
@@ -53,6 +107,7 @@ struct SmallPixels {
 
   HWY_INLINE void add(const TriangleGroup& g, int i, std::uint32_t hits) {
     const std::int32_t first = i << 16 | g.y0[i] << 8 | g.x0[i];
+    triangles |= 1u << i;
 #if HWY_TARGET == HWY_AVX3
     const Int at = hn::Add(splat(first), hn::Or(block_columns(0), hn::ShiftLeft<8>(block_rows(0))));
     hn::StoreU(hn::Compress(at, mask_from_bits(hits)), kInt, place + count);
@@ -64,9 +119,11 @@ struct SmallPixels {
     }
 #endif
   }
-  /// Barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
-  HWY_INLINE void set_up(const TileRun& run) {
+  /// Words at barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
+  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw) {
     const TriangleGroup& g = run.memory.group;
+    SmallColors colors;
+    colors.set_up(run, draw, triangles);
     hn::StoreU(hn::Zero(kInt), kInt, place + count);
     for (int first = 0; first < count; first += kLanes) {
       const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at), at_y = y_of(at);
@@ -83,8 +140,7 @@ struct SmallPixels {
         w[1] = hn::Mul(w[1], inverse);
         w[2] = hn::Mul(w[2], inverse);
       }
-      hn::StoreU(w[1], kFloat, b1 + first);
-      hn::StoreU(w[2], kFloat, b2 + first);
+      hn::Store(colors.words(pick, w[1], w[2]), kInt, word + first);
     }
   }
   /// Whether keys come in lanes: of a depth format that they do for, and where products of 64 bits do.
@@ -107,44 +163,6 @@ struct SmallPixels {
     }
 #endif
   }
-};
-
-/// ScaledColor's word of one pixel, its components side by side.
-class PixelColor {
- public:
-#if HWY_TARGET == HWY_SCALAR
-  HWY_INLINE explicit PixelColor(const ColorLayout& layout) : layout_(layout) {}
-  HWY_INLINE std::uint32_t word(const float* first, const float* second, const float* third, float b1, float b2) const {
-    const auto level = [&](int c) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::fma(b1, second[c] - first[c], std::fma(b2, third[c] - first[c], first[c])))); };
-    return level(0) << layout_.r_shift() | level(1) << layout_.g_shift() | level(2);
-  }
-
- private:
-  const ColorLayout& layout_;
-#else
-  HWY_INLINE explicit PixelColor(const ColorLayout& layout) {
-    alignas(16) const std::int32_t by[4] = {layout.r_shift(), layout.g_shift(), 0, 0};
-    shifts_ = hn::Load(kFour, by);
-  }
-  /// @param first  four floats can be read there, and at the others
-  HWY_INLINE std::uint32_t word(const float* first, const float* second, const float* third, float b1, float b2) const {
-    const auto a = hn::LoadU(kFourFloats, first), to_second = hn::Sub(hn::LoadU(kFourFloats, second), a), to_third = hn::Sub(hn::LoadU(kFourFloats, third), a);
-    const auto value = hn::MulAdd(hn::Set(kFourFloats, b1), to_second, hn::MulAdd(hn::Set(kFourFloats, b2), to_third, a));
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-    const hn::Vec<decltype(kFour)> whole{_mm_cvttps_epi32(value.raw)};  // see truncate()
-#else
-    const auto whole = hn::ConvertTo(kFour, value);
-#endif
-    const auto levels = hn::Shl(whole, shifts_);
-    const auto red_green = hn::Or(levels, hn::Shuffle2301(levels));
-    return static_cast<std::uint32_t>(hn::GetLane(hn::Or(red_green, hn::Shuffle1032(levels))));
-  }
-
- private:
-  static constexpr hn::CappedTag<float, 4> kFourFloats{};
-  static constexpr hn::RebindToSigned<hn::CappedTag<float, 4>> kFour{};
-  hn::Vec<hn::RebindToSigned<hn::CappedTag<float, 4>>> shifts_;
-#endif
 };
 
 }  // namespace HWY_NAMESPACE

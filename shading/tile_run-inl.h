@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "raster/binning.h"
 #include "raster/lanes-inl.h"
 #include "shading/interpolate-inl.h"
 #include "shading/fragment_word.h"
@@ -63,7 +64,7 @@ HWY_INLINE void store_words(std::uint32_t* color, Int words, Mask mask, Int writ
   hn::Store(hn::Xor(stored, hn::And(hn::Xor(stored, words), changed)), kInt, target);
 }
 
-/// The lanes of `mask` alone.
+/// Stores the lanes of `mask` alone.
 template <class Tag, class Mask>
 HWY_INLINE void store_where(Mask mask, hn::Vec<Tag> value, Tag tag, hn::TFromD<Tag>* to) {
 #if HWY_TARGET == HWY_AVX3
@@ -72,8 +73,15 @@ HWY_INLINE void store_where(Mask mask, hn::Vec<Tag> value, Tag tag, hn::TFromD<T
   hn::Store(hn::IfThenElse(mask, value, hn::Load(tag, to)), tag, to);
 #endif
 }
+/// As store_words(), of whole words.
 template <class Mask>
 HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) { store_where(mask, words, kInt, reinterpret_cast<std::int32_t*>(color)); }
+
+/// Whether triangle i of the group shows its back: by its own area, or as its polygon does.
+HWY_INLINE bool is_back(const TileRun& run, const TileDraw& draw, int i) {
+  if (draw.facing != nullptr) return draw.facing[run.memory.source[i]] == Facing::back;
+  return !is_front(run.memory.group.signed_area[i], draw.front_is_clockwise);
+}
 
 /// Interpolated colours that are scaled to levels: three linear functions and the word's packing.
 struct ScaledColor {
