@@ -5,7 +5,7 @@
 #if HWY_ONCE
 namespace tessera {
 
-// What each set needs is what Highway compiles its target with (HWY_TARGET_STR).
+// What each set needs is what Highway compiles its target with (HWY_TARGET_STR), and AVX512CD: see repeated().
 #if HWY_TARGETS & HWY_AVX2
 static bool machine_has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&

@@ -28,8 +28,8 @@ struct BatchSurface {
   TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
 
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const { return draw == triangle.draw && back == triangle.back; }
-  /// No other surface has it.
-  HWY_INLINE std::int32_t number() const { return static_cast<std::int32_t>(2 * draw + (back ? 1 : 0)); }
+  /// No other surface has it: draws' numbers have 31 bits (kDrawMarker).
+  HWY_INLINE std::int32_t surface_number() const { return static_cast<std::int32_t>(2 * draw + (back ? 1 : 0)); }
 };
 
 /// The texture of a draw's faces: where indices are drawn, none has a say.
@@ -72,8 +72,8 @@ inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& su
   coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR { store_where(lanes, value, kFloat, run.memory.batch.field[field] + point); });
 }
 
-/// How many attributes a surface has, where they stand in adjacent arrays and are neither kept within a range nor texture coordinates, and where the number is
-/// one that gather_piece() is made for; else 0.
+/// How many attributes a surface has, where they stand in adjacent arrays and are not kept within a range, where there are no texture coordinates, and where the
+/// number is one that gather_piece() is made for; else 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
   return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.keeps_range && !has_coordinates(surface) ? count : 0;
@@ -90,7 +90,7 @@ HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& run) {
 }
 
 /// Adds what is seen of one triangle in one block to the points from `first` on; what other lanes hold stays.
-/// @param kCount  known_count()
+/// @param kCount  known_count(), or 0 for any
 /// @param values  TriangleCorners or CornerArrays of the surface's attributes
 /// @param at      Barycentric of a chunk
 template <int kCount, class Values, class At>
@@ -110,10 +110,11 @@ HWY_INLINE void gather_values(const TileRun& run, BatchSurface& surface, const S
     if (kCount == 0 && has_coordinates(surface)) gather_coordinates(run, surface, triangle, weights, mask, point);
   }
 }
-/// Once: wide triangles are few.
+/// Compiled once: few triangles are wide, but points and lines all are.
 inline HWY_NOINLINE void gather_wide(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, int first) {
   const WideEdges& edges = run.memory.wide[static_cast<std::size_t>(triangle.wide)];
-  gather_values<0>(run, surface, triangle, CornerArrays(triangle, surface.first_attribute, surface.attribute_count), [&](int chunk) HWY_ATTR { return barycentric_wide(triangle, edges, bx, by, chunk); }, covered, first);
+  const CornerArrays values(triangle, surface.first_attribute, surface.attribute_count);
+  gather_values<0>(run, surface, triangle, values, [&](int chunk) HWY_ATTR { return barycentric_wide(triangle, edges, bx, by, chunk); }, covered, first);
 }
 /// gather_values() in the block at (bx, by).
 template <int kCount, class Values>

@@ -1,6 +1,6 @@
 // Shading once for each visible pixel: tiles collect which triangle is seen where; then the colours of whole batches of
 // pixels come about with full lanes. Attributes come about piece by piece, which is what one block shows of one triangle, with
-// masks: nothing is gathered by pixel.
+// masks: no attribute is gathered by pixel.
 #if defined(TESSERA_SHADING_DEFERRED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_DEFERRED_INL_H_
 #undef TESSERA_SHADING_DEFERRED_INL_H_
@@ -10,6 +10,7 @@
 
 #include <bit>
 
+#include "framebuffer/check.h"
 #include "shading/batch_surface-inl.h"
 #include "shading/texture_env-inl.h"
 #include "shading/texture_sampling-inl.h"
@@ -22,16 +23,21 @@ namespace HWY_NAMESPACE {
 void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count);  // lighting.cpp, same instruction set
 
 inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
+static_assert(kBatchBlocks * kBlockPixels == kBatchPoints);
 
-/// Pixels of blocks that share a surface. What is seen of one triangle in one block is a piece.
+/// Pixels of blocks that share a surface. Points of the batch that no triangle covers hold what was there before, any bits: nothing that is stored depends on them.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
   int index[kBatchBlocks];              // of each block's first pixel in tile memory
   int bx[kBatchBlocks], by[kBatchBlocks];
   std::uint32_t covered[kBatchBlocks];  // 16 bits
+  bool one_surface = false;             // all triangles that were collected are of one
+#if HWY_TARGET == HWY_AVX3
+  // What is seen of one triangle in one block is a piece.
   alignas(64) std::int32_t ids[kBatchPoints];  // of the triangles seen at the blocks' pixels
   int pieces = 0;                       // block by block; each has a pixel at least, so that there is room for a whole block's
   std::int32_t triangle[kBatchPoints], slot[kBatchPoints];
+#endif
 };
 
 /// Words of one chunk of pixels from interpolated colours that are scaled to levels already.
@@ -130,6 +136,10 @@ HWY_INLINE void gather_seen(const TileRun& run, PixelBatch& pixels, int slot, co
   else gather_piece<0>(run, pixels, triangle, CornerArrays(triangle, pixels.first_attribute, pixels.attribute_count), bx, by, covered, first);
 }
 
+// Two ways of taking the pixels of the batch's surface into its next slot, both of which return which pixels they are.
+//
+//   ids      of the block's pixels
+//   waiting  pixels whose triangles have not been taken
 #if HWY_TARGET == HWY_AVX3
 // The first pixels of a block's triangles are found side by side, and all that the batch shows of one triangle in one block is gathered afterwards, one after
 // the other: what cannot be foretold, how many triangles a block has, does not hold up the long sums.
@@ -141,19 +151,17 @@ HWY_NOINLINE void gather_pieces(const TileRun& run, PixelBatch& pixels) {
     const std::int32_t id = pixels.triangle[i];
     gather_seen<kCount>(run, pixels, slot, run.memory.triangles[static_cast<std::size_t>(id)], run.memory.corners[id], pixels_of(pixels.ids + slot * kBlockPixels, id));
   }
-  pixels.pieces = 0;
 }
 HWY_INLINE void gather_found(const TileRun& run, PixelBatch& pixels) {
   with_known_count(pixels, [&](auto count) HWY_ATTR { gather_pieces<count.value>(run, pixels); });
+  pixels.pieces = 0;
 }
 
-/// Takes the pixels of the batch's surface into its next slot. Returns which they are.
-/// @param ids      of the block's pixels
-/// @param waiting  pixels whose triangles have not been taken
-HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting, bool one_surface) {
+HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting) {
+  TESSERA_ASSERT(pixels.pieces <= pixels.blocks * kBlockPixels);
   const Int at = hn::Load(kInt, ids);
   std::uint32_t covered = waiting;
-  if (!one_surface) covered &= mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, run.memory.surfaces, hn::Max(at, hn::Zero(kInt))), splat(pixels.number())));
+  if (!pixels.one_surface) covered &= mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, run.memory.surfaces, hn::Max(at, hn::Zero(kInt))), splat(pixels.surface_number())));
   const std::uint32_t first = covered & ~mask_bits(kInt, repeated(at));
   hn::StoreU(hn::Compress(at, mask_from_bits(first)), kInt, pixels.triangle + pixels.pieces);
   hn::StoreU(splat(pixels.blocks), kInt, pixels.slot + pixels.pieces);
@@ -164,14 +172,14 @@ HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, 
 #else
 HWY_INLINE void gather_found(const TileRun&, PixelBatch&) {}
 
-HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting, bool) {
+HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting) {
   std::uint32_t taken = 0;
   for (std::uint32_t left = waiting; left != 0;) {
     const std::int32_t id = ids[std::countr_zero(left)];
     const std::uint32_t covered = pixels_of(ids, id);
     left &= ~covered;
+    if (run.memory.surfaces[id] != pixels.surface_number()) continue;
     const ShadedTriangle& triangle = run.memory.triangles[static_cast<std::size_t>(id)];
-    if (!pixels.is_of(triangle)) continue;
     with_known_count(pixels, [&](auto count) HWY_ATTR { gather_seen<count.value>(run, pixels, pixels.blocks, triangle, run.memory.corners[id], covered); });
     taken |= covered;
   }
@@ -211,18 +219,21 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
 }
 
 /// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one surface.
-HWY_INLINE bool prepare_triangles(TileRun& run) {
+HWY_INLINE bool prepare_triangles(const TileRun& run) {
   TileWorkspace::Memory& memory = run.memory;
+  TESSERA_ASSERT(memory.triangles.size() <= kCollectedRoom);
   BatchSurface surface;
+  bool keeps_corners = false;
   int changes = 0;
   for (std::size_t i = 0; i < memory.triangles.size(); ++i) {
     const ShadedTriangle& triangle = memory.triangles[i];
     if (!surface.is_of(triangle)) {
       begin_surface(run, surface, triangle);
+      keeps_corners = known_count(surface) > 0;
       ++changes;
     }
-    memory.surfaces[i] = surface.number();
-    if (known_count(surface) > 0) keep_corners(triangle, surface.first_attribute, memory.corners[i]);
+    memory.surfaces[i] = surface.surface_number();
+    if (keeps_corners) keep_corners(triangle, surface.first_attribute, memory.corners[i]);
   }
   return changes == 1;
 }
@@ -230,8 +241,8 @@ HWY_INLINE bool prepare_triangles(TileRun& run) {
 /// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and forgets it.
 inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, int y1) {
   TileWorkspace::Memory& memory = run.memory;
-  const bool one_surface = prepare_triangles(run);
   PixelBatch pixels;
+  pixels.one_surface = prepare_triangles(run);
   for (int by = y0 & ~3; by <= y1; by += 4) {
     for (int bx = x0 & ~3; bx <= x1; bx += 4) {
       const int index = run.block_index(bx, by);
@@ -247,7 +258,7 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
         pixels.index[pixels.blocks] = index;
         pixels.bx[pixels.blocks] = bx;
         pixels.by[pixels.blocks] = by;
-        const std::uint32_t taken = take_triangles(run, pixels, ids, waiting, one_surface);
+        const std::uint32_t taken = take_triangles(run, pixels, ids, waiting);
         waiting &= ~taken;
         pixels.covered[pixels.blocks++] = taken;
       }

@@ -84,7 +84,8 @@ inline HWY_NOINLINE void add_coordinates(const TileRun& run, SampledBatch& point
   coordinates_in(run, points, triangle).at(at, [&](int field, Float value) HWY_ATTR { hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, run.memory.batch.field[field] + points.count); });
 }
 
-/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: as in gather_piece().
+/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full. kCount: attributes in adjacent arrays without
+/// texture coordinates, where known; else 0.
 template <int kCount>
 HWY_INLINE void add_points_counted(TileRun& run, SampledBatch& points, const ShadedTriangle& triangle, int bx, int by, int index, const SampleBits& seen) {
   const int count = kCount > 0 ? kCount : points.attribute_count;

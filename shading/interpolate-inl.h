@@ -140,8 +140,9 @@ HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
   return interpolate_within(b, lanes);
 }
 
-/// Keeps attributes from `attribute` on: as many as there is room for, of which what is read beyond the draw's own is padding.
+/// Keeps attributes from `attribute` on: as many as there is room for; what is read beyond the surface's own means nothing.
 HWY_INLINE void keep_corners(const ShadedTriangle& t, int attribute, TriangleCorners& corners) {
+  static_assert(TriangleCorners::kMost <= kAttributePadding);
   constexpr hn::CappedTag<float, TriangleCorners::kMost> some;
   for (int j = 0; j < TriangleCorners::kMost; j += static_cast<int>(hn::MaxLanes(some))) {
     const auto a0 = hn::LoadU(some, t.attributes[0] + attribute + j);
@@ -152,7 +153,7 @@ HWY_INLINE void keep_corners(const ShadedTriangle& t, int attribute, TriangleCor
 }
 HWY_INLINE Float interpolate(const Barycentric& b, const TriangleCorners& c, int j) { return interpolate(b, Corners{c.first[j], c.to_second[j], c.to_third[j]}); }
 
-/// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` is padding.
+/// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` means nothing.
 struct CornerArrays {
   alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
   HWY_INLINE CornerArrays(const ShadedTriangle& t, int attribute, int count) {

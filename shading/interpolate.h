@@ -16,7 +16,7 @@ struct ShadedTriangle {
   bool affine = false;             ///< all 1/w are the same: the weights are the barycentric coordinates themselves
   bool back = false;
   std::uint32_t draw = 0;
-  const float* attributes[3] = {};  ///< kAttributePadding floats may be read from each
+  const float* attributes[3] = {};  ///< behind those of each kAttributePadding more may be read
 };
 
 /// Attributes of a triangle that many blocks need: at vertex 0, and from there to the others.

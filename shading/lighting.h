@@ -133,7 +133,8 @@ struct IndexMaterial {
 /// The same for indices.
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons, std::vector<LightTerm> room = {});
 
-/// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names, leaves the colour or index.
+/// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names, leaves the colour or index. Points that nobody looks at
+/// may hold any bits.
 /// Bit-identical to light_point_reference() on every instruction set.
 using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
 LightPoints* light_points(Isa isa);

@@ -116,8 +116,8 @@ RenderTile* render_tile(Isa isa) { return TESSERA_KERNEL(isa, render_tile_lanes)
 
 TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
   // A group is added before the next look at the limit. Rendering a tile allocates nothing.
-  memory_->triangles.reserve(kMaxCollected + kGroupSize);
-  memory_->wide.reserve(kMaxCollected + kGroupSize);
+  memory_->triangles.reserve(kCollectedRoom);
+  memory_->wide.reserve(kCollectedRoom);
 }
 TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;

@@ -14,8 +14,9 @@
 namespace tessera {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-/// Triangles that a tile collects before it shades them, and those of the group in which it gets there: bounds the memory, changes no bit.
+/// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
 inline constexpr std::size_t kMaxCollected = 1024;
+inline constexpr std::size_t kCollectedRoom = kMaxCollected + kGroupSize;  ///< with the group in which it gets there
 
 struct alignas(64) TileNormals {
   float component[3][kMaxTileSize * kMaxTileSize];
@@ -80,8 +81,8 @@ struct alignas(64) TileWorkspace::Memory {
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
   // Of the triangles that were collected, while they are shaded.
-  TriangleCorners corners[kMaxCollected + kGroupSize];
-  std::int32_t surfaces[kMaxCollected + kGroupSize];
+  TriangleCorners corners[kCollectedRoom];
+  std::int32_t surfaces[kCollectedRoom];
   TouchedBlocks touched;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
   std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it

@@ -54,6 +54,7 @@ class TileStage {
     frame_.loads_color = frame_.loads_depth = true;
     return render_tile(isa)(frame_, tile, workspace_);
   }
+  TileWorkspace& workspace() { return workspace_; }
   /// Pixels of the tile rendered last.
   std::uint32_t color(int x, int y) { return workspace_.color()[tile_index(x, y, frame_.grid.tile_size)]; }
   /// Of one sample. @pre several samples, and a triangle in the tile

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -53,14 +55,15 @@ Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthKind k
   for (float& a : mesh.attributes) a = static_cast<float>(low + (high - low) * source.unit());
   return mesh;
 }
-TileDraw& add(TileStage& stage, const Mesh& mesh) {
+TileDraw& add(TileStage& stage, const Mesh& mesh, std::span<const std::uint32_t> triangles) {
   TileDraw& draw = stage.add_draw(mesh.vertices.data());
   draw.source = ColorSource::interpolated;
   draw.attributes = mesh.attributes.data();
   draw.attribute_stride = draw.attribute_count = mesh.stride;
-  for (const std::uint32_t id : mesh.visible) stage.push(0, stage.draw_count() - 1, id);
+  for (const std::uint32_t id : triangles) stage.push(0, stage.draw_count() - 1, id);
   return draw;
 }
+TileDraw& add(TileStage& stage, const Mesh& mesh) { return add(stage, mesh, mesh.visible); }
 
 TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
   for (const int bits : {3, 8, 16, 24}) {
@@ -122,6 +125,29 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
   }
 }
 
+// Draws may have a colour for each side: what others of a group show does not matter.
+TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
+  RandomTriangles source(48, kTile);
+  TileStage stage(kTile, kTile, kTile);
+  for (int round = 0; round < (long_tests() ? 500 : 30); ++round) {
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::none, 0.5, 255.5);
+    for (const Isa isa : available_isas()) {
+      stage.forget_draws();
+      add(stage, mesh).color_attribute[1] = 3;
+      stage.render(isa, 0);
+      const std::vector<std::uint32_t> both = stage.colors();
+      stage.forget_draws();
+      for (const std::uint32_t& id : mesh.visible) {  // the front goes counterclockwise
+        const WindowVertex* const corners = mesh.vertices.data() + 3 * std::size_t{id};
+        TileDraw& draw = add(stage, mesh, std::span(&id, 1));
+        draw.color_attribute[0] = draw.color_attribute[1] = is_clockwise({corners[0], corners[1], corners[2]}) ? 3 : 0;
+      }
+      stage.render(isa, 0);
+      ASSERT_EQ(both, stage.colors()) << name_of(isa);
+    }
+  }
+}
+
 TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
   RandomTriangles source(43, kTile);
   for (const bool deferred : {false, true}) {
@@ -169,7 +195,15 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
   }
 }
 
-// Lighting at each pixel gathers pixels of many triangles into batches; which ones share a batch must not matter.
+// What a batch may hold where no triangle covers its points.
+void fill_with_odd_values(ShadingBatch& batch, RandomTriangles& source) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 1e-40f, 3e38f, -3e38f, -0.5f};
+  for (auto& field : batch.field)
+    for (float& value : field) value = kOdd[source.between(0, 6)];
+}
+
+// Lighting at each pixel gathers pixels of many triangles into batches; which ones share a batch, and what it held before, must not matter.
 TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
   RandomTriangles source(45, kTile);
   RandomLighting lights(46);
@@ -194,6 +228,7 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
         draw.programs[1] = &back;
         for (std::uint8_t k = 0; k < 6; ++k) draw.fields[k] = static_cast<std::uint8_t>(kNormalX + k);
         stage.frame().shade_at_once = at_once;
+        if (!first.empty()) fill_with_odd_values(stage.workspace().memory().batch, source);
         stage.render(isa, 0, 0x123456, 0xffffff);
         if (first.empty()) first = stage.colors();
         ASSERT_EQ(stage.colors(), first) << name_of(isa) << (at_once ? ", each triangle by itself" : "");
