@@ -49,7 +49,7 @@ struct alignas(64) Incidence {
   float n_dot_l[kBatchPoints];      // 0 where the light comes from behind or does not reach
   float factor[kBatchPoints];       // att, and 0 where the light does not reach; then att * spot
   float cosine[kBatchPoints];       // of a spot, to its axis
-  float highlight[kBatchPoints];    // S.n, its square or R.E; then spec * att * spot
+  float highlight[kBatchPoints];    // S.n, its square or R.E
 
   HWY_INLINE Vector direction(int point) const { return {hn::Load(kFloat, to_light[0] + point), hn::Load(kFloat, to_light[1] + point), hn::Load(kFloat, to_light[2] + point)}; }
 };
@@ -173,16 +173,6 @@ bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count
   }
 }
 
-/// spec * att * spot from S.n, its square or R.E.
-void raise_highlights(const LightTerm& term, int count, Incidence& light) {
-  with_power(term.highlight_exponent, [&](const auto& power) HWY_ATTR {
-    for (int point = 0; point < count; point += kLanes) {
-      const Float highlight = cut(hn::Mul(power(hn::Load(kFloat, light.highlight + point)), hn::Load(kFloat, light.factor + point)));
-      hn::Store(hn::IfThenElseZero(is_shiny(term, light, point), highlight), kFloat, light.highlight + point);
-    }
-  });
-}
-
 /// Three sums of each point: before the first light has its part in them, they are the same everywhere.
 struct Sums {
   BatchField first_field;
@@ -192,21 +182,33 @@ struct Sums {
   HWY_INLINE Vector load(const ShadingBatch& batch, int point) const { return begun ? load_vector(batch, first_field, point) : splat_vector(start); }
 };
 
-/// Adds the diffuse and the specular part of a light.
-template <bool kHighlights>
-HWY_INLINE void add_products(const Incidence& light, int count, const Rgb& diffuse_color, const Rgb& specular_color, const Sums& sums, ShadingBatch& batch) {
-  for (int point = 0; point < count; point += kLanes) {
-    const Float diffuse = cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
-    Vector sum = sums.load(batch, point);
-    accumulate(sum, diffuse, diffuse_color);
-    if constexpr (kHighlights) accumulate(sum, hn::Load(kFloat, light.highlight + point), specular_color);
-    store_vector(batch, sums.first_field, point, sum);
-  }
+/// Adds the diffuse part of a light to a chunk of points, and highlights, if there are any.
+template <class... Highlight>
+HWY_INLINE void add_products(const Incidence& light, int point, const Rgb& diffuse_color, const Rgb& specular_color, const Sums& sums, ShadingBatch& batch, Highlight... highlight) {
+  const Float diffuse = cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
+  Vector sum = sums.load(batch, point);
+  accumulate(sum, diffuse, diffuse_color);
+  (accumulate(sum, highlight, specular_color), ...);
+  store_vector(batch, sums.first_field, point, sum);
 }
-HWY_NOINLINE void add_colors(const Incidence& light, bool highlights, int count, const Rgb& diffuse_color, const Rgb& specular_color, Sums& sums, ShadingBatch& batch) {
-  if (highlights) add_products<true>(light, count, diffuse_color, specular_color, sums, batch);
-  else add_products<false>(light, count, diffuse_color, specular_color, sums, batch);
-  sums.begun = true;
+/// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E., if there is a highlight anywhere.
+void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light, Sums& color, Sums& tracked, ShadingBatch& batch) {
+  const auto add = [&](int point, auto... highlight) HWY_ATTR {
+    add_products(light, point, term.diffuse, term.specular, color, batch, highlight...);
+    if (has_tracked) add_products(light, point, term.tracked_diffuse, term.tracked_specular, tracked, batch, highlight...);
+  };
+  if (highlights) {
+    with_power(term.highlight_exponent, [&](const auto& power) HWY_ATTR {
+      for (int point = 0; point < count; point += kLanes) {
+        const Float highlight = cut(hn::Mul(power(hn::Load(kFloat, light.highlight + point)), hn::Load(kFloat, light.factor + point)));
+        add(point, hn::IfThenElseZero(is_shiny(term, light, point), highlight));
+      }
+    });
+  } else {
+    for (int point = 0; point < count; point += kLanes) add(point);
+  }
+  color.begun = true;
+  tracked.begun = has_tracked;
 }
 HWY_NOINLINE void add_ambient(const Incidence& light, int count, const Rgb& color, Sums& sums, ShadingBatch& batch) {
   for (int point = 0; point < count; point += kLanes) {
@@ -230,9 +232,7 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   }
   if (!faces) return;
   const bool shines = find_highlights(term, batch, count, light);
-  if (shines) raise_highlights(term, count, light);
-  add_colors(light, shines, count, term.diffuse, term.specular, color, batch);
-  if (has_tracked) add_colors(light, shines, count, term.tracked_diffuse, term.tracked_specular, tracked, batch);
+  add_colors(term, has_tracked, shines, count, light, color, tracked, batch);
 }
 
 /// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out as the lowest.
