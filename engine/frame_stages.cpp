@@ -127,6 +127,7 @@ void RendererState::process_geometry(FrameWatch& watch) {
 void RendererState::prepare_workspaces(const TileMemory& memory) {
   while (workspaces.size() < static_cast<std::size_t>(parallel.threads())) workspaces.emplace_back();
   for (TileWorkspace& workspace : workspaces) {
+    workspace.allocate_colors(memory.colors);
     if (memory.normals) workspace.allocate_normals();
     if (memory.stencil) workspace.allocate_stencil();
     if (memory.accumulation) workspace.allocate_accumulation();
@@ -242,7 +243,11 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.loads_stencil = commands.stencil.load;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
-    prepare_workspaces({capture.needs_normals(), commands.stencil.used, commands.accumulation.used, frame.samples > 1});
+    prepare_workspaces({.colors = commands.color.store ? static_cast<std::size_t>(kLinePixels / grid.tile_size) : 1,
+                        .normals = capture.needs_normals(),
+                        .stencil = commands.stencil.used,
+                        .accumulation = commands.accumulation.used,
+                        .samples = frame.samples > 1});
     try {
       render_parts(is_filled, TileStage(commands, frame, target, image, capture, show_memory, isa), stats, watch);
     } catch (...) {

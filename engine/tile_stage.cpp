@@ -11,8 +11,6 @@
 namespace tessera {
 namespace {
 
-constexpr int kPlaneLinePixels = 512;  // one cache line of a plane: stored by one thread
-
 bool covers_frame(const TileClear& clear, const TileGrid& grid) {
   return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px && clear.rect.y1 == grid.height_px;
 }
@@ -58,11 +56,11 @@ void TileStage::for_each_strip(const TileRange& tiles, const Visit& visit) const
   const BinBatches& batches = *frame_.batches;
   const auto is_cleared = [&](int row, int column) { return shows_clears_ && batches.untouched(row * grid.columns() + column); };
   // Tiles that share a cache line of a plane belong to one worker.
-  const int length = commands_.stores() ? kPlaneLinePixels / grid.tile_size : 1;
+  const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, next; column < tiles.x1; column = next) {
       const bool cleared = is_cleared(row, column);
-      next = std::min(column + length, tiles.x1);
+      next = std::min((column / length + 1) * length, tiles.x1);
       while (cleared && next < tiles.x1 && is_cleared(row, next)) ++next;
       std::uint64_t triangles = 0;
       for (int c = column; c < next; ++c) triangles += batches.triangles(row * grid.columns() + c);
@@ -83,7 +81,15 @@ void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& 
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {
   if (strip.cleared) return fill_cleared(strip);
-  for (int column = strip.first_column; column <= strip.last_column; ++column) render_tile_at(strip.row, column, workspace, counts);
+  std::array<const std::uint32_t*, kLinePixels / kMinTileSize> colors;
+  std::size_t kept = 0;
+  for (int column = strip.first_column; column <= strip.last_column; ++column) {
+    if (commands_.color.store) colors[kept] = workspace.select_color(kept), ++kept;
+    render_tile_at(strip.row, column, workspace, counts);
+  }
+  if (kept == 0) return;
+  const int size = frame_.grid.tile_size;
+  store_planes_({colors.data(), kept}, {strip.first_column * size, strip.row * size, size, 0}, target_.color.planes, ~0u);
 }
 
 void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const {
@@ -106,11 +112,10 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   counts.shaded_pixels += tile.shaded_pixels;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);
-  if (commands_.color.store) store_planes_(workspace.color(), color_place, target_.color.planes, ~0u);
-  if (commands_.depth.store) store_planes_(depth_words, depth_place, target_.depth.planes, ~0u);
-  if (commands_.stencil.store) store_planes_(stencil_words, color_place, target_.stencil.planes, ~0u);
-  if (commands_.accumulation.store)
-    for (std::size_t c = 0; c < 4; ++c) store_planes_(reinterpret_cast<std::uint32_t*>(workspace.accumulation()[c]), color_place, target_.accumulation[c].planes, ~0u);
+  store(commands_.depth, target_.depth, depth_words, depth_place);
+  store(commands_.stencil, target_.stencil, stencil_words, color_place);
+  for (std::size_t c = 0; c < 4 && commands_.accumulation.store; ++c)
+    store(commands_.accumulation, target_.accumulation[c], reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
 }
 
 void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
@@ -135,6 +140,10 @@ void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, s
     std::fill_n(words, place.tile_size * place.tile_size, stored.word ^ place.flip);
   else
     load_planes_(words, place, stored.planes);
+}
+
+void TileStage::store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words, const TilePlace& place) const {
+  if (traffic.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
 }
 
 void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const {

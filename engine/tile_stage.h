@@ -21,7 +21,7 @@ struct TileStrip {
   std::int16_t row = 0, first_column = 0, last_column = 0;  // few bytes: one core sorts them while the others wait
   bool cleared = false;                                     ///< no triangle touches them: they show the last clear
 };
-static_assert(kMaxFrameBufferSize / 32 <= std::numeric_limits<std::int16_t>::max());
+static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int16_t>::max());
 
 struct StripCounts {
   std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
@@ -56,6 +56,7 @@ class TileStage {
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;
   void load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const;
+  void store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words, const TilePlace& place) const;
   void fill_cleared(const TileStrip& strip) const;
   std::uint8_t* shown_at(int x, int y) const;
 

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "framebuffer/bitplane.h"
 #include "framebuffer/instruction_set.h"
@@ -19,22 +21,26 @@ struct TilePlace {
   std::uint32_t flip = 0;    ///< XORed to the word both ways: 0x80000000 between depth keys and levels of 32 bits, else 0
 };
 
-/// Tile -> planes: of those pixels of the tile that lie in the picture. Plane k is written if bit k of `plane_store_mask` is
-/// set; bits beyond the stack's planes are ignored. What of the tile sticks out of the picture is not stored: pad bits
-/// stay 0, whatever the tile holds there.
+/// Tiles -> planes: of those pixels that lie in the picture. Plane k is written if bit k of `plane_store_mask` is set; bits
+/// beyond the stack's planes are ignored. What of a tile sticks out of the picture is not stored: pad bits stay 0, whatever
+/// the tile holds there.
 ///
-/// @param tile    tile_size^2 words, kTileAlignment aligned.
+/// @param tiles   neighbours from left to right, one at least, in one line of kLinePixels of the planes; each tile_size^2 words,
+///                kTileAlignment aligned.
+/// @param first   of the leftmost.
 /// @param planes  allocated. Tiles whose pixels share no byte, that is distinct tiles, may be stored by distinct threads; it
-///                is faster if one thread owns each run of 512 pixels of a row (a cache line).
+///                is faster if one thread owns each line, and fastest if it stores all tiles of a line at once.
 /// Bit-identical to store_planes_reference() on every instruction set. Never fails, never allocates.
-using StorePlanesFn = void(const std::uint32_t* tile, const TilePlace& place, BitplaneStack& planes,
+using StorePlanesFn = void(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes,
                             std::uint32_t plane_store_mask) noexcept;
 
 /// Planes -> tile: every word of the rows that lie in the picture. Bits beyond the stack's planes are 0 (before the flip); pixels
 /// right of the picture become 0 (before the flip), rows below it stay as they were.
 using LoadPlanesFn = void(std::uint32_t* tile, const TilePlace& place, const BitplaneStack& planes) noexcept;
 
-StorePlanesFn* store_planes_for(Isa isa) noexcept;
+StorePlanesFn* store_planes_for(Isa isa);
+/// All that this machine can run for `isa`, the fastest first.
+std::vector<StorePlanesFn*> store_planes_ways(Isa isa);
 LoadPlanesFn* load_planes_for(Isa isa) noexcept;
 
 }  // namespace tessera

@@ -7,7 +7,6 @@ namespace tessera {
 BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexcept
     : width_px_(width_px), height_px_(height_px), plane_count_(plane_count) {
   TESSERA_ASSERT(width_px >= 1 && height_px >= 1 && plane_count >= 0 && plane_count <= kMaxPlanes);
-  constexpr int kLinePixels = kPlaneAlignment * 8;
   const std::size_t row_lines = (static_cast<std::size_t>(width_px) + kLinePixels - 1) / kLinePixels;
   // An even number of lines, a power of two above all, would map one pixel of all planes to a few sets of the cache.
   const std::size_t plane_lines = row_lines * static_cast<std::size_t>(height_px) | 1;

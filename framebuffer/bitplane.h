@@ -17,6 +17,7 @@ namespace tessera {
 
 inline constexpr int kMaxPlanes = 32;
 inline constexpr int kPlaneAlignment = 64;  ///< bytes; rows of a plane are padded to it
+inline constexpr int kLinePixels = kPlaneAlignment * 8;  ///< of a plane in a cache line
 
 /// A stack of planes of one size. Memory is taken at allocate(), not before. Copying is not offered; moving leaves a stack
 /// without memory behind.

@@ -32,5 +32,13 @@ std::vector<Isa> available_isas() {
   return found;
 }
 
+bool machine_has_gfni() {
+#if HWY_TARGETS & HWY_AVX3
+  return machine_has_avx512() && __builtin_cpu_supports("gfni");
+#else
+  return false;
+#endif
+}
+
 }  // namespace tessera
 #endif  // HWY_ONCE

@@ -7,7 +7,7 @@ namespace tessera {
 
 inline constexpr int kBlockSize = 4;       ///< pixels; a block is 4x4, stored in 16 consecutive words
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
-inline constexpr int kMaxTileSize = 128;   ///< pixels; tiles are 32, 64 or 128 wide and high
+inline constexpr int kMinTileSize = 32, kMaxTileSize = 128;  ///< pixels; tiles are 32, 64 or 128 wide and high
 inline constexpr int kTileAlignment = 64;  ///< bytes
 
 /// Tile memory keeps blocks row by row and the pixels of a block row by row, so that one block is one or two vectors.

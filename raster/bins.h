@@ -124,7 +124,7 @@ class Bins {
   const Piece& last_piece() const { return pieces_.back(); }
   std::uint32_t id_of_last_piece() const { return kPiece | static_cast<std::uint32_t>(pieces_.size() - 1); }
   const Piece& piece(std::uint32_t id) const { return pieces_[id & ~kPiece]; }
-  /// Attributes of a piece, corner by corner; kAttributePadding floats may be read from each.
+  /// Attributes of a piece, corner by corner; behind the last one kAttributePadding more floats may be read.
   float* attributes(const Piece& piece) { return attributes_.data() + piece.first_attribute; }
   const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
 

@@ -12,7 +12,7 @@ namespace tessera {
 
 /// Floats of an attribute record are interpolated linearly in clip space, as the position is.
 inline constexpr int kMaxAttributes = 16;  // normal, position, colour with alpha, texture coordinates, a captured normal
-/// Floats that may be read from the start of any record, so that whole vectors can be loaded.
+/// Floats that may be read behind those of any record, so that whole vectors can be loaded.
 inline constexpr int kAttributePadding = 16;
 
 struct ClipVertex {

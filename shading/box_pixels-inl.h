@@ -182,7 +182,7 @@ struct BoxPixels {
       seen += static_cast<std::uint32_t>(std::popcount(bits));
       Int words = splat(value);
       if constexpr (kSeen == Seen::interpolate) words = color.words(weights.at(edge[0], edge[1], edge[2]));
-      store_words(run.memory.color + index, words, mask, writable);
+      store_words(run.color + index, words, mask, writable);
     }
   }
 };

@@ -212,14 +212,14 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
       const Int words = draw.index[pixels.back ? 1 : 0]      ? index_words(run.frame.layout, hn::Load(kFloat, batch.field[kColorR] + first))
                         : !per_pixel && draw.scaled_colors ? pack_scaled(run.frame.layout, batch, first)
                                                            : quantize_chunk(run.frame, batch, first, covered_lanes);
-      store_words(run.memory.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
+      store_words(run.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
     }
   }
   pixels.blocks = 0;
 }
 
 /// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one surface.
-HWY_INLINE bool prepare_triangles(const TileRun& run) {
+HWY_INLINE bool prepare_triangles(TileRun& run) {
   TileWorkspace::Memory& memory = run.memory;
   TESSERA_ASSERT(memory.triangles.size() <= kCollectedRoom);
   BatchSurface surface;

@@ -75,8 +75,9 @@ HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory&
 /// The small triangles that were added, whose colours are interpolated.
 template <class Depth, Test kTest>
 HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
-  const TileWorkspace::Memory& memory = run.memory;
-  const TriangleGroup& g = memory.group;
+  const TriangleGroup& g = run.memory.group;
+  std::uint32_t* const color = run.color;
+  std::int32_t* const stored_depth = run.memory.depth;
   pixels.set_up(run, draw);
   const std::uint32_t mask = draw.write_mask;
   const bool tests_stencil = has_stencil_test<kTest>(draw);
@@ -93,16 +94,16 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
       if constexpr (!kHasKeys) depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-      const std::int32_t key = kHasKeys ? pixels.key[p] : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255), stored = memory.depth[index];
+      const std::int32_t key = kHasKeys ? pixels.key[p] : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255), stored = stored_depth[index];
       const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
       if (tests_stencil) stencil[face].store_after_depth(index, passes);
       if (!passes) continue;
-      if (kTest == Test::less || draw.depth_write) run.memory.depth[index] = key;
+      if (kTest == Test::less || draw.depth_write) stored_depth[index] = key;
     } else if (tests_stencil) {
       stencil[face].store_after_depth(index, true);
     }
     const auto word = static_cast<std::uint32_t>(pixels.word[p]);
-    run.memory.color[index] = (word & mask) | (run.memory.color[index] & ~mask);
+    color[index] = (word & mask) | (color[index] & ~mask);
     ++seen;
   }
   run.counts.shaded_pixels += seen;

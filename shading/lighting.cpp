@@ -191,7 +191,7 @@ HWY_INLINE void add_products(const Incidence& light, int point, const Rgb& diffu
   (accumulate(sum, highlight, specular_color), ...);
   store_vector(batch, sums.first_field, point, sum);
 }
-/// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E., if there is a highlight anywhere.
+/// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E, if there is a highlight anywhere.
 void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light, Sums& color, Sums& tracked, ShadingBatch& batch) {
   const auto add = [&](int point, auto... highlight) HWY_ATTR {
     add_products(light, point, term.diffuse, term.specular, color, batch, highlight...);

@@ -185,7 +185,7 @@ class PlainPixels {
       if (!compares(key, draw_.depth_test, stored)) return;
       if (draw_.depth_write) stored = key;
     }
-    std::uint32_t& color = run_.memory.color[index];
+    std::uint32_t& color = run_.color[index];
     color ^= (color ^ word) & draw_.write_mask;
     ++run_.counts.shaded_pixels;
   }
@@ -197,7 +197,7 @@ class PlainPixels {
     if (uses_depth_) passed = hn::And(passed, hn::VecFromMask(kInt, comparing(keys, draw_.depth_test, load_words(reinterpret_cast<const std::uint32_t*>(run_.memory.depth), index))));
     const auto stays = hn::MaskFromVec(passed);
     if (draw_.write_mask != 0xffffffffu) {
-      const Int stored = load_words(run_.memory.color, index);
+      const Int stored = load_words(run_.color, index);
       words = hn::Xor(stored, hn::And(hn::Xor(stored, words), splat(static_cast<std::int32_t>(draw_.write_mask))));
     }
     alignas(64) std::int32_t at[kLanes], key[kLanes], word[kLanes];
@@ -206,7 +206,7 @@ class PlainPixels {
     hn::Store(words, kInt, word);
     if (uses_depth_ && draw_.depth_write)
       for (int l = 0; l < kLanes; ++l) run_.memory.depth[at[l]] = key[l];
-    for (int l = 0; l < kLanes; ++l) run_.memory.color[at[l]] = static_cast<std::uint32_t>(word[l]);
+    for (int l = 0; l < kLanes; ++l) run_.color[at[l]] = static_cast<std::uint32_t>(word[l]);
     run_.counts.shaded_pixels += hn::CountTrue(kInt, stays);
   }
 

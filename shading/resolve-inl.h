@@ -46,7 +46,7 @@ inline HWY_NOINLINE void resolve_samples(TileRun& run) {
         mean = hn::Or(mean, hn::ShiftLeftSame(hn::ShiftRightSame(sum, shift), fields.shift[f]));
       }
     }
-    hn::Store(mean, kInt, reinterpret_cast<std::int32_t*>(run.memory.color) + i);
+    hn::Store(mean, kInt, reinterpret_cast<std::int32_t*>(run.color) + i);
   }
 }
 

@@ -103,7 +103,7 @@ struct TexturedBlocks {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) at[chunk] = barycentric_at(bx, by, edges, chunk);
     find_texels(at, texels);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      store_words(run.memory.color + block + chunk * kLanes, words(at[chunk], texels[chunk]), hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
+      store_words(run.color + block + chunk * kLanes, words(at[chunk], texels[chunk]), hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
   }
 
  private:
@@ -119,7 +119,7 @@ struct TexturedBlocks {
     find_texels(at, texels);
     for (int i = 0; i < kChunks; ++i) {
       const FullBlock& block = group[i / kChunksPerBlock];
-      auto* const stored = reinterpret_cast<std::int32_t*>(run.memory.color + run.block_index(block.bx, block.by) + i % kChunksPerBlock * kLanes);
+      auto* const stored = reinterpret_cast<std::int32_t*>(run.color + run.block_index(block.bx, block.by) + i % kChunksPerBlock * kLanes);
       hn::Store(texels_alone ? words_of_texels(texels[i]) : modulated_words(at[i], texels[i]), kInt, stored);
     }
     blocks += kBlocks;
@@ -169,7 +169,7 @@ struct NearestRows {
     s.set(blocks.coordinates.s.corner);
     t.set(blocks.coordinates.t.corner);
     RowEdges edges(blocks.triangle.edges, first);
-    auto* stored = reinterpret_cast<std::int32_t*>(blocks.run.memory.color + blocks.run.block_index(bx, by));
+    auto* stored = reinterpret_cast<std::int32_t*>(blocks.run.color + blocks.run.block_index(bx, by));
     for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
         const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));

@@ -69,7 +69,7 @@ inline HWY_NOINLINE void run_accumulation(TileRun& run, const TileAccumulation& 
   }
   const bool reads_color = command.arithmetic.op() == AccumulationOp::accumulate || command.arithmetic.op() == AccumulationOp::load;
   if (run.samples > 1 && reads_color) resolve_samples(run);
-  run_on(run.memory.color);
+  run_on(run.color);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -44,6 +44,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   const TileGrid& grid = frame.grid;
   TileRun run{.frame = frame,
               .memory = workspace.memory(),
+              .color = workspace.color(),
               .tile_x = tile % grid.columns() * grid.tile_size,
               .tile_y = tile / grid.columns() * grid.tile_size,
               .tile_size = grid.tile_size,
@@ -118,15 +119,23 @@ TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
   // A group is added before the next look at the limit. Rendering a tile allocates nothing.
   memory_->triangles.reserve(kCollectedRoom);
   memory_->wide.reserve(kCollectedRoom);
+  allocate_colors(1);
 }
 TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
+std::uint32_t* TileWorkspace::select_color(std::size_t tile) { return memory_->color = memory_->colors[tile].word; }
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
 std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
 const std::uint32_t* TileWorkspace::sample_color(int sample) const { return memory_->samples->color[sample]; }
 AccumulatedPixels TileWorkspace::accumulation() { return memory_->levels(); }
 float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
+void TileWorkspace::allocate_colors(std::size_t tiles) {
+  if (memory_->color_count >= tiles) return;
+  memory_->colors = std::make_unique<TileColors[]>(tiles);
+  memory_->color_count = tiles;
+  select_color(0);
+}
 void TileWorkspace::allocate_normals() {
   if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
 }

@@ -36,7 +36,7 @@ struct TileDraw {
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
-  const float* attributes = nullptr;       ///< attribute_stride floats for each vertex; kAttributePadding may be read from each
+  const float* attributes = nullptr;       ///< attribute_stride floats for each vertex; behind the last one kAttributePadding more may be read
   int attribute_stride = 0, attribute_count = 0;
   int provoking = 2;                       ///< corner of each element: point, line or triangle
   int element_corners = 3;                 ///< edges and corners of polygons are parts of triangles
@@ -130,7 +130,9 @@ class TileWorkspace {
   TileWorkspace(TileWorkspace&&) noexcept;
   struct Memory;
   Memory& memory() { return *memory_; }
-  std::uint32_t* color();     ///< tile_size^2 words in tile order
+  std::uint32_t* color();     ///< tile_size^2 words in tile order, of the tile selected last, at first tile 0
+  /// From now on tiles are rendered into these words; those of other tiles stay. @pre allocate_colors, but for tile 0
+  std::uint32_t* select_color(std::size_t tile);
   std::int32_t* depth();      ///< depth keys
   std::int32_t* stencil();    ///< stencil values. @pre allocate_stencil
   /// Words of one sample of the tile rendered last, in tile order. @pre several samples, and a triangle in the tile
@@ -138,6 +140,7 @@ class TileWorkspace {
   AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation
   float* normals(int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
   /// These throw std::bad_alloc.
+  void allocate_colors(std::size_t tiles);
   void allocate_normals();
   void allocate_stencil();
   void allocate_samples();

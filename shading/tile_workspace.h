@@ -68,8 +68,12 @@ struct TouchedBlocks {
 /// A pixel behind those of a tile: what is stored there nobody sees.
 inline constexpr int kNoPixel = kMaxTileSize * kMaxTileSize;
 
+struct alignas(64) TileColors {
+  std::uint32_t word[kNoPixel + 1];
+};
+
 struct alignas(64) TileWorkspace::Memory {
-  alignas(64) std::uint32_t color[kNoPixel + 1];
+  std::uint32_t* color = nullptr;                              ///< of the tile that is rendered: one of `colors`
   alignas(64) std::int32_t depth[kNoPixel + 1];
   alignas(64) std::uint32_t ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
   bool ids_clean = false;                                      ///< every id is kNoTriangle: shading leaves them so
@@ -84,6 +88,8 @@ struct alignas(64) TileWorkspace::Memory {
   TriangleCorners corners[kCollectedRoom];
   std::int32_t surfaces[kCollectedRoom];
   TouchedBlocks touched;
+  std::unique_ptr<TileColors[]> colors;
+  std::size_t color_count = 0;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
   std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
   std::unique_ptr<TileSamples> samples;  ///< only where a frame has several for each pixel

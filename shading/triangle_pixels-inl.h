@@ -114,15 +114,14 @@ struct TrianglePixels {
   }
   // The same without any test or mask: one word, and whatever there is at each pixel.
   HWY_INLINE void fill_blocks(int index, int count) const {
-    auto* const first = reinterpret_cast<std::int32_t*>(run.memory.color + index);
+    auto* const first = reinterpret_cast<std::int32_t*>(run.color + index);
     for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(word), kInt, first + i);
   }
   HWY_INLINE void store_row(int bx, int by, int index, int count, RowEdges& row_edges) {
-    for (const int end = index + kBlockPixels * count; index < end; bx += 4, row_edges.step_right())
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
-        auto* const stored_at = reinterpret_cast<std::int32_t*>(run.memory.color + index);
+    auto* stored_at = reinterpret_cast<std::int32_t*>(run.color + index);
+    for (const int end = bx + 4 * count; bx < end; bx += 4, row_edges.step_right())
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored_at += kLanes)
         hn::Store(words_at(row_edges, bx, by, chunk, stored_at), kInt, stored_at);
-      }
   }
   /// @param block  its index
   template <bool kFull, class Edges>
@@ -162,7 +161,7 @@ struct TrianglePixels {
         const std::uint32_t bits = mask_bits(kInt, mask);
         if (is_interpolated(kSeen) && bits == 0) continue;
         seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
-        std::uint32_t* const stored_at = run.memory.color + index;
+        std::uint32_t* const stored_at = run.color + index;
         const Int words = words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
         kFull && writes_all_planes ? store_whole_words(stored_at, words, mask) : store_words(stored_at, words, mask, writable);
       }
@@ -202,8 +201,8 @@ struct TrianglePixels {
       seen = splat(-1);
     } else if constexpr (kSeen != Seen::nothing) {
       ++run.counts.shaded_pixels;
-      const std::uint32_t new_word = pixel_word(x, y, run.memory.color[index]);
-      run.memory.color[index] = (new_word & draw.write_mask) | (run.memory.color[index] & ~draw.write_mask);
+      const std::uint32_t new_word = pixel_word(x, y, run.color[index]);
+      run.color[index] = (new_word & draw.write_mask) | (run.color[index] & ~draw.write_mask);
     }
   }
 

@@ -27,9 +27,7 @@ struct alignas(kTileAlignment) Tile {
   std::uint32_t words[kMaxTileSize * kMaxTileSize];
 };
 
-constexpr int kLinePixels = 512;  // of a plane in one cache line: those have one worker, as in the renderer
-
-/// Every worker has a tile in its cache, all with the same random words, and stores it wherever the window has one.
+/// Every worker has the tiles of a cache line of the planes, all with the same random words, and stores them wherever the window has some.
 class StoredTiles : public Workload {
  public:
   StoredTiles(const WorkloadSetup& setup, int bits)
@@ -37,20 +35,22 @@ class StoredTiles : public Workload {
         parallel_(setup.options.threads, setup.options.executor),
         store_(store_planes_for(isa_of(setup.options.instruction_set))),
         planes_(setup.width, setup.height, bits),
-        tiles_(static_cast<std::size_t>(setup.options.threads)),
+        line_(kLinePixels / grid_.tile_size),
+        tiles_(static_cast<std::size_t>(setup.options.threads * line_)),
         picture_(setup.width, setup.height) {
     std::mt19937 random(setup.seed);
     for (std::uint32_t& word : tiles_.front().words) word = static_cast<std::uint32_t>(random());
     std::fill(tiles_.begin() + 1, tiles_.end(), tiles_.front());
+    for (const Tile& tile : tiles_) words_.push_back(tile.words);
     planes_.allocate(0);
   }
 
   FrameStats draw() override {
-    const int strip = kLinePixels / grid_.tile_size, strips = (grid_.columns() + strip - 1) / strip;
+    const int strips = (grid_.columns() + line_ - 1) / line_;
     parallel_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
-      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * strip;
-      for (int column = first; column < std::min(first + strip, grid_.columns()); ++column)
-        store_(tiles_[static_cast<std::size_t>(worker)].words, {.x0_px = column * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
+      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * line_;
+      const std::uint32_t* const* const tiles = words_.data() + worker * line_;
+      store_({tiles, static_cast<std::size_t>(std::min(line_, grid_.columns() - first))}, {.x0_px = first * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
     });
     return {};
   }
@@ -76,8 +76,9 @@ class StoredTiles : public Workload {
   }
 
   FrameWork work(const FrameStats&) const override {
-    const std::uint64_t bytes = planes_.needed_bytes();
-    return {.pixels = static_cast<std::uint64_t>(grid_.width_px) * static_cast<std::uint64_t>(grid_.height_px), .bytes = bytes, .kept_bytes = bytes, .limit = Limit::memory_stores, .limited_bytes = bytes};
+    const std::uint64_t pixels = static_cast<std::uint64_t>(grid_.width_px) * static_cast<std::uint64_t>(grid_.height_px), bytes = planes_.needed_bytes();
+    // What writes so many bytes of planes reads so many words of tiles: a copy, with something to do on the way.
+    return {.pixels = pixels, .bytes = bytes, .kept_bytes = bytes, .limit = Limit::memory_copies, .limited_bytes = bytes + pixels * sizeof(std::uint32_t)};
   }
 
  private:
@@ -89,7 +90,9 @@ class StoredTiles : public Workload {
   Parallel parallel_;
   StorePlanesFn* store_;
   BitplaneStack planes_;
+  int line_;  // tiles in a line
   std::vector<Tile> tiles_;
+  std::vector<const std::uint32_t*> words_;  // of each of them
   Picture picture_;
 };
 

@@ -1,0 +1,25 @@
+// Squares of 8x8 bits in a 64-bit integer, where there are no vectors: 8 pixels of 8 planes.
+//
+// Based on: H. S. Warren, Hacker's Delight, 2nd edition 2012, 7-3 (three rounds of exchanges).
+#pragma once
+
+#include <cstdint>
+
+#include "framebuffer/tile_grid.h"
+
+namespace tessera {
+
+/// Bit b of byte k goes to bit k of byte b.
+inline std::uint64_t transpose_8x8(std::uint64_t x) noexcept {
+  std::uint64_t t = (x ^ x >> 7) & 0x00aa00aa00aa00aa;
+  x ^= t ^ t << 7;
+  t = (x ^ x >> 14) & 0x0000cccc0000cccc;
+  x ^= t ^ t << 14;
+  t = (x ^ x >> 28) & 0x00000000f0f0f0f0;
+  return x ^ t ^ t << 28;
+}
+/// Pixel i of a strip of 8; its byte stands at 7 - i in 64 bits, because bit 7 is the leftmost pixel.
+inline int strip_index(int i) noexcept { return i / kBlockSize * kBlockPixels + i % kBlockSize; }
+inline int byte_shift(int i) noexcept { return 8 * (7 - i); }
+
+}  // namespace tessera

@@ -1,0 +1,53 @@
+// Neighbouring tiles of a row and the planes' bits that belong to them, as kernels that store them go through both.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "framebuffer/bit_transpose.h"
+#include "framebuffer/check.h"
+#include "framebuffer/tile_grid.h"
+
+namespace tessera {
+
+inline void assert_tile_fits([[maybe_unused]] const TilePlace& place, [[maybe_unused]] const BitplaneStack& planes) noexcept {
+  TESSERA_ASSERT(place.tile_size == 32 || place.tile_size == 64 || place.tile_size == 128);
+  TESSERA_ASSERT(place.x0_px >= 0 && place.x0_px < planes.width_px() && place.x0_px % place.tile_size == 0);
+  TESSERA_ASSERT(place.y0_px >= 0 && place.y0_px < planes.height_px() && place.y0_px % place.tile_size == 0);
+  // Rows are padded to a multiple of every tile size, so that no column of a tile falls off the end of its row.
+  static_assert(kPlaneAlignment * 8 % kMaxTileSize == 0);
+}
+
+/// The bits of some pixels in plane 0, and the way from there to the other planes.
+struct StripBits {
+  std::uint8_t* first;
+  std::size_t plane_stride;
+  std::uint8_t* plane(int k) const noexcept { return first + static_cast<std::size_t>(k) * plane_stride; }
+};
+
+struct StripRows {
+  std::span<const std::uint32_t* const> tiles;
+  int tile_size;
+  int width_px, height_px;      ///< of what lies in the picture
+  StripBits bits;               ///< of the top left pixel
+  std::ptrdiff_t stride_bytes;  ///< of the planes' rows
+
+  /// Of tile t alone.
+  StripRows only(std::size_t t) const noexcept {
+    const int x = static_cast<int>(t) * tile_size;
+    return {tiles.subspan(t, 1), tile_size, std::min(tile_size, width_px - x), height_px, {bits.first + x / 8, bits.plane_stride}, stride_bytes};
+  }
+  /// The block that holds pixel x of row y, multiples of 4. Behind the last tile: any block.
+  const std::uint32_t* block(int x, int y) const noexcept {
+    const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y), size = static_cast<std::size_t>(tile_size);
+    const std::size_t tile = std::min(column >> std::countr_zero(size), tiles.size() - 1);
+    return tiles[tile] + (row / kBlockSize * size + (column & (size - 1))) * kBlockSize;
+  }
+  /// Of pixel 0 of row y in the first tile; those of its pixel x, a multiple of 4, come x * kBlockSize later.
+  const std::uint32_t* words(int y) const noexcept { return tiles.front() + tile_index(0, y, tile_size); }
+};
+
+}  // namespace tessera
