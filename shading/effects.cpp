@@ -126,15 +126,16 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
     term.spot_direction = light.spot_direction;
     term.attenuation = light.attenuation;
-    term.spot_exponent = light.spot_exponent;
+    term.spot_power = power_with(light.spot_exponent);
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
     const bool half_varies = term.highlight == HighlightKind::blinn_local || (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
     // No square is below 2^-126, no cosine by squares below 2^-63: its power, 2^(-63 s), would be seen of small exponents.
     term.squared = half_varies && model.unit_normals && !term.sharp && material.shininess >= 1;
-    term.highlight_exponent = term.squared ? material.shininess / 2 : material.shininess;
+    const float exponent = term.squared ? material.shininess / 2 : material.shininess;
+    term.highlight_power = power_with(exponent);
     // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.
-    term.highlight_floor = term.highlight_exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-32.0f / term.highlight_exponent, -126.0f));
+    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-32.0f / exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;

@@ -36,10 +36,10 @@ HWY_INLINE Float inverse_length(Float squared) {
   return hn::IfThenElseZero(hn::Gt(squared, hn::Zero(kFloat)), hn::Div(splat(1.0f), hn::Sqrt(squared)));
 }
 /// sum += intensity * colour
-HWY_INLINE void accumulate(Vector& sum, Float intensity, const Rgb& color) {
-  sum.x = mul_add(intensity, splat(color[0]), sum.x);
-  sum.y = mul_add(intensity, splat(color[1]), sum.y);
-  sum.z = mul_add(intensity, splat(color[2]), sum.z);
+HWY_INLINE void accumulate(Vector& sum, Float intensity, const Vector& color) {
+  sum.x = mul_add(intensity, color.x, sum.x);
+  sum.y = mul_add(intensity, color.y, sum.y);
+  sum.z = mul_add(intensity, color.z, sum.z);
 }
 
 /// What the stages of one light hand on. Each stage goes over all points before the next begins: the roots and divisions of several chunks then run beside each
@@ -61,7 +61,9 @@ template <LightKind kKind>
 HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
   constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
-  const Vector from = splat_vector(term.position);
+  // What is stored cannot change these, which a compiler cannot know of `term`.
+  const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation), spot_direction = splat_vector(term.spot_direction);
+  const Float spot_cosine = splat(term.spot_cosine);
   auto any = hn::Gt(zero, zero);
   for (int point = 0; point < count; point += kLanes) {
     Vector to_light = from;
@@ -73,15 +75,15 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       const Float distance = hn::Sqrt(squared);
       to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
       if constexpr (kAttenuated) {
-        const Float denominator = mul_add(splat(term.attenuation[2]), squared, mul_add(splat(term.attenuation[1]), distance, splat(term.attenuation[0])));
+        const Float denominator = mul_add(attenuation.z, squared, mul_add(attenuation.y, distance, attenuation.x));
         factor = hn::IfThenElse(hn::Gt(denominator, zero), cut(hn::Div(one, denominator)), splat(1.0e6f));
       }
     }
     const Float n_dot_l = dot(load_vector(batch, kNormalX, point), to_light);
     auto facing = hn::Gt(n_dot_l, zero);
     if constexpr (is_spot(kKind)) {
-      const Float cosine = hn::Sub(zero, dot(to_light, splat_vector(term.spot_direction)));
-      const auto reached = hn::And(hn::Ge(cosine, splat(term.spot_cosine)), hn::Gt(cosine, zero));
+      const Float cosine = hn::Sub(zero, dot(to_light, spot_direction));
+      const auto reached = hn::And(hn::Ge(cosine, spot_cosine), hn::Gt(cosine, zero));
       hn::Store(cosine, kFloat, light.cosine + point);
       factor = hn::IfThenElseZero(reached, factor);
       facing = hn::And(facing, reached);
@@ -105,19 +107,30 @@ bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
   }
 }
 
-/// What a spot's cone leaves of its light.
-void apply_cone(const LightTerm& term, int count, Incidence& light) {
-  with_power(term.spot_exponent, [&](const auto& power) HWY_ATTR {
-    for (int point = 0; point < count; point += kLanes) {
-      const Float share = power(hn::Load(kFloat, light.cosine + point));
-      hn::Store(cut(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
+/// Calls visit(point, its x to that power) for a chunk of points after the other; powers are taken of several chunks at once.
+template <class Visit>
+HWY_INLINE void for_each_power(const Power& power, const float* x, int count, const Visit& visit) {
+  constexpr int kTogether = 4;
+  with_power(power, [&](const auto& raise) HWY_ATTR {
+    for (int first = 0; first < count; first += kTogether * kLanes) {
+      Float powers[kTogether];
+      for (int k = 0; k < kTogether; ++k) powers[k] = first + k * kLanes < count ? hn::Load(kFloat, x + first + k * kLanes) : hn::Zero(kFloat);
+      raise(powers);
+      for (int k = 0; k < kTogether && first + k * kLanes < count; ++k) visit(first + k * kLanes, powers[k]);
     }
   });
 }
 
+/// What a spot's cone leaves of its light.
+void apply_cone(const LightTerm& term, int count, Incidence& light) {
+  for_each_power(term.spot_power, light.cosine, count, [&](int point, Float share) HWY_ATTR {
+    hn::Store(cut(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
+  });
+}
+
 /// Where a highlight can be: on what faces the light, with a power that is seen.
-HWY_INLINE auto is_shiny(const LightTerm& term, const Incidence& light, int point) {
-  return hn::AndNot(hn::Le(hn::Load(kFloat, light.highlight + point), splat(term.highlight_floor)), hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)));
+HWY_INLINE auto is_shiny(Float floor, const Incidence& light, int point) {
+  return hn::AndNot(hn::Le(hn::Load(kFloat, light.highlight + point), floor), hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)));
 }
 
 /// S.n, its square or R.E. Returns whether there is a highlight anywhere.
@@ -127,15 +140,16 @@ HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& bat
   static_assert(!kFixedHalf || kHighlight == HighlightKind::blinn_infinite);
   constexpr bool kBlinn = kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
   constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
-  const Float zero = hn::Zero(kFloat);
+  const Float zero = hn::Zero(kFloat), floor = splat(term.highlight_floor);
+  const Vector fixed_half = splat_vector(term.half_vector);
+  const bool sharp = term.sharp, squared_power = term.squared;
   auto any = hn::Gt(zero, zero);
   for (int point = 0; point < count; point += kLanes) {
     const Vector normal = load_vector(batch, kNormalX, point);
     Float base;
     if constexpr (kFixedHalf) {
-      const Vector half = splat_vector(term.half_vector);
-      base = dot(normal, half);
-      if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(normal, half, splat(1.0f)));
+      base = dot(normal, fixed_half);
+      if (HWY_UNLIKELY(sharp)) base = cosine_of_units(less_times(normal, fixed_half, splat(1.0f)));
     } else {
       const Vector to_light = light.direction(point);
       const Vector view = kLocal ? load_vector(batch, kViewX, point) : Vector{zero, zero, splat(1.0f)};
@@ -143,21 +157,21 @@ HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& bat
       const Float n_dot_l = hn::Load(kFloat, light.n_dot_l + point), n_dot_v = kLocal ? hn::Load(kFloat, batch.field[kNormalDotView] + point) : normal.z;
       if constexpr (kBlinn) {  // S = normalize(L + E)
         const Float squared = dot(half, half), sum = hn::Add(n_dot_l, n_dot_v);
-        if (HWY_LIKELY(term.squared)) {
+        if (HWY_LIKELY(squared_power)) {
           const Float kept = greater_of(sum, zero);
           base = hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(hn::Mul(kept, kept), squared));
         } else {
           const Float inverse = inverse_length(squared);
-          base = term.sharp ? cosine_of_units(less_times(normal, half, inverse)) : hn::Mul(sum, inverse);
+          base = sharp ? cosine_of_units(less_times(normal, half, inverse)) : hn::Mul(sum, inverse);
         }
       } else {  // R = 2 (L.n) n - L
         const Float twice = hn::Add(n_dot_l, n_dot_l);
         base = hn::Sub(hn::Mul(twice, n_dot_v), kLocal ? dot(to_light, view) : to_light.z);
-        if (HWY_UNLIKELY(term.sharp)) base = cosine_of_units(less_times(half, normal, twice));  // E - R
+        if (HWY_UNLIKELY(sharp)) base = cosine_of_units(less_times(half, normal, twice));  // E - R
       }
     }
     hn::Store(base, kFloat, light.highlight + point);
-    any = hn::Or(any, is_shiny(term, light, point));
+    any = hn::Or(any, is_shiny(floor, light, point));
   }
   return !hn::AllFalse(kFloat, any);
 }
@@ -184,7 +198,7 @@ struct Sums {
 
 /// Adds the diffuse part of a light to a chunk of points, and highlights, if there are any.
 template <class... Highlight>
-HWY_INLINE void add_products(const Incidence& light, int point, const Rgb& diffuse_color, const Rgb& specular_color, const Sums& sums, ShadingBatch& batch, Highlight... highlight) {
+HWY_INLINE void add_products(const Incidence& light, int point, const Vector& diffuse_color, const Vector& specular_color, const Sums& sums, ShadingBatch& batch, Highlight... highlight) {
   const Float diffuse = cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
   Vector sum = sums.load(batch, point);
   accumulate(sum, diffuse, diffuse_color);
@@ -193,16 +207,17 @@ HWY_INLINE void add_products(const Incidence& light, int point, const Rgb& diffu
 }
 /// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E, if there is a highlight anywhere.
 void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light, Sums& color, Sums& tracked, ShadingBatch& batch) {
-  const auto add = [&](int point, auto... highlight) HWY_ATTR {
-    add_products(light, point, term.diffuse, term.specular, color, batch, highlight...);
-    if (has_tracked) add_products(light, point, term.tracked_diffuse, term.tracked_specular, tracked, batch, highlight...);
+  // Copies: what is stored cannot change them.
+  const Vector diffuse = splat_vector(term.diffuse), specular = splat_vector(term.specular);
+  const Float floor = splat(term.highlight_floor);
+  const auto add = [&, color, tracked, has_tracked, diffuse, specular](int point, auto... highlight) HWY_ATTR {
+    add_products(light, point, diffuse, specular, color, batch, highlight...);
+    if (has_tracked) add_products(light, point, splat_vector(term.tracked_diffuse), splat_vector(term.tracked_specular), tracked, batch, highlight...);
   };
   if (highlights) {
-    with_power(term.highlight_exponent, [&](const auto& power) HWY_ATTR {
-      for (int point = 0; point < count; point += kLanes) {
-        const Float highlight = cut(hn::Mul(power(hn::Load(kFloat, light.highlight + point)), hn::Load(kFloat, light.factor + point)));
-        add(point, hn::IfThenElseZero(is_shiny(term, light, point), highlight));
-      }
+    for_each_power(term.highlight_power, light.highlight, count, [&, add, floor](int point, Float power) HWY_ATTR {
+      const Float highlight = cut(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
+      add(point, hn::IfThenElseZero(is_shiny(floor, light, point), highlight));
     });
   } else {
     for (int point = 0; point < count; point += kLanes) add(point);
@@ -213,7 +228,7 @@ void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int co
 HWY_NOINLINE void add_ambient(const Incidence& light, int count, const Rgb& color, Sums& sums, ShadingBatch& batch) {
   for (int point = 0; point < count; point += kLanes) {
     Vector sum = sums.load(batch, point);
-    accumulate(sum, hn::Load(kFloat, light.factor + point), color);
+    accumulate(sum, hn::Load(kFloat, light.factor + point), splat_vector(color));
     store_vector(batch, sums.first_field, point, sum);
   }
   sums.begun = true;
@@ -225,7 +240,7 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   Incidence light;
   const bool faces = find_incidence(term, batch, count, light);
   if (!faces && !has_ambient) return;  // adds exact zeros only
-  if (is_spot(term.kind) && term.spot_exponent != 0) apply_cone(term, count, light);
+  if (is_spot(term.kind) && term.spot_power.exponent != 0) apply_cone(term, count, light);
   if (has_ambient) {
     add_ambient(light, count, term.ambient, color, batch);
     if (has_tracked) add_ambient(light, count, term.tracked_ambient, tracked, batch);

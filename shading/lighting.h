@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "framebuffer/instruction_set.h"
+#include "shading/power.h"
 
 namespace tessera {
 
@@ -96,8 +97,8 @@ struct LightTerm {
   std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
-  float spot_exponent = 0, spot_cosine = 0;
-  float highlight_exponent = 0;                ///< of S.n, its square or R.E
+  float spot_cosine = 0;
+  Power spot_power, highlight_power;           ///< of the cosine to the axis; of S.n, its square or R.E
   /// Up to here these make no highlight: their power is below 2^-32, or they are below 2^-126. NaN, which nothing is up to, where the power is 1 for everything.
   float highlight_floor = 0;
   Rgb ambient{}, diffuse{}, specular{};                            ///< light times material

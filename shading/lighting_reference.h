@@ -49,7 +49,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
         reached = cosine >= term.spot_cosine && cosine > 0;
-        factor = reached ? power_of_reference(cosine, term.spot_exponent) : 0.0f;
+        factor = reached ? power_of_reference(cosine, term.spot_power.exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
         const float denominator = std::fma(term.attenuation[2], squared, std::fma(term.attenuation[1], distance, term.attenuation[0]));
@@ -75,7 +75,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
         const float squared = dot(half, half), inverse = inverse_length(squared), sum = n_dot_l + n_dot_v, kept = sum > 0 ? sum : 0.0f;
         base = term.squared ? (squared > 0 ? kept * kept / squared : 0.0f) : term.sharp ? cosine_of_units(normal, half, inverse) : sum * inverse;
       }
-      highlight = base <= term.highlight_floor ? 0.0f : cut(power_of_reference(base, term.highlight_exponent) * factor);
+      highlight = base <= term.highlight_floor ? 0.0f : cut(power_of_reference(base, term.highlight_power.exponent) * factor);
     }
     accumulate(color, factor, term.ambient);
     accumulate(tracked, factor, term.tracked_ambient);

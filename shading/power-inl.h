@@ -8,6 +8,9 @@
 #define TESSERA_SHADING_POWER_INL_H_
 #endif
 
+#include <algorithm>
+#include <cstddef>
+
 #include "raster/lanes-inl.h"
 #include "shading/power.h"
 
@@ -47,25 +50,28 @@ HWY_INLINE Float power_lanes(Float x, float y) {
 }
 
 /// x^n for n = 1 .. kLargestWholePower, by products of squares: off by what n - 1 roundings come to. 0 for x <= 0 or NaN; x below `least` counts as that,
-/// and what is above 2^96 comes out as that.
+/// and what is above 2^96 comes out as that. The x in place, beside each other: the way through n is the same for all.
 /// @param least  2^least_log2(n)
-HWY_INLINE Float whole_power_lanes(Float x, int n, Float least) {
-  Float square = greater_of(x, least), product = splat(1.0f);
+template <std::size_t kCount>
+HWY_INLINE void raise_to_whole(Float (&x)[kCount], int n, float least) {
+  Float square[kCount], product[kCount];
+  for (std::size_t i = 0; i < kCount; ++i) square[i] = greater_of(x[i], splat(least)), product[i] = splat(1.0f);
   for (int rest = n;;) {
-    if ((rest & 1) != 0) product = hn::Mul(product, square);
+    if ((rest & 1) != 0)
+      for (std::size_t i = 0; i < kCount; ++i) product[i] = hn::Mul(product[i], square[i]);
     rest >>= 1;
     if (rest == 0) break;
-    square = hn::Mul(square, square);
+    for (std::size_t i = 0; i < kCount; ++i) square[i] = hn::Mul(square[i], square[i]);
   }
-  return hn::IfThenElseZero(hn::Gt(x, hn::Zero(kFloat)), lesser_of(product, splat(kLargestPower)));
+  for (std::size_t i = 0; i < kCount; ++i) x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kLargestPower)));
 }
 
-/// Calls run(power) with the function of x that x^exponent is: it is chosen once for many x. x^0 is 1 whatever x is.
+/// Calls run(raise), where raise(x), of an array, takes its x to that power in place: how is chosen once for many x. x^0 is 1 whatever x is.
 template <class Run>
-HWY_INLINE void with_power(float exponent, const Run& run) {
-  if (const int whole = whole_power(exponent); whole != 0) run([whole, least = exp2_lanes(splat(least_log2(whole)))](Float x) HWY_ATTR { return whole_power_lanes(x, whole, least); });
-  else if (exponent == 0) run([](Float) HWY_ATTR { return splat(1.0f); });
-  else run([exponent](Float x) HWY_ATTR { return power_lanes(x, exponent); });
+HWY_INLINE void with_power(const Power& power, const Run& run) {
+  if (power.whole != 0) run([power]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { raise_to_whole(x, power.whole, power.least); });
+  else if (power.exponent == 0) run([]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { std::fill_n(x, kCount, splat(1.0f)); });
+  else run([power]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { for (Float& one : x) one = power_lanes(one, power.exponent); });
 }
 
 }  // namespace HWY_NAMESPACE

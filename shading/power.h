@@ -21,6 +21,13 @@ constexpr int whole_power(float exponent) {
 /// The logarithm of what smaller numbers count as under a whole exponent: a hair above 2^(-126 / n), so that no product is subnormal.
 constexpr float least_log2(int whole) { return -125.99f / static_cast<float>(whole); }
 
+/// How a power of many numbers is worked out. By default: x^0.
+struct Power {
+  float exponent = 0;
+  int whole = 0;    ///< whole_power(exponent)
+  float least = 0;  ///< 2^least_log2(whole): what smaller numbers count as
+};
+
 inline constexpr int kLog2Terms = 10;
 inline constexpr float kLog2Coefficients[kLog2Terms] = {-0.107497894181f, 0.184760333652f,  -0.191388376567f, 0.204857647786f,  -0.23960812191f,
                                                         0.288552561437f,  -0.360696541808f, 0.480898520324f,  -0.721347354479f, 1.44269504f};

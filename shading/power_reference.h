@@ -47,6 +47,11 @@ inline float whole_power_reference(float x, int n) {
   return product < kLargestPower ? product : kLargestPower;
 }
 
+inline Power power_with(float exponent) {
+  const int whole = whole_power(exponent);
+  return {exponent, whole, whole != 0 ? exp2_reference(least_log2(whole)) : 0};
+}
+
 /// x^0 is 1 whatever x is.
 inline float power_of_reference(float x, float exponent) {
   if (const int whole = whole_power(exponent); whole != 0) return whole_power_reference(x, whole);

@@ -3,6 +3,7 @@
 #include "framebuffer/lanes.h"
 
 #include "shading/power-inl.h"
+#include "shading/power_reference.h"
 #include "tests/shading/power_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -11,8 +12,12 @@ namespace HWY_NAMESPACE {
 
 void evaluate_power_lanes(test::PowerFunction function, const float* arguments, float exponent, float* results, std::size_t count) {
   if (function == test::PowerFunction::chosen)
-    return with_power(exponent, [&](const auto& power) HWY_ATTR {
-      for (std::size_t i = 0; i < count; i += kLanes) hn::StoreU(power(hn::LoadU(kFloat, arguments + i)), kFloat, results + i);
+    return with_power(power_with(exponent), [&](const auto& raise) HWY_ATTR {
+      for (std::size_t i = 0; i < count; i += kLanes) {
+        Float x[] = {hn::LoadU(kFloat, arguments + i)};
+        raise(x);
+        hn::StoreU(x[0], kFloat, results + i);
+      }
     });
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Float x = hn::LoadU(kFloat, arguments + i);
