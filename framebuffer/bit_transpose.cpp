@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <vector>
 
 #include "framebuffer/bit_square.h"
 #include "framebuffer/check.h"
@@ -202,14 +201,12 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera {
-StorePlanesFn* store_planes_for(Isa isa) { return store_planes_ways(isa).front(); }
-std::vector<StorePlanesFn*> store_planes_ways([[maybe_unused]] Isa isa) {
-  std::vector<StorePlanesFn*> ways;
+StorePlanesFn* store_planes_for([[maybe_unused]] Isa isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
-  if (isa == Isa::avx512 && machine_has_gfni()) ways.push_back(&N_AVX3::store_planes_by_lines);
+  if (isa == Isa::avx512 && machine_has_gfni()) return &N_AVX3::store_planes_by_lines;
 #endif
-  ways.push_back(TESSERA_KERNEL(isa, store_planes));
-  return ways;
+  return store_planes_tile_by_tile(isa);
 }
+StorePlanesFn* store_planes_tile_by_tile([[maybe_unused]] Isa isa) noexcept { return TESSERA_KERNEL(isa, store_planes); }
 }  // namespace tessera
 #endif

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "framebuffer/bitplane.h"
 #include "framebuffer/instruction_set.h"
@@ -38,9 +37,10 @@ using StorePlanesFn = void(std::span<const std::uint32_t* const> tiles, const Ti
 /// right of the picture become 0 (before the flip), rows below it stay as they were.
 using LoadPlanesFn = void(std::uint32_t* tile, const TilePlace& place, const BitplaneStack& planes) noexcept;
 
-StorePlanesFn* store_planes_for(Isa isa);
-/// All that this machine can run for `isa`, the fastest first.
-std::vector<StorePlanesFn*> store_planes_ways(Isa isa);
+/// The fastest that this machine can run for `isa`.
+StorePlanesFn* store_planes_for(Isa isa) noexcept;
+/// What that is where there is no faster way for whole lines.
+StorePlanesFn* store_planes_tile_by_tile(Isa isa) noexcept;
 LoadPlanesFn* load_planes_for(Isa isa) noexcept;
 
 }  // namespace tessera

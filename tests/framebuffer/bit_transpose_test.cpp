@@ -73,7 +73,8 @@ bool same_bits(const BitplaneStack& a, const BitplaneStack& b) {
 std::vector<StorePlanesFn*> ways() {
   std::vector<StorePlanesFn*> all;
   for (Isa isa : available_isas())
-    for (StorePlanesFn* way : store_planes_ways(isa)) all.push_back(way);
+    for (StorePlanesFn* way : {store_planes_for(isa), store_planes_tile_by_tile(isa)})
+      if (std::find(all.begin(), all.end(), way) == all.end()) all.push_back(way);
   return all;
 }
 void store_tile(StorePlanesFn* store, const std::uint32_t* words, const TilePlace& place, BitplaneStack& planes, std::uint32_t mask = ~0u) {
