@@ -243,7 +243,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.loads_stencil = commands.stencil.load;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
-    prepare_workspaces({.colors = commands.color.store ? static_cast<std::size_t>(kLinePixels / grid.tile_size) : 1,
+    prepare_workspaces({.colors = TileStage::kept_tiles(commands, grid, isa),
                         .normals = capture.needs_normals(),
                         .stencil = commands.stencil.used,
                         .accumulation = commands.accumulation.used,

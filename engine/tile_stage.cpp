@@ -28,7 +28,7 @@ std::size_t load_class(std::uint64_t triangles) {
 TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture,
                      ShowMemory& show, Isa isa)
     : commands_(commands), frame_(frame), target_(target), image_(image), capture_(capture), show_(show), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
-      load_planes_(load_planes_for(isa)) {
+      load_planes_(load_planes_for(isa)), kept_tiles_(kept_tiles(commands, frame.grid, isa)) {
   if (image == nullptr) return;
   shown_ = shown_part(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
@@ -82,14 +82,17 @@ void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {
   if (strip.cleared) return fill_cleared(strip);
   std::array<const std::uint32_t*, kLinePixels / kMinTileSize> colors;
+  const int size = frame_.grid.tile_size;
   std::size_t kept = 0;
   for (int column = strip.first_column; column <= strip.last_column; ++column) {
-    if (commands_.color.store) colors[kept] = workspace.select_color(kept), ++kept;
+    colors[kept] = workspace.select_color(kept);
+    ++kept;
     render_tile_at(strip.row, column, workspace, counts);
+    if (kept < kept_tiles_ && column < strip.last_column) continue;
+    const int first_column = column + 1 - static_cast<int>(kept);
+    if (commands_.color.store) store_planes_({colors.data(), kept}, {first_column * size, strip.row * size, size, 0}, target_.color.planes, ~0u);
+    kept = 0;
   }
-  if (kept == 0) return;
-  const int size = frame_.grid.tile_size;
-  store_planes_({colors.data(), kept}, {strip.first_column * size, strip.row * size, size, 0}, target_.color.planes, ~0u);
 }
 
 void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const {

@@ -201,9 +201,10 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera {
-StorePlanesFn* store_planes_for([[maybe_unused]] Isa isa) noexcept {
+bool stores_whole_lines(Isa isa) noexcept { return isa == Isa::avx512 && machine_has_gfni(); }
+StorePlanesFn* store_planes_for(Isa isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
-  if (isa == Isa::avx512 && machine_has_gfni()) return &N_AVX3::store_planes_by_lines;
+  if (stores_whole_lines(isa)) return &N_AVX3::store_planes_by_lines;
 #endif
   return store_planes_tile_by_tile(isa);
 }

@@ -24,7 +24,7 @@ struct TilePlace {
 /// beyond the stack's planes are ignored. What of a tile sticks out of the picture is not stored: pad bits stay 0, whatever
 /// the tile holds there.
 ///
-/// @param tiles   neighbours from left to right, one at least, in one line of kLinePixels of the planes; each tile_size^2 words,
+/// @param tiles   neighbours from left to right, one at least, in one line of kLinePixels of the planes, each of which begins inside the picture; tile_size^2 words,
 ///                kTileAlignment aligned.
 /// @param first   of the leftmost.
 /// @param planes  allocated. Tiles whose pixels share no byte, that is distinct tiles, may be stored by distinct threads; it
@@ -39,7 +39,9 @@ using LoadPlanesFn = void(std::uint32_t* tile, const TilePlace& place, const Bit
 
 /// The fastest that this machine can run for `isa`.
 StorePlanesFn* store_planes_for(Isa isa) noexcept;
-/// What that is where there is no faster way for whole lines.
+/// Whether it is faster for all tiles of a line together.
+bool stores_whole_lines(Isa isa) noexcept;
+/// What it is where that is not so.
 StorePlanesFn* store_planes_tile_by_tile(Isa isa) noexcept;
 LoadPlanesFn* load_planes_for(Isa isa) noexcept;
 

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 
 #include "framebuffer/strip_rows.h"
@@ -97,10 +96,10 @@ inline __m512i inside_line(int inside_px) noexcept {
 /// @pre the strip takes all of the picture's pixels in a line of the planes
 inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_t mask) noexcept {
   const int bytes = (std::bit_width(mask) + 7) / 8;
-  alignas(64) __m512i quarters[4][kMaxPlanes] = {};  // those outside the picture stay 0
+  alignas(64) __m512i quarters[4][kMaxPlanes] = {};  // those outside the picture are masked away
   const __m512i inside = inside_line(strip.width_px);
-  StripBits line = strip.bits;
-  for (int y = 0; y < strip.height_px; y += kBlockSize, line.first += kBlockSize * strip.stride_bytes) {
+  for (int y = 0; y < strip.height_px; y += kBlockSize) {
+    const StripBits line{strip.bits.first + y * strip.stride_bytes, strip.bits.plane_stride};
     for (int x = 0; x < strip.width_px; x += kQuarterPixels) collect_quarter(strip, x, y, bytes, quarters[x / kQuarterPixels]);
     const int rows = std::min(kBlockSize, strip.height_px - y);
     for (int k = 0; k < 8 * bytes; ++k) {
@@ -111,10 +110,10 @@ inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_
       const __m512i cd01 = _mm512_shuffle_i32x4(c, d, 0x44), cd23 = _mm512_shuffle_i32x4(c, d, 0xee);
       const __m512i lines[kBlockSize] = {_mm512_shuffle_i32x4(ab01, cd01, 0x88), _mm512_shuffle_i32x4(ab01, cd01, 0xdd),
                                          _mm512_shuffle_i32x4(ab23, cd23, 0x88), _mm512_shuffle_i32x4(ab23, cd23, 0xdd)};
-      std::uint8_t* to = line.plane(k);
+      std::uint8_t* const to = line.plane(k);
 #pragma GCC unroll 4
-      for (int r = 0; r < kBlockSize; ++r, to += strip.stride_bytes)
-        if (r < rows) _mm512_store_si512(to, _mm512_and_si512(_mm512_xor_si512(lines[r], flips), inside));
+      for (int r = 0; r < kBlockSize; ++r)
+        if (r < rows) _mm512_store_si512(to + r * strip.stride_bytes, _mm512_and_si512(_mm512_xor_si512(lines[r], flips), inside));
     }
   }
 }

@@ -8,7 +8,6 @@
 #define TESSERA_SHADING_POWER_INL_H_
 #endif
 
-#include <algorithm>
 #include <cstddef>
 
 #include "raster/lanes-inl.h"
@@ -70,7 +69,7 @@ HWY_INLINE void raise_to_whole(Float (&x)[kCount], int n, float least) {
 template <class Run>
 HWY_INLINE void with_power(const Power& power, const Run& run) {
   if (power.whole != 0) run([power]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { raise_to_whole(x, power.whole, power.least); });
-  else if (power.exponent == 0) run([]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { std::fill_n(x, kCount, splat(1.0f)); });
+  else if (power.exponent == 0) run([]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { for (Float& one : x) one = splat(1.0f); });
   else run([power]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { for (Float& one : x) one = power_lanes(one, power.exponent); });
 }
 
