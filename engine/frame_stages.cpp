@@ -243,13 +243,14 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.loads_stencil = commands.stencil.load;
   const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
-    prepare_workspaces({.colors = TileStage::kept_tiles(commands, grid, isa),
+    const TileStage stage(commands, frame, target, image, capture, show_memory, isa);
+    prepare_workspaces({.colors = stage.kept_tiles(),
                         .normals = capture.needs_normals(),
                         .stencil = commands.stencil.used,
                         .accumulation = commands.accumulation.used,
                         .samples = frame.samples > 1});
     try {
-      render_parts(is_filled, TileStage(commands, frame, target, image, capture, show_memory, isa), stats, watch);
+      render_parts(is_filled, stage, stats, watch);
     } catch (...) {
       for (const Buffer which : kBuffers) settle_interrupted(commands.traffic(which), target.parts(which));
       throw;

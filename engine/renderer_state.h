@@ -17,7 +17,7 @@ namespace tessera {
 
 /// What the workers' tiles need besides colour and depth.
 struct TileMemory {
-  std::size_t colors = 1;  ///< tiles
+  int colors = 1;  ///< tiles
   bool normals = false, stencil = false, accumulation = false, samples = false;
 };
 

@@ -28,7 +28,7 @@ std::size_t load_class(std::uint64_t triangles) {
 TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture,
                      ShowMemory& show, Isa isa)
     : commands_(commands), frame_(frame), target_(target), image_(image), capture_(capture), show_(show), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
-      load_planes_(load_planes_for(isa)), kept_tiles_(kept_tiles(commands, frame.grid, isa)) {
+      load_planes_(load_planes_for(isa)), kept_tiles_(commands.color.store ? tiles_stored_together(isa, frame.grid.tile_size) : 1) {
   if (image == nullptr) return;
   shown_ = shown_part(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
@@ -83,15 +83,13 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
   if (strip.cleared) return fill_cleared(strip);
   std::array<const std::uint32_t*, kLinePixels / kMinTileSize> colors;
   const int size = frame_.grid.tile_size;
-  std::size_t kept = 0;
-  for (int column = strip.first_column; column <= strip.last_column; ++column) {
-    colors[kept] = workspace.select_color(kept);
-    ++kept;
-    render_tile_at(strip.row, column, workspace, counts);
-    if (kept < kept_tiles_ && column < strip.last_column) continue;
-    const int first_column = column + 1 - static_cast<int>(kept);
-    if (commands_.color.store) store_planes_({colors.data(), kept}, {first_column * size, strip.row * size, size, 0}, target_.color.planes, ~0u);
-    kept = 0;
+  for (int first = strip.first_column; first <= strip.last_column; first += kept_tiles_) {
+    const auto count = static_cast<std::size_t>(std::min(kept_tiles_, strip.last_column + 1 - first));
+    for (std::size_t t = 0; t < count; ++t) {
+      colors[t] = workspace.select_color(t);
+      render_tile_at(strip.row, first + static_cast<int>(t), workspace, counts);
+    }
+    if (commands_.color.store) store_planes_({colors.data(), count}, {first * size, strip.row * size, size, 0}, target_.color.planes, ~0u);
   }
 }
 
@@ -117,8 +115,8 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   if (shown) scan_out(x0, y0, workspace);
   store(commands_.depth, target_.depth, depth_words, depth_place);
   store(commands_.stencil, target_.stencil, stencil_words, color_place);
-  for (std::size_t c = 0; c < 4 && commands_.accumulation.store; ++c)
-    store(commands_.accumulation, target_.accumulation[c], reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
+  if (commands_.accumulation.store)
+    for (std::size_t c = 0; c < 4; ++c) store(commands_.accumulation, target_.accumulation[c], reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
 }
 
 void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {

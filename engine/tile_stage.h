@@ -41,10 +41,8 @@ class TileStage {
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa);
 
   const TileGrid& grid() const { return frame_.grid; }
-  /// Tiles whose colours a workspace keeps until they are stored together.
-  static std::size_t kept_tiles(const FrameCommands& commands, const TileGrid& grid, Isa isa) {
-    return commands.color.store && stores_whole_lines(isa) ? static_cast<std::size_t>(kLinePixels / grid.tile_size) : 1;
-  }
+  /// Tiles whose colours a workspace keeps until they are stored together. Depth, stencil and accumulation are seldom stored: tile by tile.
+  int kept_tiles() const { return kept_tiles_; }
   /// Those with most triangles first, give or take a quarter: nobody waits for one that began last. Their order changes no bit.
   ///
   /// @param strips  are replaced
@@ -74,7 +72,7 @@ class TileStage {
   RenderTile* render_;
   StorePlanesFn* store_planes_;
   LoadPlanesFn* load_planes_;
-  const std::size_t kept_tiles_;
+  int kept_tiles_;
   bool shows_clears_ = false;              ///< a tile without triangles is part of show_.cleared_row
 };
 

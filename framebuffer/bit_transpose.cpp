@@ -128,7 +128,7 @@ void store_rows_of(const StripRows& tile, std::uint32_t flip, std::uint32_t mask
   const __m256i flips = _mm256_set1_epi32(static_cast<int>(flip));
   StripBits row = tile.bits;
   for (int y = 0; y < tile.height_px; ++y, row.first += tile.stride_bytes) {
-    const std::uint32_t* const words = tile.words(y);
+    const std::uint32_t* const words = tile.words(0, y);
     int x = 0;
 #if HWY_TARGET == HWY_AVX3
     for (; x + 64 <= tile.width_px; x += 64) store_wide_strip(words + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, mask);
@@ -138,7 +138,7 @@ void store_rows_of(const StripRows& tile, std::uint32_t flip, std::uint32_t mask
   }
 }
 
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET == HWY_AVX3  // once: those that have lines, too, seldom come here
 void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept { store_rows_of<0>(tile, flip, mask); }
 #else
 void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept {
@@ -171,7 +171,7 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
     for (int x = 0; x < tile.width_px; x += 8)
       for (int base = 0; base < kMaxPlanes; base += 8)
         if ((mask >> base & 0xff) != 0)
-          store_byte_planes(tile.words(y) + x * kBlockSize, flip, std::min(8, tile.width_px - x), {row.first + x / 8, row.plane_stride}, base, mask);
+          store_byte_planes(tile.words(0, y) + x * kBlockSize, flip, std::min(8, tile.width_px - x), {row.first + x / 8, row.plane_stride}, base, mask);
 }
 
 #endif
@@ -187,11 +187,11 @@ void store_planes(std::span<const std::uint32_t* const> tiles, const TilePlace& 
 
 #if HWY_TARGET == HWY_AVX3
 void store_planes_by_lines(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes, std::uint32_t plane_store_mask) noexcept {
-  const int width_px = static_cast<int>(tiles.size()) * first.tile_size;
-  const bool are_lines = first.x0_px % kLinePixels == 0 && (width_px == kLinePixels || first.x0_px + width_px >= planes.width_px());
+  const StripRows strip = strip_rows(tiles, first, planes);
+  const bool are_lines = first.x0_px % kLinePixels == 0 && strip.width_px == std::min(kLinePixels, planes.width_px() - first.x0_px);
   if (!are_lines) return store_planes(tiles, first, planes, plane_store_mask);
   const std::uint32_t mask = plane_store_mask & planes.word_mask();
-  if (mask != 0) store_lines(strip_rows(tiles, first, planes), first.flip, mask);
+  if (mask != 0) store_lines(strip, first.flip, mask);
 }
 #endif
 
@@ -201,10 +201,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera {
-bool stores_whole_lines(Isa isa) noexcept { return isa == Isa::avx512 && machine_has_gfni(); }
+static bool has_lines(Isa isa) { return isa == Isa::avx512 && machine_has_gfni(); }
+int tiles_stored_together(Isa isa, int tile_size) noexcept { return has_lines(isa) ? kLinePixels / tile_size : 1; }
 StorePlanesFn* store_planes_for(Isa isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
-  if (stores_whole_lines(isa)) return &N_AVX3::store_planes_by_lines;
+  if (has_lines(isa)) return &N_AVX3::store_planes_by_lines;
 #endif
   return store_planes_tile_by_tile(isa);
 }

@@ -24,11 +24,11 @@ struct TilePlace {
 /// beyond the stack's planes are ignored. What of a tile sticks out of the picture is not stored: pad bits stay 0, whatever
 /// the tile holds there.
 ///
-/// @param tiles   neighbours from left to right, one at least, in one line of kLinePixels of the planes, each of which begins inside the picture; tile_size^2 words,
-///                kTileAlignment aligned.
-/// @param first   of the leftmost.
+/// @param tiles   neighbours from left to right, one at least; all lie in one line (kLinePixels) of the planes, and each begins
+///                inside the picture. tile_size^2 words each, kTileAlignment aligned.
+/// @param first   the place of the leftmost.
 /// @param planes  allocated. Tiles whose pixels share no byte, that is distinct tiles, may be stored by distinct threads; it
-///                is faster if one thread owns each line, and fastest if it stores all tiles of a line at once.
+///                is faster if one thread owns each line.
 /// Bit-identical to store_planes_reference() on every instruction set. Never fails, never allocates.
 using StorePlanesFn = void(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes,
                             std::uint32_t plane_store_mask) noexcept;
@@ -39,9 +39,9 @@ using LoadPlanesFn = void(std::uint32_t* tile, const TilePlace& place, const Bit
 
 /// The fastest that this machine can run for `isa`.
 StorePlanesFn* store_planes_for(Isa isa) noexcept;
-/// Whether it is faster for all tiles of a line together.
-bool stores_whole_lines(Isa isa) noexcept;
-/// What it is where that is not so.
+/// How many tiles that wants at once: those of a line where it writes whole lines, else 1.
+int tiles_stored_together(Isa isa, int tile_size) noexcept;
+/// What store_planes_for() gives where whole lines have no way of their own; tests hold both against the reference.
 StorePlanesFn* store_planes_tile_by_tile(Isa isa) noexcept;
 LoadPlanesFn* load_planes_for(Isa isa) noexcept;
 

@@ -1,5 +1,5 @@
-// Loads go by strips of a row: with vectors of bytes 32 or 64 pixels, as 8x8 squares of bits, elsewhere 8. AVX-512 has nothing to
-// add to AVX2.
+// Loads go by strips of a row: with vectors of bytes 32 or 64 pixels, as 8x8 squares of bits, elsewhere 8. AVX-512 has no
+// way of its own.
 //
 // Based on: H. S. Warren, Hacker's Delight, 2nd edition 2012, 7-3 (8x8 bits by three rounds of exchanges).
 #include "framebuffer/bit_transpose.h"
@@ -22,18 +22,11 @@
 namespace tessera {
 namespace {
 
-// The bits of some pixels in plane 0, and the way from there to the other planes.
-struct ConstStripBits {
-  const std::uint8_t* first;
-  std::size_t plane_stride;
-  const std::uint8_t* plane(int k) const noexcept { return first + static_cast<std::size_t>(k) * plane_stride; }
-};
-
 /// What of a tile is loaded, and from where.
 struct LoadedRows {
   std::uint32_t* tile;
   int tile_size, height_px;
-  ConstStripBits bits;          ///< of the top left pixel
+  PlaneBits<const std::uint8_t> bits;          ///< of the top left pixel
   std::ptrdiff_t stride_bytes;  ///< of the planes' rows
   /// Of pixel 0 of row y; those of pixel x, a multiple of 4, come x * kBlockSize later.
   std::uint32_t* words(int y) const noexcept { return tile + tile_index(0, y, tile_size); }
@@ -43,13 +36,12 @@ struct LoadedRows {
 }  // namespace tessera
 #endif
 
-#if HWY_TARGET != HWY_AVX3
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 namespace {
 
-#if HWY_TARGET == HWY_AVX2
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
 /// Two groups of 4 pixels, 16 pixels apart: they share a vector because bytes are shuffled within its halves.
 HWY_INLINE void store_groups(__m256i groups, std::uint32_t* words, int group) noexcept {
@@ -145,7 +137,7 @@ void load_rows(const LoadedRows& rows, std::uint32_t flip, int plane_count) noex
 
 #else
 
-inline void load_strip(std::uint32_t* words, std::uint32_t flip, ConstStripBits from, int plane_count) noexcept {
+inline void load_strip(std::uint32_t* words, std::uint32_t flip, PlaneBits<const std::uint8_t> from, int plane_count) noexcept {
   for (int i = 0; i < 8; ++i) words[strip_index(i)] = flip;
   for (int base = 0; base < plane_count; base += 8) {
     std::uint64_t planes = 0;
@@ -156,7 +148,7 @@ inline void load_strip(std::uint32_t* words, std::uint32_t flip, ConstStripBits 
 }
 
 void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexcept {
-  ConstStripBits row = rows.bits;
+  PlaneBits<const std::uint8_t> row = rows.bits;
   for (int y = 0; y < rows.height_px; ++y, row.first += rows.stride_bytes)
     for (int x = 0; x < rows.tile_size; x += 8)  // pad bits are 0
       load_strip(rows.words(y) + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, plane_count);
@@ -179,10 +171,9 @@ void load_planes(std::uint32_t* tile, const TilePlace& place, const BitplaneStac
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera
 HWY_AFTER_NAMESPACE();
-#endif
 
 #if HWY_ONCE
 namespace tessera {
-LoadPlanesFn* load_planes_for([[maybe_unused]] Isa isa) noexcept { return TESSERA_KERNEL_UP_TO_AVX2(isa, load_planes); }
+LoadPlanesFn* load_planes_for([[maybe_unused]] Isa isa) noexcept { return TESSERA_KERNEL(isa, load_planes); }
 }  // namespace tessera
 #endif

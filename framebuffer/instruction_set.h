@@ -12,7 +12,8 @@ enum class Isa : std::uint8_t { scalar, avx2, avx512 };
 /// Those compiled in that this machine can run, best first; always ends with scalar (the build's baseline).
 std::vector<Isa> available_isas();
 
-/// Whether it multiplies matrices of bits (GFNI): for kernels of a set that have a faster way with them, to the same bits.
+/// Whether this machine has AVX-512 with products of bit matrices (GFNI): the storing of planes has a faster way with them, to
+/// the same bits. Nothing else is chosen beside the set.
 bool machine_has_gfni();
 
 }  // namespace tessera

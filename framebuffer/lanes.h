@@ -41,12 +41,10 @@
 #if HWY_TARGETS & HWY_AVX2
 #define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::Isa::avx2 ? &N_AVX2::fn :
 #else
-#define TESSERA_KERNEL_AVX2(isa, fn) static_cast<void>(isa),
+#define TESSERA_KERNEL_AVX2(isa, fn)
 #endif
 /// The address of `fn` compiled for `isa`.
-#define TESSERA_KERNEL(isa, fn) (TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
-/// The same for one that is not compiled for AVX-512, whose machines run it as compiled for AVX2.
-#define TESSERA_KERNEL_UP_TO_AVX2(isa, fn) (TESSERA_KERNEL_AVX2((isa) == ::tessera::Isa::scalar ? ::tessera::Isa::scalar : ::tessera::Isa::avx2, fn) &HWY_STATIC_DISPATCH(fn))
+#define TESSERA_KERNEL(isa, fn) (static_cast<void>(isa), TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
 
 // Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before fast. So is what follows the kernels in
 // their files, which runs once for many vertices or pixels.

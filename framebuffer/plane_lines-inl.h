@@ -28,7 +28,7 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int kQuarterPixels = kLinePixels / 4;
 
-/// Byte kByte of the words of 4 blocks, each 8 pixels of a row as 8 planes: blocks 0 and 1 are its left half.
+/// Byte kByte of the words of 4 blocks, each 8 pixels of a row as 8 planes: the first two are of the left half of a quarter.
 template <int kByte>
 HWY_INLINE __m512i planes_of(const __m512i (&split)[4]) noexcept {
   const __m512i left = kByte < 2 ? _mm512_unpacklo_epi32(split[0], split[1]) : _mm512_unpackhi_epi32(split[0], split[1]);
@@ -64,8 +64,8 @@ HWY_INLINE void collect_quarter(const StripRows& strip, int x, int y, int bytes,
   alignas(64) __m512i eights[4][8];
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
-    const auto* const left = reinterpret_cast<const __m512i*>(strip.block(x + 8 * i, y));
-    const auto* const right = reinterpret_cast<const __m512i*>(strip.block(x + kQuarterPixels / 2 + 8 * i, y));
+    const auto* const left = reinterpret_cast<const __m512i*>(strip.words(x + 8 * i, y));
+    const auto* const right = reinterpret_cast<const __m512i*>(strip.words(x + kQuarterPixels / 2 + 8 * i, y));
     const __m512i blocks[4] = {_mm512_shuffle_epi8(_mm512_load_si512(left), split), _mm512_shuffle_epi8(_mm512_load_si512(left + 1), split),
                                _mm512_shuffle_epi8(_mm512_load_si512(right), split), _mm512_shuffle_epi8(_mm512_load_si512(right + 1), split)};
     _mm512_store_si512(&eights[0][i], planes_of<0>(blocks));

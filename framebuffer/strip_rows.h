@@ -18,15 +18,18 @@ inline void assert_tile_fits([[maybe_unused]] const TilePlace& place, [[maybe_un
   TESSERA_ASSERT(place.x0_px >= 0 && place.x0_px < planes.width_px() && place.x0_px % place.tile_size == 0);
   TESSERA_ASSERT(place.y0_px >= 0 && place.y0_px < planes.height_px() && place.y0_px % place.tile_size == 0);
   // Rows are padded to a multiple of every tile size, so that no column of a tile falls off the end of its row.
-  static_assert(kPlaneAlignment * 8 % kMaxTileSize == 0);
+  static_assert(kLinePixels % kMaxTileSize == 0);
 }
 
 /// The bits of some pixels in plane 0, and the way from there to the other planes.
-struct StripBits {
-  std::uint8_t* first;
+template <class Byte>
+struct PlaneBits {
+  Byte* first;
   std::size_t plane_stride;
-  std::uint8_t* plane(int k) const noexcept { return first + static_cast<std::size_t>(k) * plane_stride; }
+  Byte* plane(int k) const noexcept { return first + static_cast<std::size_t>(k) * plane_stride; }
 };
+
+using StripBits = PlaneBits<std::uint8_t>;
 
 struct StripRows {
   std::span<const std::uint32_t* const> tiles;
@@ -40,14 +43,12 @@ struct StripRows {
     const int x = static_cast<int>(t) * tile_size;
     return {tiles.subspan(t, 1), tile_size, std::min(tile_size, width_px - x), height_px, {bits.first + x / 8, bits.plane_stride}, stride_bytes};
   }
-  /// The block that holds pixel x of row y, multiples of 4. Behind the last tile: any block.
-  const std::uint32_t* block(int x, int y) const noexcept {
-    const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y), size = static_cast<std::size_t>(tile_size);
-    const std::size_t tile = std::min(column >> std::countr_zero(size), tiles.size() - 1);
-    return tiles[tile] + (row / kBlockSize * size + (column & (size - 1))) * kBlockSize;
+  /// Of pixel x, a multiple of 4, of row y; in the same tile those of pixel x + 4 come kBlockPixels later. Behind the last tile
+  /// it is some pixel of that, for those who mask it away.
+  const std::uint32_t* words(int x, int y) const noexcept {
+    const std::size_t tile = std::min(static_cast<std::size_t>(x) >> std::countr_zero(static_cast<unsigned>(tile_size)), tiles.size() - 1);
+    return tiles[tile] + tile_index(x & (tile_size - 1), y, tile_size);
   }
-  /// Of pixel 0 of row y in the first tile; those of its pixel x, a multiple of 4, come x * kBlockSize later.
-  const std::uint32_t* words(int y) const noexcept { return tiles.front() + tile_index(0, y, tile_size); }
 };
 
 }  // namespace tessera

@@ -219,7 +219,7 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
 }
 
 /// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one surface.
-HWY_INLINE bool prepare_triangles(TileRun& run) {
+HWY_INLINE bool prepare_triangles(const TileRun& run) {
   TileWorkspace::Memory& memory = run.memory;
   TESSERA_ASSERT(memory.triangles.size() <= kCollectedRoom);
   BatchSurface surface;

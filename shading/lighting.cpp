@@ -61,7 +61,7 @@ template <LightKind kKind>
 HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
   constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
-  // What is stored cannot change these, which a compiler cannot know of `term`.
+  // Read before the loop: a compiler must assume that stores change `term`.
   const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation), spot_direction = splat_vector(term.spot_direction);
   const Float spot_cosine = splat(term.spot_cosine);
   auto any = hn::Gt(zero, zero);
@@ -107,7 +107,7 @@ bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
   }
 }
 
-/// Calls visit(point, its x to that power) for a chunk of points after the other; powers are taken of several chunks at once.
+/// Calls visit(point, its x to that power) for one chunk of points after the other; powers are taken of several chunks at once.
 template <class Visit>
 HWY_INLINE void for_each_power(const Power& power, const float* x, int count, const Visit& visit) {
   constexpr int kTogether = 4;
@@ -207,7 +207,7 @@ HWY_INLINE void add_products(const Incidence& light, int point, const Vector& di
 }
 /// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E, if there is a highlight anywhere.
 void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light, Sums& color, Sums& tracked, ShadingBatch& batch) {
-  // Copies: what is stored cannot change them.
+  // Read before the loops, as in find_incidence().
   const Vector diffuse = splat_vector(term.diffuse), specular = splat_vector(term.specular);
   const Float floor = splat(term.highlight_floor);
   const auto add = [&, color, tracked, has_tracked, diffuse, specular](int point, auto... highlight) HWY_ATTR {

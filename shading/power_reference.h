@@ -47,6 +47,7 @@ inline float whole_power_reference(float x, int n) {
   return product < kLargestPower ? product : kLargestPower;
 }
 
+/// How kernels work out x^exponent: planned once, where they would work out `least` again for each batch.
 inline Power power_with(float exponent) {
   const int whole = whole_power(exponent);
   return {exponent, whole, whole != 0 ? exp2_reference(least_log2(whole)) : 0};

@@ -20,17 +20,17 @@ void begin_samples(TileRun& run, int tile) {
   TileWorkspace::Memory& memory = run.memory;
   const TileFrame& frame = run.frame;
   std::int32_t* const stencil = memory.stencil ? memory.stencil->value : nullptr;
-  run.sample[0] = {memory.color, memory.depth, memory.ids, stencil};
+  run.sample[0] = {run.color, memory.depth, memory.ids, stencil};
   run.samples = frame.samples > 1 && !frame.batches->untouched(tile) ? frame.samples : 1;
   if (run.samples == 1) return;
   TileSamples& samples = *memory.samples;
   set_farthest(run, kFarthestKey);
   const int pixels = run.tile_size * run.tile_size;
   run.sample[0].color = samples.color[0];
-  if (frame.loads_color) std::copy_n(memory.color, pixels, samples.color[0]);
+  if (frame.loads_color) std::copy_n(run.color, pixels, samples.color[0]);
   for (int s = 1; s < run.samples; ++s) {
     run.sample[s] = samples.of(s, stencil != nullptr);
-    if (frame.loads_color) std::copy_n(memory.color, pixels, run.sample[s].color);
+    if (frame.loads_color) std::copy_n(run.color, pixels, run.sample[s].color);
     if (frame.loads_depth) std::copy_n(memory.depth, pixels, run.sample[s].depth);
     if (frame.loads_stencil) std::copy_n(stencil, pixels, run.sample[s].stencil);
   }
@@ -130,10 +130,9 @@ std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
 const std::uint32_t* TileWorkspace::sample_color(int sample) const { return memory_->samples->color[sample]; }
 AccumulatedPixels TileWorkspace::accumulation() { return memory_->levels(); }
 float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
-void TileWorkspace::allocate_colors(std::size_t tiles) {
-  if (memory_->color_count >= tiles) return;
-  memory_->colors = std::make_unique<TileColors[]>(tiles);
-  memory_->color_count = tiles;
+void TileWorkspace::allocate_colors(int tiles) {
+  if (memory_->colors.size() >= static_cast<std::size_t>(tiles)) return;
+  memory_->colors.resize(static_cast<std::size_t>(tiles));
   select_color(0);
 }
 void TileWorkspace::allocate_normals() {

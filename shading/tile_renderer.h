@@ -130,7 +130,7 @@ class TileWorkspace {
   TileWorkspace(TileWorkspace&&) noexcept;
   struct Memory;
   Memory& memory() { return *memory_; }
-  std::uint32_t* color();     ///< tile_size^2 words in tile order, of the tile selected last, at first tile 0
+  std::uint32_t* color();     ///< tile_size^2 words in tile order, of the tile that is selected, which is the last one for that select_color() was called; else tile 0
   /// From now on tiles are rendered into these words; those of other tiles stay. @pre allocate_colors, but for tile 0
   std::uint32_t* select_color(std::size_t tile);
   std::int32_t* depth();      ///< depth keys
@@ -140,7 +140,7 @@ class TileWorkspace {
   AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation
   float* normals(int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
   /// These throw std::bad_alloc.
-  void allocate_colors(std::size_t tiles);
+  void allocate_colors(int tiles);
   void allocate_normals();
   void allocate_stencil();
   void allocate_samples();

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 struct TileRun {
   const TileFrame& frame;
   TileWorkspace::Memory& memory;
-  std::uint32_t* const color;     // words of the tile's pixels
+  std::uint32_t* const color;     // memory.color, which stores cannot change
   int tile_x, tile_y, tile_size;  // pixels
   PixelRect rect;                 // of the current draw, tile-relative
   bool cut = false;               // the rectangle's edges run through blocks

@@ -88,8 +88,7 @@ struct alignas(64) TileWorkspace::Memory {
   TriangleCorners corners[kCollectedRoom];
   std::int32_t surfaces[kCollectedRoom];
   TouchedBlocks touched;
-  std::unique_ptr<TileColors[]> colors;
-  std::size_t color_count = 0;
+  std::vector<TileColors> colors;
   std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
   std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
   std::unique_ptr<TileSamples> samples;  ///< only where a frame has several for each pixel

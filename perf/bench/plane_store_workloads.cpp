@@ -27,7 +27,7 @@ struct alignas(kTileAlignment) Tile {
   std::uint32_t words[kMaxTileSize * kMaxTileSize];
 };
 
-/// Every worker has the tiles of a cache line of the planes, all with the same random words, and stores them wherever the window has some.
+/// Every worker has as many tiles, of random words, as the renderer keeps, and stores them wherever the window has some.
 class StoredTiles : public Workload {
  public:
   StoredTiles(const WorkloadSetup& setup, int bits)
@@ -35,22 +35,24 @@ class StoredTiles : public Workload {
         parallel_(setup.options.threads, setup.options.executor),
         store_(store_planes_for(isa_of(setup.options.instruction_set))),
         planes_(setup.width, setup.height, bits),
-        line_(kLinePixels / grid_.tile_size),
-        tiles_(static_cast<std::size_t>(setup.options.threads * line_)),
+        together_(tiles_stored_together(isa_of(setup.options.instruction_set), grid_.tile_size)),
+        tiles_(static_cast<std::size_t>(setup.options.threads * together_)),
         picture_(setup.width, setup.height) {
     std::mt19937 random(setup.seed);
-    for (std::uint32_t& word : tiles_.front().words) word = static_cast<std::uint32_t>(random());
-    std::fill(tiles_.begin() + 1, tiles_.end(), tiles_.front());
+    for (int t = 0; t < together_; ++t)
+      for (std::uint32_t& word : tiles_[static_cast<std::size_t>(t)].words) word = static_cast<std::uint32_t>(random());
+    for (std::size_t t = static_cast<std::size_t>(together_); t < tiles_.size(); ++t) tiles_[t] = tiles_[t - static_cast<std::size_t>(together_)];
     for (const Tile& tile : tiles_) words_.push_back(tile.words);
     planes_.allocate(0);
   }
 
   FrameStats draw() override {
-    const int strips = (grid_.columns() + line_ - 1) / line_;
+    const int in_line = kLinePixels / grid_.tile_size, strips = (grid_.columns() + in_line - 1) / in_line;
     parallel_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
-      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * line_;
-      const std::uint32_t* const* const tiles = words_.data() + worker * line_;
-      store_({tiles, static_cast<std::size_t>(std::min(line_, grid_.columns() - first))}, {.x0_px = first * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
+      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * in_line, last = std::min(first + in_line, grid_.columns());
+      const std::uint32_t* const* const tiles = words_.data() + worker * together_;
+      for (int column = first; column < last; column += together_)
+        store_({tiles, static_cast<std::size_t>(std::min(together_, last - column))}, {.x0_px = column * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
     });
     return {};
   }
@@ -83,14 +85,14 @@ class StoredTiles : public Workload {
 
  private:
   std::uint32_t expected(int x, int y) const {
-    return tiles_.front().words[tile_index(x % grid_.tile_size, y % grid_.tile_size, grid_.tile_size)] & planes_.word_mask();
+    return tiles_[static_cast<std::size_t>(x / grid_.tile_size % together_)].words[tile_index(x % grid_.tile_size, y % grid_.tile_size, grid_.tile_size)] & planes_.word_mask();
   }
 
   TileGrid grid_;
   Parallel parallel_;
   StorePlanesFn* store_;
   BitplaneStack planes_;
-  int line_;  // tiles in a line
+  int together_;  // tiles that are stored at once
   std::vector<Tile> tiles_;
   std::vector<const std::uint32_t*> words_;  // of each of them
   Picture picture_;
