@@ -72,10 +72,9 @@ void BinStage::prepare_draws(int samples) {
     draws_.push_back(draw);
     rects_.push_back(draw.rect);
   }
-  polygons_.clear();
-  for (std::size_t d = 0; d < draws_.size(); ++d) cut_into_ranges(d, draws_[d].facing != nullptr ? commands_->geometry[d].mesh->elements : 0, kTrianglesPerBatch, polygons_);
+  polygons_.cut(draws_.size(), [&](std::size_t d) { return draws_[d].facing != nullptr ? commands_->geometry[d].mesh->elements : 0; }, kTrianglesPerBatch);
   parallel_.for_each(polygons_.size(), [&](std::size_t i, int) {
-    const DrawRange& range = polygons_[i];
+    const DrawRange range = polygons_[i];
     const GeometryDraw& geometry = commands_->geometry[range.draw];
     const std::size_t each = geometry.mesh->polygon_triangles();
     face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());

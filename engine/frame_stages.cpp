@@ -108,23 +108,28 @@ void RendererState::process_geometry(FrameWatch& watch) {
   cut_draws([](const GeometryDraw& draw) { return draw.assembles() ? draw.mesh->elements : 0; }, kElementsPerTask);
   watch.begin_stage(FrameStage::vertices, kElementsDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, [&] { assemble_elements(commands.geometry[ranges[i].draw], ranges[i].first, ranges[i].last); });
+    const DrawRange range = ranges[i];
+    watch.task(worker, [&] { assemble_elements(commands.geometry[range.draw], range.first, range.last); });
   });
   for (const GeometryDraw& draw : commands.geometry)
     if (draw.wants_smooth_normals()) normal_maker.make(*draw.mesh, parallel, draw.buffers->smooth_normals);
   cut_draws([](const GeometryDraw& draw) { return draw.mesh->vertices; }, kVerticesPerTask);
   watch.begin_stage(FrameStage::vertices, kVerticesDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, [&] { process_vertices(commands.geometry[ranges[i].draw], ranges[i].first, ranges[i].last, isa); });
+    const DrawRange range = ranges[i];
+    watch.task(worker, [&] { process_vertices(commands.geometry[range.draw], range.first, range.last, isa); });
   });
   cut_draws([](const GeometryDraw& draw) { return draw.plan->colors_triangles() ? draw.mesh->elements : 0; }, kVerticesPerTask);
   watch.begin_stage(FrameStage::faces, kFacesDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, [&] { process_triangles(commands.geometry[ranges[i].draw], ranges[i].first, ranges[i].last, isa); });
+    const DrawRange range = ranges[i];
+    watch.task(worker, [&] { process_triangles(commands.geometry[range.draw], range.first, range.last, isa); });
   });
 }
 
 void RendererState::prepare_workspaces(const TileMemory& memory) {
+  // One core does this alone, and most frames want what the one before them did.
+  if (memory == prepared) return;
   while (workspaces.size() < static_cast<std::size_t>(parallel.threads())) workspaces.emplace_back();
   for (TileWorkspace& workspace : workspaces) {
     workspace.allocate_colors(memory.colors);
@@ -133,12 +138,12 @@ void RendererState::prepare_workspaces(const TileMemory& memory) {
     if (memory.accumulation) workspace.allocate_accumulation();
     if (memory.samples) workspace.allocate_samples();
   }
+  prepared = memory;
 }
 
 template <class Count>
 void RendererState::cut_draws(const Count& count, std::size_t each) {
-  ranges.clear();
-  for (std::size_t d = 0; d < commands.geometry.size(); ++d) cut_into_ranges(d, count(commands.geometry[d]), each, ranges);
+  ranges.cut(commands.geometry.size(), [&](std::size_t d) { return count(commands.geometry[d]); }, each);
 }
 
 void RendererState::look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch) {
@@ -154,7 +159,7 @@ void RendererState::look_through_tiles(const TileStage& stage, const TileRange& 
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
   worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
   look_through_tiles(stage, tiles, stats, watch);
-  stage.cut_into_strips(tiles, strips);
+  stage.cut_into_strips(tiles, strips_by_place, strips);
   watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
     watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], worker_counts[static_cast<std::size_t>(worker)]); });

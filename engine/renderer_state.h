@@ -17,8 +17,9 @@ namespace tessera {
 
 /// What the workers' tiles need besides colour and depth.
 struct TileMemory {
-  int colors = 1;  ///< tiles
+  int colors = 0;  ///< tiles
   bool normals = false, stencil = false, accumulation = false, samples = false;
+  bool operator==(const TileMemory&) const = default;
 };
 
 struct alignas(64) WorkerCounts : StripCounts {};
@@ -29,13 +30,14 @@ struct RendererState {
   Parallel parallel;
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
-  std::vector<DrawRange> ranges;          // of the tasks that run
+  DrawRanges ranges;                      // of the tasks that run
   SmoothNormals normal_maker;
   BinStage bin_stage;
   std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
-  std::vector<TileStrip> strips;
+  std::vector<TileStrip> strips_by_place, strips;
   ShowMemory show_memory;
   std::vector<TileWorkspace> workspaces;  // one for each worker
+  TileMemory prepared;                    // all of them have it, once there are any
   std::vector<WorkerCounts> worker_counts;
 
   RendererState(RendererOptions o, Isa i) : options(std::move(o)), isa(i), parallel(options.threads, options.executor, options.task_order), bin_stage(options.bin_memory, parallel, isa) {}

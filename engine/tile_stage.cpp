@@ -17,10 +17,10 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
 
 constexpr std::size_t kLoadClasses = 4 * 64;
 /// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load is never of a lower class.
-std::size_t load_class(std::uint64_t triangles) {
-  if (triangles < 8) return static_cast<std::size_t>(triangles);
+std::uint8_t load_class(std::uint64_t triangles) {
+  if (triangles < 8) return static_cast<std::uint8_t>(triangles);
   const int highest_bit = std::bit_width(triangles) - 1;
-  return static_cast<std::size_t>(4 * highest_bit - 4) + static_cast<std::size_t>(triangles >> (highest_bit - 2) & 3);
+  return static_cast<std::uint8_t>(4 * highest_bit - 4 + static_cast<int>(triangles >> (highest_bit - 2) & 3));
 }
 
 }  // namespace
@@ -50,33 +50,30 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize) show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x), show.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
-template <class Visit>
-void TileStage::for_each_strip(const TileRange& tiles, const Visit& visit) const {
+void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& by_place, std::vector<TileStrip>& strips) const {
   const TileGrid& grid = frame_.grid;
   const BinBatches& batches = *frame_.batches;
   const auto is_cleared = [&](int row, int column) { return shows_clears_ && batches.untouched(row * grid.columns() + column); };
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
+  std::array<std::uint32_t, kLoadClasses> next{};  // how many strips a class has, then where its next one goes
+  by_place.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
-    for (int column = tiles.x0, next; column < tiles.x1; column = next) {
+    for (int column = tiles.x0, end; column < tiles.x1; column = end) {
       const bool cleared = is_cleared(row, column);
-      next = std::min((column / length + 1) * length, tiles.x1);
-      while (cleared && next < tiles.x1 && is_cleared(row, next)) ++next;
+      end = std::min((column / length + 1) * length, tiles.x1);
+      while (cleared && end < tiles.x1 && is_cleared(row, end)) ++end;
       std::uint64_t triangles = 0;
-      for (int c = column; c < next; ++c) triangles += batches.triangles(row * grid.columns() + c);
+      for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
       const auto small = [](int number) { return static_cast<std::int16_t>(number); };
-      visit(TileStrip{small(row), small(column), small(next - 1), cleared}, triangles);
+      by_place.push_back({small(row), small(column), small(end - 1), cleared, load_class(triangles)});
+      ++next[by_place.back().load];
     }
   }
-}
-
-void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& strips) const {
-  std::array<std::size_t, kLoadClasses> next{};  // where the next strip of a class goes
-  for_each_strip(tiles, [&](const TileStrip&, std::uint64_t triangles) { ++next[load_class(triangles)]; });
-  std::size_t count = 0;
+  std::uint32_t count = 0;
   for (std::size_t c = kLoadClasses; c-- > 0;) count += std::exchange(next[c], count);
   strips.resize(count);
-  for_each_strip(tiles, [&](const TileStrip& strip, std::uint64_t triangles) { strips[next[load_class(triangles)]++] = strip; });
+  for (const TileStrip& strip : by_place) strips[next[strip.load]++] = strip;
 }
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {
