@@ -1,6 +1,4 @@
 // tessera bench: what frames cost on this machine.
-#include <sched.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include "engine/parallel.h"
 #include "perf/bench/bench_options.h"
 #include "perf/bench/compare.h"
+#include "perf/bench/cores.h"
 #include "perf/bench/growth.h"
 #include "perf/bench/limits.h"
 #include "perf/bench/report.h"
@@ -28,14 +27,6 @@ constexpr const char* kExamples = R"(examples:
   tessera bench fill grid-2M                      some of it
   tessera bench --json before.json                and later
   tessera bench --compare before.json)";
-
-void keep_on(const std::vector<int>& cores) {
-  if (cores.empty()) return;
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  for (const int core : cores) CPU_SET(core, &set);
-  if (::sched_setaffinity(0, sizeof set, &set) != 0) throw Error("--cores: the system does not let this process run on those");
-}
 
 std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& names) {
   std::vector<const WorkloadEntry*> list;
@@ -90,6 +81,7 @@ class Bench {
   }
 
   void run(const std::vector<const WorkloadEntry*>& entries) {
+    report_.core_to_core_ns[0] = core_to_core_ns();
     show(report_.machine + "frames             " + setting_text(report_) + "\n\n");
     if (options_.scaling) run_on_more_threads(entries);
     else if (options_.rivals) run_with_rivals(entries);
@@ -101,6 +93,7 @@ class Bench {
     const std::uint64_t frame = 4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
     const auto rate = [this](Limit limit, std::uint64_t bytes) { return measure_limit(limit, report_.threads, bytes); };
     report_.limits = {rate(Limit::l1_stores, 0), rate(Limit::memory_stores, frame), rate(Limit::memory_copies, 2 * frame), rate(Limit::memory_stores, kMuch)};
+    report_.core_to_core_ns[1] = core_to_core_ns();
   }
   void show(const std::string& text) const {
     if (options_.json_file != "-" && options_.csv_file != "-") std::cout << text << std::flush;
@@ -198,7 +191,7 @@ int run(BenchOptions& options) {
   if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
   const Chosen chosen = prepared(chosen_by(options.names));
   if (!options.pictures_folder.empty()) std::filesystem::create_directories(options.pictures_folder);
-  keep_on(options.cores);
+  if (!options.cores.empty() && !keep_on(options.cores)) throw Error("--cores: the system does not let this process run on those");
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {

@@ -1,6 +1,7 @@
 // What was measured, for people and for programs.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct Report {
   int width = 0, height = 0, threads = 0;
   std::string instruction_set;
   MachineLimits limits;
+  std::array<double, 2> core_to_core_ns{};  ///< before and after everything else was measured
   std::vector<Row> rows;
   std::optional<Rivalry> rivalry{};
   std::vector<Scaling> scaling{};

@@ -4,11 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "perf/bench/pretended_workers.h"
 
 namespace tessera::bench {
 namespace {
@@ -40,26 +43,6 @@ void paint(std::uint8_t* rgba, double share) {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Pretends to have so many workers, which come one after the other.
-class OneByOne : public Executor {
- public:
-  explicit OneByOne(int workers) : workers_(workers) {}
-  int workers() const noexcept override { return workers_; }
-  void run(int count, void (*work)(void*, int), void* context) override {
-    const Clock::time_point start = Clock::now();
-    for (int k = 0; k < count; ++k) work(context, k);
-    seconds_ += seconds_since(start);
-    ++calls_;
-  }
-  /// In which workers ran, since it was asked last.
-  double take_seconds() { return std::exchange(seconds_, 0); }
-  int take_calls() { return std::exchange(calls_, 0); }
-
- private:
-  int workers_, calls_ = 0;
-  double seconds_ = 0;
-};
-
 int passes_of(std::span<const FrameTask> tasks) {
   std::set<int> passes;
   for (const FrameTask& task : tasks) passes.insert(task.pass);
@@ -67,7 +50,7 @@ int passes_of(std::span<const FrameTask> tasks) {
 }
 
 /// @param workers  null, or the executor of `setup`
-std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup, OneByOne* workers = nullptr) {
+std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup, PretendedWorkers* workers = nullptr) {
   WorkloadSetup traced = setup;
   std::vector<FrameTask> tasks;
   traced.options.trace = [&tasks](std::span<const FrameTask> of_frame) { tasks.assign(of_frame.begin(), of_frame.end()); };
@@ -89,15 +72,11 @@ std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSet
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// What pretends to be so many workers, and a workload's setup for it.
-struct OneByOneSetup {
-  OneByOneSetup(const WorkloadSetup& plain, int workers) : executor(std::make_shared<OneByOne>(workers)), setup(plain) {
-    setup.options.threads = workers;
-    setup.options.executor = executor;
-  }
-  std::shared_ptr<OneByOne> executor;
-  WorkloadSetup setup;
-};
+WorkloadSetup with_workers(WorkloadSetup setup, const std::shared_ptr<PretendedWorkers>& workers) {
+  setup.options.threads = workers->workers();
+  setup.options.executor = workers;
+  return setup;
+}
 
 }  // namespace
 
@@ -112,8 +91,8 @@ TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) 
 }
 
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
-  const OneByOneSetup one_by_one(setup, workers);
-  const std::vector<TracedFrame> frames = frames_of(entry, one_by_one.setup, one_by_one.executor.get());
+  const auto on_caller = std::make_shared<WorkersOnCaller>(workers);
+  const std::vector<TracedFrame> frames = frames_of(entry, with_workers(setup, on_caller), on_caller.get());
   TracedFrame least = frames.front();
   for (const TracedFrame& frame : frames) {
     least.seconds_taking = std::min(least.seconds_taking, frame.seconds_taking);
@@ -126,14 +105,18 @@ TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup
 
 TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
   TracedFrame cost = cost_of_tasks(entry, setup, workers);
-  const OneByOneSetup one_by_one(setup, workers);
-  const std::unique_ptr<Workload> workload = entry.make(one_by_one.setup);
+  std::shared_ptr<PretendedWorkers> pretended;
+  if (workers > 1)
+    pretended = std::make_shared<WorkersElsewhere>(workers);
+  else
+    pretended = std::make_shared<WorkersOnCaller>(workers);
+  const std::unique_ptr<Workload> workload = entry.make(with_workers(setup, pretended));
   double least_rest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kWarmUps + kFrames; ++i) {
-    one_by_one.executor->take_seconds();
+    pretended->take_seconds();
     const Clock::time_point start = Clock::now();
     workload->draw();
-    const double rest = seconds_since(start) - one_by_one.executor->take_seconds();
+    const double rest = seconds_since(start) - pretended->take_seconds();
     if (i >= kWarmUps) least_rest = std::min(least_rest, rest);
   }
   cost.seconds += least_rest;
