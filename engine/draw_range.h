@@ -16,7 +16,7 @@ struct DrawRange {
 /// The ranges that draws are cut into. Only whole draws are listed, not their ranges, which grow with the scene: each is worked out when it is asked for.
 class DrawRanges {
  public:
-  /// Cuts `count(draw)` of each of so many draws into ranges of `each`; the last one of a draw may be shorter. Throws std::bad_alloc.
+  /// Cuts `count(draw)` of each of so many draws into ranges of `each`; the last one of a draw may be shorter. Throws std::bad_alloc. @pre each > 0
   template <class Count>
   void cut(std::size_t draws, const Count& count, std::size_t each) {
     each_ = each;

@@ -129,7 +129,7 @@ void RendererState::process_geometry(FrameWatch& watch) {
 
 void RendererState::prepare_workspaces(const TileMemory& memory) {
   // One core does this alone, and most frames want what the one before them did.
-  if (memory == prepared) return;
+  if (prepared == memory) return;
   while (workspaces.size() < static_cast<std::size_t>(parallel.threads())) workspaces.emplace_back();
   for (TileWorkspace& workspace : workspaces) {
     workspace.allocate_colors(memory.colors);
@@ -159,7 +159,7 @@ void RendererState::look_through_tiles(const TileStage& stage, const TileRange& 
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
   worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
   look_through_tiles(stage, tiles, stats, watch);
-  stage.cut_into_strips(tiles, strips_by_place, strips);
+  stage.cut_into_strips(tiles, strip_scratch, strips);
   watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
     watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], worker_counts[static_cast<std::size_t>(worker)]); });

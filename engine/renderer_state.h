@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "engine/bin_stage.h"
@@ -15,9 +16,9 @@
 
 namespace tessera {
 
-/// What the workers' tiles need besides colour and depth.
+/// What the workers' tiles need besides depth.
 struct TileMemory {
-  int colors = 0;  ///< tiles
+  int colors = 1;  ///< tiles
   bool normals = false, stencil = false, accumulation = false, samples = false;
   bool operator==(const TileMemory&) const = default;
 };
@@ -34,10 +35,10 @@ struct RendererState {
   SmoothNormals normal_maker;
   BinStage bin_stage;
   std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
-  std::vector<TileStrip> strips_by_place, strips;
+  std::vector<TileStrip> strips, strip_scratch;
   ShowMemory show_memory;
   std::vector<TileWorkspace> workspaces;  // one for each worker
-  TileMemory prepared;                    // all of them have it, once there are any
+  std::optional<TileMemory> prepared;     // what all of them have, and maybe more
   std::vector<WorkerCounts> worker_counts;
 
   RendererState(RendererOptions o, Isa i) : options(std::move(o)), isa(i), parallel(options.threads, options.executor, options.task_order), bin_stage(options.bin_memory, parallel, isa) {}

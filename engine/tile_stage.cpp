@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "engine/image_target.h"
@@ -15,9 +16,10 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
   return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px && clear.rect.y1 == grid.height_px;
 }
 
-constexpr std::size_t kLoadClasses = 4 * 64;
+constexpr std::size_t kWeights = 4 * 64;
+static_assert(kWeights - 1 <= std::numeric_limits<std::uint8_t>::max());
 /// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load is never of a lower class.
-std::uint8_t load_class(std::uint64_t triangles) {
+std::uint8_t weight_of(std::uint64_t triangles) {
   if (triangles < 8) return static_cast<std::uint8_t>(triangles);
   const int highest_bit = std::bit_width(triangles) - 1;
   return static_cast<std::uint8_t>(4 * highest_bit - 4 + static_cast<int>(triangles >> (highest_bit - 2) & 3));
@@ -50,14 +52,14 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize) show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x), show.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
-void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& by_place, std::vector<TileStrip>& strips) const {
+void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& scratch, std::vector<TileStrip>& strips) const {
   const TileGrid& grid = frame_.grid;
   const BinBatches& batches = *frame_.batches;
   const auto is_cleared = [&](int row, int column) { return shows_clears_ && batches.untouched(row * grid.columns() + column); };
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
-  std::array<std::uint32_t, kLoadClasses> next{};  // how many strips a class has, then where its next one goes
-  by_place.clear();
+  std::array<std::uint32_t, kWeights> next{};  // how many strips have a weight, then where the next one of them goes
+  scratch.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
       const bool cleared = is_cleared(row, column);
@@ -66,14 +68,14 @@ void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& 
       std::uint64_t triangles = 0;
       for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
       const auto small = [](int number) { return static_cast<std::int16_t>(number); };
-      by_place.push_back({small(row), small(column), small(end - 1), cleared, load_class(triangles)});
-      ++next[by_place.back().load];
+      scratch.push_back({small(row), small(column), small(end - 1), cleared, weight_of(triangles)});
+      ++next[scratch.back().weight];
     }
   }
   std::uint32_t count = 0;
-  for (std::size_t c = kLoadClasses; c-- > 0;) count += std::exchange(next[c], count);
+  for (std::size_t w = kWeights; w-- > 0;) count += std::exchange(next[w], count);
   strips.resize(count);
-  for (const TileStrip& strip : by_place) strips[next[strip.load]++] = strip;
+  for (const TileStrip& strip : scratch) strips[next[strip.weight]++] = strip;
 }
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {

@@ -20,7 +20,7 @@ namespace tessera {
 struct TileStrip {
   std::int16_t row = 0, first_column = 0, last_column = 0;  // few bytes: one core sorts them while the others wait
   bool cleared = false;                                     ///< no triangle touches them: they show the last clear
-  std::uint8_t load = 0;                                    ///< class of how many triangles do, give or take a quarter; of greater ones it is no lower
+  std::uint8_t weight = 0;                                  ///< class of how many triangles do; more of them are never of a lower class
 };
 static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int16_t>::max());
 
@@ -46,8 +46,9 @@ class TileStage {
   int kept_tiles() const { return kept_tiles_; }
   /// Those with most triangles first, give or take a quarter: nobody waits for one that began last. Their order changes no bit.
   ///
-  /// @param by_place  the same strips, row by row
-  void cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& by_place, std::vector<TileStrip>& strips) const;
+  /// @param scratch  memory for the time of the call
+  /// @param strips  are replaced
+  void cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& scratch, std::vector<TileStrip>& strips) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
