@@ -1,6 +1,5 @@
 #include "perf/bench/cores.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -41,14 +40,20 @@ double passing_ns(int first_core, int second_core) {
   double ns = std::numeric_limits<double>::quiet_NaN();
   const auto play = [&](int mine, int core) {
     if (!keep_on({&core, 1})) are_apart = false;
-    for (++ready; ready.load() < 2;) std::this_thread::yield();
+    for (++ready; ready.load() < 2 && are_apart;) std::this_thread::yield();
     if (!are_apart) return;
     const auto start = std::chrono::steady_clock::now();
     take_turns(turn, mine, kRounds);
     if (mine == 0) ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / (2 * kRounds);
   };
   {
-    const std::jthread first([&] { play(0, first_core); }), second([&] { play(1, second_core); });
+    const std::jthread first([&] { play(0, first_core); });
+    try {
+      const std::jthread second([&] { play(1, second_core); });
+    } catch (...) {
+      are_apart = false;
+      throw;
+    }
   }
   return ns;
 }

@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "engine/tessera/tessera.hpp"
+#include "perf/bench/cores.h"
 
 namespace tessera::bench {
 
@@ -54,21 +56,25 @@ class WorkersOnCaller : public PretendedWorkers {
   void run_all(const Job& job) override { job(); }
 };
 
-/// On another thread, and on another core where there is one: for what the caller does alone. After all of a frame's tasks its core's caches would hold nothing
-/// of that; on many cores it takes a small share of them, and what the others leave for it comes from their caches. Meanwhile the caller reads as much memory
-/// as one of 64 workers does in a pass over 500,000 triangles.
+/// On a thread of their own: for what the caller does alone. After all of a frame's tasks its core's caches would hold nothing of that; on many cores it takes a
+/// small share of them, and what the others leave for it comes from their caches. Meanwhile the caller reads other memory, for that share.
 class WorkersElsewhere : public PretendedWorkers {
  public:
-  explicit WorkersElsewhere(int workers) : PretendedWorkers(workers) {}
+  /// @param core  that the thread is kept on, if the system lets it
+  /// @param share_bytes  that the caller reads while workers run
+  WorkersElsewhere(int workers, int core, std::size_t share_bytes)
+      : PretendedWorkers(workers), share_(share_bytes / sizeof(std::uint64_t)), thread_([this, core] {
+          keep_on({&core, 1});
+          serve();
+        }) {}
   ~WorkersElsewhere() override { hand_over({}); }
 
  private:
   enum class Turn : int { callers, workers };
-  static constexpr std::size_t kShareBytes = 256 << 10;
 
   void run_all(const Job& job) override {
     hand_over(job);
-    for (const std::uint64_t& word : share_) sum_ = sum_ + word;
+    sum_ = std::accumulate(share_.begin(), share_.end(), std::uint64_t{0});
     while (turn_.load() == Turn::workers) std::this_thread::yield();  // awake, as a worker is
   }
   void hand_over(const Job& job) {
@@ -85,11 +91,11 @@ class WorkersElsewhere : public PretendedWorkers {
     }
   }
 
-  const std::vector<std::uint64_t> share_ = std::vector<std::uint64_t>(kShareBytes / sizeof(std::uint64_t));
+  const std::vector<std::uint64_t> share_;
   volatile std::uint64_t sum_ = 0;
   Job job_;
   std::atomic<Turn> turn_{Turn::callers};
-  std::jthread thread_{[this] { serve(); }};  // last: it uses the others
+  std::jthread thread_;  // last: it uses the others
 };
 
 }  // namespace tessera::bench

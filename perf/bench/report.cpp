@@ -84,7 +84,8 @@ std::string table_ending(const Report& report) {
   if (report.noise) text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(), report.noise->value, report.noise->low, report.noise->high);
   text += formatted("limits, GB/s: stores in L1 %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f\n", report.limits.l1_stores, report.limits.frame_stores, report.limits.frame_copies,
                     report.limits.memory_stores);
-  if (report.core_to_core_ns[0] > 0) text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
+  if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
+    text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
   for (const Row& row : report.rows)
     if (row.limit > 0 && row.frames > 0)
       text += formatted("%-22s moves %.1f GB/s, %.0f %% of %s (%.1f GB/s)\n", row.name.c_str(), share_of_limit(row) * row.limit, 100 * share_of_limit(row), name_of(row.work.limit), row.limit);
@@ -103,7 +104,7 @@ nlohmann::ordered_json report_json(const Report& report) {
   json["threads"] = report.threads;
   json["instruction_set"] = report.instruction_set;
   for (const Figure& figure : figures_of(report.limits)) json["limits_gigabytes_per_second"][figure.key] = figure.value;
-  if (report.core_to_core_ns[0] > 0) json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
+  if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0) json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
   if (report.noise) json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise->value}, {"low_ratio", report.noise->low}, {"high_ratio", report.noise->high}};
   if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
   if (!report.scaling.empty()) json["scaling"] = scaling_json(report.scaling);

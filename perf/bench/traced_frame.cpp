@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -103,13 +104,10 @@ TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup
   return least;
 }
 
-TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
-  TracedFrame cost = cost_of_tasks(entry, setup, workers);
-  std::shared_ptr<PretendedWorkers> pretended;
-  if (workers > 1)
-    pretended = std::make_shared<WorkersElsewhere>(workers);
-  else
-    pretended = std::make_shared<WorkersOnCaller>(workers);
+namespace {
+
+/// Seconds of a frame in which no worker runs: the least of several frames.
+double seconds_alone(const WorkloadEntry& entry, const WorkloadSetup& setup, const std::shared_ptr<PretendedWorkers>& pretended) {
   const std::unique_ptr<Workload> workload = entry.make(with_workers(setup, pretended));
   double least_rest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kWarmUps + kFrames; ++i) {
@@ -119,7 +117,24 @@ TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup
     const double rest = seconds_since(start) - pretended->take_seconds();
     if (i >= kWarmUps) least_rest = std::min(least_rest, rest);
   }
-  cost.seconds += least_rest;
+  return least_rest;
+}
+
+}  // namespace
+
+TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
+  TracedFrame cost = cost_of_tasks(entry, setup, workers);
+  const std::vector<int> cores = allowed_cores();
+  if (workers == 1 || cores.size() < 2) {
+    cost.seconds += seconds_alone(entry, setup, std::make_shared<WorkersOnCaller>(workers));
+    return cost;
+  }
+  const auto passes = static_cast<std::size_t>(std::max(1, passes_of(cost.tasks) + cost.calls_without_tasks));
+  const std::size_t share_bytes = cost.work.bytes / passes / static_cast<std::size_t>(workers);
+  cost.seconds += std::async(std::launch::async, [&] {
+                    keep_on({&cores.front(), 1});
+                    return seconds_alone(entry, setup, std::make_shared<WorkersElsewhere>(workers, cores.back(), share_bytes));
+                  }).get();
   return cost;
 }
 

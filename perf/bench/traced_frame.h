@@ -25,7 +25,8 @@ TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
 /// taking has them noted, too.)
 TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
 /// Also of what is in no worker's time: the least of several frames that are not traced, for handing tasks over takes longer than much of it. Of several workers'
-/// frames it is measured with their tasks on another core than the caller's, where there is one.
+/// frames it is measured with their tasks on another core than the caller's, where there are two that threads can be kept on, while the caller reads as many bytes
+/// as a worker's share of what the frame moves.
 TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
 
 /// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes, workers its threads.

@@ -47,9 +47,11 @@ TEST(PretendedWorkers, RunOneByOneOnTheCaller) {
 }
 
 TEST(PretendedWorkers, RunOneByOneElsewhere) {
-  WorkersElsewhere workers(64);
+  WorkersElsewhere workers(64, allowed_cores().back(), 1 << 16);
   expect_one_by_one(workers, false);
 }
+
+TEST(PretendedWorkers, MayNeverRun) { WorkersElsewhere(64, allowed_cores().back(), 0); }
 
 }  // namespace
 }  // namespace tessera::bench
