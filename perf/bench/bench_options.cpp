@@ -29,13 +29,16 @@ bool parse_cores(std::string_view text, std::vector<int>& cores) {
   }
 }
 
-// Makes parse(text) out of the option, which says what it expects where that is false.
+// Makes parse(text) out of the option, which says what it expects where that is false. @param limits  what the form does not tell of that
 template <class Parse>
-CLI::Option* add_text(CLI::App& program, const std::string& name, const std::string& form, const std::string& what, const Parse& parse) {
-  const auto take = [name, form, parse](const std::string& text) {
-    if (!parse(text)) throw CLI::ValidationError(name, "found \"" + text + "\", expected " + form);
+CLI::Option* add_text(CLI::App& program, const std::string& name, const std::string& form, const std::string& what, const Parse& parse, const std::string& limits = "") {
+  const auto take = [name, form, parse, limits](const std::string& text) {
+    if (!parse(text)) throw CLI::ValidationError(name, "found \"" + text + "\", expected " + form + limits);
   };
   return program.add_option_function<std::string>(name, take, what)->option_text(form);
+}
+CLI::Option* add_integer(CLI::App& program, const std::string& name, const std::string& what, int most, int& number) {
+  return add_text(program, name, "N", what, [most, &number](const std::string& text) { return parse_integer(text, 1, most, number); }, ", 1 to " + std::to_string(most));
 }
 
 }  // namespace
@@ -44,9 +47,9 @@ void add_options(CLI::App& program, BenchOptions& options) {
   program.option_defaults()->take_last();
   CLI::Option* const names = program.add_option("workloads", options.names, "those to run, or the beginnings of their names; default: all")->option_text("[WORKLOAD...]")->take_all();
   program.add_flag("--list", options.list, "say what workloads there are");
-  add_text(program, "--size", "WIDTHxHEIGHT", "size of the frames; default: 1920x1080", [&options](const std::string& text) { return parse_size(text, options); });
-  add_text(program, "--threads", "N", "threads; default: TESSERA_THREADS, or one for each core", [&options](const std::string& text) { return parse_integer(text, 1, 1024, options.renderer.threads); })->envname("TESSERA_THREADS");
-  add_text(program, "--cores", "N[,N...]", "cores that everything is kept on; default: all", [&options](const std::string& text) { return parse_cores(text, options.cores); });
+  add_text(program, "--size", "WIDTHxHEIGHT", "size of the frames; default: 1920x1080", [&options](const std::string& text) { return parse_size(text, options); }, ", each 1 to " + std::to_string(kMaxFrameBufferSize));
+  add_integer(program, "--threads", "threads; default: TESSERA_THREADS, or one for each core", 1024, options.renderer.threads)->envname("TESSERA_THREADS");
+  add_text(program, "--cores", "N[,N...]", "cores that everything is kept on; default: all", [&options](const std::string& text) { return parse_cores(text, options.cores); }, ", each 0 to 1023");
   add_text(program, "--tile-size", "32|64|128", "pixels of a tile's side; default: chosen by the frame",
            [&options](const std::string& text) { return parse_integer(text, 32, 128, options.renderer.tile_size) && (options.renderer.tile_size & (options.renderer.tile_size - 1)) == 0; });
   add_text(program, "--isa", "scalar|avx2|avx512", "instruction set; default: the best that this machine has", [&options](const std::string& text) {
@@ -54,7 +57,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
       if (name(set) == text) return options.renderer.instruction_set = set, true;
     return false;
   });
-  add_text(program, "--repeats", "N", "frames of each workload; default: a second of them, 15 at least", [&options](const std::string& text) { return parse_integer(text, 1, 1000000, options.measure.repeats); });
+  add_integer(program, "--repeats", "frames of each workload; default: a second of them, 15 at least", 1000000, options.measure.repeats);
   program.add_option("--seconds", options.measure.seconds, "of frames for each workload; default: 1")->option_text("S")->check(CLI::Range(0.001, 3600.0));
   program.add_option("--seed", options.measure.seed, "of what is random in workloads, and of the order of turns; default: 1")->option_text("N");
   CLI::Option* const rivals = program.add_flag("--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");
@@ -64,7 +67,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
   });
   driver->needs(rivals);
   CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost");
-  add_text(program, "--memory-cores", "N", "cores that keep the memory of computed machines busy; default: 8", [&options](const std::string& text) { return parse_integer(text, 1, 1024, options.memory_cores); })->needs(scaling);
+  add_integer(program, "--memory-cores", "cores that keep the memory of computed machines busy; default: 8", 1024, options.memory_cores)->needs(scaling);
   CLI::Option* const growth = program.add_option("--growth", options.growth_file, "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured")->option_text("FILE");
   CLI::Option* const trace = program.add_option("--trace", options.trace_file, "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured")->option_text("FILE");
   CLI::Option* const heatmap = program.add_option("--heatmap", options.heatmap_file, "picture of what each tile of a workload costs; nothing else is measured")->option_text("FILE");

@@ -1,5 +1,7 @@
 #include "perf/bench/compare.h"
 
+#include <algorithm>
+
 #include "engine/scene/json_value.h"
 #include "engine/scene/text_file.h"
 #include "perf/bench/text.h"
@@ -20,12 +22,23 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
     if (!row.json().is_object() || !row.json().contains("name")) row.fail("a workload with its name");
     if (row.json().contains("median_ms")) medians_[row.member("name").text()] = row.member("median_ms").number(1e-9, 1e12);
   }
+  report_ = report;
+}
+
+bool EarlierRun::has_any_of(std::span<const WorkloadEntry* const> entries) const {
+  return std::any_of(entries.begin(), entries.end(), [this](const WorkloadEntry* entry) { return medians_.contains(entry->name); });
 }
 
 Comparison EarlierRun::compare(const Report& now, double allowed) const {
   Comparison comparison;
   if (setting_ != setting_text(now)) comparison.table = "not the same frames: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
-  comparison.table += formatted("%-22s %12s %12s %8s\n", "workload", "earlier, ms", "now, ms", "ratio");
+  const nlohmann::ordered_json is = report_json(now);
+  for (const char* path : {"/tile_size", "/seed", "/kept_on_cores", "/machine/CPU", "/machine/compiler"}) {
+    const nlohmann::ordered_json::json_pointer at(path);
+    if (report_.contains(at) && is.contains(at) && report_[at] != is[at])
+      comparison.table += "not the same " + at.back() + ": " + report_[at].dump() + " in " + file_ + ", now " + is[at].dump() + "\n";
+  }
+  comparison.table += formatted("%-22s %12s %12s %12s\n", "workload", "earlier, ms", "now, ms", "earlier/now");
   std::map<std::string, double> only_then = medians_;
   for (const Row& row : now.rows) {
     const auto found = medians_.find(row.name);
@@ -36,7 +49,7 @@ Comparison EarlierRun::compare(const Report& now, double allowed) const {
     }
     const double earlier = found->second;
     const bool is_worse = row.ms.median > earlier * (1 + allowed);
-    comparison.table += formatted("%-22s %12.3f %12.3f %8.3f%s\n", row.name.c_str(), earlier, row.ms.median, earlier / row.ms.median, is_worse ? "  worse" : "");
+    comparison.table += formatted("%-22s %12.3f %12.3f %12.3f%s\n", row.name.c_str(), earlier, row.ms.median, earlier / row.ms.median, is_worse ? "  worse" : "");
     comparison.is_worse |= is_worse;
   }
   for (const auto& [name, median] : only_then) comparison.table += name + ": only in " + file_ + "\n";

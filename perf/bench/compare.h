@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 
 #include "perf/bench/report.h"
@@ -17,7 +18,10 @@ class EarlierRun {
  public:
   /// @param file  what --json wrote then. @throws Error where it is no such report
   explicit EarlierRun(const std::string& file);
-  /// Rows without a counterpart are left out, and named, and so is what else is not as it was: size, threads, instruction set.
+  /// Whether it has any of these workloads: else there is nothing to compare.
+  bool has_any_of(std::span<const WorkloadEntry* const> entries) const;
+  /// Rows without a counterpart are left out, and named, and so is what else is not as it was: size, threads, instruction set; tile size, seed, cores, machine and
+  /// compiler, if the file tells.
   ///
   /// @param allowed  share by which a median may be longer, 0.05: 5 %
   Comparison compare(const Report& now, double allowed) const;
@@ -25,6 +29,7 @@ class EarlierRun {
  private:
   std::string file_;
   std::string setting_;                    // as setting_text() has it
+  nlohmann::ordered_json report_;
   std::map<std::string, double> medians_;  // by the workload's name, in ms
 };
 

@@ -32,7 +32,7 @@ std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& name
   std::vector<const WorkloadEntry*> list;
   for (const std::string& name : names)
     if (std::none_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return entry.name.starts_with(name); }))
-      throw Error("no workload's name begins with \"" + name + "\" (see tessera bench --list)");
+      throw CLI::ValidationError("workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
   const auto is_a_whole_name = [](const std::string& name) { return std::any_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return entry.name == name; }); };
   const auto is_meant = [&](const WorkloadEntry& entry) {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return is_a_whole_name(name) ? entry.name == name : entry.name.starts_with(name); });
@@ -51,6 +51,11 @@ void write(const std::string& file, const std::string& text) {
   out << text;
   out.close();
   if (!out) throw Error(file + ": cannot be written");
+}
+
+/// Before anything is measured: a file that is "-" or empty is none.
+void require_writable(const std::string& file) {
+  if (!file.empty() && file != "-" && !std::ofstream(file, std::ios::app)) throw Error(file + ": cannot be written");
 }
 
 /// Those that can run; of the others, lines that say why they cannot.
@@ -77,6 +82,9 @@ class Bench {
     report_.width = options.width;
     report_.height = options.height;
     report_.threads = options.renderer.threads;
+    report_.tile_size = options.renderer.tile_size;
+    report_.seed = options.measure.seed;
+    report_.cores = options.cores;
     report_.instruction_set = name(Renderer(options.renderer).options().instruction_set);
   }
 
@@ -96,8 +104,10 @@ class Bench {
     report_.core_to_core_ns[1] = core_to_core_ns();
   }
   void show(const std::string& text) const {
-    if (options_.json_file != "-" && options_.csv_file != "-") std::cout << text << std::flush;
+    if (!is_silent()) std::cout << text << std::flush;
   }
+  /// The standard output is for programs.
+  bool is_silent() const { return options_.json_file == "-" || options_.csv_file == "-"; }
   const Report& report() const { return report_; }
   bool is_wrong() const { return is_wrong_; }
 
@@ -122,14 +132,19 @@ class Bench {
     Rivalry& rivalry = report_.rivalry.emplace();
     rivalry.rival = rivals::mesa_name(options_.driver, report_.threads);
     rivalry.finish_ms = rivals::mesa_finish_ms(report_.width, report_.height, options_.driver, report_.threads);
+    std::string without_rival;
     show(rivalry_heading());
     for (const WorkloadEntry* entry : entries) {
       std::optional<Duel> fought = duel(*entry, setup_, options_.driver, options_.measure, counters_);
-      if (!fought) continue;
+      if (!fought) {
+        without_rival += " " + entry->name;
+        continue;
+      }
       show(rivalry_line(*fought));
       is_wrong_ |= !fought->fault().empty();
       rivalry.duels.push_back(std::move(*fought));
     }
+    if (!without_rival.empty()) show("no rival draws:" + without_rival + "\n");
   }
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
     CoreModel model = measure_core_model(report_.threads);
@@ -160,15 +175,19 @@ class Bench {
 };
 
 void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
-  if (!options.heatmap_file.empty() && entries.size() != 1) throw Error("--heatmap: found " + std::to_string(entries.size()) + " workloads, expected 1");
+  if (!options.heatmap_file.empty() && entries.size() != 1) throw CLI::ValidationError("--heatmap", "found " + std::to_string(entries.size()) + " workloads, expected 1");
   const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
   if (!options.trace_file.empty()) {
     std::vector<TracedFrame> frames;
-    for (const WorkloadEntry* entry : entries) frames.push_back(trace_frame(*entry, setup));
+    for (const WorkloadEntry* entry : entries) {
+      frames.push_back(trace_frame(*entry, setup));
+      if (frames.back().tasks.empty()) std::cerr << entry->name << ": no renderer draws it, so its trace is empty\n";
+    }
     write(options.trace_file, chrome_trace(frames));
   }
   if (options.heatmap_file.empty()) return;
   const Heatmap map = heatmap(cost_of_tasks(*entries.front(), setup, options.renderer.threads));
+  if (map.picture.rgba.empty()) throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
   write_picture(map.picture, options.heatmap_file);
   std::cout << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map.most_ns_a_pixel);
 }
@@ -183,6 +202,7 @@ void show_growth(const BenchOptions& options) {
 }
 
 int run(BenchOptions& options) {
+  if (options.json_file == "-" && options.csv_file == "-") throw CLI::ValidationError("--csv", "found - for it and for --json, expected a file for one of them");
   if (options.list) {
     for (const WorkloadEntry& entry : workloads()) std::printf("%-22s %s%s\n", entry.name.c_str(), entry.what.c_str(), entry.is_in_mean ? "" : " (beside the mean)");
     return 0;
@@ -190,8 +210,14 @@ int run(BenchOptions& options) {
   std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
   if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
   const Chosen chosen = prepared(chosen_by(options.names));
+  if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
+  for (const std::string& file : {options.json_file, options.csv_file, options.growth_file, options.trace_file, options.heatmap_file}) require_writable(file);
   if (!options.pictures_folder.empty()) std::filesystem::create_directories(options.pictures_folder);
-  if (!options.cores.empty() && !keep_on(options.cores)) throw Error("--cores: the system does not let this process run on those");
+  if (!options.cores.empty() && !keep_on(options.cores)) {
+    std::string allowed;
+    for (const int core : allowed_cores()) allowed += " " + std::to_string(core);
+    throw CLI::ValidationError("--cores", "found none that this process may use, expected one of" + allowed);
+  }
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {
@@ -210,7 +236,7 @@ int run(BenchOptions& options) {
   if (bench.is_wrong()) return kWrong;
   if (!earlier) return 0;
   const Comparison comparison = earlier->compare(bench.report(), options.allowed);
-  bench.show("\n" + comparison.table);
+  (bench.is_silent() ? std::cerr : std::cout) << "\n" << comparison.table;
   return comparison.is_worse ? kWorse : 0;
 }
 

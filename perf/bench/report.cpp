@@ -1,5 +1,6 @@
 #include "perf/bench/report.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "perf/bench/text.h"
@@ -32,7 +33,7 @@ double millions(std::uint64_t count, const Row& row) { return static_cast<double
 
 struct Figure {
   const char* key;
-  double value;
+  std::optional<double> value;  // none: it was not measured, or means nothing here
 };
 std::vector<Figure> figures_of(const Row& row) {
   std::vector<Figure> figures{{"median_ms", row.ms.median},
@@ -49,12 +50,10 @@ std::vector<Figure> figures_of(const Row& row) {
                               {"gigabytes_per_second", millions(row.work.bytes, row) * 1e-3},
                               {"ns_per_pixel", 1e6 * row.ms.median / static_cast<double>(row.work.pixels)}};
   figures.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
-  figures.push_back({"bytes_per_triangle", bytes_a_triangle(row).value_or(0)});
-  figures.push_back({"share_of_limit", row.limit > 0 ? share_of_limit(row) : 0});
-  if (row.counts) {
-    figures.push_back({"cycles", static_cast<double>(row.counts->cycles)});
-    figures.push_back({"instructions", static_cast<double>(row.counts->instructions)});
-  }
+  figures.push_back({"bytes_per_triangle", bytes_a_triangle(row)});
+  figures.push_back({"share_of_limit", row.limit > 0 ? std::optional(share_of_limit(row)) : std::nullopt});
+  figures.push_back({"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
+  figures.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions)) : std::nullopt});
   return figures;
 }
 
@@ -69,13 +68,13 @@ std::string setting_text(int width, int height, int threads, const std::string& 
 }
 
 std::string table_heading() {
-  return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %6s\n", "workload", "median ms", "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "GB/s", "ns/pixel", "peak MiB", "B/tri");
+  return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %6s\n", "workload", "median ms", "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s", "GB/s", "ns/pixel", "peak MiB", "B/tri");
 }
 
 std::string table_line(const Row& row) {
   if (!row.fault.empty()) return formatted("%-22s not timed: %s\n", row.name.c_str(), row.fault.c_str());
-  return formatted("%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.2f %8.3f %8.1f %6s\n", row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
-                   row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row), millions(row.work.bytes, row) * 1e-3,
+  return formatted("%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.1f %8.0f %8.2f %8.3f %8.1f %6s\n", row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
+                   row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row), millions(row.work.vertices, row), millions(row.work.pixels, row), millions(row.work.bytes, row) * 1e-3,
                    1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB, bytes_a_triangle(row) ? formatted("%.0f", *bytes_a_triangle(row)).c_str() : "");
 }
 
@@ -86,6 +85,12 @@ std::string table_ending(const Report& report) {
                     report.limits.memory_stores);
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
+  if (!report.rows.empty() && std::none_of(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.counts.has_value(); }))
+    text += "hardware counters: the system gives none\n";
+  for (const Row& row : report.rows)
+    if (row.counts && row.counts->cycles > 0)
+      text += formatted("%-22s %.2f million cycles a frame, %.2f instructions a cycle\n", row.name.c_str(), 1e-6 * static_cast<double>(row.counts->cycles),
+                        static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
   for (const Row& row : report.rows)
     if (row.limit > 0 && row.frames > 0)
       text += formatted("%-22s moves %.1f GB/s, %.0f %% of %s (%.1f GB/s)\n", row.name.c_str(), share_of_limit(row) * row.limit, 100 * share_of_limit(row), name_of(row.work.limit), row.limit);
@@ -103,7 +108,14 @@ nlohmann::ordered_json report_json(const Report& report) {
   json["height"] = report.height;
   json["threads"] = report.threads;
   json["instruction_set"] = report.instruction_set;
-  for (const Figure& figure : figures_of(report.limits)) json["limits_gigabytes_per_second"][figure.key] = figure.value;
+  json["tile_size"] = report.tile_size;
+  json["seed"] = report.seed;
+  json["kept_on_cores"] = report.cores;
+  const auto add = [](nlohmann::ordered_json& entry, const std::vector<Figure>& figures) {
+    for (const Figure& figure : figures)
+      if (figure.value) entry[figure.key] = *figure.value;
+  };
+  add(json["limits_gigabytes_per_second"], figures_of(report.limits));
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0) json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
   if (report.noise) json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise->value}, {"low_ratio", report.noise->low}, {"high_ratio", report.noise->high}};
   if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
@@ -112,8 +124,7 @@ nlohmann::ordered_json report_json(const Report& report) {
   for (const Row& row : report.rows) {
     nlohmann::ordered_json entry{{"name", row.name}, {"threads", row.threads}, {"frames", row.frames}};
     if (!row.fault.empty()) entry["fault"] = row.fault;
-    else
-      for (const Figure& figure : figures_of(row)) entry[figure.key] = figure.value;
+    else add(entry, figures_of(row));
     json["workloads"].push_back(std::move(entry));
   }
   return json;
@@ -129,7 +140,7 @@ std::string report_csv(const Report& report) {
       text += "\n";
     }
     text += row.name + "," + std::to_string(row.threads) + "," + std::to_string(row.frames);
-    for (const Figure& figure : figures_of(row)) text += formatted(",%.6g", figure.value);
+    for (const Figure& figure : figures_of(row)) text += figure.value ? formatted(",%.6g", *figure.value) : ",";
     text += "\n";
   }
   return text;

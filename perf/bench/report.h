@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct Report {
   std::string machine;              ///< lines of "what   value"
   int width = 0, height = 0, threads = 0;
   std::string instruction_set;
+  int tile_size = 0;                ///< pixels; 0: chosen by the frame
+  std::uint32_t seed = 1;
+  std::vector<int> cores{};         ///< that the process was kept on; empty: all it may use
   MachineLimits limits;
   std::array<double, 2> core_to_core_ns{};  ///< before and after everything else was measured
   std::vector<Row> rows;

@@ -81,13 +81,51 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   // Of half the speed is no more than allowed, whatever else the machine does.
   for (Json& row : earlier["workloads"]) row["median_ms"] = row["name"] == "fill-gouraud" ? 1e-6 : 1e6;
   write("one.json", earlier.dump());
-  EXPECT_EQ(run("bench fill-flat --size 64x48 --repeats 2 --seconds 0.001 --compare one.json").code, 0);
+  EXPECT_EQ(run("bench fill-nearest --size 64x48 --repeats 2 --seconds 0.001 --compare one.json").code, 0);
+  const Result nothing = run("bench fill-flat --size 64x48 --repeats 2 --seconds 0.001 --compare one.json");
+  EXPECT_EQ(nothing.code, 1);
+  EXPECT_TRUE(contains(nothing.err, "one.json: found none of the workloads to be measured")) << nothing.err;
   EXPECT_EQ(run("bench fill-gouraud --size 64x48 --repeats 2 --seconds 0.001 --compare one.json --allowed 100").code, 3);
   earlier = Json::parse(content("now.json"));
   for (Json& row : earlier["workloads"]) row["median_ms"] = row["median_ms"].get<double>() / 20;
   write("twentieth.json", earlier.dump());
   EXPECT_EQ(run(std::string(kQuick) + "--compare twentieth.json --allowed 0.1").code, 3);
   EXPECT_EQ(run(std::string(kQuick) + "--compare twentieth.json --allowed 100").code, 0);
+}
+
+TEST_F(BenchProgram, TellsWhatIsNotAsItWas) {
+  const std::string kOne = "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 ";
+  ASSERT_EQ(run(kOne + "--json now.json").code, 0);
+  Json earlier = Json::parse(content("now.json"));
+  EXPECT_EQ(earlier["tile_size"], 0);
+  EXPECT_EQ(earlier["seed"], 1);
+  EXPECT_EQ(earlier["kept_on_cores"], Json::array());
+  EXPECT_FALSE(earlier["workloads"][0].contains("bytes_per_triangle")) << "there are too few";
+  earlier["machine"]["CPU"] = "another one";
+  earlier["workloads"][0]["median_ms"] = 1e6;
+  write("other.json", earlier.dump());
+  const Result compared = run(kOne + "--seed 5 --tile-size 64 --compare other.json");
+  EXPECT_EQ(compared.code, 0) << compared.err;
+  for (const char* what : {"not the same tile_size: 0 in other.json, now 64\n", "not the same seed: 1 in other.json, now 5\n", "not the same CPU: \"another one\" in other.json, now \""})
+    EXPECT_TRUE(contains(compared.out, what)) << what << "\n" << compared.out;
+  EXPECT_FALSE(contains(compared.out, "not the same compiler")) << compared.out;
+  // Where the standard output is for programs, people read the other one.
+  const Result silent = run(kOne + "--json - --compare other.json");
+  EXPECT_EQ(Json::parse(silent.out)["seed"], 1);
+  EXPECT_TRUE(contains(silent.err, "earlier/now")) << silent.err;
+}
+
+TEST_F(BenchProgram, TellsWhatNobodyDraws) {
+  const Result rivals = run("bench clear fill-flat --size 32x32 --repeats 1 --seconds 0.001 --rivals");
+  if (!contains(rivals.err, "libosmesa6")) {
+    EXPECT_TRUE(contains(rivals.out, "no rival draws: clear\n")) << rivals.out << rivals.err;
+  }
+  const Result trace = run("bench store-24 --size 32x32 --trace trace.json");
+  EXPECT_EQ(trace.code, 0);
+  EXPECT_TRUE(contains(trace.err, "store-24: no renderer draws it, so its trace is empty")) << trace.err;
+  const Result map = run("bench store-24 --size 32x32 --heatmap map.png");
+  EXPECT_EQ(map.code, 1);
+  EXPECT_TRUE(contains(map.err, "store-24: no renderer draws it, so there is no heatmap")) << map.err;
 }
 
 TEST_F(BenchProgram, StandsBesideRivals) {
@@ -190,12 +228,15 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
   const struct {
     const char *arguments, *message;
     int code;
-  } cases[] = {{"nothing", "no workload's name begins with \"nothing\"", 1},
-               {"--size 0x4", "found \"0x4\", expected WIDTHxHEIGHT", 2},
-               {"--threads 0", "found \"0\"", 2},
+  } cases[] = {{"nothing", "found \"nothing\", with which no workload's name begins", 2},
+               {"--size 0x4", "found \"0x4\", expected WIDTHxHEIGHT, each 1 to 16384", 2},
+               {"--threads 0", "found \"0\", expected N, 1 to 1024", 2},
                {"--tile-size 48", "found \"48\", expected 32|64|128", 2},
                {"--isa sse", "found \"sse\", expected scalar|avx2|avx512", 2},
                {"--cores 0,,1", "found \"0,,1\"", 2},
+               {"--cores 1023", "found none that this process may use, expected one of ", 2},
+               {"--json - --csv -", "--csv: found - for it and for --json", 2},
+               {"--json none/report.json", "none/report.json: cannot be written", 1},
                {"--compare missing.json", "missing.json", 1},
                {"--compare other.json", "found an object, expected a workload with its name", 1},
                {"--compare older.json", "found no \"height\", expected a report of tessera bench --json", 1},
@@ -204,7 +245,7 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
                {"--rivals --scaling", "--rivals excludes --scaling", 2},
                {"--driver softpipe", "--driver requires --rivals", 2},
                {"--trace t.json --json -", "--json", 2},
-               {"--heatmap map.png", "--heatmap: found 10 workloads, expected 1", 1},
+               {"--heatmap map.png", "--heatmap: found 10 workloads, expected 1", 2},
                {"--trace none/trace.json", "none/trace.json: cannot be written", 1},
                {"--fast", "--fast", 2}};
   for (const auto& [arguments, message, code] : cases) {
