@@ -252,6 +252,7 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
     const Result refused = run(std::string(kQuick) + arguments);
     EXPECT_EQ(refused.code, code) << arguments << "\n" << refused.err;
     EXPECT_TRUE(contains(refused.err, message)) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.out, "") << arguments << ": before anything is measured";
   }
 }
 
