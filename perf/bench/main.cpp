@@ -6,6 +6,8 @@
 #include <iostream>
 #include <optional>
 
+#include <unistd.h>
+
 #include "engine/cli/machine_text.h"
 #include "engine/parallel.h"
 #include "perf/bench/bench_options.h"
@@ -53,9 +55,15 @@ void write(const std::string& file, const std::string& text) {
   if (!out) throw Error(file + ": cannot be written");
 }
 
-/// Before anything is measured: a file that is "-" or empty is none.
+/// Before anything is measured, and without making it: who asks may be refused for something else. A file that is "-" or empty is none.
 void require_writable(const std::string& file) {
-  if (!file.empty() && file != "-" && !std::ofstream(file, std::ios::app)) throw Error(file + ": cannot be written");
+  if (file.empty() || file == "-") return;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  const fs::path parent = fs::path(file).parent_path(), folder = parent.empty() ? "." : parent;
+  const bool is_there = fs::exists(status), is_new = status.type() == fs::file_type::not_found && fs::is_directory(folder, error);
+  if (fs::is_directory(status) || !(is_there || is_new) || ::access(is_there ? file.c_str() : folder.c_str(), W_OK) != 0) throw Error(file + ": cannot be written");
 }
 
 /// Those that can run; of the others, lines that say why they cannot.
@@ -84,7 +92,7 @@ class Bench {
     report_.threads = options.renderer.threads;
     report_.tile_size = options.renderer.tile_size;
     report_.seed = options.measure.seed;
-    report_.cores = options.cores;
+    if (!options.cores.empty()) report_.cores = allowed_cores();  // of those that were named, the ones there are
     report_.instruction_set = name(Renderer(options.renderer).options().instruction_set);
   }
 
@@ -175,7 +183,6 @@ class Bench {
 };
 
 void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
-  if (!options.heatmap_file.empty() && entries.size() != 1) throw CLI::ValidationError("--heatmap", "found " + std::to_string(entries.size()) + " workloads, expected 1");
   const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
   if (!options.trace_file.empty()) {
     std::vector<TracedFrame> frames;
@@ -211,13 +218,15 @@ int run(BenchOptions& options) {
   if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
   const Chosen chosen = prepared(chosen_by(options.names));
   if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
+  if (!options.heatmap_file.empty() && chosen.entries.size() != 1)
+    throw CLI::ValidationError("--heatmap", "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
   for (const std::string& file : {options.json_file, options.csv_file, options.growth_file, options.trace_file, options.heatmap_file}) require_writable(file);
-  if (!options.pictures_folder.empty()) std::filesystem::create_directories(options.pictures_folder);
   if (!options.cores.empty() && !keep_on(options.cores)) {
     std::string allowed;
     for (const int core : allowed_cores()) allowed += " " + std::to_string(core);
     throw CLI::ValidationError("--cores", "found none that this process may use, expected one of" + allowed);
   }
+  if (!options.pictures_folder.empty()) std::filesystem::create_directories(options.pictures_folder);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {

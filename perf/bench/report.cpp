@@ -61,6 +61,14 @@ std::vector<Figure> figures_of(const MachineLimits& limits) {
   return {{"l1_stores", limits.l1_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores}};
 }
 
+// RFC 4180: what has commas, quotes or ends of lines stands in quotes.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+  return quoted + "\"";
+}
+
 }  // namespace
 
 std::string setting_text(int width, int height, int threads, const std::string& instruction_set) {
@@ -85,7 +93,9 @@ std::string table_ending(const Report& report) {
                     report.limits.memory_stores);
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
-  if (!report.rows.empty() && std::none_of(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.counts.has_value(); }))
+  const auto is_timed = [](const Row& row) { return row.frames > 0; };
+  const auto is_counted = [](const Row& row) { return row.counts.has_value(); };
+  if (std::any_of(report.rows.begin(), report.rows.end(), is_timed) && std::none_of(report.rows.begin(), report.rows.end(), is_counted))
     text += "hardware counters: the system gives none\n";
   for (const Row& row : report.rows)
     if (row.counts && row.counts->cycles > 0)
@@ -131,17 +141,13 @@ nlohmann::ordered_json report_json(const Report& report) {
 }
 
 std::string report_csv(const Report& report) {
-  std::string text;
+  std::string text = "workload,threads,frames";
+  for (const Figure& figure : figures_of(Row{})) text += std::string(",") + figure.key;
+  text += ",fault\n";
   for (const Row& row : report.rows) {
-    if (!row.fault.empty()) continue;
-    if (text.empty()) {
-      text = "workload,threads,frames";
-      for (const Figure& figure : figures_of(row)) text += std::string(",") + figure.key;
-      text += "\n";
-    }
     text += row.name + "," + std::to_string(row.threads) + "," + std::to_string(row.frames);
-    for (const Figure& figure : figures_of(row)) text += figure.value ? formatted(",%.6g", *figure.value) : ",";
-    text += "\n";
+    for (const Figure& figure : figures_of(row)) text += row.fault.empty() && figure.value ? formatted(",%.6g", *figure.value) : ",";
+    text += "," + csv_field(row.fault) + "\n";
   }
   return text;
 }

@@ -102,30 +102,36 @@ TEST_F(BenchProgram, TellsWhatIsNotAsItWas) {
   EXPECT_EQ(earlier["kept_on_cores"], Json::array());
   EXPECT_FALSE(earlier["workloads"][0].contains("bytes_per_triangle")) << "there are too few";
   earlier["machine"]["CPU"] = "another one";
+  earlier["machine"]["compiler"] = "cfront 3.0";
   earlier["workloads"][0]["median_ms"] = 1e6;
   write("other.json", earlier.dump());
   const Result compared = run(kOne + "--seed 5 --tile-size 64 --compare other.json");
   EXPECT_EQ(compared.code, 0) << compared.err;
-  for (const char* what : {"not the same tile_size: 0 in other.json, now 64\n", "not the same seed: 1 in other.json, now 5\n", "not the same CPU: \"another one\" in other.json, now \""})
+  for (const char* what : {"not the same tile_size: 0 in other.json, now 64\n", "not the same seed: 1 in other.json, now 5\n", "not the same CPU: \"another one\" in other.json, now \"",
+                           "not the same compiler: \"cfront 3.0\" in other.json, now \""})
     EXPECT_TRUE(contains(compared.out, what)) << what << "\n" << compared.out;
-  EXPECT_FALSE(contains(compared.out, "not the same compiler")) << compared.out;
+  EXPECT_FALSE(contains(compared.out, "not the same kept_on_cores")) << compared.out;
   // Where the standard output is for programs, people read the other one.
-  const Result silent = run(kOne + "--json - --compare other.json");
+  const Result silent = run(kOne + "--cores 0 --json - --compare other.json");
   EXPECT_EQ(Json::parse(silent.out)["seed"], 1);
+  EXPECT_TRUE(contains(silent.err, "not the same kept_on_cores: [] in other.json, now [0]\n")) << silent.err;
   EXPECT_TRUE(contains(silent.err, "earlier/now")) << silent.err;
 }
 
 TEST_F(BenchProgram, TellsWhatNobodyDraws) {
-  const Result rivals = run("bench clear fill-flat --size 32x32 --repeats 1 --seconds 0.001 --rivals");
-  if (!contains(rivals.err, "libosmesa6")) {
-    EXPECT_TRUE(contains(rivals.out, "no rival draws: clear\n")) << rivals.out << rivals.err;
-  }
   const Result trace = run("bench store-24 --size 32x32 --trace trace.json");
   EXPECT_EQ(trace.code, 0);
   EXPECT_TRUE(contains(trace.err, "store-24: no renderer draws it, so its trace is empty")) << trace.err;
   const Result map = run("bench store-24 --size 32x32 --heatmap map.png");
   EXPECT_EQ(map.code, 1);
   EXPECT_TRUE(contains(map.err, "store-24: no renderer draws it, so there is no heatmap")) << map.err;
+}
+
+TEST_F(BenchProgram, TellsWhatNoRivalDraws) {
+  const Result rivals = run("bench clear fill-flat --size 32x32 --repeats 1 --seconds 0.001 --rivals");
+  if (contains(rivals.err, "libosmesa6")) GTEST_SKIP() << rivals.err;
+  EXPECT_EQ(rivals.code, 0) << rivals.err;
+  EXPECT_TRUE(contains(rivals.out, "no rival draws: clear\n")) << rivals.out << rivals.err;
 }
 
 TEST_F(BenchProgram, StandsBesideRivals) {
@@ -162,11 +168,14 @@ TEST_F(BenchProgram, MeasuresMeshesPointsAndLines) {
 }
 
 TEST_F(BenchProgram, DrawsAsItIsTold) {
-  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --cores 0 --threads 1 --json -");
+  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --cores 1023,0 --threads 1 --json -");
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json report = Json::parse(result.out);
   EXPECT_EQ(report["instruction_set"], "scalar");
   EXPECT_EQ(report["threads"], 1);
+  EXPECT_EQ(report["seed"], 7);
+  EXPECT_EQ(report["tile_size"], 64);
+  EXPECT_EQ(report["kept_on_cores"], Json::array({0}));
   for (const Json& row : report["workloads"]) EXPECT_FALSE(row.contains("fault")) << row;
 }
 
@@ -222,6 +231,34 @@ TEST_F(BenchProgram, HasTheThreadsOfTheEnvironment) {
   EXPECT_TRUE(contains(wrong.err, "found \"many\"")) << wrong.err;
 }
 
+// Neither is done before a refusal: drawing a trace, which takes long, nor making a file.
+TEST_F(BenchProgram, RefusesBeforeItBegins) {
+  const Result trace = run("bench store-24 --size 32x32 --trace none/trace.json");
+  EXPECT_EQ(trace.code, 1);
+  EXPECT_TRUE(contains(trace.err, "none/trace.json: cannot be written")) << trace.err;
+  EXPECT_FALSE(contains(trace.err, "no renderer draws it")) << trace.err;
+  const struct {
+    const char *arguments, *message;
+    int code;
+  } cases[] = {{"--json new.json --cores 1023", "found none that this process may use", 2},
+               {"--json new.json --csv none/report.csv", "none/report.csv: cannot be written", 1},
+               {"--trace new.json --heatmap map.png", "--heatmap: found 10 workloads", 2},
+               {"--pictures new.json --cores 1023", "found none that this process may use", 2}};
+  for (const auto& [arguments, message, code] : cases) {
+    const Result refused = run(std::string(kQuick) + arguments);
+    EXPECT_EQ(refused.code, code) << arguments;
+    EXPECT_TRUE(contains(refused.err, message)) << arguments << "\n" << refused.err;
+    EXPECT_FALSE(exists("new.json")) << arguments;
+  }
+  write("kept.json", "kept");
+  EXPECT_EQ(run(std::string(kQuick) + "--json kept.json --cores 1023").code, 2);
+  EXPECT_EQ(content("kept.json"), "kept");
+  const Result inside = run(std::string(kQuick) + "--json kept.json/report.json");
+  EXPECT_EQ(inside.code, 1);
+  EXPECT_TRUE(contains(inside.err, "kept.json/report.json: cannot be written")) << inside.err;
+  EXPECT_EQ(inside.out, "") << "before anything is measured";
+}
+
 TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
   write("other.json", R"({"width": 1, "height": 1, "threads": 1, "instruction_set": "avx2", "workloads": [{"median_ms": 1}]})");
   write("older.json", R"({"width": 1, "threads": 1, "instruction_set": "avx2", "workloads": []})");
@@ -236,6 +273,7 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
                {"--cores 0,,1", "found \"0,,1\"", 2},
                {"--cores 1023", "found none that this process may use, expected one of ", 2},
                {"--json - --csv -", "--csv: found - for it and for --json", 2},
+               {"--json .", ".: cannot be written", 1},
                {"--json none/report.json", "none/report.json: cannot be written", 1},
                {"--compare missing.json", "missing.json", 1},
                {"--compare other.json", "found an object, expected a workload with its name", 1},
