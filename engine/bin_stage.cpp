@@ -132,7 +132,7 @@ void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
   for (std::size_t d = 0; d < draws_.size(); ++d) {
     const std::size_t low = std::max(begin, first_element_[d]), high = std::min(end, first_element_[d + 1]);
     if (low >= high) continue;
-    if (commands_->plans[d].texels) {
+    if (commands_->plans[d]->texels) {
       if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
     } else
       bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]), static_cast<std::uint32_t>(high - first_element_[d]), isa_);

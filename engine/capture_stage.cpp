@@ -67,7 +67,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
     } else if (what == What::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;
-      draw.first_attribute = commands.plans[plan].captured_normal;
+      draw.first_attribute = commands.plans[plan]->captured_normal;
       draw.attribute_count = 3;
       for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
       draw.programs[0] = draw.programs[1] = &normal_program_;

@@ -292,7 +292,7 @@ void DrawPlan::start_anew() {
   *this = std::move(plan);
 }
 
-void plan_draw(DrawPlan& plan, const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons) {
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals, std::string* reasons) {
   const DrawState& state = draw.state;
   plan.start_anew();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);

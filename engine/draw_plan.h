@@ -84,7 +84,7 @@ struct DrawPlan {
 /// @param plan  is replaced
 /// @param capture_normals  each pixel's normal is wanted besides its colour
 /// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
-void plan_draw(DrawPlan& plan, const RecordedDraw& draw, FrameBufferState& target, bool capture_normals, std::string* reasons);
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals, std::string* reasons);
 
 /// The bits of colour words that may change; all 32 for all planes.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask, const ColorLayout& layout);

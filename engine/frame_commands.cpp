@@ -11,6 +11,8 @@
 namespace tessera {
 namespace {
 
+constexpr std::size_t kDrawsPerTask = 16;
+
 PixelRect whole_buffer(const FrameBufferState& target) { return {0, 0, target.format.width, target.format.height}; }
 
 PixelRect rect_of(const std::optional<Rect>& scissor, const FrameBufferState& target) {
@@ -55,7 +57,7 @@ void for_each_command(const FrameCommands& commands, const OnClear& on_clear, co
       on_accumulation(commands.accumulations[accumulation]);
     }
     clears_before(draw, commands.clears.size());
-    if (draw < commands.plans.size()) on_draw(commands.plans[draw]);
+    if (draw < commands.plans.size()) on_draw(*commands.plans[draw]);
   }
 }
 
@@ -147,10 +149,32 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
   }
 }
 
+/// The plan of each draw, and which of them can change something.
+void plan_draws(FrameCommands& commands, FrameRecording& recording, Parallel& parallel) {
+  const std::size_t draws = recording.draws.size();
+  const auto plan_range = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) plan_draw(commands.plan_memory[i], recording.draws[i], *recording.target, !recording.capture.normals.empty(), nullptr);
+  };
+  if (commands.plan_memory.size() < draws) commands.plan_memory.resize(draws);
+  if (draws <= kDrawsPerTask) {
+    plan_range(0, draws);
+  } else {
+    parallel.for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) { plan_range(task * kDrawsPerTask, std::min(draws, (task + 1) * kDrawsPerTask)); });
+  }
+  for (std::size_t i = 0; i < draws; ++i) {
+    const DrawPlan& plan = commands.plan_memory[i];
+    commands.first_plan_at.push_back(static_cast<std::uint32_t>(commands.plans.size()));
+    if (plan.invisible || (!plan.texels && recording.draws[i].mesh.elements == 0)) continue;
+    commands.plans.push_back(&plan);
+    commands.plan_draw.push_back(i);
+  }
+  commands.first_plan_at.push_back(static_cast<std::uint32_t>(commands.plans.size()));
+}
+
 }  // namespace
 
 void FrameCommands::start_anew() {
-  plans = {};
+  plans.clear();
   plan_draw.clear();
   first_tile_draw.clear();
   geometry.clear();
@@ -163,22 +187,11 @@ void FrameCommands::start_anew() {
   color = depth = stencil = accumulation = {};
 }
 
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers) {
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers, Parallel& parallel) {
   FrameBufferState& target = *recording.target;
   const PixelRect whole = whole_buffer(target);
   commands.start_anew();
-  for (std::size_t i = 0; i < recording.draws.size(); ++i) {
-    const std::size_t number = commands.plan_draw.size();
-    commands.first_plan_at.push_back(static_cast<std::uint32_t>(number));
-    if (number == commands.plan_memory.size()) commands.plan_memory.emplace_back();
-    DrawPlan& plan = commands.plan_memory[number];
-    plan_draw(plan, recording.draws[i], target, !recording.capture.normals.empty(), nullptr);
-    if (plan.invisible || (!plan.texels && recording.draws[i].mesh.elements == 0)) continue;
-    commands.plan_draw.push_back(i);
-  }
-  commands.plans = {commands.plan_memory.data(), commands.plan_draw.size()};
-  commands.first_plan_at.push_back(static_cast<std::uint32_t>(commands.plans.size()));
-
+  plan_draws(commands, recording, parallel);
   for (const RecordedClear& recorded : recording.clears) {
     commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
     const Clear& clear = recorded.clear;
@@ -209,7 +222,7 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     commands.accumulations.push_back(*command);
   }
 
-  const auto any_plan = [&](auto predicate) { return std::any_of(commands.plans.begin(), commands.plans.end(), predicate); };
+  const auto any_plan = [&](auto predicate) { return std::any_of(commands.plans.begin(), commands.plans.end(), [&](const DrawPlan* plan) { return predicate(*plan); }); };
   const auto any_clear = [&](auto predicate) { return std::any_of(commands.clears.begin(), commands.clears.end(), predicate); };
   const auto any_work = [&](auto work_of) {
     return std::any_of(commands.accumulations.begin(), commands.accumulations.end(), [&](const TileAccumulation& a) { return work_of(a, whole) >= Work::changes; });
@@ -244,9 +257,9 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
 
   // From here on draws are counted as the tiles do.
   std::uint32_t tile_draws = 0;
-  for (const DrawPlan& plan : commands.plans) {
+  for (const DrawPlan* plan : commands.plans) {
     commands.first_tile_draw.push_back(tile_draws);
-    tile_draws += static_cast<std::uint32_t>(std::max<std::size_t>(styles_of(plan).size(), 1));
+    tile_draws += static_cast<std::uint32_t>(std::max<std::size_t>(styles_of(*plan).size(), 1));
   }
   commands.first_tile_draw.push_back(tile_draws);
   for (TileClear& clear : commands.clears) clear.before_draw = commands.first_tile_draw[clear.before_draw];
@@ -257,10 +270,10 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     const RecordedDraw& draw = recording.draws[commands.plan_draw[i]];
     GeometryDraw geometry;
     geometry.mesh = &draw.mesh;
-    geometry.plan = &commands.plans[i];
+    geometry.plan = commands.plans[i];
     geometry.buffers = &buffers[i];
     geometry.layout = &target.layout;
-    geometry.search = commands.plans[i].looks_up_colors() ? target.search() : nullptr;
+    geometry.search = commands.plans[i]->looks_up_colors() ? target.search() : nullptr;
     geometry.provoking_vertex = draw.state.provoking_vertex;
     commands.geometry.push_back(geometry);
   }

@@ -8,6 +8,7 @@
 
 #include "engine/draw_plan.h"
 #include "engine/geometry.h"
+#include "engine/parallel.h"
 #include "engine/recording.h"
 #include "shading/tile_renderer.h"
 
@@ -27,8 +28,8 @@ struct BufferTraffic {
 
 /// Used for one frame after the other: its memory is kept.
 struct FrameCommands {
-  std::span<DrawPlan> plans;                ///< of draws that can change something
-  std::vector<DrawPlan> plan_memory;        ///< theirs, and of more draws in frames before
+  std::vector<DrawPlan> plan_memory;        ///< of each recorded draw; and, from frames before, of more
+  std::vector<const DrawPlan*> plans;       ///< of draws that can change something
   std::vector<std::size_t> plan_draw;       ///< the recorded draw of each plan
   /// The tiles' first draw of each plan, and one past the last: polygons that are not all filled are several.
   std::vector<std::uint32_t> first_tile_draw;
@@ -57,7 +58,7 @@ struct FrameCommands {
 /// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.
 /// Throws Error where a buffer that the frame needs was not kept by the frame before.
 /// @param commands  are replaced
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers);
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers, Parallel& parallel);
 
 /// The styles in which a plan's elements are drawn, in the order of its tile draws; none: as they are.
 std::span<const PolygonStyle> styles_of(const DrawPlan& plan);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kVerticesPerTask = 512, kElementsPerTask = 4096;
 constexpr int kTilesPerTask = 8;  // to be looked through
 // How much of a frame is done after the stages before the tiles, for a progress bar.
-constexpr double kElementsDone = 0.05, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
+constexpr double kElementsDone = 0.03, kNormalsDone = 0.08, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
 
 /// Seconds since it was last asked.
 class StopWatch {
@@ -111,8 +111,7 @@ void RendererState::process_geometry(FrameWatch& watch) {
     const DrawRange range = ranges[i];
     watch.task(worker, [&] { assemble_elements(commands.geometry[range.draw], range.first, range.last); });
   });
-  for (const GeometryDraw& draw : commands.geometry)
-    if (draw.wants_smooth_normals()) normal_maker.make(*draw.mesh, parallel, draw.buffers->smooth_normals);
+  normal_stage.run(commands.geometry, parallel, watch, kNormalsDone);
   cut_draws([](const GeometryDraw& draw) { return draw.mesh->vertices; }, kVerticesPerTask);
   watch.begin_stage(FrameStage::vertices, kVerticesDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
@@ -207,7 +206,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   FrameTrace trace(options.trace ? parallel.threads() : 0);
   FrameWatch watch(options.progress, trace);
   FrameBufferState& target = *recording.target;
-  plan_frame(commands, recording, image != nullptr, draw_buffers);
+  plan_frame(commands, recording, image != nullptr, draw_buffers, parallel);
 
   // Memory for what will be stored is taken before anything changes.
   for (const Buffer which : kBuffers) prepare_planes(commands.traffic(which), target.parts(which));
@@ -231,8 +230,8 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   TileFrame frame;
   frame.grid = grid;
   frame.layout = target.layout;
-  for (const DrawPlan& plan : commands.plans)
-    if (plan.looks_up_colors()) frame.palette_search = target.search();
+  for (const DrawPlan* plan : commands.plans)
+    if (plan->looks_up_colors()) frame.palette_search = target.search();
   frame.depth_kind = target.depth_kind;
   frame.draws = commands.tile_draws.data();
   frame.draw_count = static_cast<std::uint32_t>(commands.tile_draws.size());

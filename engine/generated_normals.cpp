@@ -56,32 +56,43 @@ std::uint64_t hash_of(const Key& key) {
   return hash;
 }
 
-constexpr std::size_t kTasks = 64, kMostParts = 64, kVerticesOfAPart = 4096;
+constexpr std::size_t kMostTasks = 64, kMostParts = 64, kItemsOfATask = 1024, kVerticesOfAPart = 4096;
 
-/// Calls work(first, last) for kTasks ranges.
-template <class Work>
-void for_each_range(Parallel& parallel, std::size_t count, const Work& work) {
-  parallel.for_each(kTasks, [&](std::size_t task, int) { work(count * task / kTasks, count * (task + 1) / kTasks); });
-}
+/// A power of two, for open addressing.
+std::size_t table_slots(std::size_t vertices) { return std::bit_ceil(2 * vertices + 1); }
 
 }  // namespace
+
+SmoothNormals::Cut::Cut(std::size_t vertices, std::size_t elements)
+    : tasks(std::clamp(std::max(vertices, elements) / kItemsOfATask, std::size_t{1}, kMostTasks)), parts(std::clamp(vertices / kVerticesOfAPart, std::size_t{1}, kMostParts)) {}
+template <class Work>
+void SmoothNormals::Cut::for_each_range(Parallel& parallel, std::size_t count, const Work& work) const {
+  parallel.for_each(tasks, [&](std::size_t task, int) { work(count * task / tasks, count * (task + 1) / tasks); });
+}
+
+template <class Item>
+void SmoothNormals::Sorted<Item>::reserve(const Cut& cut, std::size_t count) {
+  items.resize(count);
+  ends.resize(cut.tasks * cut.parts);
+}
 
 /// @param for_each_of_task  calls its second argument with the part and each item of a task; it is called twice
 template <class Item>
 template <class ForEach>
-void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, std::size_t part_count, const ForEach& for_each_of_task) {
-  parts = part_count;
-  std::size_t* const at = ends.resize(kTasks * parts);
-  parallel.for_each(kTasks, [&](std::size_t task, int) {
+void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, const Cut& cut, const ForEach& for_each_of_task) {
+  tasks = cut.tasks;
+  parts = cut.parts;
+  std::size_t* const at = ends.resize(tasks * parts);
+  parallel.for_each(tasks, [&](std::size_t task, int) {
     std::size_t* const counts = at + task * parts;
     std::fill_n(counts, parts, std::size_t{0});
     for_each_of_task(task, [&](std::size_t part, const Item&) { ++counts[part]; });
   });
   std::size_t begin = 0;
   for (std::size_t part = 0; part < parts; ++part)
-    for (std::size_t task = 0; task < kTasks; ++task) begin += std::exchange(at[task * parts + part], begin);
+    for (std::size_t task = 0; task < tasks; ++task) begin += std::exchange(at[task * parts + part], begin);
   Item* const sorted = items.resize(begin);
-  parallel.for_each(kTasks, [&](std::size_t task, int) {
+  parallel.for_each(tasks, [&](std::size_t task, int) {
     for_each_of_task(task, [&](std::size_t part, const Item& item) { sorted[at[task * parts + part]++] = item; });
   });
 }
@@ -89,29 +100,29 @@ void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, std::size_t part_coun
 template <class Item>
 template <class Work>
 void SmoothNormals::Sorted<Item>::for_each_in(std::size_t part, const Work& work) const {
-  const std::size_t* const last_task = ends.data() + (kTasks - 1) * parts;
+  const std::size_t* const last_task = ends.data() + (tasks - 1) * parts;
   for (std::size_t i = part == 0 ? 0 : last_task[part - 1]; i < last_task[part]; ++i) work(items.data()[i]);
 }
 
 // For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
-void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& parallel) {
+void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& parallel, const Cut& cut) {
   std::uint8_t* const part = part_.resize(mesh.vertices);
-  for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) part[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % parts_);
+  cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) part[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % cut.parts);
   });
-  vertices_.sort(parallel, parts_, [&](std::size_t task, const auto& add) {
-    for (std::size_t v = mesh.vertices * task / kTasks; v < mesh.vertices * (task + 1) / kTasks; ++v) add(part[v], static_cast<std::uint32_t>(v));
+  vertices_.sort(parallel, cut, [&](std::size_t task, const auto& add) {
+    for (std::size_t v = mesh.vertices * task / cut.tasks; v < mesh.vertices * (task + 1) / cut.tasks; ++v) add(part[v], static_cast<std::uint32_t>(v));
   });
   std::size_t begin[kMostParts + 1] = {};
-  for (std::size_t p = 0; p < parts_; ++p) {
+  for (std::size_t p = 0; p < cut.parts; ++p) {
     std::size_t count = 0;
     vertices_.for_each_in(p, [&](std::uint32_t) { ++count; });
-    begin[p + 1] = begin[p] + std::bit_ceil(2 * count + 1);
+    begin[p + 1] = begin[p] + table_slots(count);
   }
-  std::uint32_t* const tables = table_.resize(begin[parts_]);
+  std::uint32_t* const tables = table_.resize(begin[cut.parts]);
   std::uint32_t* const first_at = first_.resize(mesh.vertices);
   glm::dvec3* const sums = sums_.resize(mesh.vertices);
-  parallel.for_each(parts_, [&](std::size_t p, int) {
+  parallel.for_each(cut.parts, [&](std::size_t p, int) {
     constexpr std::uint32_t kEmpty = 0xffffffffu;
     std::uint32_t* const table = tables + begin[p];
     const std::size_t slots = begin[p + 1] - begin[p];
@@ -127,34 +138,44 @@ void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& pa
   });
 }
 
-void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel) {
+void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel, const Cut& cut) {
   const std::size_t each = mesh.polygon_triangles(), faces = mesh.elements / each;
   glm::dvec3* const areas = areas_.resize(faces);
-  for_each_range(parallel, faces, [&](std::size_t first, std::size_t last) {
+  cut.for_each_range(parallel, faces, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f) areas[f] = area_normal(mesh, f * each, (f + 1) * each);
   });
-  corners_.sort(parallel, parts_, [&](std::size_t task, const auto& add) {
+  corners_.sort(parallel, cut, [&](std::size_t task, const auto& add) {
     const auto add_corner = [&](std::size_t vertex, std::size_t face) { add(part_.data()[vertex], Corner{first_.data()[vertex], static_cast<std::uint32_t>(face)}); };
-    for (std::size_t f = faces * task / kTasks; f < faces * (task + 1) / kTasks; ++f) {
+    for (std::size_t f = faces * task / cut.tasks; f < faces * (task + 1) / cut.tasks; ++f) {
       if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z)) continue;  // this polygon will be dropped; its neighbours keep theirs
       // A polygon's first triangle has three of its vertices, each further one another: the one that those before it have not.
       for (const std::size_t v : vertices_of(mesh, f * each)) add_corner(v, f);
       for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t) add_corner(mesh.vertex_at(added_corner(mesh.primitive, t)), f);
     }
   });
-  parallel.for_each(parts_, [&](std::size_t part, int) { corners_.for_each_in(part, [&](const Corner& corner) { sums_.data()[corner.vertex] += areas[corner.face]; }); });
+  parallel.for_each(cut.parts, [&](std::size_t part, int) { corners_.for_each_in(part, [&](const Corner& corner) { sums_.data()[corner.vertex] += areas[corner.face]; }); });
 }
 
-void SmoothNormals::make(const MeshArrays& mesh, Parallel& parallel, Scratch<float>& normals) {
-  float* const out = normals.resize(3 * mesh.vertices);
+void SmoothNormals::reserve(std::size_t vertices, std::size_t elements) {
+  const Cut cut(vertices, elements);
+  part_.resize(vertices);
+  vertices_.reserve(cut, vertices);
+  table_.resize(4 * vertices + 2 * cut.parts);  // table_slots(n) <= 4 n + 2
+  first_.resize(vertices);
+  sums_.resize(vertices);
+  areas_.resize(elements);
+  corners_.reserve(cut, 3 * elements);
+}
+
+void SmoothNormals::make(const MeshArrays& mesh, Parallel& parallel, float* normals) {
   const bool has_faces = mesh.topology() == Topology::triangles;
+  const Cut cut(mesh.vertices, mesh.elements);
   if (has_faces) {
-    parts_ = std::clamp(mesh.vertices / kVerticesOfAPart, std::size_t{1}, kMostParts);
-    find_first_at_positions(mesh, parallel);
-    sum_faces(mesh, parallel);
+    find_first_at_positions(mesh, parallel, cut);
+    sum_faces(mesh, parallel, cut);
   }
-  for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) store_unit(has_faces ? sums_.data()[first_.data()[v]] : glm::dvec3(0), out + 3 * v);
+  cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) store_unit(has_faces ? sums_.data()[first_.data()[v]] : glm::dvec3(0), normals + 3 * v);
   });
 }
 

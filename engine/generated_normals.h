@@ -15,33 +15,46 @@ namespace tessera {
 /// Makes normals at vertices, in memory that one mesh after the other uses.
 class SmoothNormals {
  public:
+  /// Takes the memory for meshes of so many vertices and elements, so that make() takes none for them. Throws std::bad_alloc.
+  void reserve(std::size_t vertices, std::size_t elements);
   /// For each vertex the area-weighted mean over the faces that have a vertex at the very same position, unit length (or 0), in object space;
   /// 3 floats each. The same bits for any number of threads: each sum is made in the faces' order. Throws std::bad_alloc.
-  void make(const MeshArrays& mesh, Parallel& parallel, Scratch<float>& normals);
+  /// @param normals  of 3 floats for each vertex
+  void make(const MeshArrays& mesh, Parallel& parallel, float* normals);
 
  private:
+  /// How a mesh is cut.
+  struct Cut {
+    std::size_t tasks;  ///< ranges of its vertices or faces
+    std::size_t parts;  ///< of its vertices: all at one position are in the same
+
+    Cut(std::size_t vertices, std::size_t elements);
+    /// Calls work(first, last) for each task's range of `count` things.
+    template <class Work>
+    void for_each_range(Parallel& parallel, std::size_t count, const Work& work) const;
+  };
   /// Items sorted by part of the mesh, those of a part in the order in which they came.
   template <class Item>
   struct Sorted {
     Scratch<Item> items;
     Scratch<std::size_t> ends;  ///< of each task's items of each part
 
+    void reserve(const Cut& cut, std::size_t count);
     template <class ForEach>
-    void sort(Parallel& parallel, std::size_t parts, const ForEach& for_each_of_task);
+    void sort(Parallel& parallel, const Cut& cut, const ForEach& for_each_of_task);
     template <class Work>
     void for_each_in(std::size_t part, const Work& work) const;
 
-    std::size_t parts = 0;
+    std::size_t tasks = 0, parts = 0;
   };
   /// A corner of a face.
   struct Corner {
     std::uint32_t vertex, face;
   };
 
-  void find_first_at_positions(const MeshArrays& mesh, Parallel& parallel);
-  void sum_faces(const MeshArrays& mesh, Parallel& parallel);
+  void find_first_at_positions(const MeshArrays& mesh, Parallel& parallel, const Cut& cut);
+  void sum_faces(const MeshArrays& mesh, Parallel& parallel, const Cut& cut);
 
-  std::size_t parts_ = 0;
   Scratch<std::uint8_t> part_;          // of each vertex: the same at the same position
   Sorted<std::uint32_t> vertices_;
   Scratch<std::uint32_t> table_, first_;

@@ -23,7 +23,7 @@ class Parallel {
   Parallel& operator=(Parallel&&) noexcept;
 
   int threads() const noexcept { return threads_; }
-  /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below threads(); no two
+  /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below threads() and below count; no two
   /// tasks that run at the same time share one. Each task runs in the default floating-point mode: rounding to nearest,
   /// denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not start.
   template <class Task>

@@ -9,7 +9,7 @@
 #include "engine/draw_range.h"
 #include "engine/frame_commands.h"
 #include "engine/frame_watch.h"
-#include "engine/generated_normals.h"
+#include "engine/normal_stage.h"
 #include "engine/parallel.h"
 #include "engine/tile_stage.h"
 #include "shading/tile_renderer.h"
@@ -32,7 +32,7 @@ struct RendererState {
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
   DrawRanges ranges;                      // of the tasks that run
-  SmoothNormals normal_maker;
+  NormalStage normal_stage;
   BinStage bin_stage;
   std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
   std::vector<TileStrip> strips, strip_scratch;

@@ -644,7 +644,7 @@ enum class LogLevel : std::uint8_t { debug, info, warning };
 
 /// What the work of a frame consists of, in this order; frames with little RendererOptions::bin_memory go back from tiles to binning. Each waits for all of the one before.
 enum class FrameStage : std::uint8_t {
-  vertices,  ///< what indices make; positions and colours
+  vertices,  ///< what indices make; normals of meshes without; positions and colours
   faces,     ///< colours of whole triangles
   binning,   ///< triangles, in batches, into the lists of the tiles that they may touch
   tiles      ///< pixels

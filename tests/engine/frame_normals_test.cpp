@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "engine/parallel.h"
 #include "tests/engine/api_support.h"
 
 namespace tessera {
@@ -124,6 +125,32 @@ TEST(GeneratedNormals, OfLargeSmoothMeshesAreTheSame) {
   const std::vector<std::uint32_t> expected = words_of(with_smooth_normals(mesh), shaded(Shading::gouraud));
   EXPECT_EQ(words_of(mesh, shaded(Shading::gouraud)), expected);
   EXPECT_EQ(words_of(split, shaded(Shading::gouraud)), expected);
+}
+
+// Large ones and small ones, some of which are in several pieces, between draws that change nothing.
+TEST(GeneratedNormals, OfManyMeshesInAFrameAreTheSame) {
+  std::vector<MeshData> meshes, given;
+  for (const std::uint32_t side : {3u, 60u, 4u, 40u, 5u, 90u, 7u, 25u, 33u, 6u, 45u, 2u}) {
+    meshes.push_back(sheet(side));
+    given.push_back(with_smooth_normals(meshes.back()));
+  }
+  const auto words = [](const std::vector<MeshData>& all, int threads) {
+    FrameBuffer buffer(kFormat);
+    Frame frame(buffer);
+    for (int round = 0; round < 10; ++round)
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        DrawState state = shaded(round % 2 == 0 ? Shading::gouraud : Shading::phong);
+        state.transform = translate(0.18 * round - 0.9, 0.15 * static_cast<double>(i) - 0.8, 0) * scale(0.08, 0.08, 0.5) * rotate(7.0 * round, 1, 1, 0);
+        if ((static_cast<std::size_t>(round) + i) % 5 == 0) state.color_mask = {false, false, false, false};
+        state.depth.enabled = state.color_mask[0];
+        frame.draw(all[i].view(), state);
+      }
+    Renderer({.threads = threads}).finish(frame);
+    return color_words(buffer);
+  };
+  const ThreadLimit limit(5);
+  const std::vector<std::uint32_t> expected = words(given, 1);
+  for (const int threads : {1, 2, 5}) EXPECT_EQ(words(meshes, threads), expected) << threads << " threads";
 }
 
 TEST(GeneratedNormals, BelongToPositionsNotToVertices) {

@@ -3,7 +3,9 @@
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
 
+#include <functional>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -27,8 +29,9 @@ long allocations_of(const Act& act) {
   return made;
 }
 
+/// @param before_the_last  is called before the frame that may take none
 template <class Scene>
-void expect_steady(const Scene& scene, const RendererOptions& options, bool keeps_planes) {
+void expect_steady(const Scene& scene, const RendererOptions& options, bool keeps_planes, const std::function<void()>& before_the_last = [] {}) {
   SCOPED_TRACE(std::to_string(options.threads) + (options.threads > 1 ? " threads" : " thread") + (keeps_planes ? ", planes" : ", an image"));
   Renderer renderer(options);
   FrameBuffer buffer(scene.format);
@@ -41,6 +44,7 @@ void expect_steady(const Scene& scene, const RendererOptions& options, bool keep
   };
   EXPECT_GT(allocations_of(draw), 10) << "the first frame";  // they are counted
   draw();
+  before_the_last();
   EXPECT_EQ(allocations_of(draw), 0);
 }
 
@@ -71,6 +75,26 @@ struct MadeOnTheWay {
   }
 };
 
+/// Small meshes, whose normals whichever worker is free makes, and draws that change nothing between them.
+struct ManySmallMeshes {
+  FrameBufferFormat format{.width = 300, .height = 200};
+  std::vector<MeshData> meshes;
+  ManySmallMeshes() {
+    Random random(23);
+    for (int i = 0; i < 60; ++i)
+      for (int v = 0; v < 3 * 3 * (1 + 40 * (i % 30)); ++v) (v == 0 ? meshes.emplace_back() : meshes.back()).positions.push_back(random.between(-0.9f, 0.9f));
+  }
+  void record(Frame& frame) const {
+    frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      DrawState state;
+      state.color_mask.fill(i % 7 != 0);
+      state.depth.enabled = i % 7 != 0;
+      frame.draw(meshes[i].view(), state);
+    }
+  }
+};
+
 TEST(SteadyFrames, AllocateNothing) {
   const ThreadLimit limit(2);
   for (const bool keeps_planes : {false, true}) {
@@ -79,6 +103,22 @@ TEST(SteadyFrames, AllocateNothing) {
     expect_steady(FullTile({.width = 300, .height = 200}), {.threads = 1}, keeps_planes);
     expect_steady(RandomOperations({.width = 300, .height = 200, .alpha_bits = 8}), {.threads = 1}, keeps_planes);
     expect_steady(RandomOperations({.width = 300, .height = 200, .samples = 4}), {.threads = 1}, keeps_planes);
+  }
+}
+
+/// Of two workers one finds all the tasks.
+struct OneTakesAll : Executor {
+  int workers() const noexcept override { return 2; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    for (int k = 0; k < count; ++k) work(context, (first + k) % count);
+  }
+  int first = 0;
+};
+
+TEST(SteadyFrames, AllocateNothingWhicheverWorkerIsFree) {
+  for (const bool keeps_planes : {false, true}) {
+    const auto executor = std::make_shared<OneTakesAll>();
+    expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes, [&] { executor->first = 1; });
   }
 }
 

@@ -25,13 +25,13 @@ TracedFrame three_tiles() {
 
 TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().seconds_in_tasks(), 1e-4 + 28e-9, 1e-15); }
 
-WorkloadEntry grid_of(int columns) {
-  return drawn("grid", "", [columns](int, int, std::uint32_t) {
+WorkloadEntry grid_of(int columns, int draws = 1) {
+  return drawn("grid", "", [columns, draws](int, int, std::uint32_t) {
     Drawing drawing{.format = {.width = 256, .height = 256}};
     drawing.meshes.push_back(window_grid(columns, 64));
-    drawing.record = [](const Drawing& d, Frame& frame) {
+    drawing.record = [draws](const Drawing& d, Frame& frame) {
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-      frame.draw(d.meshes.front().view(), {.lighting = false});
+      for (int i = 0; i < draws; ++i) frame.draw(d.meshes.front().view(), {.lighting = false});
     };
     return drawing;
   });
@@ -53,6 +53,7 @@ TEST(TracedFrame, MeasuresTasksTheirTakingAndTheRestApart) {
 TEST(TracedFrame, CountsCallsForWorkersThatNoTaskTellsOf) {
   EXPECT_EQ(cost_of_frame(grid_of(64), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 0);
   EXPECT_EQ(cost_of_frame(grid_of(256), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 1) << "so many indices that recording asks for help";
+  EXPECT_EQ(cost_of_frame(grid_of(4, 17), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 1) << "so many draws that planning does";
 }
 
 TEST(TracedFrame, IsAChromeTrace) {

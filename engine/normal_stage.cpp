@@ -1,0 +1,42 @@
+#include "engine/normal_stage.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kMostOfASmallMesh = 4096;  // vertices or elements
+
+}  // namespace
+
+void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, FrameWatch& watch, double done) {
+  small_.clear();
+  std::size_t most_vertices = 0, most_elements = 0;
+  for (const GeometryDraw& draw : draws) {
+    if (!draw.wants_smooth_normals()) continue;
+    const MeshArrays& mesh = *draw.mesh;
+    float* const normals = draw.buffers->smooth_normals.resize(3 * mesh.vertices);
+    if (std::max(mesh.vertices, mesh.elements) > kMostOfASmallMesh) {
+      if (makers_.empty()) makers_.emplace_back();
+      makers_.front().normals.make(mesh, parallel, normals);
+      continue;
+    }
+    small_.push_back(&draw);
+    if (mesh.topology() != Topology::triangles) continue;  // its normals are 0
+    most_vertices = std::max(most_vertices, mesh.vertices);
+    most_elements = std::max(most_elements, mesh.elements);
+  }
+  if (small_.empty()) return;
+  const std::size_t workers = std::min(static_cast<std::size_t>(parallel.threads()), small_.size());
+  while (makers_.size() < workers) makers_.emplace_back();
+  for (std::size_t k = 0; k < workers; ++k) makers_[k].normals.reserve(most_vertices, most_elements);  // whoever has the largest one, and in whichever frame
+  watch.begin_stage(FrameStage::vertices, done, small_.size());
+  parallel.for_each(small_.size(), [&](std::size_t i, int worker) {
+    const GeometryDraw& draw = *small_[i];
+    Maker& maker = makers_[static_cast<std::size_t>(worker)];
+    watch.task(worker, [&] { maker.normals.make(*draw.mesh, maker.alone, draw.buffers->smooth_normals.data()); });
+  });
+}
+
+}  // namespace tessera
