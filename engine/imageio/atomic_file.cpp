@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 #include <unistd.h>
 
@@ -25,24 +24,45 @@ void write_plainly(const std::string& path, const std::string& shown_path, std::
   if (!is_written || !is_closed) fail(shown_path, std::strerror(is_written ? errno : reason));
 }
 
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+/// A link there tells in words what it leads to: "pipe:[7]", or a file that has no name any more.
+bool is_in_proc(const fs::path& file) {
+  std::error_code error;
+  return fs::canonical(folder_of(file), error).native().starts_with("/proc/");
+}
+
 }  // namespace
 
-void write_file_atomically(const std::string& path, std::string_view content) {
+std::optional<fs::path> require_writable(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none) fail(path, error.message());
   if (fs::is_directory(status)) fail(path, std::strerror(EISDIR));
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_plainly(path, path, content);
-
-  const fs::path target = fs::exists(status) ? fs::canonical(path, error) : fs::path(path);
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (fs::exists(status) && ::access(path.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+  if (fs::exists(status) && !fs::is_regular_file(status)) return std::nullopt;
+  fs::path target = path;
+  while (fs::is_symlink(target, error)) {
+    if (is_in_proc(target)) return std::nullopt;
+    target = target.parent_path() / fs::read_symlink(target);
+  }
+  const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error)) fail(path, "there is no folder \"" + folder.string() + "\"");
-  if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+  if (::access(folder.c_str(), W_OK) != 0) fail(path, "no new file in \"" + folder.string() + "\": " + std::strerror(errno));
+  return fs::canonical(folder) / target.filename();
+}
+
+void write_file_atomically(const std::string& path, std::string_view content) {
+  const std::optional<fs::path> target = require_writable(path);
+  if (!target) return write_plainly(path, path, content);
+
+  std::error_code error;
   std::string name = ".";
-  name += target.filename().string() + ".part-" + std::to_string(::getpid());
-  const std::string temporary = (folder / name).string();
+  name += target->filename().string() + ".part-" + std::to_string(::getpid());
+  const std::string temporary = (folder_of(*target) / name).string();
   try {
     write_plainly(temporary, path, content);
-    fs::rename(temporary, target);
+    fs::rename(temporary, *target);
   } catch (const fs::filesystem_error& failure) {
     fs::remove(temporary, error);
     fail(path, failure.code().message());

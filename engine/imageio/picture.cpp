@@ -59,14 +59,26 @@ namespace {
 
 // What `encode` makes; its errors name the path.
 template <class Encode>
-void write_encoded(const std::string& path, const Encode& encode) {
-  std::string file;
+std::string encoded_for(const std::string& path, const Encode& encode) {
   try {
-    file = encode();
+    return encode();
   } catch (const Error& error) {
     throw Error("cannot write \"" + path + "\": " + error.what());
   }
-  write_file_atomically(path, file);
+}
+
+// In the format of the path's ending.
+std::string encode_picture(const Picture& picture, const std::string& path, int compression) {
+  return encoded_for(path, [&]() -> std::string {
+    const std::string ending = lower_case_ending(path);
+    if (ending.empty()) throw Error("its name has no ending to tell the format by; .png and .ppm are the usual ones");
+    if (ending == ".pbm") throw Error("a .pbm holds one plane; write a .ppm or .png, or the planes one by one");
+    if (ending == ".ppm") return encode_ppm(picture);
+    if (ending == ".pgm") return pgm(picture);
+    if (ending == ".pfm") return pfm(picture);
+    if (ending == ".raw") return raw(picture);
+    return encode_by_module(picture, ending, compression);
+  });
 }
 
 // "P6", width, height and 255, with comments between; then the pixels.
@@ -109,20 +121,14 @@ Picture read_picture(const std::string& path) {
 }
 
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression) {
-  write_encoded(path, [&] { return encode_indexed_by_module(picture, compression); });
+  write_file_atomically(path, encoded_for(path, [&] { return encode_indexed_by_module(picture, compression); }));
 }
 
-void write_picture(const Picture& picture, const std::string& path, int compression) {
-  write_encoded(path, [&]() -> std::string {
-    const std::string ending = lower_case_ending(path);
-    if (ending.empty()) throw Error("its name has no ending to tell the format by; .png and .ppm are the usual ones");
-    if (ending == ".pbm") throw Error("a .pbm holds one plane; write a .ppm or .png, or the planes one by one");
-    if (ending == ".ppm") return encode_ppm(picture);
-    if (ending == ".pgm") return pgm(picture);
-    if (ending == ".pfm") return pfm(picture);
-    if (ending == ".raw") return raw(picture);
-    return encode_by_module(picture, ending, compression);
-  });
+void write_picture(const Picture& picture, const std::string& path, int compression) { write_file_atomically(path, encode_picture(picture, path, compression)); }
+
+std::optional<std::filesystem::path> require_writable_picture(const std::string& path) {
+  encode_picture(Picture(1, 1), path, kDefaultCompression);
+  return require_writable(path);
 }
 
 void write_plane(const PlaneView& plane, const std::string& path) {

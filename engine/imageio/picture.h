@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,9 @@ constexpr int kDefaultCompression = -1;
 /// @param compression  of PNG, 0 .. 9
 /// @throws Error, naming the path, for an unknown format, a missing module, or a file that cannot be written.
 void write_picture(const Picture& picture, const std::string& path, int compression = kDefaultCompression);
+
+/// For who needs long to make the picture: require_writable() of its file, in a format that write_picture() knows.
+std::optional<std::filesystem::path> require_writable_picture(const std::string& path);
 
 /// Writes a PNG of that many bits a pixel.
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression = kDefaultCompression);

@@ -28,6 +28,8 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
   for (int k = 0; k < kLayers; ++k) drawing.meshes.push_back(window_grid(1, 1, 0.8f - 0.1f * static_cast<float>(k), 0, texture_repeats));
   drawing.shades_at_once = true;
   drawing.fragments = kLayers * area(width, height);
+  drawing.limit = Limit::l1_stores;
+  drawing.limited_bytes = 4 * drawing.fragments;  // of colour, or of depth where that is all
   drawing.record = [change](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     for (int k = 0; k < kLayers; ++k) {
@@ -67,8 +69,6 @@ std::function<std::string(const Picture&)> all_of(int r, int g, int b) {
 Drawing flat_layers(int width, int height) {
   Drawing drawing = layers(width, height, 1, [](int k, DrawState& state) { state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1}; });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  drawing.limit = Limit::l1_stores;
-  drawing.limited_bytes = 4 * drawing.fragments;
   drawing.rival = as_rivals_draw(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});  // what is seen in the end: one colour is fastest
   drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
@@ -94,6 +94,12 @@ Drawing gouraud_layers(int width, int height, const ChangeLayer& change, std::fu
 }
 
 void with_depth(int, DrawState& state) { state.depth.enabled = true; }
+
+Drawing gouraud_depth_layers(int width, int height) {
+  Drawing drawing = gouraud_layers(width, height, with_depth, [](RivalForm& form) { form.tests_depth = true; });
+  drawing.limited_bytes *= 2;  // both
+  return drawing;
+}
 
 Drawing depth_layers(int width, int height) {
   Drawing drawing = layers(width, height, 1, [](int k, DrawState& state) {
@@ -178,7 +184,7 @@ std::vector<WorkloadEntry> fill_workloads() {
   return {
       entry("flat", "one colour each", flat_layers),
       entry("gouraud", "colours interpolated", [=](int w, int h) { return gouraud_layers(w, h, plain); }),
-      entry("gouraud-z", "colours interpolated, depth tested and written", [](int w, int h) { return gouraud_layers(w, h, with_depth, [](RivalForm& form) { form.tests_depth = true; }); }),
+      entry("gouraud-z", "colours interpolated, depth tested and written", gouraud_depth_layers),
       entry("z", "depth alone", depth_layers),
       entry("blend", "colours interpolated and blended by alpha", blended_layers),
       entry("stencil", "colours interpolated, stencil tested and counted up", stencilled_layers),

@@ -60,6 +60,17 @@ double copy_rate(Parallel& parallel, std::uint64_t bytes, int times) {
   });
 }
 
+double load_rate(Parallel& parallel, std::uint64_t bytes, int times) {
+  const auto threads = static_cast<std::uint64_t>(parallel.threads());
+  const std::vector<Bytes> memory(threads, Bytes(bytes / threads, 1));
+  return rate(parallel, static_cast<double>(bytes / threads * threads) * times, [&](std::size_t part) {
+    for (int i = 0; i < times; ++i) {
+      const void* const found = std::memchr(memory[part].data(), 2, memory[part].size());
+      asm volatile("" : : "r"(found) : "memory");  // it was looked for
+    }
+  });
+}
+
 }  // namespace
 
 double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
@@ -68,6 +79,7 @@ double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
   switch (limit) {
     case Limit::l1_stores: return store_rate(parallel, kInL1 * static_cast<std::uint64_t>(threads), 20000);
     case Limit::memory_stores: return store_rate(parallel, bytes, times_for(bytes));
+    case Limit::memory_loads: return load_rate(parallel, bytes, times_for(bytes));
     default: return copy_rate(parallel, bytes, times_for(bytes));
   }
 }

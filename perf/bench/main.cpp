@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <map>
 #include <optional>
-
-#include <unistd.h>
+#include <utility>
 
 #include "engine/cli/machine_text.h"
+#include "engine/imageio/atomic_file.h"
+#include "engine/imageio/picture.h"
 #include "engine/parallel.h"
 #include "perf/bench/bench_options.h"
 #include "perf/bench/compare.h"
@@ -45,25 +46,34 @@ std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& name
 }
 
 void write(const std::string& file, const std::string& text) {
-  if (file == "-") {
-    std::cout << text;
-    return;
-  }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Error(file + ": cannot be written");
+  if (file != "-") return write_file_atomically(file, text);
+  if (!(std::cout << text << std::flush)) throw Error("cannot write to the standard output");
 }
 
-/// Before anything is measured, and without making it: who asks may be refused for something else. A file that is "-" or empty is none.
-void require_writable(const std::string& file) {
-  if (file.empty() || file == "-") return;
+/// Before anything is measured: that what is to be written can be, as far as can be seen, and that no two are one. A file that is "-" is the standard output.
+void require_outputs(const BenchOptions& options) {
   namespace fs = std::filesystem;
+  std::map<fs::path, std::string> option_of;
+  const auto note = [&](const char* option, const std::string& file, const std::optional<fs::path>& target) {
+    if (!target) return;
+    if (const auto [other, is_new] = option_of.emplace(*target, option); !is_new) throw CLI::ValidationError(option, "found \"" + file + "\", as for " + other->second + ", expected another one");
+  };
+  for (const auto& [option, file] : {std::pair("--json", options.json_file), {"--csv", options.csv_file}, {"--growth", options.growth_file}, {"--trace", options.trace_file}})
+    if (!file.empty()) note(option, file, file == "-" ? fs::path(file) : require_writable(file));
+  if (!options.heatmap_file.empty()) note("--heatmap", options.heatmap_file, require_writable_picture(options.heatmap_file));
+  const std::string& folder = options.pictures_folder;
+  if (folder.empty()) return;
+  const fs::path picture = fs::path(folder) / "picture.png";
+  if (fs::is_directory(folder)) require_writable(picture);
+  // A folder cannot be made where a file is to be, nor within one.
+  for (fs::path path = fs::weakly_canonical(fs::absolute(picture)).parent_path(); path.has_relative_path(); path = path.parent_path())
+    if (option_of.contains(path)) note("--pictures", folder, path);
+}
+
+void make_folder(const std::string& folder) {
   std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  const fs::path parent = fs::path(file).parent_path(), folder = parent.empty() ? "." : parent;
-  const bool is_there = fs::exists(status), is_new = status.type() == fs::file_type::not_found && fs::is_directory(folder, error);
-  if (fs::is_directory(status) || !(is_there || is_new) || ::access(is_there ? file.c_str() : folder.c_str(), W_OK) != 0) throw Error(file + ": cannot be written");
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error("cannot make the folder \"" + folder + "\": " + error.message());
 }
 
 /// Those that can run; of the others, lines that say why they cannot.
@@ -108,7 +118,12 @@ class Bench {
     constexpr std::uint64_t kMuch = std::uint64_t{256} << 20;
     const std::uint64_t frame = 4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
     const auto rate = [this](Limit limit, std::uint64_t bytes) { return measure_limit(limit, report_.threads, bytes); };
-    report_.limits = {rate(Limit::l1_stores, 0), rate(Limit::memory_stores, frame), rate(Limit::memory_copies, 2 * frame), rate(Limit::memory_stores, kMuch)};
+    report_.limits = {.l1_stores = rate(Limit::l1_stores, 0),
+                      .frame_stores = rate(Limit::memory_stores, frame),
+                      .frame_copies = rate(Limit::memory_copies, 2 * frame),
+                      .memory_stores = rate(Limit::memory_stores, kMuch),
+                      .memory_loads = rate(Limit::memory_loads, kMuch),
+                      .memory_loads_of_one_core = measure_limit(Limit::memory_loads, 1, kMuch)};
     report_.core_to_core_ns[1] = core_to_core_ns();
   }
   void show(const std::string& text) const {
@@ -140,6 +155,7 @@ class Bench {
     Rivalry& rivalry = report_.rivalry.emplace();
     rivalry.rival = rivals::mesa_name(options_.driver, report_.threads);
     rivalry.finish_ms = rivals::mesa_finish_ms(report_.width, report_.height, options_.driver, report_.threads);
+    rivalry.finish_pixel_ms = rivals::mesa_finish_ms(1, 1, options_.driver, report_.threads);
     std::string without_rival;
     show(rivalry_heading());
     for (const WorkloadEntry* entry : entries) {
@@ -155,7 +171,7 @@ class Bench {
     if (!without_rival.empty()) show("no rival draws:" + without_rival + "\n");
   }
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
-    CoreModel model = measure_core_model(report_.threads);
+    CoreModel& model = report_.core_model.emplace(measure_core_model(report_.threads));
     model.most_cores_of_memory = options_.memory_cores;
     show(formatted("one core copies %.1f GB/s, and %d of them are taken to copy all that the memory does (--memory-cores); a stage begins in %.1f microseconds\n\n", model.core_bytes, model.most_cores_of_memory,
                    1e6 * model.barrier_seconds));
@@ -184,19 +200,21 @@ class Bench {
 
 void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
   const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
-  if (!options.trace_file.empty()) {
-    std::vector<TracedFrame> frames;
+  std::vector<TracedFrame> frames;
+  if (!options.trace_file.empty())
     for (const WorkloadEntry* entry : entries) {
       frames.push_back(trace_frame(*entry, setup));
       if (frames.back().tasks.empty()) std::cerr << entry->name << ": no renderer draws it, so its trace is empty\n";
     }
-    write(options.trace_file, chrome_trace(frames));
+  std::optional<Heatmap> map;
+  if (!options.heatmap_file.empty()) {
+    map = heatmap(cost_of_tasks(*entries.front(), setup, options.renderer.threads));
+    if (map->picture.rgba.empty()) throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
   }
-  if (options.heatmap_file.empty()) return;
-  const Heatmap map = heatmap(cost_of_tasks(*entries.front(), setup, options.renderer.threads));
-  if (map.picture.rgba.empty()) throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
-  write_picture(map.picture, options.heatmap_file);
-  std::cout << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map.most_ns_a_pixel);
+  if (!options.trace_file.empty()) write(options.trace_file, chrome_trace(frames));
+  if (!map) return;
+  write_picture(map->picture, options.heatmap_file);
+  (options.trace_file == "-" ? std::cerr : std::cout) << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map->most_ns_a_pixel);
 }
 
 void show_growth(const BenchOptions& options) {
@@ -204,12 +222,11 @@ void show_growth(const BenchOptions& options) {
   const ThreadLimit limit(options.renderer.threads);
   const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
   const std::vector<Growth> all = measure_growth(setup, options.measure, counters);
-  std::cout << growth_table(all);
+  (options.growth_file == "-" ? std::cerr : std::cout) << growth_table(all);
   write(options.growth_file, growth_svg(all));
 }
 
 int run(BenchOptions& options) {
-  if (options.json_file == "-" && options.csv_file == "-") throw CLI::ValidationError("--csv", "found - for it and for --json, expected a file for one of them");
   if (options.list) {
     for (const WorkloadEntry& entry : workloads()) std::printf("%-22s %s%s\n", entry.name.c_str(), entry.what.c_str(), entry.is_in_mean ? "" : " (beside the mean)");
     return 0;
@@ -217,27 +234,26 @@ int run(BenchOptions& options) {
   std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
   if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
   const Chosen chosen = prepared(chosen_by(options.names));
+  if (options.growth_file.empty()) std::cerr << chosen.left_out;
   if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
   if (!options.heatmap_file.empty() && chosen.entries.size() != 1)
     throw CLI::ValidationError("--heatmap", "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
-  for (const std::string& file : {options.json_file, options.csv_file, options.growth_file, options.trace_file, options.heatmap_file}) require_writable(file);
+  require_outputs(options);
   if (!options.cores.empty() && !keep_on(options.cores)) {
     std::string allowed;
     for (const int core : allowed_cores()) allowed += " " + std::to_string(core);
     throw CLI::ValidationError("--cores", "found none that this process may use, expected one of" + allowed);
   }
-  if (!options.pictures_folder.empty()) std::filesystem::create_directories(options.pictures_folder);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {
-    std::cerr << chosen.left_out;
     const ThreadLimit limit(options.renderer.threads);
     return trace(options, chosen.entries), 0;
   }
   Bench bench(options);  // and its counters, before any thread is started
   const ThreadLimit limit(options.renderer.threads);
+  if (!options.pictures_folder.empty()) make_folder(options.pictures_folder);
   bench.run(chosen.entries);
-  std::cerr << chosen.left_out;
   bench.measure_rates();
   bench.show(table_ending(bench.report()));
   if (!options.json_file.empty()) write(options.json_file, report_json(bench.report()).dump(2) + "\n");

@@ -24,8 +24,10 @@ const char* name_of(Limit limit) {
     case Limit::l1_stores: return "stores in L1";
     case Limit::memory_stores: return "stores of as much";
     case Limit::memory_copies: return "copies of as much";
-    default: return "";
+    case Limit::memory_loads: return "loads of as much";
+    case Limit::none: break;
   }
+  return "";
 }
 
 // Of a frame's count, in millions a second.
@@ -51,6 +53,7 @@ std::vector<Figure> figures_of(const Row& row) {
                               {"ns_per_pixel", 1e6 * row.ms.median / static_cast<double>(row.work.pixels)}};
   figures.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
   figures.push_back({"bytes_per_triangle", bytes_a_triangle(row)});
+  figures.push_back({"limit_gigabytes_per_second", row.limit > 0 ? std::optional(row.limit) : std::nullopt});
   figures.push_back({"share_of_limit", row.limit > 0 ? std::optional(share_of_limit(row)) : std::nullopt});
   figures.push_back({"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
   figures.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions)) : std::nullopt});
@@ -58,7 +61,8 @@ std::vector<Figure> figures_of(const Row& row) {
 }
 
 std::vector<Figure> figures_of(const MachineLimits& limits) {
-  return {{"l1_stores", limits.l1_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores}};
+  return {{"l1_stores", limits.l1_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores},
+          {"memory_loads", limits.memory_loads}, {"memory_loads_of_one_core", limits.memory_loads_of_one_core}};
 }
 
 // RFC 4180: what has commas, quotes or ends of lines stands in quotes.
@@ -89,8 +93,8 @@ std::string table_line(const Row& row) {
 std::string table_ending(const Report& report) {
   std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
   if (report.noise) text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(), report.noise->value, report.noise->low, report.noise->high);
-  text += formatted("limits, GB/s: stores in L1 %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f\n", report.limits.l1_stores, report.limits.frame_stores, report.limits.frame_copies,
-                    report.limits.memory_stores);
+  text += formatted("limits, GB/s: stores in L1 %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f, loads of 256 MiB %.1f (by one core %.1f)\n", report.limits.l1_stores,
+                    report.limits.frame_stores, report.limits.frame_copies, report.limits.memory_stores, report.limits.memory_loads, report.limits.memory_loads_of_one_core);
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
   const auto is_timed = [](const Row& row) { return row.frames > 0; };
@@ -130,11 +134,14 @@ nlohmann::ordered_json report_json(const Report& report) {
   if (report.noise) json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise->value}, {"low_ratio", report.noise->low}, {"high_ratio", report.noise->high}};
   if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
   if (!report.scaling.empty()) json["scaling"] = scaling_json(report.scaling);
+  if (report.core_model)
+    json["core_model"] = {{"copies_of_one_core_gigabytes_per_second", report.core_model->core_bytes}, {"most_cores_of_memory", report.core_model->most_cores_of_memory}, {"pass_begins_in_seconds", report.core_model->barrier_seconds}};
   json["workloads"] = nlohmann::ordered_json::array();
   for (const Row& row : report.rows) {
     nlohmann::ordered_json entry{{"name", row.name}, {"threads", row.threads}, {"frames", row.frames}};
     if (!row.fault.empty()) entry["fault"] = row.fault;
     else add(entry, figures_of(row));
+    if (row.fault.empty() && row.limit > 0) entry["limit"] = name_of(row.work.limit);
     json["workloads"].push_back(std::move(entry));
   }
   return json;

@@ -18,7 +18,7 @@ namespace tessera::bench {
 /// In 10^9 bytes a second.
 struct MachineLimits {
   double l1_stores = 0, frame_stores = 0, frame_copies = 0;
-  double memory_stores = 0;  ///< of 256 MiB
+  double memory_stores = 0, memory_loads = 0, memory_loads_of_one_core = 0;  ///< of 256 MiB
 };
 
 struct Report {
@@ -33,6 +33,7 @@ struct Report {
   std::vector<Row> rows;
   std::optional<Rivalry> rivalry{};
   std::vector<Scaling> scaling{};
+  std::optional<CoreModel> core_model{};  ///< that scaling was computed with
   std::optional<Ratio> noise{};     ///< of a workload to itself; empty: it was not measured
   std::string noise_of;             ///< its name
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "perf/bench/text.h"
 
@@ -72,21 +73,24 @@ std::string rivalry_ending(const Rivalry& rivalry) {
     ++count;
     if (least == nullptr || duel.ratio().value < least->ratio().value) least = &duel;
   }
-  std::string text = "\nrival: " + rivalry.rival + formatted("; a frame of one pixel takes it %.3f ms, most of it a copy of the picture\n", rivalry.finish_ms);
+  std::string text = "\nrival: " + rivalry.rival + formatted("; to change one pixel takes it %.3f ms, and %.3f in a window of one pixel: the difference is its copy of the picture\n", rivalry.finish_ms, rivalry.finish_pixel_ms);
   if (count != 0) text += formatted("geometric mean of %d ratios: %.2f; least: %.2f (%s)\n", count, std::exp(sum / count), least->ratio().value, least->ours.name.c_str());
   return text;
 }
 
 nlohmann::ordered_json rivalry_json(const Rivalry& rivalry) {
-  nlohmann::ordered_json json{{"rival", rivalry.rival}, {"finish_ms", rivalry.finish_ms}};
+  nlohmann::ordered_json json{{"rival", rivalry.rival}, {"finish_ms", rivalry.finish_ms}, {"finish_pixel_ms", rivalry.finish_pixel_ms}};
   json["workloads"] = nlohmann::ordered_json::array();
   for (const Duel& duel : rivalry.duels) {
     nlohmann::ordered_json entry{{"name", duel.ours.name}, {"threads", duel.ours.threads}, {"frames", duel.ours.frames}};
     if (!duel.fault().empty()) {
       entry["fault"] = duel.fault();
     } else {
-      entry["median_ms"] = duel.ours.ms.median;
-      entry["rival_median_ms"] = duel.rivals.ms.median;
+      for (const auto& [prefix, row] : {std::pair("", &duel.ours), {"rival_", &duel.rivals}}) {
+        entry[std::string(prefix) + "median_ms"] = row->ms.median;
+        entry[std::string(prefix) + "low_quartile_ms"] = row->ms.low_quartile;
+        entry[std::string(prefix) + "high_quartile_ms"] = row->ms.high_quartile;
+      }
       entry["ratio"] = duel.ratio().value;
       entry["low_ratio"] = duel.ratio().low;
       entry["high_ratio"] = duel.ratio().high;

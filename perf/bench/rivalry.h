@@ -24,7 +24,8 @@ struct Duel {
 
 struct Rivalry {
   std::string rival;          ///< its own name for itself
-  double finish_ms = 0;       ///< what a frame of one pixel takes it, most of it a copy of the picture
+  double finish_ms = 0;       ///< what a frame takes it that changes one pixel
+  double finish_pixel_ms = 0; ///< and in a window of one pixel: what finish_ms is beyond that is a copy of the picture
   std::vector<Duel> duels;
 };
 

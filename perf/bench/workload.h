@@ -29,7 +29,8 @@ enum class Limit : std::uint8_t {
   none,
   l1_stores,      ///< memset of 16 KiB for each thread, again and again
   memory_stores,  ///< memset of as many bytes as the frame stores
-  memory_copies   ///< memcpy of them: bytes read and bytes written both count
+  memory_copies,  ///< memcpy of them: bytes read and bytes written both count
+  memory_loads    ///< memchr of them, for what is not there
 };
 
 /// What a frame was made of, for rates.
@@ -40,7 +41,7 @@ struct FrameWork {
   std::uint64_t fragments = 0;  ///< shaded, or blended, or tested: as the workload counts them
   std::uint64_t bytes = 0;      ///< read and written in memory by its nature: meshes, planes, the image
   std::uint64_t kept_bytes = 0; ///< of the frame buffer's planes and the image
-  Limit limit = Limit::none;    ///< what holds it back, if it is but one thing
+  Limit limit = Limit::none;    ///< what it is held against
   std::uint64_t limited_bytes = 0;
 };
 

@@ -17,7 +17,7 @@ enum class MesaDriver { llvmpipe, softpipe };
 /// @throws std::runtime_error where OSMesa is missing, has another driver, or does not take a shader
 std::unique_ptr<bench::Workload> mesa_workload(const bench::RivalForm& form, int width, int height, MesaDriver driver, int threads);
 
-/// Time in ms, the median of many, of a frame that changes one pixel: what finishing a frame costs by itself, most of it a copy of the picture.
+/// Time in ms, the median of many, of a frame that changes one pixel: what finishing a frame costs by itself. What that is more than in a window of one pixel is a copy of the picture.
 double mesa_finish_ms(int width, int height, MesaDriver driver, int threads);
 
 /// The driver's own name for itself, with its version. @throws as mesa_workload

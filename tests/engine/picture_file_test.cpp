@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -88,6 +89,24 @@ TEST_F(PictureFile, ALinkStaysALink) {
   write_picture(two_pixels(), path("link.ppm"));
   EXPECT_TRUE(fs::is_symlink(folder_ / "link.ppm"));
   EXPECT_EQ(content(path("real.ppm")).size(), 17u);
+  fs::create_symlink("link.ppm", folder_ / "to_link.ppm");
+  fs::remove(folder_ / "real.ppm");
+  write_picture(two_pixels(), path("to_link.ppm"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "to_link.ppm") && fs::is_symlink(folder_ / "link.ppm"));
+  EXPECT_EQ(content(path("real.ppm")).size(), 17u) << "links to what is not there yet";
+}
+
+// What /proc calls it is not its name.
+TEST_F(PictureFile, AFileThatIsOpenIsWrittenToWithoutItsName) {
+  const int opened = ::open(path("a.ppm").c_str(), O_RDWR | O_CREAT, 0600);
+  ASSERT_GE(opened, 0);
+  fs::remove(path("a.ppm"));
+  fs::create_symlink("/dev/fd/" + std::to_string(opened), folder_ / "link.ppm");
+  write_picture(two_pixels(), path("link.ppm"));
+  char written[32];
+  EXPECT_EQ(::pread(opened, written, sizeof written, 0), 17);
+  ::close(opened);
+  EXPECT_EQ(files_in_folder(), 1u);
 }
 
 TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
@@ -97,6 +116,8 @@ TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
   EXPECT_NE(message_of(picture, path("a.pbm")).find(".ppm"), std::string::npos);
   fs::create_directories(folder_ / "folder.ppm");
   EXPECT_NE(message_of(picture, path("folder.ppm")).find("Is a directory"), std::string::npos);
+  fs::create_symlink("round.ppm", folder_ / "round.ppm");
+  EXPECT_NE(message_of(picture, path("round.ppm")).find("Too many levels of symbolic links"), std::string::npos);
   if (fs::exists("/dev/full")) {
     fs::create_symlink("/dev/full", folder_ / "full.ppm");
     EXPECT_NE(message_of(picture, path("full.ppm")).find("No space left"), std::string::npos);
