@@ -19,6 +19,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "framebuffer/fetch_lines.h"
 #include "framebuffer/strip_rows.h"
 
 #if HWY_TARGET == HWY_AVX3
@@ -100,8 +101,10 @@ inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_
   const __m512i inside = inside_line(strip.width_px);
   for (int y = 0; y < strip.height_px; y += kBlockSize) {
     const StripBits line{strip.bits.first + y * strip.stride_bytes, strip.bits.plane_stride};
-    for (int x = 0; x < strip.width_px; x += kQuarterPixels) collect_quarter(strip, x, y, bytes, quarters[x / kQuarterPixels]);
     const int rows = std::min(kBlockSize, strip.height_px - y);
+    for (int k = 0; k < 8 * bytes; ++k)  // the lines come while the bits are collected
+      if ((mask >> k & 1) != 0) fetch_lines(line.plane(k), strip.stride_bytes, 1, rows);
+    for (int x = 0; x < strip.width_px; x += kQuarterPixels) collect_quarter(strip, x, y, bytes, quarters[x / kQuarterPixels]);
     for (int k = 0; k < 8 * bytes; ++k) {
       if ((mask >> k & 1) == 0) continue;
       const __m512i flips = _mm512_set1_epi32((flip >> k & 1) != 0 ? -1 : 0);

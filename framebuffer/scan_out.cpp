@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "framebuffer/check.h"
+#include "framebuffer/fetch_lines.h"
 #include "framebuffer/tile_grid.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -160,11 +161,23 @@ HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_
 template <class Pixels>
 HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
                                    std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
-  int y = 0;
+  // While four rows are written, the next four come: no rows of other tiles, which other cores may be writing.
+  const auto fetch = [&](int y) HWY_ATTR {
+    if (y < height_px) fetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px, std::min(kBlockSize, height_px - y));
+  };
+  fetch(0);
+  for (int y = 0; y < height_px; y += kBlockSize) {
+    fetch(y + kBlockSize);
+    const std::uint32_t* const words = tile + tile_index(0, y, tile_size);
+    std::uint8_t* const to = first_row + y * stride_bytes;
 #if HWY_TARGET == HWY_AVX3
-  for (; y + kBlockSize <= height_px; y += kBlockSize) scan_out_block_row_with(pixels, tile + tile_index(0, y, tile_size), width_px, first_row + y * stride_bytes, stride_bytes);
+    if (y + kBlockSize <= height_px) {
+      scan_out_block_row_with(pixels, words, width_px, to, stride_bytes);
+      continue;
+    }
 #endif
-  for (; y < height_px; ++y) scan_out_row_with<kBlockPixels>(pixels, tile + tile_index(0, y, tile_size), width_px, first_row + y * stride_bytes);
+    for (int row = 0; row < std::min(kBlockSize, height_px - y); ++row) scan_out_row_with<kBlockPixels>(pixels, words + row * kBlockSize, width_px, to + row * stride_bytes);
+  }
 }
 
 /// Calls `scan` with what makes pixels by the rule.
