@@ -1,5 +1,5 @@
 // Plain loops over arrays of a batch: the compiler turns them into lanes for each instruction set. Every step is one exact
-// IEEE operation, so all sets give the same bits.
+// IEEE operation, so all sets give the same bits. Where rows become columns and columns rows, Highway does it.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/vertex_transform.cpp"
 #include "framebuffer/lanes.h"
@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "raster/exact_vertex.h"
@@ -15,6 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 // One row of a matrix times a point, in the order that clip_position() has too.
 HWY_INLINE double row_times_point(const double* row, double x, double y, double z, double w) {
@@ -27,16 +31,32 @@ struct PositionBatch {
   alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
 };
 
-// Positions as four arrays; lanes beyond `count` repeat harmless zeros.
-HWY_INLINE void gather_positions(StridedFloats positions, int components, std::size_t count, PositionBatch& batch) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* p = positions.at(i);
-    batch.x[i] = p[0];
-    batch.y[i] = p[1];
-    batch.z[i] = p[2];
-    batch.w[i] = components == 4 ? p[3] : 1.0f;
+// Rows of three floats as three arrays; lanes beyond `count` are harmless zeros.
+HWY_NOINLINE void gather_rows(StridedFloats rows, std::size_t count, double* x, double* y, double* z) {
+  if (rows.stride == 3 && count == kVertexBatch) {
+    constexpr hn::ScalableTag<float> floats;
+    alignas(64) float columns[3][kVertexBatch];
+    for (std::size_t i = 0; i < kVertexBatch; i += hn::Lanes(floats)) {
+      auto a = hn::Undefined(floats), b = a, c = a;
+      hn::LoadInterleaved3(floats, rows.at(i), a, b, c);
+      hn::Store(a, floats, columns[0] + i);
+      hn::Store(b, floats, columns[1] + i);
+      hn::Store(c, floats, columns[2] + i);
+    }
+    for (int i = 0; i < kVertexBatch; ++i) x[i] = columns[0][i], y[i] = columns[1][i], z[i] = columns[2][i];
+    return;
   }
-  for (std::size_t i = count; i < kVertexBatch; ++i) batch.x[i] = batch.y[i] = batch.z[i] = batch.w[i] = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* const row = rows.at(i);
+    x[i] = row[0], y[i] = row[1], z[i] = row[2];
+  }
+  for (std::size_t i = count; i < kVertexBatch; ++i) x[i] = y[i] = z[i] = 0;
+}
+
+// Positions as four arrays.
+HWY_INLINE void gather_positions(StridedFloats positions, int components, std::size_t count, PositionBatch& batch) {
+  gather_rows(positions, count, batch.x, batch.y, batch.z);
+  for (std::size_t i = 0; i < kVertexBatch; ++i) batch.w[i] = i >= count ? 0.0f : components == 4 ? positions.at(i)[3] : 1.0f;
 }
 
 std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components, std::size_t count, WindowVertex* vertices,
@@ -118,11 +138,20 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   } else {
     for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
   }
+  // Columns become rows, in memory of their own where there are fewer of them.
+  static_assert(offsetof(WindowVertex, x) == 0 && offsetof(WindowVertex, y) == 4 && offsetof(WindowVertex, z) == 8 && offsetof(WindowVertex, rw) == 12);
+  alignas(64) std::int32_t rest[4 * kVertexBatch];
+  auto* const rows = count == kVertexBatch ? reinterpret_cast<std::int32_t*>(vertices) : rest;
+  constexpr hn::ScalableTag<std::int32_t> ints;
+  const auto center_x = hn::Set(ints, t.center_x), center_y = hn::Set(ints, t.center_y);
+  for (std::size_t i = 0; i < kVertexBatch; i += hn::Lanes(ints))
+    hn::StoreInterleaved4(hn::Add(center_x, hn::Load(ints, sx + i)), hn::Sub(center_y, hn::Load(ints, sy + i)), hn::Load(ints, reinterpret_cast<const std::int32_t*>(sz) + i),
+                          hn::BitCast(ints, hn::Load(hn::RebindToFloat<decltype(ints)>(), rw + i)), ints, rows + 4 * i);
+  if (rows == rest) std::memcpy(vertices, rest, count * sizeof *vertices);
   int all_codes = 0;
   alignas(64) std::int32_t bits[kVertexBatch];
   for (int i = 0; i < kVertexBatch; ++i) bits[i] = static_cast<std::int32_t>(code[i]);
   for (std::size_t i = 0; i < count; ++i) {
-    vertices[i] = {t.center_x + sx[i], t.center_y - sy[i], sz[i], rw[i]};
     codes[i] = static_cast<std::uint8_t>(bits[i]);
     all_codes |= bits[i];
   }
@@ -148,11 +177,7 @@ void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int com
 
 void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t count, float* x, float* y, float* z) {
   alignas(64) double nx[kVertexBatch], ny[kVertexBatch], nz[kVertexBatch];
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* n = normals.at(i);
-    nx[i] = n[0], ny[i] = n[1], nz[i] = n[2];
-  }
-  for (std::size_t i = count; i < kVertexBatch; ++i) nx[i] = ny[i] = nz[i] = 0;
+  gather_rows(normals, count, nx, ny, nz);
   const double* m = t.normal_matrix;
   const auto carry = [&](const auto& scaled) HWY_ATTR {
     for (int i = 0; i < kVertexBatch; ++i) {

@@ -67,11 +67,12 @@ class RandomTransforms {
 
 TEST(VertexTransform, HasTheBitsOfItsTwins) {
   RandomTransforms random(1);
-  std::size_t usable = 0, coded = 0, odd = 0, rough = 0;
+  std::size_t usable = 0, coded = 0, odd = 0, rough = 0, packed = 0;
   for (int round = 0; round < (long_tests() ? 60000 : 2000); ++round) {
     const VertexTransform t = random.next(round);
-    const int components = 3 + round % 2;
+    const int components = 3 + round / kVertexBatch % 2;
     const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
+    packed += components == 3 && count == kVertexBatch ? 1 : 0;  // rows that are read in lanes
     std::vector<float> positions(count * static_cast<std::size_t>(components));
     for (float& p : positions) p = random.is_cancelling(round) ? random.large_coordinate() : random.coordinate();
     for (const Isa isa : available_isas()) {
@@ -106,6 +107,7 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
       ASSERT_EQ(all, seen);
     }
   }
+  EXPECT_GT(packed, 0u);
   EXPECT_GT(usable, coded / 20);
   EXPECT_GT(odd, 100u);
   EXPECT_GT(rough, 1000u);
@@ -308,35 +310,35 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
     for (float& p : in) p = static_cast<float>(random.in(-2, 2));
     if (round % 5 == 0) in[0] = in[1] = in[2] = 0;
     using Out = std::array<std::array<float, kVertexBatch>, 3>;
-    Out normals[2], points[2];
-    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
-    for (const Isa isa : available_isas()) {
-      Out& n = normals[isa == Isa::scalar ? 0 : 1];
-      Out& p = points[isa == Isa::scalar ? 0 : 1];
+    const std::vector<Isa> isas = available_isas();  // the last one is scalar
+    std::vector<Out> normals(isas.size()), points(isas.size());
+    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch), components = static_cast<std::size_t>(3 + round / kVertexBatch % 2);
+    for (std::size_t set = 0; set < isas.size(); ++set) {
+      const Isa isa = isas[set];
+      Out &n = normals[set], &p = points[set];
       eye_normals(isa)(t, {in.data(), 3}, count, n[0].data(), n[1].data(), n[2].data());
-      eye_positions(isa)(t, {in.data(), 4}, 4, count, p[0].data(), p[1].data(), p[2].data());
+      eye_positions(isa)(t, {in.data(), components}, static_cast<int>(components), count, p[0].data(), p[1].data(), p[2].data());
       for (std::size_t i = 0; i < count; ++i) {
         double exact[3], at[3], squared = 0;
         for (int r = 0; r < 3; ++r) {
           exact[r] = t.normal_matrix[3 * r] * in[3 * i] + t.normal_matrix[3 * r + 1] * in[3 * i + 1] + t.normal_matrix[3 * r + 2] * in[3 * i + 2];
           squared += exact[r] * exact[r];
           at[r] = 0;
-          for (std::size_t k = 0; k < 4; ++k) at[r] += t.eye_from_object[static_cast<std::size_t>(4 * r) + k] * in[4 * i + k];
+          for (std::size_t k = 0; k < 4; ++k) at[r] += t.eye_from_object[static_cast<std::size_t>(4 * r) + k] * (k < components ? in[components * i + k] : 1.0f);
         }
-        const double whole = std::sqrt(squared), length = whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest, t.normal_lengths.longest) : 1;
+        const double w = components == 4 ? in[4 * i + 3] : 1, whole = std::sqrt(squared), length = whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest, t.normal_lengths.longest) : 1;
         for (std::size_t r = 0; r < 3; ++r) {
           ASSERT_NEAR(n[r][i], exact[r] / length, 1e-6 * std::max(1.0, whole / length));
-          ASSERT_NEAR(p[r][i], at[r] / in[4 * i + 3], 1e-6 * (std::abs(at[r] / in[4 * i + 3]) + 1e-3));
+          ASSERT_NEAR(p[r][i], at[r] / w, 1e-6 * (std::abs(at[r] / w) + 1e-3));
         }
       }
     }
-    if (available_isas().size() < 2) continue;
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t i = 0; i < count; ++i) {
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(normals[0][r][i]), std::bit_cast<std::uint32_t>(normals[1][r][i]));
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(points[0][r][i]), std::bit_cast<std::uint32_t>(points[1][r][i]));
-      }
-    }
+    for (std::size_t set = 0; set < isas.size(); ++set)
+      for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t i = 0; i < count; ++i) {
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(normals[set][r][i]), std::bit_cast<std::uint32_t>(normals.back()[r][i])) << name_of(isas[set]);
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(points[set][r][i]), std::bit_cast<std::uint32_t>(points.back()[r][i])) << name_of(isas[set]);
+        }
   }
 }
 
