@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 
+#include "framebuffer/check.h"
 #include "framebuffer/format.h"
 #include "raster/double_lanes-inl.h"
 #include "raster/sample_positions.h"
@@ -19,6 +20,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
+
+/// An offset in whole units of depth words; at most far outside.
+HWY_INLINE double whole_offset(double offset) { return offset != 0 ? std::floor(std::clamp(offset, -0x1p32, 0x1p32) + 0.5) : 0; }
 
 /// Depth in units of what is stored: levels, or floats.
 class LineDepth {
@@ -33,7 +37,7 @@ class LineDepth {
     }
     // Words of 16 and 24 bits carry the half that rounds the level.
     const double scale = kind == DepthKind::unorm16 ? 0x1p-16 : kind == DepthKind::unorm24 ? 0x1p-8 : 1;
-    first_ = scale * (z0 + (offset != 0 ? std::floor(std::clamp(offset, -0x1p32, 0x1p32) + 0.5) : 0));
+    first_ = scale * (z0 + whole_offset(offset));
     change_ = scale * (static_cast<double>(z1) - z0);
     most_ = scale * 4294967295.0;
     if (kind == DepthKind::unorm32) first_ += 0.5;
@@ -45,13 +49,20 @@ class LineDepth {
     if (kind_ == DepthKind::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
     return kind_ == DepthKind::unorm32 ? truncate(plus(floor(depth), -0x1p31)) : truncate(depth);
   }
-  /// Of a point.
-  HWY_INLINE std::int32_t first_key() const { return hn::GetLane(keys(to_doubles(hn::Zero(kInt)))); }
 
  private:
   DepthKind kind_;
   double first_, change_, most_ = 1;
 };
+
+/// The key of a point: as LineDepth has it at the first vertex, without lanes.
+/// @pre there is depth, and the offset is a number
+HWY_INLINE std::int32_t point_key(DepthKind kind, std::uint32_t z, double offset) {
+  TESSERA_ASSERT(kind != DepthKind::none && !std::isnan(offset));
+  if (kind == DepthKind::float32) return std::bit_cast<std::int32_t>(static_cast<float>(std::clamp(std::bit_cast<float>(z) + offset, 0.0, 1.0)) + 0.0f);
+  const auto word = static_cast<std::uint32_t>(std::clamp<std::int64_t>(z + static_cast<std::int64_t>(whole_offset(offset)), 0, 0xffffffff));
+  return depth_key_from_word(kind, word >> (32 - depth_bits(kind)));
+}
 
 /// Where pixels stand along a line. What lies aside has the values of where it is projected onto the line; a point is the same everywhere.
 struct LineValues {

@@ -216,25 +216,24 @@ class PlainPixels {
   bool uses_depth_;
 };
 
-/// What the pixels of a plain point or line get: one word, or colours along the line.
-struct PlainValues {
-  const LineValues& values;
-  const LineColors* colors;  // null: the word
-  std::uint32_t word;
-};
-
-HWY_INLINE void store_plain(const PlainPixels& pixels, const PointShape& point, const PlainValues& plain) {
-  const std::int32_t key = pixels.uses_depth() ? plain.values.depth.first_key() : 0;
-  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, plain.word); });
+/// Element i of a plain draw of points, each of one word.
+HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i, const PointShape& point, bool back) {
+  const std::int32_t key = pixels.uses_depth() ? point_key(run.frame.depth_kind, run.memory.group.z[0][i], depth_offset_of(run, draw, i)) : 0;
+  const std::uint32_t word = triangle_word(run, draw, i, back);
+  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, word); });
 }
 
-HWY_INLINE void store_plain(const PlainPixels& pixels, const LineShape& line, const PlainValues& plain) {
+/// And of lines, of one word or with colours along them.
+HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i, const LineShape& line, bool back) {
+  const LineValues values(run, i, 1, depth_offset_of(run, draw, i));
+  const bool one_word = has_words(draw);
+  LineColors colors;
+  if (!one_word) colors.set_up(run, draw, i, back);
+  const Int word = splat(static_cast<std::int32_t>(one_word ? triangle_word(run, draw, i, back) : 0));
   line.for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
     Doubles t{};
-    if (pixels.uses_depth() || plain.colors != nullptr) t = plain.values.parameters(x, y);
-    const Int keys = pixels.uses_depth() ? plain.values.depth.keys(t) : hn::Zero(kInt);
-    const Int words = plain.colors != nullptr ? plain.colors->words(t) : splat(static_cast<std::int32_t>(plain.word));
-    pixels.store(x, y, inside, keys, words);
+    if (pixels.uses_depth() || !one_word) t = values.parameters(x, y);
+    pixels.store(x, y, inside, pixels.uses_depth() ? values.depth.keys(t) : hn::Zero(kInt), one_word ? word : colors.words(t));
   });
 }
 
@@ -253,17 +252,14 @@ template <class Shape>
 HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  const bool one_word = has_words(draw), interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
-  const bool plain = draw.ops == nullptr && run.samples == 1 && (interpolated || one_word);  // nothing is to be done but storing
+  const bool interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
+  const bool plain = draw.ops == nullptr && run.samples == 1 && (interpolated || has_words(draw));  // nothing is to be done but storing
   const PlainPixels pixels(run, draw);
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
-    const LineValues values(run, i, second, depth_offset_of(run, draw, i));
     const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
     if (plain) {
-      LineColors colors;
-      if (!one_word) colors.set_up(run, draw, i, back);
-      store_plain(pixels, shape, {values, one_word ? nullptr : &colors, one_word ? triangle_word(run, draw, i, back) : 0});
+      store_plain(pixels, run, draw, i, shape, back);
       continue;
     }
     BlockBits bits{run, run.memory.touched};
@@ -271,7 +267,7 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, in
       shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
     else
       shape.cover(bits);
-    draw_covered_blocks(bits, draw_number, i, values, back);
+    draw_covered_blocks(bits, draw_number, i, LineValues(run, i, second, depth_offset_of(run, draw, i)), back);
   }
 }
 

@@ -25,6 +25,10 @@ std::vector<std::int32_t> line_keys_lanes(DepthKind kind, std::uint32_t z0, std:
   return keys;
 }
 
+test::KeyPair point_keys_lanes(DepthKind kind, std::uint32_t z, double offset) {
+  return {point_key(kind, z, offset), hn::GetLane(LineDepth(kind, z, z, offset).keys(to_doubles(hn::Zero(kInt))))};
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera
 HWY_AFTER_NAMESPACE();
@@ -32,5 +36,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera::test {
 LineKeys* line_keys(Isa isa) { return TESSERA_KERNEL(isa, line_keys_lanes); }
+PointKeys* point_keys(Isa isa) { return TESSERA_KERNEL(isa, point_keys_lanes); }
 }  // namespace tessera::test
 #endif

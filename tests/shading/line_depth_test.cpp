@@ -1,6 +1,10 @@
-// Depth keys along lines against integers: where all products are exact, a key is the whole part of its depth.
+// Depth keys along lines against integers: where all products are exact, a key is the whole part of its depth; and points' keys against lines'.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -38,6 +42,24 @@ TEST(LineDepth, IsTheWholePart) {
         }
         for (const Isa isa : available_isas()) ASSERT_EQ(line_keys(isa)(kind, z0, z1, parameters), expected) << name_of(isa) << ", depth words " << z0 << " to " << z1;
       }
+}
+
+// At the ends of what a depth can be, with offsets within it, to its ends and far beyond.
+TEST(LineDepth, IsThatOfAPointAtItsFirstVertex) {
+  std::mt19937 random(5);
+  const auto word = [&] { return static_cast<std::uint32_t>(random()) >> random() % 32; };
+  for (const DepthKind kind : {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
+    for (int round = 0; round < 20000; ++round) {
+      const bool is_float = kind == DepthKind::float32;
+      const std::uint32_t bits = round % 3 == 0 ? word() : ~word();
+      const std::uint32_t z = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(bits) * 0x1p-32f) : bits;
+      const double sizes[] = {0, 0.5, 1.5, static_cast<double>(word()), 0x1p31, 0x1p32, 0x1p40, std::numeric_limits<double>::infinity()};
+      const double offset = sizes[random() % std::size(sizes)] * (random() % 2 == 0 ? 1 : -1) * (is_float ? 0x1p-32 : 1);
+      for (const Isa isa : available_isas()) {
+        const KeyPair keys = point_keys(isa)(kind, z, offset);
+        ASSERT_EQ(keys.point, keys.line) << name_of(isa) << ", kind " << static_cast<int>(kind) << ", word " << z << ", offset " << offset;
+      }
+    }
 }
 
 }  // namespace
