@@ -8,6 +8,7 @@
 #include "engine/out_of_memory.h"
 #include "engine/parallel.h"
 #include "engine/texture_state.h"
+#include "framebuffer/instruction_set.h"
 
 namespace tessera {
 namespace {
@@ -125,6 +126,7 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
   texture->sampler = sampler;
   texture->channels = image.channels;
   set_filters(levels, sampler);
+  levels.gathers_pairs = machine_gathers_pairs();
   texture->words.resize(lay_out(levels, image, has_mipmaps(sampler)));
   std::uint32_t* const words = texture->words.data();
   levels.words = words;

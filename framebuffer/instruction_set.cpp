@@ -40,5 +40,14 @@ bool machine_has_gfni() {
 #endif
 }
 
+bool machine_gathers_pairs() {
+#if HWY_TARGETS & HWY_AVX3
+  // Floats of 16 bits came with it, and after what had made Intel's gathers slow (INTEL-SA-00828).
+  return machine_has_avx512() && __builtin_cpu_is("intel") && __builtin_cpu_supports("avx512fp16");
+#else
+  return false;
+#endif
+}
+
 }  // namespace tessera
 #endif  // HWY_ONCE

@@ -13,7 +13,10 @@ enum class Isa : std::uint8_t { scalar, avx2, avx512 };
 std::vector<Isa> available_isas();
 
 /// Whether this machine has AVX-512 with products of bit matrices (GFNI): the storing of planes has a faster way with them, to
-/// the same bits. Nothing else is chosen beside the set.
+/// the same bits.
 bool machine_has_gfni();
+/// Whether AVX-512 is quicker at gathering pairs of words than at loading them one by one, to the same bits: Intel's since Sapphire Rapids.
+/// These two are all that is chosen beside the set.
+bool machine_gathers_pairs();
 
 }  // namespace tessera

@@ -57,13 +57,18 @@ HWY_INLINE __m128 two_pairs(const std::uint32_t* words, const LaneIndices& at, i
 /// Those of four lanes, the last two four lanes after the first: what parts them again stays within halves.
 HWY_INLINE __m256 four_pairs(const std::uint32_t* words, const LaneIndices& at, int lane) { return _mm256_set_m128(two_pairs(words, at, lane + 4), two_pairs(words, at, lane)); }
 #endif
-/// One by one, on every instruction set the faster way.
-HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index) {
+/// @param gathers  AVX-512 gathers them; else they come one by one, which is the faster way on most machines
+HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index, [[maybe_unused]] bool gathers) {
 #if HWY_TARGET == HWY_AVX2
   const LaneIndices at(index.raw);
   const __m256 low = four_pairs(words, at, 0), high = four_pairs(words, at, 2);
   return {Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))}, Int{_mm256_castps_si256(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))}};
 #elif HWY_TARGET == HWY_AVX3
+  if (gathers) {
+    const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(index.raw), words, 4), high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(index.raw, 1), words, 4);
+    const __m512i left = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30), right = _mm512_or_si512(left, _mm512_set1_epi32(1));
+    return {Int{_mm512_permutex2var_epi32(low, left, high)}, Int{_mm512_permutex2var_epi32(low, right, high)}};
+  }
   const LaneIndices lower(_mm512_castsi512_si256(index.raw)), upper(_mm512_extracti64x4_epi64(index.raw, 1));
   const auto eight_pairs = [&](int lane) HWY_ATTR { return _mm512_insertf32x8(_mm512_castps256_ps512(four_pairs(words, lower, lane)), four_pairs(words, upper, lane), 1); };
   const __m512 low = eight_pairs(0), high = eight_pairs(2);

@@ -48,6 +48,7 @@ struct TextureLevels {
   bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
   bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+  bool gathers_pairs = false;                 ///< of texels: see machine_gathers_pairs()
 
   /// How many texels a pixel spans decides something.
   bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }

@@ -51,12 +51,14 @@ HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLeve
 struct LinearTexels {
   const std::uint32_t* words;
   std::int32_t stride;
+  bool gathers_pairs;
   Int index, to_right, to_next_row;
 
   HWY_INLINE void place(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
     const TexelPlace column = linear_place(s, level.columns, texture.wrap_s), row = linear_place(t, level.rows, texture.wrap_t);
     words = texture.words + level.first;
     stride = level.stride;
+    gathers_pairs = texture.gathers_pairs;
     index = hn::Add(column.texel, hn::Mul(row.texel, splat(level.stride)));
     to_right = column.fraction;
     to_next_row = row.fraction;
@@ -68,7 +70,7 @@ struct LinearTexels {
 
  private:
   HWY_INLINE Texels mix_of(const std::uint32_t* row) const {
-    const TexelPairs pairs = load_pairs(row, index);
+    const TexelPairs pairs = load_pairs(row, index, gathers_pairs);
     return mixed(texels_of(pairs.left), texels_of(pairs.right), to_right);
   }
 };

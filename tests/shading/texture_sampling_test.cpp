@@ -206,16 +206,20 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
     for (int i = 0; i < 12; ++i) batch.field[kTextureS][i] = kOdd[i], batch.field[kTextureT][16 + i] = kOdd[i], batch.field[kTexelsSquared][32 + i] = kOdd[i];
     ShadingBatch expected = batch;
     sample_texture(Isa::scalar)(texture.levels, expected, kBatchPoints);
-    for (const Isa isa : available_isas()) {
-      ShadingBatch out = batch;
-      sample_texture(isa)(texture.levels, out, kBatchPoints);
-      for (int c = 0; c < 4; ++c)
-        for (int i = 0; i < kBatchPoints; ++i) {
-          ASSERT_EQ(std::bit_cast<std::uint32_t>(out.field[kTexelR + c][i]), std::bit_cast<std::uint32_t>(expected.field[kTexelR + c][i]))
-              << name_of(isa) << ", s " << batch.field[kTextureS][i] << ", t " << batch.field[kTextureT][i] << ", texels squared " << batch.field[kTexelsSquared][i];
-          ASSERT_TRUE(out.field[kTexelR + c][i] >= 0 && out.field[kTexelR + c][i] <= 1);
-        }
-    }
+    TextureLevels levels = texture.levels;
+    for (const Isa isa : available_isas())
+      for (const bool gathers : {false, true}) {
+        if (gathers && isa != Isa::avx512) continue;
+        levels.gathers_pairs = gathers;
+        ShadingBatch out = batch;
+        sample_texture(isa)(levels, out, kBatchPoints);
+        for (int c = 0; c < 4; ++c)
+          for (int i = 0; i < kBatchPoints; ++i) {
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.field[kTexelR + c][i]), std::bit_cast<std::uint32_t>(expected.field[kTexelR + c][i]))
+                << name_of(isa) << (gathers ? ", gathers" : "") << ", s " << batch.field[kTextureS][i] << ", t " << batch.field[kTextureT][i] << ", texels squared " << batch.field[kTexelsSquared][i];
+            ASSERT_TRUE(out.field[kTexelR + c][i] >= 0 && out.field[kTexelR + c][i] <= 1);
+          }
+      }
   });
 }
 
