@@ -18,6 +18,7 @@
 #include "engine/cli/printable.h"
 #include "engine/cli/render_command.h"
 #include "engine/cli/selftest_command.h"
+#include "engine/cli/standard_output.h"
 #include "engine/scene/suggest.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -286,7 +287,9 @@ int run(int argument_count, char** arguments) {
 
 int main(int argument_count, char** arguments) {
   try {
-    return tessera::cli::run(argument_count, arguments);
+    const int code = tessera::cli::run(argument_count, arguments);
+    tessera::cli::require_stdout_written();
+    return code;
   } catch (const tessera::Cancelled&) {
     std::cerr << "tessera: interrupted; finished pictures are whole\n";
     return tessera::cli::kInterrupted;

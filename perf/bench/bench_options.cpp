@@ -1,20 +1,23 @@
 #include "perf/bench/bench_options.h"
 
 #include <charconv>
+#include <limits>
 #include <string_view>
+#include <type_traits>
 
 namespace tessera::bench {
 namespace {
 
-// All of a text as an integer within bounds.
-bool parse_integer(std::string_view text, int least, int most, int& number) {
+// All of a text as a number within bounds, which NaN is not.
+template <class Number>
+bool parse_number(std::string_view text, std::type_identity_t<Number> least, std::type_identity_t<Number> most, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() && number >= least && number <= most;
 }
 
 bool parse_size(std::string_view text, BenchOptions& options) {
   const std::size_t x = text.find('x');
-  return x != std::string_view::npos && parse_integer(text.substr(0, x), 1, kMaxFrameBufferSize, options.width) && parse_integer(text.substr(x + 1), 1, kMaxFrameBufferSize, options.height);
+  return x != std::string_view::npos && parse_number(text.substr(0, x), 1, kMaxFrameBufferSize, options.width) && parse_number(text.substr(x + 1), 1, kMaxFrameBufferSize, options.height);
 }
 
 bool parse_cores(std::string_view text, std::vector<int>& cores) {
@@ -22,7 +25,7 @@ bool parse_cores(std::string_view text, std::vector<int>& cores) {
   for (;;) {
     const std::size_t comma = text.find(',');
     int core = 0;
-    if (!parse_integer(text.substr(0, comma), 0, kMostCores, core)) return false;
+    if (!parse_number(text.substr(0, comma), 0, kMostCores, core)) return false;
     cores.push_back(core);
     if (comma == std::string_view::npos) return true;
     text.remove_prefix(comma + 1);
@@ -38,12 +41,13 @@ CLI::Option* add_text(CLI::App& program, const std::string& name, const std::str
   return program.add_option_function<std::string>(name, take, what)->option_text(form);
 }
 CLI::Option* add_integer(CLI::App& program, const std::string& name, const std::string& what, int most, int& number) {
-  return add_text(program, name, "N", what, [most, &number](const std::string& text) { return parse_integer(text, 1, most, number); }, ", 1 to " + std::to_string(most));
+  return add_text(program, name, "N", what, [most, &number](const std::string& text) { return parse_number(text, 1, most, number); }, ", 1 to " + std::to_string(most));
 }
 
 }  // namespace
 
 void add_options(CLI::App& program, BenchOptions& options) {
+  constexpr auto kLargestSeed = std::numeric_limits<decltype(options.measure.seed)>::max();
   program.option_defaults()->take_last();
   CLI::Option* const names = program.add_option("workloads", options.names, "those to run, or the beginnings of their names; default: all")->option_text("[WORKLOAD...]")->take_all();
   program.add_flag("--list", options.list, "say what workloads there are");
@@ -51,15 +55,16 @@ void add_options(CLI::App& program, BenchOptions& options) {
   add_integer(program, "--threads", "threads; default: TESSERA_THREADS, or one for each core", 1024, options.renderer.threads)->envname("TESSERA_THREADS");
   add_text(program, "--cores", "N[,N...]", "cores that everything is kept on; default: all", [&options](const std::string& text) { return parse_cores(text, options.cores); }, ", each 0 to 1023");
   add_text(program, "--tile-size", "32|64|128", "pixels of a tile's side; default: chosen by the frame",
-           [&options](const std::string& text) { return parse_integer(text, 32, 128, options.renderer.tile_size) && (options.renderer.tile_size & (options.renderer.tile_size - 1)) == 0; });
+           [&options](const std::string& text) { return parse_number(text, 32, 128, options.renderer.tile_size) && (options.renderer.tile_size & (options.renderer.tile_size - 1)) == 0; });
   add_text(program, "--isa", "scalar|avx2|avx512", "instruction set; default: the best that this machine has", [&options](const std::string& text) {
     for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512})
       if (name(set) == text) return options.renderer.instruction_set = set, true;
     return false;
   });
   add_integer(program, "--repeats", "frames of each workload; default: a second of them, 15 at least", 1000000, options.measure.repeats);
-  program.add_option("--seconds", options.measure.seconds, "of frames for each workload; default: 1")->option_text("S")->check(CLI::Range(0.001, 3600.0));
-  program.add_option("--seed", options.measure.seed, "of what is random in workloads, and of the order of turns; default: 1")->option_text("N");
+  add_text(program, "--seconds", "S", "of frames for each workload; default: 1", [&options](const std::string& text) { return parse_number(text, 0.001, 3600, options.measure.seconds); }, ", 0.001 to 3600");
+  add_text(program, "--seed", "N", "of what is random in workloads, and of the order of turns; default: 1",
+           [&options](const std::string& text) { return parse_number(text, 0, kLargestSeed, options.measure.seed); }, ", 0 to " + std::to_string(kLargestSeed));
   CLI::Option* const rivals = program.add_flag("--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");
   CLI::Option* const driver = add_text(program, "--driver", "llvmpipe|softpipe", "Mesa's, of --rivals; default: llvmpipe", [&options](const std::string& text) {
     options.driver = text == "softpipe" ? rivals::MesaDriver::softpipe : rivals::MesaDriver::llvmpipe;
@@ -75,7 +80,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
   CLI::Option* const csv = program.add_option("--csv", options.csv_file, "file for the rows; - is the standard output")->option_text("FILE");
   CLI::Option* const pictures = program.add_option("--pictures", options.pictures_folder, "folder for what each workload draws, as WORKLOAD.png")->option_text("DIR");
   CLI::Option* const compare = program.add_option("--compare", options.compare_file, "earlier --json file: shows ratios to it, and exits with 3 where a row is slower by more than --allowed")->option_text("FILE");
-  program.add_option("--allowed", options.allowed, "share by which a row may be slower; default: 0.1")->option_text("SHARE")->check(CLI::Range(0.0, 100.0))->needs(compare);
+  add_text(program, "--allowed", "SHARE", "share by which a row may be slower; default: 0.1", [&options](const std::string& text) { return parse_number(text, 0, 100, options.allowed); }, ", 0 to 100")->needs(compare);
   // What is measured otherwise is not told, or told of otherwise.
   for (CLI::Option* way : {rivals, scaling})
     for (CLI::Option* other : {csv, pictures, compare}) way->excludes(other);

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <new>
 #include <optional>
 #include <utility>
 
 #include "engine/cli/machine_text.h"
+#include "engine/cli/standard_output.h"
 #include "engine/imageio/atomic_file.h"
 #include "engine/imageio/picture.h"
 #include "engine/parallel.h"
@@ -47,7 +49,8 @@ std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& name
 
 void write(const std::string& file, const std::string& text) {
   if (file != "-") return write_file_atomically(file, text);
-  if (!(std::cout << text << std::flush)) throw Error("cannot write to the standard output");
+  std::cout << text;
+  cli::require_stdout_written();
 }
 
 /// Before anything is measured: that what is to be written can be, as far as can be seen, and that no two are one. A file that is "-" is the standard output.
@@ -240,9 +243,12 @@ int run(BenchOptions& options) {
     throw CLI::ValidationError("--heatmap", "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
   require_outputs(options);
   if (!options.cores.empty() && !keep_on(options.cores)) {
-    std::string allowed;
-    for (const int core : allowed_cores()) allowed += " " + std::to_string(core);
-    throw CLI::ValidationError("--cores", "found none that this process may use, expected one of" + allowed);
+    const auto listed = [](const std::vector<int>& cores) {
+      std::string text;
+      for (const int core : cores) text += (text.empty() ? "" : ",") + std::to_string(core);
+      return text;
+    };
+    throw CLI::ValidationError("--cores", "found \"" + listed(options.cores) + "\", none that this process may use, expected some of " + listed(allowed_cores()));
   }
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
@@ -273,15 +279,25 @@ int main(int argc, char** argv) {
   program.footer(tessera::bench::kExamples);
   tessera::bench::BenchOptions options;
   tessera::bench::add_options(program, options);
-  try {
-    program.parse(argc, argv);
+  const auto run = [&] {
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+      return program.exit(asked);  // --help
+    }
     return tessera::bench::run(options);
+  };
+  try {
+    const int code = run();
+    tessera::cli::require_stdout_written();
+    return code;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);
     std::cerr << "tessera bench: error: " << error.what() << " (see tessera bench --help)\n";
     return tessera::bench::kUsage;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "tessera bench: error: out of memory\n";
   } catch (const std::exception& error) {
     std::cerr << "tessera bench: error: " << error.what() << "\n";
-    return tessera::bench::kWrong;
   }
+  return tessera::bench::kWrong;
 }

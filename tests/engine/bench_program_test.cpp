@@ -264,9 +264,9 @@ TEST_F(BenchProgram, RefusesBeforeItBegins) {
   const struct {
     const char *arguments, *message;
     int code;
-  } cases[] = {{"fill --json new.json --cores 1023", "found none that this process may use", 2},
-               {"fill --pictures new.json --cores 1023", "found none that this process may use", 2},
-               {"fill --json kept.json --cores 1023", "found none that this process may use", 2},
+  } cases[] = {{"fill --json new.json --cores 1023", "--cores: found \"1023\", none that this process may use, expected some of ", 2},
+               {"fill --pictures new.json --cores 1023", "--cores: found \"1023\", none that this process may use, expected some of ", 2},
+               {"fill --json kept.json --cores 1023", "--cores: found \"1023\", none that this process may use, expected some of ", 2},
                {"fill --json new.json --csv none/report.csv", "cannot write \"none/report.csv\": there is no folder \"none\"", 1},
                {"fill --json kept.json/report.json", "cannot write \"kept.json/report.json\": there is no folder \"kept.json\"", 1},
                {"fill --json broken.json", "cannot write \"broken.json\": there is no folder \"none\"", 1},
@@ -295,6 +295,14 @@ TEST_F(BenchProgram, RefusesBeforeItBegins) {
   EXPECT_FALSE(contains(trace.err, "no renderer draws it")) << trace.err;
 }
 
+TEST_F(BenchProgram, WhatItCouldNotSayIsAnError) {
+  for (const char* arguments : {"bench --help", "bench --list", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --csv -"}) {
+    const Result result = run_without_room(arguments);
+    EXPECT_EQ(result.code, 1) << arguments;
+    EXPECT_TRUE(contains(result.err, "tessera bench: error: cannot write to the standard output")) << arguments << "\n" << result.err;
+  }
+}
+
 TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
   write("other.json", R"({"width": 1, "height": 1, "threads": 1, "instruction_set": "avx2", "workloads": [{"median_ms": 1}]})");
   write("older.json", R"({"width": 1, "threads": 1, "instruction_set": "avx2", "workloads": []})");
@@ -307,6 +315,10 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
                {"--tile-size 48", "found \"48\", expected 32|64|128", 2},
                {"--isa sse", "found \"sse\", expected scalar|avx2|avx512", 2},
                {"--cores 0,,1", "found \"0,,1\"", 2},
+               {"--seconds nan", "found \"nan\", expected S, 0.001 to 3600", 2},
+               {"--seconds 0", "found \"0\", expected S, 0.001 to 3600", 2},
+               {"--seed -1", "found \"-1\", expected N, 0 to 4294967295", 2},
+               {"--compare other.json --allowed nan", "found \"nan\", expected SHARE, 0 to 100", 2},
                {"--json - --csv -", "--csv: found \"-\", as for --json", 2},
                {"--json .", "cannot write \".\": Is a directory", 1},
                {"--compare missing.json", "missing.json", 1},

@@ -26,9 +26,13 @@ class Program : public testing::Test {
   ~Program() override { std::filesystem::remove_all(folder_); }
 
   Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" TESSERA_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("out.txt"), content("err.txt")};
+    const int code = code_of(arguments, "out.txt");
+    return {code, content("out.txt"), content("err.txt")};
+  }
+  /// Its standard output is on a disk that has no room left.
+  Result run_without_room(const std::string& arguments) const {
+    const int code = code_of(arguments, "/dev/full");
+    return {code, "", content("err.txt")};
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
   std::string content(const std::string& name) const {
@@ -38,6 +42,13 @@ class Program : public testing::Test {
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
   std::filesystem::path folder_;
+
+ private:
+  int code_of(const std::string& arguments, const std::string& out) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" TESSERA_PROGRAM "' " + arguments + " >" + out + " 2>err.txt";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
 };
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -203,9 +203,18 @@ TEST_F(Program, AFullDiskIsAnErrorAndLeavesNothing) {
   const Result file = run("render --size 200x200 -o full.ppm");
   EXPECT_EQ(file.code, 1);
   EXPECT_TRUE(contains(file.err, "No space left on device")) << file.err;
-  const std::string command = "'" TESSERA_PROGRAM "' render --size 200x200 -o - 2>/dev/null >/dev/full";
-  const int status = std::system(command.c_str());
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1);
+  const Result out = run_without_room("render --size 200x200 -o -");
+  EXPECT_EQ(out.code, 1);
+  EXPECT_TRUE(contains(out.err, "No space left on device")) << out.err;
+}
+
+TEST_F(Program, WhatItCouldNotSayIsAnError) {
+  for (const char* arguments : {"render --size 8x8 -o term", "render --size 8x8 -o picture.ppm --stats=json", "info", "formats", "completion bash", "man", "--help", "--version", "selftest --help"}) {
+    const Result result = run_without_room(arguments);
+    EXPECT_EQ(result.code, 1) << arguments;
+    EXPECT_TRUE(contains(result.err, "error: cannot write to the standard output")) << arguments << "\n" << result.err;
+  }
+  EXPECT_TRUE(exists("picture.ppm")) << "which was finished before";
 }
 
 TEST_F(Program, AnimationsMoveAndCountTheirFrames) {
