@@ -43,6 +43,9 @@ CLI::Option* add_text(CLI::App& program, const std::string& name, const std::str
 CLI::Option* add_integer(CLI::App& program, const std::string& name, const std::string& what, int most, int& number) {
   return add_text(program, name, "N", what, [most, &number](const std::string& text) { return parse_number(text, 1, most, number); }, ", 1 to " + std::to_string(most));
 }
+CLI::Option* add_path(CLI::App& program, const std::string& name, const std::string& form, const std::string& what, std::string& path) {
+  return add_text(program, name, form, what, [&path](const std::string& text) { return path = text, !text.empty(); }, "'s name");
+}
 
 }  // namespace
 
@@ -73,13 +76,13 @@ void add_options(CLI::App& program, BenchOptions& options) {
   driver->needs(rivals);
   CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost");
   add_integer(program, "--memory-cores", "cores that keep the memory of computed machines busy; default: 8", 1024, options.memory_cores)->needs(scaling);
-  CLI::Option* const growth = program.add_option("--growth", options.growth_file, "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured")->option_text("FILE");
-  CLI::Option* const trace = program.add_option("--trace", options.trace_file, "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured")->option_text("FILE");
-  CLI::Option* const heatmap = program.add_option("--heatmap", options.heatmap_file, "picture of what each tile of a workload costs; nothing else is measured")->option_text("FILE");
-  CLI::Option* const json = program.add_option("--json", options.json_file, "file for everything that was measured; - is the standard output")->option_text("FILE");
-  CLI::Option* const csv = program.add_option("--csv", options.csv_file, "file for the rows; - is the standard output")->option_text("FILE");
-  CLI::Option* const pictures = program.add_option("--pictures", options.pictures_folder, "folder for what each workload draws, as WORKLOAD.png")->option_text("DIR");
-  CLI::Option* const compare = program.add_option("--compare", options.compare_file, "earlier --json file: shows ratios to it, and exits with 3 where a row is slower by more than --allowed")->option_text("FILE");
+  CLI::Option* const growth = add_path(program, "--growth", "FILE", "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured", options.growth_file);
+  CLI::Option* const trace = add_path(program, "--trace", "FILE", "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured", options.trace_file);
+  CLI::Option* const heatmap = add_path(program, "--heatmap", "FILE", "picture of what each tile of a workload costs; nothing else is measured", options.heatmap_file);
+  CLI::Option* const json = add_path(program, "--json", "FILE", "file for everything that was measured; - is the standard output", options.json_file);
+  CLI::Option* const csv = add_path(program, "--csv", "FILE", "file for the rows; - is the standard output", options.csv_file);
+  CLI::Option* const pictures = add_path(program, "--pictures", "DIR", "folder for what each workload draws, as WORKLOAD.png", options.pictures_folder);
+  CLI::Option* const compare = add_path(program, "--compare", "FILE", "earlier --json file: shows ratios to it, and exits with 3 where a row is slower by more than --allowed", options.compare_file);
   add_text(program, "--allowed", "SHARE", "share by which a row may be slower; default: 0.1", [&options](const std::string& text) { return parse_number(text, 0, 100, options.allowed); }, ", 0 to 100")->needs(compare);
   // What is measured otherwise is not told, or told of otherwise.
   for (CLI::Option* way : {rivals, scaling})

@@ -33,17 +33,19 @@ constexpr const char* kExamples = R"(examples:
   tessera bench --json before.json                and later
   tessera bench --compare before.json)";
 
+/// Whether a name is a workload's, or, if it is no whole name, how that one's begins.
+bool means(const std::string& name, const WorkloadEntry& entry) {
+  if (entry.name == name) return true;
+  const bool is_a_whole_name = std::any_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& other) { return other.name == name; });
+  return !is_a_whole_name && !name.empty() && entry.name.starts_with(name);
+}
 std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& names) {
   std::vector<const WorkloadEntry*> list;
   for (const std::string& name : names)
-    if (std::none_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return entry.name.starts_with(name); }))
+    if (std::none_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return means(name, entry); }))
       throw CLI::ValidationError("workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
-  const auto is_a_whole_name = [](const std::string& name) { return std::any_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return entry.name == name; }); };
-  const auto is_meant = [&](const WorkloadEntry& entry) {
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return is_a_whole_name(name) ? entry.name == name : entry.name.starts_with(name); });
-  };
   for (const WorkloadEntry& entry : workloads())
-    if (names.empty() || is_meant(entry)) list.push_back(&entry);
+    if (names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) { return means(name, entry); })) list.push_back(&entry);
   return list;
 }
 
@@ -84,13 +86,20 @@ struct Chosen {
   std::vector<const WorkloadEntry*> entries;
   std::string left_out;
 };
-Chosen prepared(std::vector<const WorkloadEntry*> entries) {
+/// @throws Error if a name was given and nothing that it means can run
+Chosen prepared(const std::vector<std::string>& names) {
   Chosen chosen;
-  for (const WorkloadEntry* entry : entries) {
+  std::map<std::string, std::string> why_none;  // of what a name means can run; empty where one can
+  for (const WorkloadEntry* entry : chosen_by(names)) {
     const std::string reason = entry->prepare ? entry->prepare() : "";
-    if (reason.empty()) chosen.entries.push_back(entry);
+    const bool runs = reason.empty();
+    if (runs) chosen.entries.push_back(entry);
     else chosen.left_out += entry->name + ": left out, " + reason + "\n";
+    for (const std::string& name : names)
+      if (means(name, *entry) && (runs || !why_none.contains(name))) why_none[name] = reason;
   }
+  for (const auto& [name, reason] : why_none)
+    if (!reason.empty()) throw Error("found nothing to measure of \"" + name + "\": it " + reason);
   return chosen;
 }
 
@@ -236,7 +245,7 @@ int run(BenchOptions& options) {
   }
   std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
   if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
-  const Chosen chosen = prepared(chosen_by(options.names));
+  const Chosen chosen = prepared(options.names);
   if (options.growth_file.empty()) std::cerr << chosen.left_out;
   if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
   if (!options.heatmap_file.empty() && chosen.entries.size() != 1)

@@ -295,6 +295,16 @@ TEST_F(BenchProgram, RefusesBeforeItBegins) {
   EXPECT_FALSE(contains(trace.err, "no renderer draws it")) << trace.err;
 }
 
+// That others run is no comfort to who asked for this one.
+TEST_F(BenchProgram, RefusesANameOfWhichNothingCanRun) {
+  if (std::filesystem::exists("/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply")) GTEST_SKIP() << "the model is there";
+  for (const char* names : {"model-rs1", "fill-flat model-rs1"}) {
+    const Result result = run("bench --size 32x32 --repeats 1 --seconds 0.001 " + std::string(names));
+    EXPECT_EQ(result.code, 1) << names;
+    EXPECT_TRUE(contains(result.err, "found nothing to measure of \"model-rs1\": it needs /usr/share/doc/opencv-doc/")) << names << "\n" << result.err;
+  }
+}
+
 TEST_F(BenchProgram, WhatItCouldNotSayIsAnError) {
   for (const char* arguments : {"bench --help", "bench --list", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --csv -"}) {
     const Result result = run_without_room(arguments);
@@ -310,6 +320,9 @@ TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
     const char *arguments, *message;
     int code;
   } cases[] = {{"nothing", "found \"nothing\", with which no workload's name begins", 2},
+               {"''", "found \"\", with which no workload's name begins", 2},
+               {"--compare ''", "--compare: found \"\", expected FILE's name", 2},
+               {"--pictures ''", "--pictures: found \"\", expected DIR's name", 2},
                {"--size 0x4", "found \"0x4\", expected WIDTHxHEIGHT, each 1 to 16384", 2},
                {"--threads 0", "found \"0\", expected N, 1 to 1024", 2},
                {"--tile-size 48", "found \"48\", expected 32|64|128", 2},
