@@ -288,7 +288,7 @@ int run(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   try {
     const int code = tessera::cli::run(argument_count, arguments);
-    tessera::cli::require_stdout_written();
+    if (code == 0) tessera::cli::require_stdout_written();
     return code;
   } catch (const tessera::Cancelled&) {
     std::cerr << "tessera: interrupted; finished pictures are whole\n";

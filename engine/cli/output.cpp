@@ -2,23 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "engine/cli/standard_output.h"
 
 namespace tessera::cli {
 namespace {
 
 constexpr std::string_view kFrame = "{frame}";
-
-void write_to_stdout(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw Error(std::string("cannot write to the standard output: ") + std::strerror(errno));
-}
 
 int terminal_columns() {
   winsize size{};

@@ -51,8 +51,7 @@ std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& name
 
 void write(const std::string& file, const std::string& text) {
   if (file != "-") return write_file_atomically(file, text);
-  std::cout << text;
-  cli::require_stdout_written();
+  cli::write_to_stdout(text);
 }
 
 /// Before anything is measured: that what is to be written can be, as far as can be seen, and that no two are one. A file that is "-" is the standard output.
@@ -139,7 +138,7 @@ class Bench {
     report_.core_to_core_ns[1] = core_to_core_ns();
   }
   void show(const std::string& text) const {
-    if (!is_silent()) std::cout << text << std::flush;
+    if (!is_silent()) cli::write_to_stdout(text);
   }
   /// The standard output is for programs.
   bool is_silent() const { return options_.json_file == "-" || options_.csv_file == "-"; }
@@ -298,7 +297,7 @@ int main(int argc, char** argv) {
   };
   try {
     const int code = run();
-    tessera::cli::require_stdout_written();
+    if (code == 0) tessera::cli::require_stdout_written();
     return code;
   } catch (const CLI::ParseError& error) {
     std::cerr << "tessera bench: error: " << error.what() << " (see tessera bench --help)\n";

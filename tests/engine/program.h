@@ -29,6 +29,8 @@ class Program : public testing::Test {
     const int code = code_of(arguments, "out.txt");
     return {code, content("out.txt"), content("err.txt")};
   }
+  /// Whether run_without_room() can be had here.
+  static bool has_full_disk() { return std::filesystem::is_character_file("/dev/full"); }
   /// Its standard output is on a disk that has no room left.
   Result run_without_room(const std::string& arguments) const {
     const int code = code_of(arguments, "/dev/full");
