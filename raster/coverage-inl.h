@@ -74,6 +74,10 @@ struct BlockEdges {
   HWY_INLINE Int at(int k, int chunk) const { return hn::Add(splat(start[k]), hn::Load(kInt, offsets->edge[k] + chunk * kLanes)); }
   /// Lanes inside all three: no sign bit.
   HWY_INLINE auto covered(int chunk) const { return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1)); }
+  /// To the block below.
+  HWY_INLINE void step_down(const TileEdges& t) {
+    for (int k = 0; k < 3; ++k) start[k] += 4 * t.b[k];
+  }
 };
 
 /// The same of blocks side by side, one after another.
@@ -109,7 +113,8 @@ HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, s
 
 /// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
 /// 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx, by, how many, edges of the first), where
-/// there is such a function. Lanes are blocks: those of a row, or of several short rows. @pre the offsets are those of the edges
+/// there is such a function. Lanes are blocks: those of a row, or of several short rows; where all blocks are full nothing is
+/// sorted. @pre the offsets are those of the edges
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
   const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1, rows = ((y1 - first_y) >> 2) + 1;
@@ -146,13 +151,18 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
       }
       while (touched != 0) {
         const int i = std::countr_zero(touched), in_its_row = i & (in_row - 1), bx = left + 4 * in_its_row, by = top + 4 * (i >> row_shift);
-        const BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
+        BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
         touched &= touched - 1;
         if ((inside >> i & 1) == 0) {
           block.template operator()<false>(bx, by, edges);
         } else if constexpr (requires { block.full_row(bx, by, 1, edges); }) {
-          const int count = std::min(std::countr_one(inside >> i), in_row - in_its_row);
-          block.full_row(bx, by, count, edges);
+          const bool at_once = kLanes > 1 && is_whole;  // one lane gains nothing
+          const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row), last = at_once ? rows - 1 : 0;
+          for (int below = 0;; ++below, edges.step_down(t)) {
+            block.full_row(bx, by + 4 * below, count, edges);
+            if (below == last) break;
+          }
+          if (at_once) return;
           touched &= ~(((1u << count) - 1) << i);
         } else {
           block.template operator()<true>(bx, by, edges);
@@ -163,7 +173,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
 }
 
 /// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most.
-HWY_INLINE std::uint32_t small_triangles(const TriangleGroup& g) {
+inline HWY_NOINLINE std::uint32_t small_triangles(const TriangleGroup& g) {
   std::uint32_t bits = 0;
   for (int first = 0; first < kGroupSize; first += kLanes) {
     const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first)), height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));

@@ -43,7 +43,7 @@ struct BoxGroup {
   std::uint32_t touched[kGroupSize];
 
   /// @param among  triangles that are drawn by blocks
-  HWY_INLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
+  HWY_NOINLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first) HWY_ATTR { return hn::Load(kInt, array + first); };
     hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt, to_block);
     for (int first = 0; first < kGroupSize; first += kLanes) {
