@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <cstring>
-#include <vector>
 
-#include "engine/parallel.h"
 #include "perf/bench/statistics.h"
 
 namespace tessera::bench {
@@ -14,74 +11,68 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What is written counts as read, so that no compiler leaves a memset out.
-void keep(const void* memory) { asm volatile("" : : "r"(memory) : "memory"); }
+constexpr std::uint64_t kInL1 = std::uint64_t{16} << 10;  // for each thread
 
-/// @param move  (part, of how many): moves one part's bytes
-/// @return 10^9 bytes a second
-template <class Move>
-double rate(Parallel& parallel, double bytes, const Move& move) {
-  std::vector<double> rates;
-  const auto threads = static_cast<std::size_t>(parallel.threads());
-  for (int run = 0; run < 12; ++run) {
-    const Clock::time_point start = Clock::now();
-    parallel.for_each(threads, [&](std::size_t part, int) { move(part); });
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (run >= 3) rates.push_back(bytes / seconds * 1e-9);  // the first ones bring the pages
-  }
-  return statistics_of(rates).median;
-}
+std::uint64_t memory_of(Limit limit, std::uint64_t threads, std::uint64_t bytes) { return limit == Limit::l1_stores ? kInL1 * threads : bytes; }
 
 // So many times that the threads' start is nothing beside it.
-int times_for(std::uint64_t bytes) { return static_cast<int>(std::clamp<std::uint64_t>((std::uint64_t{512} << 20) / std::max<std::uint64_t>(bytes, 1), 1, 20000)); }
-
-using Bytes = std::vector<std::uint8_t>;
-
-double store_rate(Parallel& parallel, std::uint64_t bytes, int times) {
-  const auto threads = static_cast<std::uint64_t>(parallel.threads());
-  std::vector<Bytes> memory(threads, Bytes(bytes / threads));
-  return rate(parallel, static_cast<double>(bytes / threads * threads) * times, [&](std::size_t part) {
-    for (int i = 0; i < times; ++i) {
-      std::memset(memory[part].data(), i, memory[part].size());
-      keep(memory[part].data());
-    }
-  });
+std::uint64_t times_for(Limit limit, std::uint64_t bytes) {
+  return limit == Limit::l1_stores ? 20000 : std::clamp<std::uint64_t>((std::uint64_t{512} << 20) / std::max<std::uint64_t>(bytes, 1), 1, 20000);
 }
 
-double copy_rate(Parallel& parallel, std::uint64_t bytes, int times) {
-  const auto threads = static_cast<std::uint64_t>(parallel.threads());
-  const std::vector<Bytes> from(threads, Bytes(bytes / 2 / threads, 1));
-  std::vector<Bytes> to(from);
-  return rate(parallel, 2 * static_cast<double>(bytes / 2 / threads * threads) * times, [&](std::size_t part) {
-    for (int i = 0; i < times; ++i) {
-      std::memcpy(to[part].data(), from[part].data(), to[part].size());
-      keep(to[part].data());
-    }
-  });
+std::size_t share_of(Limit limit, std::uint64_t bytes, int threads) {
+  return std::max<std::size_t>(bytes / (limit == Limit::memory_copies ? 2 : 1) / static_cast<std::uint64_t>(threads), 1);
 }
 
-double load_rate(Parallel& parallel, std::uint64_t bytes, int times) {
-  const auto threads = static_cast<std::uint64_t>(parallel.threads());
-  const std::vector<Bytes> memory(threads, Bytes(bytes / threads, 1));
-  return rate(parallel, static_cast<double>(bytes / threads * threads) * times, [&](std::size_t part) {
-    for (int i = 0; i < times; ++i) {
-      const void* const found = std::memchr(memory[part].data(), 2, memory[part].size());
-      asm volatile("" : : "r"(found) : "memory");  // it was looked for
-    }
-  });
-}
+// So many times, rounded up, that a memory's bytes are those of the frame.
+std::uint64_t times_of_frame(std::uint64_t frame, std::uint64_t memory) { return std::max<std::uint64_t>((frame + memory - 1) / std::max<std::uint64_t>(memory, 1), 1); }
 
 }  // namespace
 
-double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
-  constexpr std::uint64_t kInL1 = std::uint64_t{16} << 10;
-  Parallel parallel(threads);
-  switch (limit) {
-    case Limit::l1_stores: return store_rate(parallel, kInL1 * static_cast<std::uint64_t>(threads), 20000);
-    case Limit::memory_stores: return store_rate(parallel, bytes, times_for(bytes));
-    case Limit::memory_loads: return load_rate(parallel, bytes, times_for(bytes));
-    default: return copy_rate(parallel, bytes, times_for(bytes));
+LimitMoves::LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t times)
+    : limit_(limit), times_(times), parallel_(threads), memory_(static_cast<std::size_t>(threads), Bytes(share_of(limit, bytes, threads), 1)) {
+  if (limit == Limit::memory_copies) copies_ = memory_;
+}
+
+LimitMoves::LimitMoves(const FrameWork& work, int threads)
+    : LimitMoves(work.limit, threads, memory_of(work.limit, static_cast<std::uint64_t>(threads), work.limited_bytes),
+                 times_of_frame(work.limited_bytes, memory_of(work.limit, static_cast<std::uint64_t>(threads), work.limited_bytes))) {}
+
+void LimitMoves::run() {
+  parallel_.for_each(memory_.size(), [this](std::size_t part, int) {
+    for (std::uint64_t i = 0; i < times_; ++i) move(part, static_cast<int>(i & 1));
+  });
+}
+
+// What is written counts as read, and what is found as used, so that no compiler leaves anything out.
+void LimitMoves::move(std::size_t part, int turn) {
+  Bytes& memory = memory_[part];
+  const void* touched = memory.data();
+  switch (limit_) {
+    case Limit::memory_loads: touched = std::memchr(memory.data(), 2, memory.size()); break;
+    case Limit::memory_copies: touched = std::memcpy(copies_[part].data(), memory.data(), memory.size()); break;
+    default: std::memset(memory.data(), turn, memory.size());
   }
+  asm volatile("" : : "r"(touched) : "memory");
+}
+
+double LimitMoves::bytes() const {
+  double bytes = 0;
+  for (const std::vector<Bytes>* list : {&memory_, &copies_})
+    for (const Bytes& part : *list) bytes += static_cast<double>(part.size());
+  return bytes * static_cast<double>(times_);
+}
+
+double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
+  LimitMoves moves(limit, threads, memory_of(limit, static_cast<std::uint64_t>(threads), bytes), times_for(limit, bytes));
+  std::vector<double> rates;
+  for (int run = 0; run < 12; ++run) {
+    const Clock::time_point start = Clock::now();
+    moves.run();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (run >= 3) rates.push_back(moves.bytes() / seconds * 1e-9);  // the first ones bring the pages
+  }
+  return statistics_of(rates).median;
 }
 
 }  // namespace tessera::bench

@@ -155,8 +155,7 @@ class Bench {
           write_picture(picture, options_.pictures_folder + "/" + entry->name + ".png");
           return std::string();
         };
-      Row row = measure(std::vector{candidate}, options_.measure, counters_).front();
-      if (row.frames > 0 && row.work.limit != Limit::none) row.limit = measure_limit(row.work.limit, row.threads, row.work.limited_bytes);
+      Row row = measure(std::vector{candidate}, with_limits(options_.measure), counters_).front();
       show(table_line(row));
       is_wrong_ |= !row.fault.empty();
       report_.rows.push_back(std::move(row));
@@ -198,6 +197,7 @@ class Bench {
     report_.noise_of = entry.name;
     if (rows[0].frames != 0) report_.noise = ratio_of(rows[1].ms, rows[0].ms);
   }
+  static MeasureOptions with_limits(MeasureOptions options) { return options.takes_limits = true, options; }
   Candidate candidate_of(const WorkloadEntry& entry) const {
     return {.name = entry.name, .make = [this, &entry] { return entry.make(setup_); }, .threads = report_.threads};
   }

@@ -6,6 +6,7 @@
 #include <new>
 #include <random>
 
+#include "perf/bench/limits.h"
 #include "perf/bench/resident_memory.h"
 
 namespace tessera::bench {
@@ -16,10 +17,19 @@ double ms_since(Clock::time_point start) { return std::chrono::duration<double, 
 
 constexpr int kFewestFrames = 15, kMostFrames = 1000000;
 
+/// A workload, or what another one is held against.
 struct Runner {
-  std::unique_ptr<Workload> workload;
+  std::unique_ptr<Workload> workload{};
+  std::optional<LimitMoves> limit{};
+  std::size_t row = 0;
+  FrameStats stats{};  // of the last frame
   std::vector<double> times{};
   HardwareCounters::Counts counted{};
+
+  void draw() {
+    if (limit) limit->run();
+    else stats = workload->draw();
+  }
 };
 
 int frames_for(const MeasureOptions& options, double ms) {
@@ -29,12 +39,12 @@ int frames_for(const MeasureOptions& options, double ms) {
 
 std::uint64_t above(std::uint64_t bytes, std::uint64_t others) { return bytes > others ? bytes - others : 0; }
 
-double warm_up(Workload& workload, double seconds) {
+double warm_up(Runner& runner, double seconds) {
   double frame = 0;
   const Clock::time_point start = Clock::now();
   for (int i = 0; i < 3 || ms_since(start) < 1000 * seconds; ++i) {
     const Clock::time_point begin = Clock::now();
-    workload.draw();
+    runner.draw();
     frame = ms_since(begin);
   }
   return frame;
@@ -61,9 +71,9 @@ void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
   forget_peak();  // what was needed to make it only is given back
   const std::uint64_t made = resident_memory().now;
   const Clock::time_point start = Clock::now();
-  row.stats = runner.workload->draw();
+  runner.draw();
   row.cold_ms = ms_since(start);
-  const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(row.stats).kept_bytes;
+  const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(runner.stats).kept_bytes;
   row.peak_bytes = above(peak, before);
   row.working_bytes = above(peak, made + kept);
 }
@@ -72,25 +82,39 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
 }
 
+/// One more runner for each row that is held against a limit.
+void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
+  for (drawing = 0; drawing < rows.size(); ++drawing) {
+    const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
+    if (work.limit == Limit::none) continue;
+    Runner& runner = runners.emplace_back();
+    runner.limit.emplace(work, rows[drawing].threads);
+    runner.row = drawing;
+  }
+}
+
 /// Frames that are timed, as many of each, in turns.
-/// @param drawing  whose turn it is
-void draw_in_turns(std::vector<Runner>& runners, std::vector<Row>& rows, const MeasureOptions& options, const HardwareCounters& counters, std::size_t& drawing) {
+/// @param drawing  the row whose turn it is
+void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options, const HardwareCounters& counters, std::size_t& drawing) {
   // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower one the other's.
   int frames = kMostFrames;
-  for (drawing = 0; drawing < runners.size(); ++drawing) frames = std::min(frames, frames_for(options, warm_up(*runners[drawing].workload, options.warm_up_seconds)));
+  for (Runner& runner : runners) {
+    drawing = runner.row;
+    frames = std::min(frames, frames_for(options, warm_up(runner, options.warm_up_seconds)));
+  }
   std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
   std::mt19937 random(options.seed);
   std::shuffle(turns.begin(), turns.end(), random);
   std::optional<std::size_t> last;
   for (const std::size_t k : turns) {
-    drawing = k;
     Runner& runner = runners[k];
-    if (last != k) runner.workload->draw();  // caches and threads are its own again
+    drawing = runner.row;
+    if (last != k) runner.draw();  // caches and threads are its own again
     last = k;
     const std::optional<HardwareCounters::Counts> before = counters.read();
     const Clock::time_point start = Clock::now();
-    rows[k].stats = runner.workload->draw();
+    runner.draw();
     runner.times.push_back(ms_since(start));
     if (const std::optional<HardwareCounters::Counts> after = counters.read(); before && after) {
       runner.counted.cycles += after->cycles - before->cycles;
@@ -106,6 +130,7 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   for (const Candidate& candidate : candidates) rows.push_back({.name = candidate.name, .threads = candidate.threads});
   std::vector<Runner> runners(candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
+    runners[k].row = k;
     std::string fault;
     const std::string stopped = fault_of([&] {
       draw_first(candidates[k], runners[k], rows[k]);
@@ -116,16 +141,24 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
   if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
   std::size_t drawing = 0;
-  if (const std::string stopped = fault_of([&] { draw_in_turns(runners, rows, options, counters, drawing); }); !stopped.empty()) {
+  const std::string stopped = fault_of([&] {
+    if (options.takes_limits) add_limits(runners, rows, drawing);
+    draw_in_turns(runners, options, counters, drawing);
+  });
+  if (!stopped.empty()) {
     rows[drawing].fault = stopped;
     return rows;
   }
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    Row& row = rows[k];
-    Runner& runner = runners[k];
+  for (Runner& runner : runners) {
+    Row& row = rows[runner.row];
+    const Statistics ms = statistics_of(runner.times);
+    if (runner.limit) {
+      row.limit = runner.limit->bytes() / ms.median * 1e-6;
+      continue;
+    }
     row.frames = runner.times.size();
-    row.ms = statistics_of(std::move(runner.times));
-    row.work = runner.workload->work(row.stats);
+    row.ms = ms;
+    row.work = runner.workload->work(runner.stats);
     if (counters.read()) row.counts = HardwareCounters::Counts{runner.counted.cycles / row.frames, runner.counted.instructions / row.frames};
   }
   return rows;

@@ -17,6 +17,7 @@ struct MeasureOptions {
   double seconds = 1;         ///< for each row
   double warm_up_seconds = 0.2;
   std::uint32_t seed = 1;     ///< of the order in which rows take turns
+  bool takes_limits = false;  ///< what a row is held against takes turns with it
 };
 
 struct Row {
@@ -28,9 +29,8 @@ struct Row {
   std::uint64_t working_bytes = 0;  ///< of that, what the first frame took, without planes and image
   Statistics ms;
   FrameWork work;
-  FrameStats stats;           ///< of the last frame
   std::optional<HardwareCounters::Counts> counts{};  ///< of a frame
-  double limit = 0;           ///< 10^9 bytes a second, where work.limit is one
+  double limit = 0;           ///< 10^9 bytes a second, where there is one and it was measured
   std::string fault;          ///< of the picture; empty: it is right
 };
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "perf/bench/limits.h"
 #include "perf/bench/rivalry.h"
 
 namespace tessera::bench {
@@ -20,7 +21,8 @@ struct Log {
 
 class Counting : public Workload {
  public:
-  Counting(Log& log, int number, Picture picture, std::string fault, int fails_at) : log_(log), number_(number), picture_(std::move(picture)), fault_(std::move(fault)), fails_at_(fails_at) { ++log_.alive; }
+  Counting(Log& log, int number, Picture picture, std::string fault, int fails_at, Limit limit)
+      : log_(log), number_(number), picture_(std::move(picture)), fault_(std::move(fault)), fails_at_(fails_at), limit_(limit) { ++log_.alive; }
   ~Counting() override { --log_.alive; }
   FrameStats draw() override {
     if (drawn_++ == fails_at_) throw std::bad_alloc();
@@ -29,7 +31,7 @@ class Counting : public Workload {
   }
   std::string fault() override { return fault_; }
   const Picture& picture() override { return picture_; }
-  FrameWork work(const FrameStats&) const override { return {.pixels = 1}; }
+  FrameWork work(const FrameStats&) const override { return {.pixels = 1, .limit = limit_, .limited_bytes = 1 << 20}; }
 
  private:
   Log& log_;
@@ -37,6 +39,7 @@ class Counting : public Workload {
   Picture picture_;
   std::string fault_;
   int fails_at_, drawn_ = 0;
+  Limit limit_;
 };
 
 Picture grey(std::uint8_t level) {
@@ -49,9 +52,10 @@ struct Made {
   Picture picture = grey(100);
   std::string fault{};
   int fails_at = -1;  // the frame
+  Limit limit = Limit::none;
 };
 Candidate counting(Log& log, int number, const Made& made = {}) {
-  return {.name = "counting", .make = [&log, number, made] { return std::make_unique<Counting>(log, number, made.picture, made.fault, made.fails_at); }, .threads = 1};
+  return {.name = "counting", .make = [&log, number, made] { return std::make_unique<Counting>(log, number, made.picture, made.fault, made.fails_at, made.limit); }, .threads = 1};
 }
 
 TEST(BenchMeasure, TakesTurnsAsOftenEach) {
@@ -70,6 +74,36 @@ TEST(BenchMeasure, TakesTurnsAsOftenEach) {
   for (std::size_t i = 1; i < turns.size(); ++i) changes += turns[i] != turns[i - 1] ? 1 : 0;
   EXPECT_EQ(turns.size(), 3 * 7 + changes);
   EXPECT_GT(changes, 6u) << "not one after the other";
+}
+
+TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
+  MeasureOptions options = kFewFrames;
+  options.takes_limits = true;
+  for (const Limit limit : {Limit::l1_stores, Limit::memory_stores, Limit::memory_copies, Limit::memory_loads}) {
+    Log log;
+    const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.limit = limit}), counting(log, 1)}, options, HardwareCounters());
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_GT(rows[0].limit, 0.01);
+    EXPECT_LT(rows[0].limit, 1e5);
+    EXPECT_EQ(rows[1].limit, 0) << "there is none";
+    for (const Row& row : rows) EXPECT_EQ(row.frames, 7u);
+    // Of the two alone whoever follows the other draws a frame more; with the limit some of those that follow themselves do.
+    const std::vector<int> turns(log.frames.begin() + 2 + 2 * 3, log.frames.end());
+    std::size_t changes = 1;
+    for (std::size_t i = 1; i < turns.size(); ++i) changes += turns[i] != turns[i - 1] ? 1 : 0;
+    EXPECT_GT(turns.size(), 2 * 7 + changes) << "it stood between them";
+    Log without;
+    EXPECT_EQ(measure(std::vector{counting(without, 0, {.limit = limit})}, kFewFrames, HardwareCounters())[0].limit, 0) << "nobody asked";
+  }
+}
+
+TEST(BenchLimits, MoveTheFramesBytes) {
+  EXPECT_EQ(LimitMoves({.limit = Limit::memory_stores, .limited_bytes = 1000}, 2).bytes(), 1000);
+  EXPECT_EQ(LimitMoves({.limit = Limit::memory_loads, .limited_bytes = 1000}, 1).bytes(), 1000);
+  EXPECT_EQ(LimitMoves({.limit = Limit::memory_copies, .limited_bytes = 1000}, 2).bytes(), 1000) << "half of them are read";
+  EXPECT_EQ(LimitMoves({.limit = Limit::l1_stores, .limited_bytes = 100000}, 2).bytes(), 4 * 32768) << "whole memories of the first caches";
+  EXPECT_EQ(LimitMoves({.limit = Limit::memory_copies, .limited_bytes = 4}, 8).bytes(), 16) << "each thread something";
+  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 4000, 3).bytes(), 12000);
 }
 
 TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
