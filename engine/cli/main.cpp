@@ -211,7 +211,7 @@ std::string threads_of_environment(int& threads) {
   if (value == nullptr || *value == '\0' || threads != 0) return "";
   std::string text = value;
   if (std::string wrong = integer_from(1, 1024)(text); !wrong.empty()) return wrong;
-  threads = std::stoi(text);
+  CLI::detail::lexical_cast(text, threads);  // as options are read
   return "";
 }
 

@@ -15,7 +15,9 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
   for (const char* key : {"width", "height", "threads", "instruction_set"})
     if (!report.contains(key)) whole.refuse(std::string("found no \"") + key + "\", expected a report of tessera bench --json");
   const auto integer = [&whole](const char* key) { return static_cast<int>(whole.member(key).integer(1, kMaxFrameBufferSize)); };
-  setting_ = setting_text(integer("width"), integer("height"), integer("threads"), whole.member("instruction_set").text());
+  width_ = integer("width");
+  height_ = integer("height");
+  setting_ = setting_text(width_, height_, integer("threads"), whole.member("instruction_set").text());
   const json::Value rows = whole.member("workloads");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const json::Value row = rows.element(i);
@@ -29,9 +31,13 @@ bool EarlierRun::has_any_of(std::span<const WorkloadEntry* const> entries) const
   return std::any_of(entries.begin(), entries.end(), [this](const WorkloadEntry* entry) { return medians_.contains(entry->name); });
 }
 
+void EarlierRun::require_size(int width, int height) const {
+  if (width != width_ || height != height_) throw Error(formatted("%s: found frames of %dx%d, expected %dx%d, as they are now", file_.c_str(), width_, height_, width, height));
+}
+
 Comparison EarlierRun::compare(const Report& now, double allowed) const {
   Comparison comparison;
-  if (setting_ != setting_text(now)) comparison.table = "not the same frames: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
+  if (setting_ != setting_text(now)) comparison.table = "not the same setting: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
   const nlohmann::ordered_json is = report_json(now);
   for (const char* path : {"/tile_size", "/seed", "/kept_on_cores", "/machine/CPU", "/machine/compiler"}) {
     const nlohmann::ordered_json::json_pointer at(path);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <optional>
@@ -113,7 +114,7 @@ class Bench {
     report_.threads = options.renderer.threads;
     report_.tile_size = options.renderer.tile_size;
     report_.seed = options.measure.seed;
-    if (!options.cores.empty()) report_.cores = allowed_cores();  // of those that were named, the ones there are
+    if (!options.cores.empty()) report_.cores = allowed_cores();  // sorted, and each once
     report_.instruction_set = name(Renderer(options.renderer).options().instruction_set);
   }
 
@@ -237,27 +238,38 @@ void show_growth(const BenchOptions& options) {
   write(options.growth_file, growth_svg(all));
 }
 
+/// @throws CLI::ValidationError if this process may not use each of them
+void keep_on_all(const std::vector<int>& cores) {
+  const auto listed = [](const std::vector<int>& list) {
+    std::string text;
+    for (const int core : list) text += (text.empty() ? "" : ",") + std::to_string(core);
+    return text;
+  };
+  const std::vector<int> allowed = allowed_cores();
+  std::vector<int> others;
+  std::copy_if(cores.begin(), cores.end(), std::back_inserter(others), [&](int core) { return std::find(allowed.begin(), allowed.end(), core) == allowed.end(); });
+  if (!others.empty()) throw CLI::ValidationError("--cores", "found " + listed(others) + ", which this process may not use, expected some of " + listed(allowed));
+  if (!keep_on(cores)) throw Error("the system does not keep this process on the cores " + listed(cores));
+}
+
 int run(BenchOptions& options) {
   if (options.list) {
-    for (const WorkloadEntry& entry : workloads()) std::printf("%-22s %s%s\n", entry.name.c_str(), entry.what.c_str(), entry.is_in_mean ? "" : " (beside the mean)");
+    for (const WorkloadEntry& entry : workloads()) {
+      const std::string lacks = entry.lacks ? entry.lacks() : "";
+      std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.what.c_str(), entry.is_in_mean ? "" : " (beside the mean)", lacks.empty() ? "" : (": " + lacks).c_str());
+    }
     return 0;
   }
   std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
   if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
   const Chosen chosen = prepared(options.names);
   if (options.growth_file.empty()) std::cerr << chosen.left_out;
+  if (earlier) earlier->require_size(options.width, options.height);
   if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
   if (!options.heatmap_file.empty() && chosen.entries.size() != 1)
     throw CLI::ValidationError("--heatmap", "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
   require_outputs(options);
-  if (!options.cores.empty() && !keep_on(options.cores)) {
-    const auto listed = [](const std::vector<int>& cores) {
-      std::string text;
-      for (const int core : cores) text += (text.empty() ? "" : ",") + std::to_string(core);
-      return text;
-    };
-    throw CLI::ValidationError("--cores", "found \"" + listed(options.cores) + "\", none that this process may use, expected some of " + listed(allowed_cores()));
-  }
+  if (!options.cores.empty()) keep_on_all(options.cores);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {

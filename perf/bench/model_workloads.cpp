@@ -54,11 +54,12 @@ Drawing drawing_of(const ModelFile& file, int width, int height) {
 
 WorkloadEntry entry(const std::string& name, const std::string& what, const std::string& path, const std::string& package) {
   const auto file = std::make_shared<ModelFile>(ModelFile{path, package});
-  WorkloadEntry entry = drawn(name, what + ", framed, under one light (of the package " + package + ")", [file](int width, int height, std::uint32_t) { return drawing_of(*file, width, height); });
-  entry.prepare = [file] {
-    if (!std::filesystem::exists(file->path)) return "needs " + file->path + " of Debian's package " + file->package;
-    if (!file->model) file->model = import_model(file->path, ModelUse::display);
-    return std::string();
+  WorkloadEntry entry = drawn(name, what + ", as `tessera render` shows it (of the package " + package + ")", [file](int width, int height, std::uint32_t) { return drawing_of(*file, width, height); });
+  entry.lacks = [file] { return std::filesystem::exists(file->path) ? std::string() : "needs " + file->path + " of Debian's package " + file->package; };
+  entry.prepare = [file, lacks = entry.lacks] {
+    const std::string reason = lacks();
+    if (reason.empty() && !file->model) file->model = import_model(file->path, ModelUse::display);
+    return reason;
   };
   return entry;
 }

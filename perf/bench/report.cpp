@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "perf/bench/text.h"
 
@@ -65,6 +66,15 @@ std::vector<Figure> figures_of(const MachineLimits& limits) {
           {"memory_loads", limits.memory_loads}, {"memory_loads_of_one_core", limits.memory_loads_of_one_core}};
 }
 
+// What each of a machine's lines tells of, and what.
+std::vector<std::pair<std::string, std::string>> facts_of(const std::string& machine) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  std::istringstream lines(machine);
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t end = line.find("  "); end != std::string::npos) facts.emplace_back(line.substr(0, end), line.substr(line.find_first_not_of(' ', end)));
+  return facts;
+}
+
 // RFC 4180: what has commas, quotes or ends of lines stands in quotes.
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -113,11 +123,7 @@ std::string table_ending(const Report& report) {
 
 nlohmann::ordered_json report_json(const Report& report) {
   nlohmann::ordered_json json;
-  std::istringstream lines(report.machine);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t end = line.find("  ");
-    if (end != std::string::npos) json["machine"][line.substr(0, end)] = line.substr(line.find_first_not_of(' ', end));
-  }
+  for (const auto& [what, value] : facts_of(report.machine)) json["machine"][what] = value;
   json["width"] = report.width;
   json["height"] = report.height;
   json["threads"] = report.threads;
@@ -150,11 +156,19 @@ nlohmann::ordered_json report_json(const Report& report) {
 std::string report_csv(const Report& report) {
   std::string text = "workload,threads,frames";
   for (const Figure& figure : figures_of(Row{})) text += std::string(",") + figure.key;
-  text += ",fault\n";
+  text += ",fault,width,height,instruction_set,noise_low_ratio,noise_high_ratio";
+  // The same in every row, so that rows of several files may stand together.
+  std::string shared = formatted(",%d,%d,%s", report.width, report.height, report.instruction_set.c_str());
+  shared += report.noise ? formatted(",%.6g,%.6g", report.noise->low, report.noise->high) : ",,";
+  for (const auto& [what, value] : facts_of(report.machine)) {
+    text += "," + csv_field(what);
+    shared += "," + csv_field(value);
+  }
+  text += "\n";
   for (const Row& row : report.rows) {
     text += row.name + "," + std::to_string(row.threads) + "," + std::to_string(row.frames);
     for (const Figure& figure : figures_of(row)) text += row.fault.empty() && figure.value ? formatted(",%.6g", *figure.value) : ",";
-    text += "," + csv_field(row.fault) + "\n";
+    text += "," + csv_field(row.fault) + shared + "\n";
   }
   return text;
 }

@@ -29,8 +29,8 @@ const char* name_of(FrameStage stage) {
 }
 
 nlohmann::ordered_json event_of(const FrameTask& task, std::size_t process) {
-  nlohmann::ordered_json event{{"name", name_of(task.stage)}, {"ph", "X"}, {"ts", task.begin * 1e6}, {"dur", (task.end - task.begin) * 1e6}, {"pid", process}, {"tid", task.worker}};
-  if (task.pixels.width > 0) event["args"] = {{"x", task.pixels.x}, {"y", task.pixels.y}, {"width", task.pixels.width}, {"height", task.pixels.height}};
+  nlohmann::ordered_json event{{"name", name_of(task.stage)}, {"ph", "X"}, {"ts", task.begin * 1e6}, {"dur", (task.end - task.begin) * 1e6}, {"pid", process}, {"tid", task.worker}, {"args", {{"pass", task.pass}}}};
+  if (task.pixels.width > 0) event["args"].update({{"x", task.pixels.x}, {"y", task.pixels.y}, {"width", task.pixels.width}, {"height", task.pixels.height}});
   return event;
 }
 
@@ -48,6 +48,12 @@ int passes_of(std::span<const FrameTask> tasks) {
   std::set<int> passes;
   for (const FrameTask& task : tasks) passes.insert(task.pass);
   return static_cast<int>(passes.size());
+}
+
+std::set<int> workers_of(std::span<const FrameTask> tasks) {
+  std::set<int> workers;
+  for (const FrameTask& task : tasks) workers.insert(task.worker);
+  return workers;
 }
 
 /// @param workers  null, or the executor of `setup`
@@ -142,6 +148,8 @@ std::string chrome_trace(const std::vector<TracedFrame>& frames) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     events.push_back({{"name", "process_name"}, {"ph", "M"}, {"pid", i}, {"args", {{"name", frames[i].workload}}}});
+    for (const int worker : workers_of(frames[i].tasks))
+      events.push_back({{"name", "thread_name"}, {"ph", "M"}, {"pid", i}, {"tid", worker}, {"args", {{"name", "worker " + std::to_string(worker)}}}});
     for (const FrameTask& task : frames[i].tasks) events.push_back(event_of(task, i));
   }
   return nlohmann::ordered_json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n";

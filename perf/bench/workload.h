@@ -63,6 +63,7 @@ struct WorkloadEntry {
   bool is_in_mean = true;       ///< of ratios to rivals
   std::function<std::unique_ptr<Workload>(const WorkloadSetup&)> make{};
   std::function<std::optional<RivalForm>(const WorkloadSetup&)> rival{};  ///< the same for rivals, where they can draw it
+  std::function<std::string()> lacks{};    ///< what it needs and is not installed, or nothing. May be empty
   std::function<std::string()> prepare{};  ///< reads what it needs, before any thread runs; says why it cannot, or nothing. May be empty
 };
 

@@ -44,6 +44,9 @@ TEST_F(BenchProgram, MeasuresWhatItChecked) {
     // Of hidden layers nothing is stored sixteen times.
     EXPECT_EQ(row.value("limit", ""), row["name"] == "fill-hidden" ? "" : "stores in L1");
     EXPECT_EQ(row.value("share_of_limit", 0.0) * row.value("limit_gigabytes_per_second", 0.0) > 0, row.contains("limit")) << row;
+    if (row["name"] != "fill-hidden") {
+      EXPECT_NEAR(row["megafragments_per_second"].get<double>() / row["megapixels_per_second"].get<double>(), 16, 1e-6) << row;
+    }
     const double pixels_a_second = row["megapixels_per_second"].get<double>() * 1e6, ms = row["median_ms"];
     EXPECT_NEAR(pixels_a_second * ms * 1e-3, 64 * 48, 1);
   }
@@ -51,9 +54,14 @@ TEST_F(BenchProgram, MeasuresWhatItChecked) {
   // A heading and as many rows of as many fields.
   const std::string csv = content("report.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);
-  const auto columns = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
+  const auto commas = [](const std::string& line) {  // between fields
+    bool is_quoted = false;
+    return std::count_if(line.begin(), line.end(), [&](char letter) { return is_quoted ^= letter == '"', letter == ',' && !is_quoted; });
+  };
+  const auto columns = commas(csv.substr(0, csv.find('\n')));
   std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(commas(line), columns) << line;
+  EXPECT_TRUE(contains(csv.substr(0, csv.find('\n')), ",CPU,")) << csv;
   EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;
 }
 
@@ -82,10 +90,10 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   const Result faster = run(std::string(kQuick) + "--compare slow.json");
   EXPECT_EQ(faster.code, 0) << faster.out << faster.err;
   EXPECT_TRUE(contains(faster.out, "1000000.000")) << faster.out;
-  EXPECT_FALSE(contains(faster.out, "not the same frames")) << faster.out;
-  const Result others = run("bench fill-flat --size 32x48 --threads 1 --repeats 2 --seconds 0.001 --compare slow.json");
-  EXPECT_TRUE(contains(others.out, "not the same frames: 64x48, ")) << others.out;
-  EXPECT_TRUE(contains(others.out, " in slow.json, now 32x48, 1 thread, ")) << others.out;
+  EXPECT_FALSE(contains(faster.out, "not the same setting")) << faster.out;
+  const Result others = run("bench fill-flat --size 64x48 --threads 1 --isa scalar --repeats 2 --seconds 0.001 --compare slow.json");
+  EXPECT_TRUE(contains(others.out, "not the same setting: 64x48, ")) << others.out;
+  EXPECT_TRUE(contains(others.out, " in slow.json, now 64x48, 1 thread, scalar")) << others.out;
   EXPECT_TRUE(contains(others.out, "fill-blend: only in slow.json")) << others.out;
   for (Json& row : earlier["workloads"]) row["median_ms"] = 1e-6;
   earlier["workloads"].erase(0);
@@ -191,7 +199,7 @@ TEST_F(BenchProgram, MeasuresMeshesPointsAndLines) {
 }
 
 TEST_F(BenchProgram, DrawsAsItIsTold) {
-  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --cores 1023,0 --threads 1 --json -");
+  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --cores 0 --threads 1 --json -");
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json report = Json::parse(result.out);
   EXPECT_EQ(report["instruction_set"], "scalar");
@@ -215,8 +223,12 @@ TEST_F(BenchProgram, TracesAFrameOfEachWorkload) {
   ASSERT_EQ(result.code, 0) << result.err;
   const Json trace = Json::parse(content("trace.json"));
   std::vector<std::string> workloads;
-  std::map<std::string, int> tasks;
-  for (const Json& event : trace["traceEvents"]) event["ph"] == "M" ? workloads.push_back(event["args"]["name"]) : void(++tasks[event["name"]]);
+  std::map<std::string, int> tasks, threads;
+  for (const Json& event : trace["traceEvents"])
+    if (event["ph"] != "M") ++tasks[event["name"]];
+    else if (event["name"] == "thread_name") ++threads[event["args"]["name"]];
+    else workloads.push_back(event["args"]["name"]);
+  EXPECT_TRUE(threads.contains("worker 0") && threads.size() <= 2) << trace;
   EXPECT_EQ(workloads, (std::vector<std::string>{"fill-flat", "grid-20k"}));
   for (const char* stage : {"vertices", "binning", "tiles"}) EXPECT_GT(tasks[stage], 1) << stage;
 }
@@ -259,14 +271,16 @@ TEST_F(BenchProgram, HasTheThreadsOfTheEnvironment) {
 // A refusal costs nothing: neither the time of measuring or drawing, nor a file.
 TEST_F(BenchProgram, RefusesBeforeItBegins) {
   write("kept.json", "kept");
+  write("larger.json", R"({"width": 65, "height": 48, "threads": 1, "instruction_set": "scalar", "workloads": [{"name": "fill-flat", "median_ms": 1}]})");
   std::filesystem::create_symlink("none/report.json", folder_ / "broken.json");
   std::filesystem::create_symlink("none_yet.json", folder_ / "broken_too.json");
   const struct {
     const char *arguments, *message;
     int code;
-  } cases[] = {{"fill --json new.json --cores 1023", "--cores: found \"1023\", none that this process may use, expected some of ", 2},
-               {"fill --pictures new.json --cores 1023", "--cores: found \"1023\", none that this process may use, expected some of ", 2},
-               {"fill --json kept.json --cores 1023", "--cores: found \"1023\", none that this process may use, expected some of ", 2},
+  } cases[] = {{"fill --json new.json --cores 0,1023,1022", "--cores: found 1023,1022, which this process may not use, expected some of ", 2},
+               {"fill --pictures new.json --cores 1023", "--cores: found 1023, which this process may not use, expected some of ", 2},
+               {"fill --json kept.json --cores 1023", "--cores: found 1023, which this process may not use, expected some of ", 2},
+               {"fill --json new.json --compare larger.json", "larger.json: found frames of 65x48, expected 64x48, as they are now", 1},
                {"fill --json new.json --csv none/report.csv", "cannot write \"none/report.csv\": there is no folder \"none\"", 1},
                {"fill --json kept.json/report.json", "cannot write \"kept.json/report.json\": there is no folder \"kept.json\"", 1},
                {"fill --json broken.json", "cannot write \"broken.json\": there is no folder \"none\"", 1},
@@ -303,6 +317,7 @@ TEST_F(BenchProgram, RefusesANameOfWhichNothingCanRun) {
     EXPECT_EQ(result.code, 1) << names;
     EXPECT_TRUE(contains(result.err, "found nothing to measure of \"model-rs1\": it needs /usr/share/doc/opencv-doc/")) << names << "\n" << result.err;
   }
+  EXPECT_TRUE(contains(run("bench --list").out, "(beside the mean): needs /usr/share/doc/opencv-doc/"));
 }
 
 TEST_F(BenchProgram, WhatItCouldNotSayIsAnError) {

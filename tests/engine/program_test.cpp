@@ -286,10 +286,13 @@ TEST_F(Program, StatsAreJsonForPrograms) {
 TEST_F(Program, EnvironmentAndLogAreHeard) {
   ::setenv("TESSERA_THREADS", "1", 1);
   const Result one = run("render --size 8x8 --log info -o a.ppm");
+  ::setenv("TESSERA_THREADS", "0x3", 1);
+  const Result three = run("render --size 8x8 --log info -o a.ppm"), as_option = run("render --size 8x8 --threads 0x3 --log info -o a.ppm");
   ::setenv("TESSERA_THREADS", "many", 1);
   const Result wrong = run("render --size 8x8 -o a.ppm");
   ::unsetenv("TESSERA_THREADS");
   EXPECT_TRUE(contains(one.err, "1 thread, ")) << one.err;
+  for (const Result& result : {three, as_option}) EXPECT_TRUE(contains(result.err, "3 threads, ")) << result.err;
   EXPECT_EQ(wrong.code, 2) << wrong.err;
   EXPECT_TRUE(contains(wrong.err, "TESSERA_THREADS")) << wrong.err;
   EXPECT_TRUE(contains(run("render --size 8x8 --log debug -o a.ppm").err, "tessera: debug: frame: "));

@@ -25,12 +25,22 @@ TEST(Report, NamesCountersOnlyWhereSomethingRan) {
 }
 
 TEST(Report, TablesForProgramsHaveFaultyRowsToo) {
-  const std::string csv = report_csv({.rows = {kFaulty, kTimed}});
+  const std::string csv = report_csv({.width = 80, .height = 50, .instruction_set = "avx2", .rows = {kFaulty, kTimed}}), kShared = ",80,50,avx2,,\n";
   EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;
   const auto columns = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
-  EXPECT_TRUE(has(csv, ",instructions,fault\nfaulty,2,0" + std::string(static_cast<std::size_t>(columns) - 2, ',') + "\"found \"\"black\"\", expected white\"\ntimed,2,3,2,")) << csv;
+  const std::string kSetting = ",fault,width,height,instruction_set,noise_low_ratio,noise_high_ratio\n";
+  EXPECT_TRUE(has(csv, ",instructions" + kSetting + "faulty,2,0" + std::string(static_cast<std::size_t>(columns) - 2 - 5, ',') + "\"found \"\"black\"\", expected white\"" + kShared + "timed,2,3,2,")) << csv;
   EXPECT_EQ(std::count(csv.begin() + static_cast<std::ptrdiff_t>(csv.find("timed")), csv.end(), ','), columns) << csv;
-  EXPECT_TRUE(report_csv({}).ends_with(",fault\n"));
+  EXPECT_TRUE(csv.ends_with("," + kShared)) << csv;
+  EXPECT_TRUE(report_csv({}).ends_with(kSetting));
+}
+
+TEST(Report, TablesForProgramsTellTheMachineInEachRow) {
+  const std::string csv = report_csv({.machine = "CPU        a chip\ncaches     L1 48 KiB, L2 1 MiB\n\n", .width = 80, .height = 50, .instruction_set = "avx2", .rows = {kTimed, kTimed}, .noise = Ratio{.value = 1, .low = 0.5, .high = 2}});
+  EXPECT_TRUE(has(csv, ",noise_high_ratio,CPU,caches\ntimed,")) << csv;
+  const std::string kMachine = ",80,50,avx2,0.5,2,a chip,\"L1 48 KiB, L2 1 MiB\"\n";
+  EXPECT_TRUE(has(csv, kMachine + "timed,")) << csv;
+  EXPECT_TRUE(csv.ends_with(kMachine)) << csv;
 }
 
 }  // namespace

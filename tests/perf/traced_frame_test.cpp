@@ -17,9 +17,9 @@ using Json = nlohmann::json;
 TracedFrame three_tiles() {
   TracedFrame frame{.workload = "made up", .seconds = 1e-6};
   frame.tasks = {{.stage = FrameStage::vertices, .worker = 1, .begin = 0, .end = 1e-4},
-                 {.stage = FrameStage::tiles, .worker = 0, .begin = 2e-4, .end = 2e-4 + 8e-9, .pixels = {0, 0, 4, 2}},
-                 {.stage = FrameStage::tiles, .worker = 1, .begin = 3e-4, .end = 3e-4 + 12e-9, .pixels = {0, 2, 2, 2}},
-                 {.stage = FrameStage::tiles, .worker = 0, .begin = 4e-4, .end = 4e-4 + 8e-9, .pixels = {2, 2, 2, 2}}};
+                 {.stage = FrameStage::tiles, .worker = 0, .begin = 2e-4, .end = 2e-4 + 8e-9, .pixels = {0, 0, 4, 2}, .pass = 1},
+                 {.stage = FrameStage::tiles, .worker = 1, .begin = 3e-4, .end = 3e-4 + 12e-9, .pixels = {0, 2, 2, 2}, .pass = 1},
+                 {.stage = FrameStage::tiles, .worker = 0, .begin = 4e-4, .end = 4e-4 + 8e-9, .pixels = {2, 2, 2, 2}, .pass = 1}};
   return frame;
 }
 
@@ -60,20 +60,28 @@ TEST(TracedFrame, IsAChromeTrace) {
   TracedFrame other = three_tiles();
   other.workload = "other \"one\"";
   const Json events = Json::parse(chrome_trace({three_tiles(), other}))["traceEvents"];
-  ASSERT_EQ(events.size(), 2u * (1 + 4));
+  ASSERT_EQ(events.size(), 2u * (1 + 2 + 4));
   EXPECT_EQ(events[0]["ph"], "M");
   EXPECT_EQ(events[0]["args"]["name"], "made up");
-  EXPECT_EQ(events[5]["args"]["name"], "other \"one\"");
-  EXPECT_EQ(events[6]["pid"], events[5]["pid"]);
-  EXPECT_NE(events[6]["pid"], events[1]["pid"]);
-  EXPECT_EQ(events[1]["name"], "vertices");
-  EXPECT_EQ(events[1]["ph"], "X");
-  EXPECT_EQ(events[1]["tid"], 1);
-  EXPECT_DOUBLE_EQ(events[1]["dur"], 100) << "microseconds";
-  EXPECT_FALSE(events[1].contains("args"));
-  EXPECT_DOUBLE_EQ(events[4]["ts"], 400);
-  EXPECT_EQ(events[4]["args"]["x"], 2);
-  EXPECT_EQ(events[4]["args"]["height"], 2);
+  for (const int worker : {0, 1}) {
+    const Json& named = events[static_cast<std::size_t>(1 + worker)];
+    EXPECT_EQ(named["name"], "thread_name");
+    EXPECT_EQ(named["ph"], "M");
+    EXPECT_EQ(named["tid"], worker);
+    EXPECT_EQ(named["args"]["name"], "worker " + std::to_string(worker));
+  }
+  EXPECT_EQ(events[7]["args"]["name"], "other \"one\"");
+  EXPECT_EQ(events[8]["pid"], events[7]["pid"]);
+  EXPECT_NE(events[8]["pid"], events[1]["pid"]);
+  EXPECT_EQ(events[3]["name"], "vertices");
+  EXPECT_EQ(events[3]["ph"], "X");
+  EXPECT_EQ(events[3]["tid"], 1);
+  EXPECT_DOUBLE_EQ(events[3]["dur"], 100) << "microseconds";
+  EXPECT_EQ(events[3]["args"], Json({{"pass", 0}}));
+  EXPECT_DOUBLE_EQ(events[6]["ts"], 400);
+  EXPECT_EQ(events[6]["args"]["x"], 2);
+  EXPECT_EQ(events[6]["args"]["height"], 2);
+  EXPECT_EQ(events[6]["args"]["pass"], 1);
 }
 
 TEST(TracedFrame, IsAPictureOfWhatItsTilesCost) {
