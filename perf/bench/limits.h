@@ -17,7 +17,7 @@ class LimitMoves {
   /// @param bytes   of the memory; of copies, what is read and what is written together
   /// @param times   that run() moves them
   LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t times);
-  /// What a frame is held against: about as many bytes as it moves.
+  /// What a frame is held against: a memory of as many bytes as it moves, or of the first caches, so often that a run takes a millisecond or two.
   LimitMoves(const FrameWork& work, int threads);
 
   void run();

@@ -127,12 +127,13 @@ class Bench {
     if (!entries.empty()) measure_noise(*entries.front());
   }
   void measure_rates() {
-    constexpr std::uint64_t kMuch = std::uint64_t{256} << 20;
+    constexpr std::uint64_t kMuch = std::uint64_t{256} << 20, kTile = std::uint64_t{64} << 10;
     const std::uint64_t frame = 4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
     const auto rate = [this](Limit limit, std::uint64_t bytes) { return measure_limit(limit, report_.threads, bytes); };
     report_.limits = {.l1_stores = rate(Limit::l1_stores, 0),
                       .frame_stores = rate(Limit::memory_stores, frame),
                       .frame_copies = rate(Limit::memory_copies, 2 * frame),
+                      .tile_stores = rate(Limit::memory_stores, kTile * static_cast<std::uint64_t>(report_.threads)),
                       .memory_stores = rate(Limit::memory_stores, kMuch),
                       .memory_loads = rate(Limit::memory_loads, kMuch),
                       .memory_loads_of_one_core = measure_limit(Limit::memory_loads, 1, kMuch)};

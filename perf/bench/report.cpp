@@ -62,7 +62,7 @@ std::vector<Figure> figures_of(const Row& row) {
 }
 
 std::vector<Figure> figures_of(const MachineLimits& limits) {
-  return {{"l1_stores", limits.l1_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores},
+  return {{"l1_stores", limits.l1_stores}, {"tile_stores", limits.tile_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores},
           {"memory_loads", limits.memory_loads}, {"memory_loads_of_one_core", limits.memory_loads_of_one_core}};
 }
 
@@ -103,7 +103,7 @@ std::string table_line(const Row& row) {
 std::string table_ending(const Report& report) {
   std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
   if (report.noise) text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(), report.noise->value, report.noise->low, report.noise->high);
-  text += formatted("limits, GB/s: stores in L1 %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f, loads of 256 MiB %.1f (by one core %.1f)\n", report.limits.l1_stores,
+  text += formatted("limits, GB/s: stores in L1 %.1f, of 64 KiB a thread %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f, loads of 256 MiB %.1f (by one core %.1f)\n", report.limits.l1_stores, report.limits.tile_stores,
                     report.limits.frame_stores, report.limits.frame_copies, report.limits.memory_stores, report.limits.memory_loads, report.limits.memory_loads_of_one_core);
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);

@@ -18,6 +18,7 @@ namespace tessera::bench {
 /// In 10^9 bytes a second.
 struct MachineLimits {
   double l1_stores = 0, frame_stores = 0, frame_copies = 0;
+  double tile_stores = 0;  ///< of 64 KiB for each thread: the words of a tile of 128x128 pixels
   double memory_stores = 0, memory_loads = 0, memory_loads_of_one_core = 0;  ///< of 256 MiB
 };
 

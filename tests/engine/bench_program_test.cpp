@@ -50,7 +50,7 @@ TEST_F(BenchProgram, MeasuresWhatItChecked) {
     const double pixels_a_second = row["megapixels_per_second"].get<double>() * 1e6, ms = row["median_ms"];
     EXPECT_NEAR(pixels_a_second * ms * 1e-3, 64 * 48, 1);
   }
-  for (const char* limit : {"l1_stores", "memory_stores", "memory_loads", "memory_loads_of_one_core"}) EXPECT_GT(report["limits_gigabytes_per_second"][limit], 0) << limit;
+  for (const char* limit : {"l1_stores", "tile_stores", "memory_stores", "memory_loads", "memory_loads_of_one_core"}) EXPECT_GT(report["limits_gigabytes_per_second"][limit], 0) << limit;
   // A heading and as many rows of as many fields.
   const std::string csv = content("report.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);

@@ -97,13 +97,15 @@ TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
   }
 }
 
-TEST(BenchLimits, MoveTheFramesBytes) {
-  EXPECT_EQ(LimitMoves({.limit = Limit::memory_stores, .limited_bytes = 1000}, 2).bytes(), 1000);
-  EXPECT_EQ(LimitMoves({.limit = Limit::memory_loads, .limited_bytes = 1000}, 1).bytes(), 1000);
-  EXPECT_EQ(LimitMoves({.limit = Limit::memory_copies, .limited_bytes = 1000}, 2).bytes(), 1000) << "half of them are read";
-  EXPECT_EQ(LimitMoves({.limit = Limit::l1_stores, .limited_bytes = 100000}, 2).bytes(), 4 * 32768) << "whole memories of the first caches";
-  EXPECT_EQ(LimitMoves({.limit = Limit::memory_copies, .limited_bytes = 4}, 8).bytes(), 16) << "each thread something";
-  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 4000, 3).bytes(), 12000);
+TEST(BenchLimits, CountWhatTheyMove) {
+  EXPECT_EQ(LimitMoves(Limit::memory_stores, 2, 1000, 1).bytes(), 1000);
+  EXPECT_EQ(LimitMoves(Limit::memory_loads, 1, 1000, 2).bytes(), 2000);
+  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 4000, 3).bytes(), 12000) << "half of them are read";
+  EXPECT_EQ(LimitMoves(Limit::memory_copies, 8, 4, 1).bytes(), 16) << "each thread something";
+  constexpr int kMiB = 1 << 20;
+  EXPECT_EQ(LimitMoves({.limit = Limit::memory_stores, .limited_bytes = 8 * kMiB}, 2).bytes(), 64 * kMiB) << "a frame's memory, eight times";
+  EXPECT_EQ(LimitMoves({.limit = Limit::memory_copies, .limited_bytes = 512 * kMiB}, 2).bytes(), 512 * kMiB) << "once";
+  EXPECT_EQ(LimitMoves({.limit = Limit::l1_stores, .limited_bytes = 8 * kMiB}, 3).bytes(), 20000.0 * 3 * 16384) << "the first caches', whatever the frame";
 }
 
 TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
