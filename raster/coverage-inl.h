@@ -113,7 +113,7 @@ HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, s
 
 /// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
 /// 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx, by, how many, edges of the first), where
-/// there is such a function. Lanes are blocks: those of a row, or of several short rows; where all blocks are full nothing is
+/// there is such a function: as many as there are lanes, or more where all are full. Lanes are blocks: those of a row, or of several short rows; where all blocks are full nothing is
 /// sorted. @pre the offsets are those of the edges
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
@@ -160,7 +160,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
           const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row), last = at_once ? rows - 1 : 0;
           for (int below = 0;; ++below, edges.step_down(t)) {
             block.full_row(bx, by + 4 * below, count, edges);
-            if (below == last) break;
+            if (below == last) break;  // edges need not fit below the last row
           }
           if (at_once) return;
           touched &= ~(((1u << count) - 1) << i);
@@ -172,7 +172,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
   }
 }
 
-/// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most.
+/// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most. Compiled once for all ways to draw them.
 inline HWY_NOINLINE std::uint32_t small_triangles(const TriangleGroup& g) {
   std::uint32_t bits = 0;
   for (int first = 0; first < kGroupSize; first += kLanes) {

@@ -42,6 +42,7 @@ struct BoxGroup {
   alignas(64) std::int32_t start[kGroupSize][3][kLanes];
   std::uint32_t touched[kGroupSize];
 
+  /// Compiled once for all depths and colours.
   /// @param among  triangles that are drawn by blocks
   HWY_NOINLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first) HWY_ATTR { return hn::Load(kInt, array + first); };

@@ -87,7 +87,7 @@ class DrawnWorkload : public Workload {
     work.pixels = pixels_of(drawing_.format);
     work.triangles = stats.triangles_in;
     work.vertices = stats.vertices;
-    work.fragments = drawing_.depths != 0 ? drawing_.depths : stats.shaded_pixels;
+    work.fragments = drawing_.tested_fragments != 0 ? drawing_.tested_fragments : stats.shaded_pixels;
     work.bytes = easel_->moved_bytes();  // and meshes are read once
     for (const MeshData& mesh : drawing_.meshes) work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() + mesh.texcoords.size() + mesh.indices.size());
     work.limit = drawing_.limit;

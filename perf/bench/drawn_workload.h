@@ -23,7 +23,7 @@ struct Drawing {
   bool shades_at_once = false;      ///< also what is hidden later on
   bool keeps_planes = false;        ///< the picture stays in the frame buffer's planes; otherwise it leaves by an image
   std::uint64_t fragments = 0;      ///< what FrameStats::shaded_pixels of the judged frame has to be; 0: anything
-  std::uint64_t depths = 0;         ///< fragments of which depth is all: they count as fragments where no pixel is shaded
+  std::uint64_t tested_fragments = 0;  ///< what counts as fragments where depth is all that is drawn; 0: FrameStats::shaded_pixels
   Limit limit = Limit::none;
   std::uint64_t limited_bytes = 0;  ///< what that limit counts; 0: the planes, where a frame reads or keeps them, and the image
   std::function<std::string(const Picture&)> fault{};  ///< of the picture; may be empty

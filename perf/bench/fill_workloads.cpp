@@ -111,7 +111,7 @@ Drawing depth_layers(int width, int height) {
   drawing.reveal = [](const Drawing& d, Frame& frame) {
     frame.draw(d.meshes.back().view(), {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
   };
-  drawing.depths = drawing.fragments;
+  drawing.tested_fragments = drawing.fragments;
   drawing.fragments = area(width, height);
   drawing.fault = all_of(255, 255, 255);
   drawing.rival = as_rivals_draw(Varying::nothing, {1, 1, 1, 1}, [indices = static_cast<int>(drawing.meshes.back().indices.size())](RivalForm& form) {

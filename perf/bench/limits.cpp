@@ -15,12 +15,11 @@ constexpr std::uint64_t kInL1 = std::uint64_t{16} << 10;  // for each thread
 
 std::uint64_t memory_of(Limit limit, int threads, std::uint64_t bytes) { return limit == Limit::l1_stores ? kInL1 * static_cast<std::uint64_t>(threads) : bytes; }
 
-// So many times that the threads' start is nothing beside it.
-std::uint64_t times_for(Limit limit, std::uint64_t bytes) {
-  return limit == Limit::l1_stores ? 20000 : std::clamp<std::uint64_t>((std::uint64_t{512} << 20) / std::max<std::uint64_t>(bytes, 1), 1, 20000);
+// So many times that `moved` bytes are moved, or many more where that is soon done: the threads' start is nothing beside it.
+std::uint64_t times_for(Limit limit, std::uint64_t bytes, std::uint64_t moved) {
+  return limit == Limit::l1_stores ? 20000 : std::clamp<std::uint64_t>(moved / std::max<std::uint64_t>(bytes, 1), 1, 20000);
 }
-// The same where others wait for their turn: a millisecond or two.
-std::uint64_t times_of_turn(Limit limit, std::uint64_t bytes) { return std::max<std::uint64_t>(times_for(limit, bytes) / (limit == Limit::l1_stores ? 1 : 8), 1); }
+constexpr std::uint64_t kAlone = std::uint64_t{512} << 20, kInTurns = std::uint64_t{64} << 20;
 
 std::size_t share_of(Limit limit, std::uint64_t bytes, int threads) {
   return std::max<std::size_t>(bytes / (limit == Limit::memory_copies ? 2 : 1) / static_cast<std::uint64_t>(threads), 1);
@@ -34,7 +33,7 @@ LimitMoves::LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint6
 }
 
 LimitMoves::LimitMoves(const FrameWork& work, int threads)
-    : LimitMoves(work.limit, threads, memory_of(work.limit, threads, work.limited_bytes), times_of_turn(work.limit, work.limited_bytes)) {}
+    : LimitMoves(work.limit, threads, memory_of(work.limit, threads, work.limited_bytes), times_for(work.limit, work.limited_bytes, kInTurns)) {}
 
 void LimitMoves::run() {
   parallel_.for_each(memory_.size(), [this](std::size_t part, int) {
@@ -62,7 +61,7 @@ double LimitMoves::bytes() const {
 }
 
 double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
-  LimitMoves moves(limit, threads, memory_of(limit, threads, bytes), times_for(limit, bytes));
+  LimitMoves moves(limit, threads, memory_of(limit, threads, bytes), times_for(limit, bytes, kAlone));
   std::vector<double> rates;
   for (int run = 0; run < 12; ++run) {
     const Clock::time_point start = Clock::now();

@@ -17,7 +17,8 @@ class LimitMoves {
   /// @param bytes   of the memory; of copies, what is read and what is written together
   /// @param times   that run() moves them
   LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t times);
-  /// What a frame is held against: a memory of as many bytes as it moves, or of the first caches, so often that a run takes a millisecond or two.
+  /// What a frame is held against: a memory of as many bytes as it moves, or of the first caches, so often that the start of a run is nothing beside it:
+  /// 64 MiB, and 20,000 times those of the first caches.
   LimitMoves(const FrameWork& work, int threads);
 
   void run();

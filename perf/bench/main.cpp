@@ -262,10 +262,12 @@ int run(BenchOptions& options) {
     return 0;
   }
   std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
-  if (!options.compare_file.empty()) earlier.emplace(options.compare_file);
+  if (!options.compare_file.empty()) {
+    earlier.emplace(options.compare_file);
+    earlier->require_size(options.width, options.height);
+  }
   const Chosen chosen = prepared(options.names);
   if (options.growth_file.empty()) std::cerr << chosen.left_out;
-  if (earlier) earlier->require_size(options.width, options.height);
   if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
   if (!options.heatmap_file.empty() && chosen.entries.size() != 1)
     throw CLI::ValidationError("--heatmap", "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");

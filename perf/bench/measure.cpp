@@ -87,23 +87,29 @@ void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std:
   for (drawing = 0; drawing < rows.size(); ++drawing) {
     const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
     if (work.limit == Limit::none) continue;
-    Runner& runner = runners.emplace_back();
-    runner.limit.emplace(work, rows[drawing].threads);
-    runner.row = drawing;
+    try {
+      LimitMoves limit(work, rows[drawing].threads);
+      runners.push_back({.limit = std::move(limit), .row = drawing});
+    } catch (const std::bad_alloc&) {
+      // The row is worth more than what it is held against.
+    }
   }
 }
 
-/// Frames that are timed, as many of each, in turns.
+/// Frames that are timed, as many of each, in turns; of limits no more than their own seconds hold.
 /// @param drawing  the row whose turn it is
 void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options, const HardwareCounters& counters, std::size_t& drawing) {
   // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower one the other's.
   int frames = kMostFrames;
-  for (Runner& runner : runners) {
-    drawing = runner.row;
-    frames = std::min(frames, frames_for(options, warm_up(runner, options.warm_up_seconds)));
-  }
   std::vector<std::size_t> turns;
-  for (std::size_t k = 0; k < runners.size(); ++k) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
+  for (std::size_t k = 0; k < runners.size(); ++k) {  // limits come last
+    drawing = runners[k].row;
+    const int seconds_hold = frames_for(options, warm_up(runners[k], options.warm_up_seconds));
+    if (runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, seconds_hold)), k);
+    else frames = std::min(frames, seconds_hold);
+  }
+  for (std::size_t k = 0; k < runners.size(); ++k)
+    if (!runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
   std::mt19937 random(options.seed);
   std::shuffle(turns.begin(), turns.end(), random);
   std::optional<std::size_t> last;

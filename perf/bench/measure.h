@@ -41,7 +41,7 @@ struct Candidate {
   std::function<std::string(const Picture&)> judge{};  ///< says what is wrong with what was drawn, or nothing; may be empty
 };
 
-/// Makes the candidates, draws and checks each, and then lets them take turns, as many each, in random order; who follows another draws a frame first that is not timed. Where one has a
+/// Makes the candidates, draws and checks each, and then lets them take turns, as many each (limits may take fewer), in random order; who follows another draws a frame first that is not timed. Where one has a
 /// fault, or throws, none is timed.
 std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options, const HardwareCounters& counters);
 

@@ -156,9 +156,10 @@ nlohmann::ordered_json report_json(const Report& report) {
 std::string report_csv(const Report& report) {
   std::string text = "workload,threads,frames";
   for (const Figure& figure : figures_of(Row{})) text += std::string(",") + figure.key;
-  text += ",fault,width,height,instruction_set,noise_low_ratio,noise_high_ratio";
+  text += ",fault,width,height,instruction_set,tile_size,seed,kept_on_cores,noise_low_ratio,noise_high_ratio";
   // The same in every row, so that rows of several files may stand together.
-  std::string shared = formatted(",%d,%d,%s", report.width, report.height, report.instruction_set.c_str());
+  std::string shared = formatted(",%d,%d,%s,%d,%u,", report.width, report.height, report.instruction_set.c_str(), report.tile_size, report.seed);
+  for (const int core : report.cores) shared += (shared.ends_with(',') ? "" : " ") + std::to_string(core);
   shared += report.noise ? formatted(",%.6g,%.6g", report.noise->low, report.noise->high) : ",,";
   for (const auto& [what, value] : facts_of(report.machine)) {
     text += "," + csv_field(what);

@@ -50,7 +50,7 @@ std::string table_line(const Row& row);
 std::string table_ending(const Report& report);
 
 nlohmann::ordered_json report_json(const Report& report);
-/// A row for each workload, with the machine; those with a fault have no figures.
+/// A row for each workload, which ends with what all share: size, instruction set and other options, the noise, the machine. Those with a fault have no figures.
 std::string report_csv(const Report& report);
 
 }  // namespace tessera::bench

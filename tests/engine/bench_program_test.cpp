@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include <sched.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/program.h"
@@ -15,6 +17,15 @@ namespace tessera {
 namespace {
 
 using Json = nlohmann::json;
+
+std::string first_core() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  ::sched_getaffinity(0, sizeof cores, &cores);
+  std::size_t core = 0;
+  while (core < CPU_SETSIZE - 1 && !CPU_ISSET(core, &cores)) ++core;
+  return std::to_string(core);
+}
 
 class BenchProgram : public Program {
  protected:
@@ -91,10 +102,12 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   EXPECT_EQ(faster.code, 0) << faster.out << faster.err;
   EXPECT_TRUE(contains(faster.out, "1000000.000")) << faster.out;
   EXPECT_FALSE(contains(faster.out, "not the same setting")) << faster.out;
-  const Result others = run("bench fill-flat --size 64x48 --threads 1 --isa scalar --repeats 2 --seconds 0.001 --compare slow.json");
-  EXPECT_TRUE(contains(others.out, "not the same setting: 64x48, ")) << others.out;
-  EXPECT_TRUE(contains(others.out, " in slow.json, now 64x48, 1 thread, scalar")) << others.out;
-  EXPECT_TRUE(contains(others.out, "fill-blend: only in slow.json")) << others.out;
+  earlier["threads"] = 77;
+  write("other.json", earlier.dump());
+  const Result others = run("bench fill-flat --size 64x48 --threads 1 --isa scalar --repeats 2 --seconds 0.001 --compare other.json");
+  EXPECT_TRUE(contains(others.out, "not the same setting: 64x48, 77 threads, ")) << others.out;
+  EXPECT_TRUE(contains(others.out, " in other.json, now 64x48, 1 thread, scalar\n")) << others.out;
+  EXPECT_TRUE(contains(others.out, "fill-blend: only in other.json")) << others.out;
   for (Json& row : earlier["workloads"]) row["median_ms"] = 1e-6;
   earlier["workloads"].erase(0);
   write("fast.json", earlier.dump());
@@ -199,14 +212,14 @@ TEST_F(BenchProgram, MeasuresMeshesPointsAndLines) {
 }
 
 TEST_F(BenchProgram, DrawsAsItIsTold) {
-  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --cores 0 --threads 1 --json -");
+  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --threads 1 --json - --cores " + first_core());
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json report = Json::parse(result.out);
   EXPECT_EQ(report["instruction_set"], "scalar");
   EXPECT_EQ(report["threads"], 1);
   EXPECT_EQ(report["seed"], 7);
   EXPECT_EQ(report["tile_size"], 64);
-  EXPECT_EQ(report["kept_on_cores"], Json::array({0}));
+  EXPECT_EQ(report["kept_on_cores"], Json::array({std::stoi(first_core())}));
   for (const Json& row : report["workloads"]) EXPECT_FALSE(row.contains("fault")) << row;
 }
 
@@ -277,7 +290,7 @@ TEST_F(BenchProgram, RefusesBeforeItBegins) {
   const struct {
     const char *arguments, *message;
     int code;
-  } cases[] = {{"fill --json new.json --cores 0,1023,1022", "--cores: found 1023,1022, which this process may not use, expected some of ", 2},
+  } cases[] = {{"fill --json new.json --cores 1023,1022", "--cores: found 1023,1022, which this process may not use, expected some of ", 2},
                {"fill --pictures new.json --cores 1023", "--cores: found 1023, which this process may not use, expected some of ", 2},
                {"fill --json kept.json --cores 1023", "--cores: found 1023, which this process may not use, expected some of ", 2},
                {"fill --json new.json --compare larger.json", "larger.json: found frames of 65x48, expected 64x48, as they are now", 1},
