@@ -113,7 +113,7 @@ HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, s
 
 /// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
 /// 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx, by, how many, edges of the first), where
-/// there is such a function: as many as there are lanes, or more where all are full. Lanes are blocks: those of a row, or of several short rows; where all blocks are full nothing is
+/// there is such a function: as many as there are lanes at most, or whole rows of the bounds where all are full. Lanes are blocks: those of a row, or of several short rows; where all blocks are full nothing is
 /// sorted. @pre the offsets are those of the edges
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {

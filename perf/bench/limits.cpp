@@ -11,29 +11,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kInL1 = std::uint64_t{16} << 10;  // for each thread
-
-std::uint64_t memory_of(Limit limit, int threads, std::uint64_t bytes) { return limit == Limit::l1_stores ? kInL1 * static_cast<std::uint64_t>(threads) : bytes; }
-
-// So many times that `moved` bytes are moved, or many more where that is soon done: the threads' start is nothing beside it.
-std::uint64_t times_for(Limit limit, std::uint64_t bytes, std::uint64_t moved) {
-  return limit == Limit::l1_stores ? 20000 : std::clamp<std::uint64_t>(moved / std::max<std::uint64_t>(bytes, 1), 1, 20000);
-}
-constexpr std::uint64_t kAlone = std::uint64_t{512} << 20, kInTurns = std::uint64_t{64} << 20;
-
-std::size_t share_of(Limit limit, std::uint64_t bytes, int threads) {
+std::size_t share_of(Limit limit, int threads, std::uint64_t bytes) {
+  if (limit == Limit::l1_stores) return std::size_t{16} << 10;
   return std::max<std::size_t>(bytes / (limit == Limit::memory_copies ? 2 : 1) / static_cast<std::uint64_t>(threads), 1);
+}
+std::uint64_t times_for(Limit limit, std::uint64_t bytes, std::uint64_t moved) {
+  return limit == Limit::l1_stores ? 20000 : std::clamp<std::uint64_t>(moved / std::max<std::uint64_t>(bytes, 1), 1, 1000000);
 }
 
 }  // namespace
 
-LimitMoves::LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t times)
-    : limit_(limit), times_(times), parallel_(threads), memory_(static_cast<std::size_t>(threads), Bytes(share_of(limit, bytes, threads), 1)) {
-  if (limit == Limit::memory_copies) copies_ = memory_;
+LimitMoves::LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t moved)
+    : limit_(limit), share_(share_of(limit, threads, bytes)), times_(times_for(limit, bytes, moved)), parallel_(threads), memory_(static_cast<std::size_t>(threads)) {
+  if (limit == Limit::memory_copies) copies_.resize(memory_.size());
+  for (std::vector<Lines>* list : {&memory_, &copies_})
+    for (Lines& part : *list) part.resize((share_ + sizeof(Line) - 1) / sizeof(Line));
 }
-
-LimitMoves::LimitMoves(const FrameWork& work, int threads)
-    : LimitMoves(work.limit, threads, memory_of(work.limit, threads, work.limited_bytes), times_for(work.limit, work.limited_bytes, kInTurns)) {}
 
 void LimitMoves::run() {
   parallel_.for_each(memory_.size(), [this](std::size_t part, int) {
@@ -43,25 +36,20 @@ void LimitMoves::run() {
 
 // What is written counts as read, and what is found as used, so that no compiler leaves anything out.
 void LimitMoves::move(std::size_t part, int turn) {
-  Bytes& memory = memory_[part];
-  const void* touched = memory.data();
+  void* const memory = memory_[part].data();
+  const void* touched = memory;
   switch (limit_) {
-    case Limit::memory_loads: touched = std::memchr(memory.data(), 2, memory.size()); break;
-    case Limit::memory_copies: touched = std::memcpy(copies_[part].data(), memory.data(), memory.size()); break;
-    default: std::memset(memory.data(), turn, memory.size());
+    case Limit::memory_loads: touched = std::memchr(memory, 2, share_); break;
+    case Limit::memory_copies: touched = std::memcpy(copies_[part].data(), memory, share_); break;
+    default: std::memset(memory, turn, share_);
   }
   asm volatile("" : : "r"(touched) : "memory");
 }
 
-double LimitMoves::bytes() const {
-  double bytes = 0;
-  for (const std::vector<Bytes>* list : {&memory_, &copies_})
-    for (const Bytes& part : *list) bytes += static_cast<double>(part.size());
-  return bytes * static_cast<double>(times_);
-}
+double LimitMoves::bytes() const { return static_cast<double>(memory_.size() + copies_.size()) * static_cast<double>(share_) * static_cast<double>(times_); }
 
 double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
-  LimitMoves moves(limit, threads, memory_of(limit, threads, bytes), times_for(limit, bytes, kAlone));
+  LimitMoves moves(limit, threads, bytes, std::uint64_t{512} << 20);
   std::vector<double> rates;
   for (int run = 0; run < 12; ++run) {
     const Clock::time_point start = Clock::now();

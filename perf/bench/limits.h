@@ -14,31 +14,33 @@ class LimitMoves {
  public:
   /// @param limit   not none
   /// @param threads 1 or more
-  /// @param bytes   of the memory; of copies, what is read and what is written together
-  /// @param times   that run() moves them
-  LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t times);
-  /// What a frame is held against: a memory of as many bytes as it moves, or of the first caches, so often that the start of a run is nothing beside it:
-  /// 64 MiB, and 20,000 times those of the first caches.
-  LimitMoves(const FrameWork& work, int threads);
+  /// @param bytes   of the memory, of all threads together (of copies, what is read and what is written); stores in L1 have 16 KiB for each thread, whatever stands here
+  /// @param moved   by a run(), about: the memory, once at least and a million times at most; stores in L1 move theirs 20,000 times
+  LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t moved);
 
   void run();
   /// That a run() moves.
   double bytes() const;
 
  private:
-  using Bytes = std::vector<std::uint8_t>;
+  /// Of a cache; no two threads write to one.
+  struct alignas(64) Line {
+    std::uint8_t bytes[64];
+  };
+  using Lines = std::vector<Line>;
   void move(std::size_t part, int turn);
 
   Limit limit_;
+  std::size_t share_;  // bytes of each thread
   std::uint64_t times_;
   Parallel parallel_;
-  std::vector<Bytes> memory_, copies_;  // of each thread
+  std::vector<Lines> memory_, copies_;  // of each thread
 };
 
 /// In 10^9 bytes a second, of all threads together: the median of several runs.
 ///
 /// @param limit  not none
-/// @param bytes  that a frame moves
+/// @param bytes  of the memory, as of LimitMoves
 double measure_limit(Limit limit, int threads, std::uint64_t bytes);
 
 }  // namespace tessera::bench

@@ -129,14 +129,21 @@ class Bench {
   void measure_rates() {
     constexpr std::uint64_t kMuch = std::uint64_t{256} << 20, kTile = std::uint64_t{64} << 10;
     const std::uint64_t frame = 4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
-    const auto rate = [this](Limit limit, std::uint64_t bytes) { return measure_limit(limit, report_.threads, bytes); };
+    const auto rate_of = [](Limit limit, int threads, std::uint64_t bytes) -> std::optional<double> {
+      try {
+        return measure_limit(limit, threads, bytes);
+      } catch (const std::bad_alloc&) {
+        return {};  // what was measured before is worth more
+      }
+    };
+    const auto rate = [&](Limit limit, std::uint64_t bytes) { return rate_of(limit, report_.threads, bytes); };
     report_.limits = {.l1_stores = rate(Limit::l1_stores, 0),
                       .frame_stores = rate(Limit::memory_stores, frame),
                       .frame_copies = rate(Limit::memory_copies, 2 * frame),
                       .tile_stores = rate(Limit::memory_stores, kTile * static_cast<std::uint64_t>(report_.threads)),
                       .memory_stores = rate(Limit::memory_stores, kMuch),
                       .memory_loads = rate(Limit::memory_loads, kMuch),
-                      .memory_loads_of_one_core = measure_limit(Limit::memory_loads, 1, kMuch)};
+                      .memory_loads_of_one_core = rate_of(Limit::memory_loads, 1, kMuch)};
     report_.core_to_core_ns[1] = core_to_core_ns();
   }
   void show(const std::string& text) const {

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-constexpr int kFewestFrames = 15, kMostFrames = 1000000;
+constexpr int kFewestTurns = 15, kMostTurns = 1000000;
 
 /// A workload, or what another one is held against.
 struct Runner {
@@ -32,10 +32,8 @@ struct Runner {
   }
 };
 
-int frames_for(const MeasureOptions& options, double ms) {
-  if (options.repeats > 0) return options.repeats;
-  return static_cast<int>(std::clamp(1000 * options.seconds / std::max(ms, 0.001), static_cast<double>(kFewestFrames), 1e4));
-}
+/// Turns of `ms` each that the seconds of a row hold, 15 at least.
+int turns_for(double seconds, double ms) { return static_cast<int>(std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kFewestTurns), 1e4)); }
 
 std::uint64_t above(std::uint64_t bytes, std::uint64_t others) { return bytes > others ? bytes - others : 0; }
 
@@ -82,31 +80,31 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
 }
 
-/// One more runner for each row that is held against a limit.
+/// One more runner for each row that is held against a limit, and runs so long that its threads' start is nothing beside it.
 void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
   for (drawing = 0; drawing < rows.size(); ++drawing) {
     const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
     if (work.limit == Limit::none) continue;
     try {
-      LimitMoves limit(work, rows[drawing].threads);
+      LimitMoves limit(work.limit, rows[drawing].threads, work.limited_bytes, std::uint64_t{64} << 20);
       runners.push_back({.limit = std::move(limit), .row = drawing});
     } catch (const std::bad_alloc&) {
-      // The row is worth more than what it is held against.
+      // The row is worth more than what it is held against, and its limit stays 0.
     }
   }
 }
 
-/// Frames that are timed, as many of each, in turns; of limits no more than their own seconds hold.
+/// Frames that are timed, as many of each, in turns; limits take no more of these than the seconds of a row hold (15 at least).
 /// @param drawing  the row whose turn it is
 void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options, const HardwareCounters& counters, std::size_t& drawing) {
   // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower one the other's.
-  int frames = kMostFrames;
+  int frames = kMostTurns;
   std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) {  // limits come last
     drawing = runners[k].row;
-    const int seconds_hold = frames_for(options, warm_up(runners[k], options.warm_up_seconds));
-    if (runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, seconds_hold)), k);
-    else frames = std::min(frames, seconds_hold);
+    const int most = turns_for(options.seconds, warm_up(runners[k], options.warm_up_seconds));
+    if (runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, most)), k);
+    else frames = std::min(frames, options.repeats > 0 ? options.repeats : most);
   }
   for (std::size_t k = 0; k < runners.size(); ++k)
     if (!runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);

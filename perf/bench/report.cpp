@@ -103,8 +103,10 @@ std::string table_line(const Row& row) {
 std::string table_ending(const Report& report) {
   std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
   if (report.noise) text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(), report.noise->value, report.noise->low, report.noise->high);
-  text += formatted("limits, GB/s: stores in L1 %.1f, of 64 KiB a thread %.1f, of a frame %.1f, copies of a frame %.1f, stores of 256 MiB %.1f, loads of 256 MiB %.1f (by one core %.1f)\n", report.limits.l1_stores, report.limits.tile_stores,
-                    report.limits.frame_stores, report.limits.frame_copies, report.limits.memory_stores, report.limits.memory_loads, report.limits.memory_loads_of_one_core);
+  const auto rate = [](const std::optional<double>& limit) { return limit ? formatted("%.1f", *limit) : std::string("(no memory)"); };
+  text += "limits, GB/s: stores in L1 " + rate(report.limits.l1_stores) + ", of 64 KiB a thread " + rate(report.limits.tile_stores) + ", of a frame " + rate(report.limits.frame_stores) + ", copies of a frame " +
+          rate(report.limits.frame_copies) + ", stores of 256 MiB " + rate(report.limits.memory_stores) + ", loads of 256 MiB " + rate(report.limits.memory_loads) + " (by one core " +
+          rate(report.limits.memory_loads_of_one_core) + ")\n";
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
   const auto is_timed = [](const Row& row) { return row.frames > 0; };
@@ -115,9 +117,13 @@ std::string table_ending(const Report& report) {
     if (row.counts && row.counts->cycles > 0)
       text += formatted("%-22s %.2f million cycles a frame, %.2f instructions a cycle\n", row.name.c_str(), 1e-6 * static_cast<double>(row.counts->cycles),
                         static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
-  for (const Row& row : report.rows)
-    if (row.limit > 0 && row.frames > 0)
+  for (const Row& row : report.rows) {
+    if (row.frames == 0 || row.work.limit == Limit::none) continue;
+    if (row.limit > 0)
       text += formatted("%-22s moves %.1f GB/s, %.0f %% of %s (%.1f GB/s)\n", row.name.c_str(), share_of_limit(row) * row.limit, 100 * share_of_limit(row), name_of(row.work.limit), row.limit);
+    else
+      text += formatted("%-22s no memory for %s\n", row.name.c_str(), name_of(row.work.limit));
+  }
   return text;
 }
 

@@ -15,11 +15,11 @@
 
 namespace tessera::bench {
 
-/// In 10^9 bytes a second.
+/// In 10^9 bytes a second; none where there was no memory for it.
 struct MachineLimits {
-  double l1_stores = 0, frame_stores = 0, frame_copies = 0;
-  double tile_stores = 0;  ///< of 64 KiB for each thread: the words of a tile of 128x128 pixels
-  double memory_stores = 0, memory_loads = 0, memory_loads_of_one_core = 0;  ///< of 256 MiB
+  std::optional<double> l1_stores, frame_stores, frame_copies;
+  std::optional<double> tile_stores;  ///< of 64 KiB for each thread: the words of a tile of 128x128 pixels
+  std::optional<double> memory_stores, memory_loads, memory_loads_of_one_core;  ///< of 256 MiB
 };
 
 struct Report {

@@ -21,8 +21,8 @@ struct Log {
 
 class Counting : public Workload {
  public:
-  Counting(Log& log, int number, Picture picture, std::string fault, int fails_at, Limit limit)
-      : log_(log), number_(number), picture_(std::move(picture)), fault_(std::move(fault)), fails_at_(fails_at), limit_(limit) { ++log_.alive; }
+  Counting(Log& log, int number, Picture picture, std::string fault, int fails_at, const FrameWork& work)
+      : log_(log), number_(number), picture_(std::move(picture)), fault_(std::move(fault)), fails_at_(fails_at), work_(work) { ++log_.alive; }
   ~Counting() override { --log_.alive; }
   FrameStats draw() override {
     if (drawn_++ == fails_at_) throw std::bad_alloc();
@@ -31,7 +31,7 @@ class Counting : public Workload {
   }
   std::string fault() override { return fault_; }
   const Picture& picture() override { return picture_; }
-  FrameWork work(const FrameStats&) const override { return {.pixels = 1, .limit = limit_, .limited_bytes = 1 << 20}; }
+  FrameWork work(const FrameStats&) const override { return work_; }
 
  private:
   Log& log_;
@@ -39,7 +39,7 @@ class Counting : public Workload {
   Picture picture_;
   std::string fault_;
   int fails_at_, drawn_ = 0;
-  Limit limit_;
+  FrameWork work_;
 };
 
 Picture grey(std::uint8_t level) {
@@ -53,9 +53,11 @@ struct Made {
   std::string fault{};
   int fails_at = -1;  // the frame
   Limit limit = Limit::none;
+  std::uint64_t limited_bytes = 1 << 20;
 };
 Candidate counting(Log& log, int number, const Made& made = {}) {
-  return {.name = "counting", .make = [&log, number, made] { return std::make_unique<Counting>(log, number, made.picture, made.fault, made.fails_at, made.limit); }, .threads = 1};
+  const FrameWork work{.pixels = 1, .limit = made.limit, .limited_bytes = made.limited_bytes};
+  return {.name = "counting", .make = [=, &log] { return std::make_unique<Counting>(log, number, made.picture, made.fault, made.fails_at, work); }, .threads = 1};
 }
 
 TEST(BenchMeasure, TakesTurnsAsOftenEach) {
@@ -98,15 +100,37 @@ TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
   }
 }
 
+TEST(BenchMeasure, FramesFillTheirSecondsWhateverTheirLimitTakes) {
+  // A run of stores in L1 takes far longer than the 15th part of these seconds, a frame that only counts far less.
+  Log log;
+  const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.limit = Limit::l1_stores})}, {.seconds = 0.01, .warm_up_seconds = 0, .takes_limits = true}, HardwareCounters());
+  EXPECT_GT(rows[0].frames, 15u);
+  EXPECT_GT(rows[0].limit, 0);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
+TEST(BenchMeasure, ARowIsTimedThoughThereIsNoMemoryForItsLimit) {
+  Log log;
+  for (const Limit limit : {Limit::memory_stores, Limit::memory_copies}) {
+    MeasureOptions options = kFewFrames;
+    options.takes_limits = true;
+    const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.limit = limit, .limited_bytes = std::uint64_t{1} << 60})}, options, HardwareCounters());
+    EXPECT_EQ(rows[0].fault, "");
+    EXPECT_EQ(rows[0].frames, 7u);
+    EXPECT_EQ(rows[0].limit, 0);
+  }
+}
+#endif
+
 TEST(BenchLimits, CountWhatTheyMove) {
-  EXPECT_EQ(LimitMoves(Limit::memory_stores, 2, 1000, 1).bytes(), 1000);
-  EXPECT_EQ(LimitMoves(Limit::memory_loads, 1, 1000, 2).bytes(), 2000);
-  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 4000, 3).bytes(), 12000) << "half of them are read";
-  EXPECT_EQ(LimitMoves(Limit::memory_copies, 8, 4, 1).bytes(), 16) << "each thread something";
-  constexpr int kMiB = 1 << 20;
-  EXPECT_EQ(LimitMoves({.limit = Limit::memory_stores, .limited_bytes = 8 * kMiB}, 2).bytes(), 64 * kMiB) << "a frame's memory, eight times";
-  EXPECT_EQ(LimitMoves({.limit = Limit::memory_copies, .limited_bytes = 512 * kMiB}, 2).bytes(), 512 * kMiB) << "once";
-  EXPECT_EQ(LimitMoves({.limit = Limit::l1_stores, .limited_bytes = 8 * kMiB}, 3).bytes(), 20000.0 * 3 * 16384) << "the first caches', whatever the frame";
+  EXPECT_EQ(LimitMoves(Limit::memory_stores, 2, 1000, 1000).bytes(), 1000);
+  EXPECT_EQ(LimitMoves(Limit::memory_loads, 1, 1000, 2000).bytes(), 2000);
+  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 4000, 12000).bytes(), 12000) << "half of them are read";
+  EXPECT_EQ(LimitMoves(Limit::memory_copies, 8, 4, 4).bytes(), 16) << "each thread something";
+  EXPECT_EQ(LimitMoves(Limit::memory_stores, 2, 5000, 12000).bytes(), 10000) << "whole memories";
+  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 5000, 1000).bytes(), 5000) << "once";
+  EXPECT_EQ(LimitMoves(Limit::memory_stores, 1, 16, 64 << 20).bytes(), 16e6) << "a million times, and no more";
+  EXPECT_EQ(LimitMoves(Limit::l1_stores, 3, 5000, 1000).bytes(), 20000.0 * 3 * 16384) << "the first caches', whatever the frame";
 }
 
 TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {

@@ -24,6 +24,22 @@ TEST(Report, NamesCountersOnlyWhereSomethingRan) {
   EXPECT_TRUE(has(text, "3.00 million cycles a frame, 2.00 instructions a cycle")) << text;
 }
 
+TEST(Report, SaysWhatThereWasNoMemoryFor) {
+  Row limited = kTimed;
+  limited.work.limit = Limit::memory_copies;
+  limited.work.limited_bytes = 8000000;
+  const Report without{.limits = {.l1_stores = 90.5, .memory_loads_of_one_core = 7}, .rows = {kTimed, limited}};
+  const std::string text = table_ending(without);
+  EXPECT_TRUE(has(text, "stores in L1 90.5, of 64 KiB a thread (no memory), of a frame (no memory),")) << text;
+  EXPECT_TRUE(has(text, "loads of 256 MiB (no memory) (by one core 7.0)\n")) << text;
+  EXPECT_TRUE(text.ends_with("timed                  no memory for copies of as much\n")) << text;
+  const nlohmann::ordered_json rates = report_json(without)["limits_gigabytes_per_second"];
+  EXPECT_EQ(rates, (nlohmann::ordered_json{{"l1_stores", 90.5}, {"memory_loads_of_one_core", 7.0}}));
+  limited.limit = 16;  // of which two milliseconds for 8 MB are a quarter
+  const std::string share = table_ending({.rows = {limited}});
+  EXPECT_TRUE(share.ends_with("timed                  moves 4.0 GB/s, 25 % of copies of as much (16.0 GB/s)\n")) << share;
+}
+
 TEST(Report, TablesForProgramsHaveFaultyRowsToo) {
   const std::string csv = report_csv({.width = 80, .height = 50, .instruction_set = "avx2", .rows = {kFaulty, kTimed}}), kShared = ",80,50,avx2,0,1,,,\n";
   EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;
