@@ -65,7 +65,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
     return false;
   });
   add_integer(program, "--repeats", "frames of each workload; default: a second of them, 15 at least", 1000000, options.measure.repeats);
-  add_text(program, "--seconds", "S", "of frames for each workload, if --repeats does not say how many; default: 1", [&options](const std::string& text) { return parse_number(text, 0.001, 3600, options.measure.seconds); }, ", 0.001 to 3600");
+  add_text(program, "--seconds", "S", "of frames for each workload, if --repeats does not say how many, and of limits beside them; default: 1", [&options](const std::string& text) { return parse_number(text, 0.001, 3600, options.measure.seconds); }, ", 0.001 to 3600");
   add_text(program, "--seed", "N", "of what is random in workloads, and of the order of turns; default: 1",
            [&options](const std::string& text) { return parse_number(text, 0, kLargestSeed, options.measure.seed); }, ", 0 to " + std::to_string(kLargestSeed));
   CLI::Option* const rivals = program.add_flag("--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");

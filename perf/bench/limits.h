@@ -23,7 +23,7 @@ class LimitMoves {
   double bytes() const;
 
  private:
-  /// Of a cache; no two threads write to one.
+  /// Of a cache whose lines have 64 bytes; no two threads write to one.
   struct alignas(64) Line {
     std::uint8_t bytes[64];
   };

@@ -144,7 +144,11 @@ class Bench {
                       .memory_stores = rate(Limit::memory_stores, kMuch),
                       .memory_loads = rate(Limit::memory_loads, kMuch),
                       .memory_loads_of_one_core = rate_of(Limit::memory_loads, 1, kMuch)};
-    report_.core_to_core_ns[1] = core_to_core_ns();
+    try {
+      report_.core_to_core_ns[1] = core_to_core_ns();
+    } catch (const std::exception&) {
+      // There is no thread or no memory for it: 0, which is not shown.
+    }
   }
   void show(const std::string& text) const {
     if (!is_silent()) cli::write_to_stdout(text);

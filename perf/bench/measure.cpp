@@ -80,13 +80,13 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
 }
 
-/// One more runner for each row that is held against a limit, and runs so long that its threads' start is nothing beside it.
+/// One more runner for each row that is held against a limit, and runs so long, a millisecond where all is in caches, that its threads' start is little beside it.
 void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
   for (drawing = 0; drawing < rows.size(); ++drawing) {
     const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
     if (work.limit == Limit::none) continue;
     try {
-      LimitMoves limit(work.limit, rows[drawing].threads, work.limited_bytes, std::uint64_t{64} << 20);
+      LimitMoves limit(work.limit, rows[drawing].threads, work.limited_bytes, std::uint64_t{256} << 20);
       runners.push_back({.limit = std::move(limit), .row = drawing});
     } catch (const std::bad_alloc&) {
       // The row is worth more than what it is held against, and its limit stays 0.

@@ -14,7 +14,7 @@ namespace tessera::bench {
 
 struct MeasureOptions {
   int repeats = 0;            ///< frames of each row; 0: as many as `seconds` hold, 15 at least
-  double seconds = 1;         ///< for each row
+  double seconds = 1;         ///< for each row; for what it is held against always
   double warm_up_seconds = 0.2;
   std::uint32_t seed = 1;     ///< of the order in which rows take turns
   bool takes_limits = false;  ///< what a row is held against takes turns with it
