@@ -138,13 +138,19 @@ TEST(Determinism, RandomTrianglesWithClippingAndOverdrawHaveTheSameBits) {
   EXPECT_GT(stats.shaded_pixels, 4u * 330 * 210);
 }
 
+class SampledTriangles : public testing::TestWithParam<std::pair<std::string, DepthFormat>> {};
+
 // Nothing but colours and depth, which samples have ways of their own for.
-TEST(Determinism, RandomTrianglesOfSamplesHaveTheSameBitsInEveryDepth) {
-  for (const DepthFormat depth : {DepthFormat::none, DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
-    const RandomFrame random({.width = 150, .height = 90, .depth = depth, .samples = depth == DepthFormat::unorm16 ? 8 : 4});
-    expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
-  }
+TEST_P(SampledTriangles, HaveTheSameBits) {
+  const DepthFormat depth = GetParam().second;
+  const RandomFrame random({.width = 150, .height = 90, .depth = depth, .samples = depth == DepthFormat::unorm16 ? 8 : 4});
+  expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
 }
+
+INSTANTIATE_TEST_SUITE_P(Determinism, SampledTriangles,
+                         testing::Values(std::pair("none", DepthFormat::none), std::pair("unorm16", DepthFormat::unorm16), std::pair("unorm24", DepthFormat::unorm24),
+                                         std::pair("unorm32", DepthFormat::unorm32), std::pair("float32", DepthFormat::float32)),
+                         [](const auto& format) { return format.param.first; });
 
 TEST(Determinism, RandomTrianglesHaveTheSameBitsInSixteenBitColorAndFloatDepth) {
   const RandomFrame random(random_format(ColorMode::rgb, 16, DepthFormat::float32));
