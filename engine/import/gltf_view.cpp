@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -50,6 +51,14 @@ Matrix local_matrix(const Json& node) {
   return translate(t[0], t[1], t[2]) * from_quaternion(r[0], r[1], r[2], r[3]) * scale(s[0], s[1], s[2]);
 }
 
+// What an index names. nlohmann would cast any number to std::size_t, and one that does not fit has no defined result.
+const Json& element(const Json& list, const Json& index) {
+  const double x = index.is_number() ? index.get<double>() : -1;
+  if (!(x >= 0 && x < static_cast<double>(list.size()) && x == std::floor(x)))
+    throw std::out_of_range("found " + (index.is_number() ? index.dump() : index.type_name()) + ", expected an index below " + std::to_string(list.size()));
+  return list.at(static_cast<std::size_t>(x));
+}
+
 Vec3 column(const Matrix& m, std::size_t k) { return {m.m[k], m.m[4 + k], m.m[8 + k]}; }
 
 class ViewReader {
@@ -58,20 +67,22 @@ class ViewReader {
 
   void read() {
     const Json scenes = file_.value("scenes", Json::array());
-    const auto scene = file_.value("scene", std::size_t{0});
-    if (scene >= scenes.size()) return;
-    for (const std::size_t node : scenes[scene].value("nodes", std::vector<std::size_t>{})) visit(node, Matrix{}, 0);
+    if (scenes.empty()) return;
+    visit_all(element(scenes, file_.value("scene", Json(0))), "nodes", Matrix{}, 0);
   }
 
  private:
-  void visit(std::size_t number, const Matrix& parent, int depth) {
+  void visit_all(const Json& owner, const char* list, const Matrix& parent, int depth) {
+    for (const Json& index : owner.value(list, std::vector<Json>{})) visit(element(file_.at("nodes"), index), parent, depth);
+  }
+
+  void visit(const Json& node, const Matrix& parent, int depth) {
     if (depth > kDeepestNode || ++visits_ > kMostVisits) throw Error("its nodes are too many, or nested too deeply");
-    const Json& node = file_.at("nodes").at(number);
     const Matrix world = parent * local_matrix(node);
-    if (node.contains("camera")) add_camera(file_.at("cameras").at(node["camera"].get<std::size_t>()), world);
-    if (const auto light = node.value("/extensions/KHR_lights_punctual/light"_json_pointer, -1); light >= 0)
-      add_light(file_.at("/extensions/KHR_lights_punctual/lights"_json_pointer).at(static_cast<std::size_t>(light)), world);
-    for (const std::size_t child : node.value("children", std::vector<std::size_t>{})) visit(child, world, depth + 1);
+    if (node.contains("camera")) add_camera(element(file_.at("cameras"), node["camera"]), world);
+    if (const auto light = "/extensions/KHR_lights_punctual/light"_json_pointer; node.contains(light))
+      add_light(element(file_.at("/extensions/KHR_lights_punctual/lights"_json_pointer), node.at(light)), world);
+    visit_all(node, "children", world, depth + 1);
   }
 
   void add_camera(const Json& camera, const Matrix& world) {
@@ -137,10 +148,13 @@ bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   const auto place = "/asset/version"_json_pointer;
   const Json version = file.contains(place) ? file.at(place) : Json();  // value() would throw where "asset" is an array
   if (!version.is_string() || !version.get<std::string>().starts_with("2")) return false;
+  const auto warn = [&model](const std::exception& error) { model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what())); };
   try {
     ViewReader(file, model).read();
   } catch (const Json::exception& error) {
-    model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what()));
+    warn(error);
+  } catch (const std::out_of_range& error) {
+    warn(error);
   }
   return true;
 }
