@@ -51,12 +51,15 @@ Matrix local_matrix(const Json& node) {
   return translate(t[0], t[1], t[2]) * from_quaternion(r[0], r[1], r[2], r[3]) * scale(s[0], s[1], s[2]);
 }
 
-// What an index names. nlohmann would cast any number to std::size_t, and one that does not fit has no defined result.
-const Json& element(const Json& list, const Json& index) {
-  const double x = index.is_number() ? index.get<double>() : -1;
-  if (!(x >= 0 && x < static_cast<double>(list.size()) && x == std::floor(x)))
-    throw std::out_of_range("found " + (index.is_number() ? index.dump() : index.type_name()) + ", expected an index below " + std::to_string(list.size()));
-  return list.at(static_cast<std::size_t>(x));
+struct NoSuchElement : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What an index names; `kind` is what the list is of. (nlohmann would cast any number to std::size_t, and one that does not fit has no defined result.)
+const Json& element(const Json& list, const Json& index, const char* kind) {
+  if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= list.size())
+    throw NoSuchElement("found " + (index.is_number() ? index.dump() : index.type_name()) + ", expected the index of one of " + std::to_string(list.size()) + " " + kind);
+  return list.at(index.get<std::size_t>());
 }
 
 Vec3 column(const Matrix& m, std::size_t k) { return {m.m[k], m.m[4 + k], m.m[8 + k]}; }
@@ -66,22 +69,23 @@ class ViewReader {
   ViewReader(const Json& file, Model& model) : file_(file), model_(model) {}
 
   void read() {
-    const Json scenes = file_.value("scenes", Json::array());
-    if (scenes.empty()) return;
-    visit_all(element(scenes, file_.value("scene", Json(0))), "nodes", Matrix{}, 0);
+    if (!file_.contains("scenes") || file_.at("scenes").empty()) return;
+    const Json first = 0u;
+    visit_all(element(file_.at("scenes"), file_.contains("scene") ? file_.at("scene") : first, "scenes"), "nodes", Matrix{}, 0);
   }
 
  private:
+  // Of a node or scene; nothing is copied, because copies of JSON recurse.
   void visit_all(const Json& owner, const char* list, const Matrix& parent, int depth) {
-    for (const Json& index : owner.value(list, std::vector<Json>{})) visit(element(file_.at("nodes"), index), parent, depth);
+    if (owner.is_object() && !owner.contains(list)) return;
+    for (const Json& index : owner.at(list).get_ref<const Json::array_t&>()) visit(element(file_.at("nodes"), index, "nodes"), parent, depth);
   }
 
   void visit(const Json& node, const Matrix& parent, int depth) {
     if (depth > kDeepestNode || ++visits_ > kMostVisits) throw Error("its nodes are too many, or nested too deeply");
     const Matrix world = parent * local_matrix(node);
-    if (node.contains("camera")) add_camera(element(file_.at("cameras"), node["camera"]), world);
-    if (const auto light = "/extensions/KHR_lights_punctual/light"_json_pointer; node.contains(light))
-      add_light(element(file_.at("/extensions/KHR_lights_punctual/lights"_json_pointer), node.at(light)), world);
+    if (node.contains("camera")) add_camera(element(file_.at("cameras"), node.at("camera"), "cameras"), world);
+    if (node.contains(light_)) add_light(element(file_.at(lights_), node.at(light_), "lights"), world);
     visit_all(node, "children", world, depth + 1);
   }
 
@@ -94,8 +98,10 @@ class ViewReader {
     if (to.is_orthographic) {
       to.half_height = std::abs(lens.value("ymag", 0.0));
     } else {
-      const SinCos half = sin_cos_degrees(lens.value("yfov", 0.0) / 2 * kDegrees);
-      to.half_height = half.cosine > 0 ? half.sine / half.cosine : 0;
+      const double angle = lens.value("yfov", 0.0);
+      if (!(angle > 0 && angle < std::numbers::pi)) return;
+      const SinCos half = sin_cos_degrees(angle / 2 * kDegrees);
+      to.half_height = half.sine / half.cosine;
     }
     if (!(to.half_height > 0) || !std::isfinite(to.half_height)) return;
     const Vec3 eye = column(world, 3), back = column(world, 2);
@@ -113,7 +119,7 @@ class ViewReader {
     Light to;
     to.diffuse = to.specular = {static_cast<float>(color[0] * unit), static_cast<float>(color[1] * unit), static_cast<float>(color[2] * unit), 1};
     const Vec3 place = column(world, 3), back = column(world, 2);
-    const std::string type = light.at("type");
+    const auto& type = light.at("type").get_ref<const std::string&>();
     if (type == "directional") {
       to.position = {static_cast<float>(back.x), static_cast<float>(back.y), static_cast<float>(back.z), 0};
     } else {
@@ -131,6 +137,7 @@ class ViewReader {
     if (is_finite(to.position) && is_finite(to.spot_direction) && std::isfinite(to.diffuse.r + to.diffuse.g + to.diffuse.b)) model_.lights.push_back(to);
   }
 
+  const Json::json_pointer light_{"/extensions/KHR_lights_punctual/light"}, lights_{"/extensions/KHR_lights_punctual/lights"};
   const Json& file_;
   Model& model_;
   int visits_ = 0;
@@ -146,14 +153,15 @@ bool add_gltf_view(const std::string& path, Model& model) {
 bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   const Json file = Json::parse(json_text(bytes), nullptr, false);
   const auto place = "/asset/version"_json_pointer;
-  const Json version = file.contains(place) ? file.at(place) : Json();  // value() would throw where "asset" is an array
-  if (!version.is_string() || !version.get<std::string>().starts_with("2")) return false;
+  if (!file.contains(place)) return false;  // value() would throw where "asset" is an array
+  const Json& version = file.at(place);
+  if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2")) return false;
   const auto warn = [&model](const std::exception& error) { model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what())); };
   try {
     ViewReader(file, model).read();
   } catch (const Json::exception& error) {
     warn(error);
-  } catch (const std::out_of_range& error) {
+  } catch (const NoSuchElement& error) {
     warn(error);
   }
   return true;

@@ -26,7 +26,7 @@ class Line {
 
   [[noreturn]] void fail(const std::string& message) const { throw Error(file_ + ":" + std::to_string(number_) + ": " + message); }
 
-  void expect_numbers(std::string_view keyword, int count) {
+  void expect_numbers(std::string_view keyword, int count, double most = std::numeric_limits<float>::max(), const char* expected = "a finite number") {
     for (int i = 0; i < count; ++i) {
       std::string_view text = word();
       if (text.empty() || text.front() == '#')
@@ -36,8 +36,8 @@ class Line {
       double x = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
       const bool is_number = error == std::errc{} && end == text.data() + text.size();
-      if (!is_number || !(std::abs(x) <= std::numeric_limits<float>::max()))
-        fail("found \"" + found + "\" after \"" + std::string(keyword) + "\", expected a finite number");
+      if (!is_number || !(std::abs(x) <= most))
+        fail("found \"" + found + "\" after \"" + std::string(keyword) + "\", expected " + expected);
     }
   }
 
@@ -64,13 +64,26 @@ struct Counts {
   std::int64_t positions = 0, normals = 0;
 };
 
-// From 1, or from -1 backwards.
-void check_index(std::string_view text, std::int64_t count, const char* kind, const Line& line) {
+std::int64_t index_of(std::string_view text, const Line& line) {
   std::int64_t index = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
   if (error != std::errc{} || end != text.data() + text.size()) line.fail("found \"" + std::string(text.substr(0, 40)) + "\", expected an index");
+  return index;
+}
+
+// From 1, or from -1 backwards.
+void check_index(std::string_view text, std::int64_t count, const char* kind, const Line& line) {
+  const std::int64_t index = index_of(text, line);
   if (index == 0 || index > count || index < -count)
     line.fail("index " + std::to_string(index) + " out of bounds, there are " + std::to_string(count) + " " + kind + " before this line");
+}
+
+// It may point nowhere: then texture coordinates are not used.
+void check_texture_index(std::string_view text, const Line& line) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  if (text.empty()) return;
+  if (const std::int64_t index = index_of(text, line); index > kMost || index < -kMost)
+    line.fail("found \"" + std::to_string(index) + "\", expected an index up to " + std::to_string(kMost));
 }
 
 void check_face(Line& line, const Counts& counts) {
@@ -79,8 +92,11 @@ void check_face(Line& line, const Counts& counts) {
   for (std::string_view corner = line.word(); !corner.empty() && corner.front() != '#'; corner = line.word()) {
     const std::size_t slash = corner.find('/');
     check_index(corner.substr(0, slash), counts.positions, "vertices", line);
-    if (const std::size_t second = slash == corner.npos ? slash : corner.find('/', slash + 1); second != corner.npos)
-      check_index(corner.substr(second + 1), counts.normals, "normals", line);
+    if (slash != corner.npos) {
+      const std::size_t second = corner.find('/', slash + 1);
+      check_texture_index(corner.substr(slash + 1, second - slash - 1), line);
+      if (second != corner.npos) check_index(corner.substr(second + 1), counts.normals, "normals", line);
+    }
     ++corners;
   }
   if (corners < 3) line.fail("a face has " + std::to_string(corners) + " corners, needs 3");
@@ -118,6 +134,7 @@ std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, co
     }
     if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke") line.expect_numbers(keyword, 3);
     if (keyword == "Ns" || keyword == "d") line.expect_numbers(keyword, 1);
+    if (keyword == "illum") line.expect_numbers(keyword, 1, std::numeric_limits<int>::max(), "an integer");
   });
   return given;
 }

@@ -50,7 +50,8 @@ std::string named(std::string_view keyword, std::string_view name) {
 }  // namespace
 
 std::string normalized_obj(const std::string& text) {
-  return edit_lines(text, [](std::string_view keyword, std::string_view arguments) {
+  return edit_lines(text, [](std::string_view keyword, std::string_view arguments) -> std::string {
+    if (keyword == "vw" || keyword == "l" || keyword == "p" || keyword == "s" || keyword == "t") return "#";
     const bool is_name = keyword == "usemtl" || keyword == "mtllib";
     return is_name && arguments.find(' ') != arguments.npos ? named(keyword, arguments) : std::string();
   });

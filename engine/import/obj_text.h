@@ -9,8 +9,8 @@ namespace tessera {
 /// Stands for a space inside a name: tinyobjloader ends some names at the first space.
 inline constexpr char kSpaceInName = '\x1f';
 
-/// Takes away a byte order mark, joins continued lines ("\" at the end; lines keep their numbers), and puts kSpaceInName into
-/// the names of materials and material files.
+/// Takes away a byte order mark, joins continued lines ("\" at the end; lines keep their numbers), puts kSpaceInName into the names of materials and material
+/// files, and empties lines that nobody needs (weights, lines, points, smoothing groups, tags), whose numbers tinyobjloader takes for integers unseen.
 std::string normalized_obj(const std::string& text);
 
 /// The same for an MTL file. A colour of one number becomes a grey; colours given as spectral curves or in XYZ are left out,

@@ -68,8 +68,12 @@ std::optional<SceneCamera> own_camera(const ModelCamera& camera, const MeshData&
   const double near = std::max(camera.near > 0 ? camera.near : far / kDeepest, least / kMargin);
   if (!(near < far)) return {};
   const double h = camera.half_height > 0 ? camera.half_height : camera.half_width / aspect, w = h * aspect;
-  return SceneCamera{.view = camera.view,
-                     .projection = camera.is_orthographic ? orthographic(-w, w, -h, h, near, far) : frustum(-w * near, w * near, -h * near, h * near, near, far)};
+  try {
+    return SceneCamera{.view = camera.view,
+                       .projection = camera.is_orthographic ? orthographic(-w, w, -h, h, near, far) : frustum(-w * near, w * near, -h * near, h * near, near, far)};
+  } catch (const Error&) {
+    return {};  // a lens as wide as numbers go, or as narrow
+  }
 }
 
 // False only if each triangle lies wholly beyond one of the planes of the view.

@@ -182,6 +182,9 @@ TEST_F(ObjImport, EachBreakageNamesFileAndLine) {
       {std::string(kTriangle) + "f 1 2\n", ":4: ", "a face has 2 corners, needs 3"},
       {std::string(kTriangle) + "f 1 2 x\n", ":4: ", "found \"x\", expected an index"},
       {std::string(kTriangle) + "f 1 2 99999999999999999999\n", ":4: ", "expected an index"},
+      {std::string(kTriangle) + "f 1/4294967297 2/1 3/1\n", ":4: ", "found \"4294967297\", expected an index up to 2147483647"},
+      {std::string(kTriangle) + "f 1/1 2/-9223372036854775808/1 3/1\n", ":4: ", "found \"-9223372036854775808\", expected an index"},
+      {std::string(kTriangle) + "f 1/1 2/x 3/1\n", ":4: ", "found \"x\", expected an index"},
       {"v 0 0 nan\n", ":1: ", "found \"nan\" after \"v\", expected a finite number"},
       {"v 0 0 0\nv inf 0 0\n", ":2: ", "found \"inf\""},
       {"v 0 0 1e39\n", ":1: ", "found \"1e39\""},
@@ -204,6 +207,16 @@ TEST_F(ObjImport, ABrokenMaterialFileNamesItself) {
   write("bad.mtl", "newmtl a\nKd 1 nan 0\n");
   const std::string message = message_of("mtllib bad.mtl\n" + std::string(kTriangle) + "f 1 2 3\n");
   EXPECT_NE(message.find("bad.mtl:2: found \"nan\" after \"Kd\""), std::string::npos) << message;
+  write("bad.mtl", "newmtl a\nKd 1 0 0\nillum 4294967297\n");
+  const std::string beyond = message_of("mtllib bad.mtl\n" + std::string(kTriangle) + "f 1 2 3\n");
+  EXPECT_NE(beyond.find("bad.mtl:3: found \"4294967297\" after \"illum\", expected an integer"), std::string::npos) << beyond;
+}
+
+// tinyobjloader refuses the first of these, and casts the second to an integer.
+TEST_F(ObjImport, WhatNobodyNeedsIsNotRead) {
+  const Model model = import_model(write("more.obj", std::string(kTriangle) + "vw 0 -1 0.5\nvw 0 1e30 0.5\ns 4294967298\nl 1 2\np 9\nt tag 1/2/3 x\nf 1 2 3\n"));
+  EXPECT_EQ(model.mesh.indices, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_TRUE(model.warnings.empty());
 }
 
 TEST_F(ObjImport, MissingFilesFoldersAndOtherFormatsAreNamed) {

@@ -1,0 +1,50 @@
+// Cameras and lights of glTF 2 as they are read beside assimp, which would refuse some of these files first.
+#include <gtest/gtest.h>
+
+#include "engine/import/gltf_view.h"
+
+namespace tessera {
+namespace {
+
+Model view_of(const std::string& members) {
+  Model model;
+  EXPECT_TRUE(add_gltf_view_of_bytes(R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "point"}]}},
+    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}], )" + members + "}", model)) << members;
+  return model;
+}
+
+// Where @ stands, an index of `kind`; node 0, whose camera is kept, comes before it.
+void expect_told(std::string members, const std::string& kind, std::size_t length, std::size_t cameras) {
+  const auto with = [&](const std::string& index) { return std::string(members).replace(members.find('@'), 1, index); };
+  const Model whole = view_of(with(std::to_string(length - 1)));
+  EXPECT_TRUE(whole.warnings.empty()) << whole.warnings[0];
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']'), end = std::to_string(length);
+  const std::pair<std::string, std::string> none[] = {
+      {"1e+308", "1e+308"}, {"-1e+308", "-1e+308"}, {"-1", "-1"}, {"0.5", "0.5"}, {"1.0", "1.0"}, {"18446744073709551615", "18446744073709551615"},
+      {"18446744073709551616", "1.8446744073709552e+19"}, {end, end}, {"\"0\"", "string"}, {"true", "boolean"}, {"null", "null"}, {deep, "array"}};
+  for (const auto& [index, found] : none) {
+    const Model model = view_of(with(index));
+    EXPECT_EQ(model.cameras.size(), cameras) << members << " with " << index.substr(0, 40);
+    ASSERT_EQ(model.warnings.size(), 1u) << members << " with " << index.substr(0, 40);
+    EXPECT_EQ(model.warnings[0], "its cameras and lights cannot all be read: found " + found + ", expected the index of one of " + std::to_string(length) + " " + kind);
+  }
+}
+
+TEST(GltfView, IndicesThatNameNothingAreTold) {
+  expect_told(R"("scene": @, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}])", "scenes", 1, 0);
+  expect_told(R"("scenes": [{"nodes": [0, @]}], "nodes": [{"camera": 0}, {}])", "nodes", 2, 1);
+  expect_told(R"("scenes": [{"nodes": [0]}], "nodes": [{"camera": 0, "children": [1, @]}, {}, {}])", "nodes", 3, 1);
+  expect_told(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"camera": @}])", "cameras", 1, 1);
+  expect_told(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": @}}}])", "lights", 2, 1);
+}
+
+TEST(GltfView, AngleOfAPerspectiveIsBelowHalfATurn) {
+  const auto cameras = [](const std::string& angle) {
+    return view_of(R"("scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": )" + angle + R"(, "znear": 1}}])").cameras.size();
+  };
+  for (const char* angle : {"0.001", "3.1415"}) EXPECT_EQ(cameras(angle), 1u) << angle;
+  for (const char* angle : {"0", "-0.7", "3.1416", "13", "1e308", "-1e308"}) EXPECT_EQ(cameras(angle), 0u) << angle;
+}
+
+}  // namespace
+}  // namespace tessera

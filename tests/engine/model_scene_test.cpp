@@ -1,0 +1,21 @@
+// A model as a scene of its own.
+#include <gtest/gtest.h>
+
+#include "engine/scene/model_scene.h"
+
+namespace tessera {
+namespace {
+
+TEST(ModelScene, ALensBeyondNumbersIsNotTaken) {
+  Model model;
+  model.mesh.positions = {-1, -1, -5, 1, -1, -5, 0, 1, -5};
+  model.mesh.indices = {0, 1, 2};
+  model.parts = {{.material_name = {}, .material = {}, .first_index = 0, .index_count = 3}};
+  model.cameras.push_back({.view = {}, .is_orthographic = true, .half_height = 1.7e308});
+  const Scene scene = model_scene(model, "m", 64, 48);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "m: its cameras see nothing of the model, which is framed instead");
+}
+
+}  // namespace
+}  // namespace tessera
