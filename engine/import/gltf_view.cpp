@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -99,7 +100,7 @@ class ViewReader {
       to.half_height = std::abs(lens.value("ymag", 0.0));
     } else {
       const double angle = lens.value("yfov", 0.0);
-      if (!(angle > 0 && angle < std::numbers::pi)) return;
+      if (!(angle > 0 && angle < std::numbers::pi)) return leave_out(angle);
       const SinCos half = sin_cos_degrees(angle / 2 * kDegrees);
       to.half_height = half.sine / half.cosine;
     }
@@ -111,6 +112,11 @@ class ViewReader {
       return;  // a node that is squeezed flat has no direction
     }
     model_.cameras.push_back(to);
+  }
+
+  // The first of them is told.
+  void leave_out(double angle) {
+    if (!std::exchange(is_told_, true)) model_.warnings.push_back("a perspective camera is left out: found an angle of " + Json(angle).dump() + ", expected one between 0 and pi");
   }
 
   void add_light(const Json& light, const Matrix& world) {
@@ -141,6 +147,7 @@ class ViewReader {
   const Json& file_;
   Model& model_;
   int visits_ = 0;
+  bool is_told_ = false;
 };
 
 }  // namespace
@@ -153,7 +160,7 @@ bool add_gltf_view(const std::string& path, Model& model) {
 bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   const Json file = Json::parse(json_text(bytes), nullptr, false);
   const auto place = "/asset/version"_json_pointer;
-  if (!file.contains(place)) return false;  // value() would throw where "asset" is an array
+  if (!file.contains(place)) return false;
   const Json& version = file.at(place);
   if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2")) return false;
   const auto warn = [&model](const std::exception& error) { model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what())); };

@@ -26,7 +26,7 @@ class Line {
 
   [[noreturn]] void fail(const std::string& message) const { throw Error(file_ + ":" + std::to_string(number_) + ": " + message); }
 
-  void expect_numbers(std::string_view keyword, int count, double most = std::numeric_limits<float>::max(), const char* expected = "a finite number") {
+  void expect_numbers(std::string_view keyword, int count) {
     for (int i = 0; i < count; ++i) {
       std::string_view text = word();
       if (text.empty() || text.front() == '#')
@@ -36,8 +36,8 @@ class Line {
       double x = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
       const bool is_number = error == std::errc{} && end == text.data() + text.size();
-      if (!is_number || !(std::abs(x) <= most))
-        fail("found \"" + found + "\" after \"" + std::string(keyword) + "\", expected " + expected);
+      if (!is_number || !(std::abs(x) <= std::numeric_limits<float>::max()))
+        fail("found \"" + found + "\" after \"" + std::string(keyword) + "\", expected a finite number");
     }
   }
 
@@ -78,12 +78,11 @@ void check_index(std::string_view text, std::int64_t count, const char* kind, co
     line.fail("index " + std::to_string(index) + " out of bounds, there are " + std::to_string(count) + " " + kind + " before this line");
 }
 
-// It may point nowhere: then texture coordinates are not used.
+// It may be more than there are: then no texture coordinates are used.
 void check_texture_index(std::string_view text, const Line& line) {
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
-  if (text.empty()) return;
-  if (const std::int64_t index = index_of(text, line); index > kMost || index < -kMost)
-    line.fail("found \"" + std::to_string(index) + "\", expected an index up to " + std::to_string(kMost));
+  const std::int64_t index = index_of(text, line);
+  if (index == 0 || index > kMost || index < -kMost) line.fail("texture index " + std::to_string(index) + " out of bounds");
 }
 
 void check_face(Line& line, const Counts& counts) {
@@ -94,7 +93,7 @@ void check_face(Line& line, const Counts& counts) {
     check_index(corner.substr(0, slash), counts.positions, "vertices", line);
     if (slash != corner.npos) {
       const std::size_t second = corner.find('/', slash + 1);
-      check_texture_index(corner.substr(slash + 1, second - slash - 1), line);
+      if (second != slash + 1) check_texture_index(corner.substr(slash + 1, second - slash - 1), line);
       if (second != corner.npos) check_index(corner.substr(second + 1), counts.normals, "normals", line);
     }
     ++corners;
@@ -134,7 +133,6 @@ std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, co
     }
     if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke") line.expect_numbers(keyword, 3);
     if (keyword == "Ns" || keyword == "d") line.expect_numbers(keyword, 1);
-    if (keyword == "illum") line.expect_numbers(keyword, 1, std::numeric_limits<int>::max(), "an integer");
   });
   return given;
 }

@@ -10,7 +10,7 @@
 namespace tessera {
 
 /// @throws Error with file and line for a number of a vertex or normal that is missing, no number or not finite, and for a
-/// face with fewer than three corners or an index that points to no vertex or normal before it.
+/// face with fewer than three corners, an index that points to no vertex or normal before it, or one of a texture coordinate that none can have.
 void check_obj(std::string_view text, const std::string& file);
 
 /// What an MTL file says of a material: a colour that is not given is not black, and what is given may not be supported.

@@ -1,7 +1,7 @@
 #include "engine/import/obj_text.h"
 
 #include <algorithm>
-#include <sstream>
+#include <charconv>
 #include <string_view>
 
 namespace tessera {
@@ -47,11 +47,19 @@ std::string named(std::string_view keyword, std::string_view name) {
   return line;
 }
 
+// Of "2.0", too, and of what stands behind a space.
+bool begins_with_int(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && (end == text.data() + text.size() || *end == '.' || kSpaces.find(*end) != kSpaces.npos);
+}
+
 }  // namespace
 
 std::string normalized_obj(const std::string& text) {
   return edit_lines(text, [](std::string_view keyword, std::string_view arguments) -> std::string {
-    if (keyword == "vw" || keyword == "l" || keyword == "p" || keyword == "s" || keyword == "t") return "#";
+    if (keyword == "vw" || keyword == "l" || keyword == "p") return "#";
     const bool is_name = keyword == "usemtl" || keyword == "mtllib";
     return is_name && arguments.find(' ') != arguments.npos ? named(keyword, arguments) : std::string();
   });
@@ -63,6 +71,10 @@ std::string normalized_mtl(const std::string& text, const std::string& path, std
     if (keyword == "newmtl") {
       material = arguments;
       return named(keyword, arguments);
+    }
+    if (keyword == "illum" && !begins_with_int(arguments)) {
+      warnings.push_back(path + ": illum of material \"" + material + "\" is left out: found \"" + std::string(arguments.substr(0, 40)) + "\", expected an integer");
+      return "#";
     }
     if (keyword != "Ka" && keyword != "Kd" && keyword != "Ks" && keyword != "Ke") return {};
     if (arguments.starts_with("spectral") || arguments.starts_with("xyz")) {

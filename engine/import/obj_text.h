@@ -10,11 +10,11 @@ namespace tessera {
 inline constexpr char kSpaceInName = '\x1f';
 
 /// Takes away a byte order mark, joins continued lines ("\" at the end; lines keep their numbers), puts kSpaceInName into the names of materials and material
-/// files, and empties lines that nobody needs (weights, lines, points, smoothing groups, tags), whose numbers tinyobjloader takes for integers unseen.
+/// files, and empties lines that nobody needs: weights, of which tinyobjloader casts any float to a joint's int, and lines and points, for whose zeros it refuses the model.
 std::string normalized_obj(const std::string& text);
 
-/// The same for an MTL file. A colour of one number becomes a grey; colours given as spectral curves or in XYZ are left out,
-/// with a line in `warnings`.
+/// The same for an MTL file. A colour of one number becomes a grey; colours given as spectral curves or in XYZ, and an illum that is no int, are
+/// left out, with a line in `warnings`.
 std::string normalized_mtl(const std::string& text, const std::string& path, std::vector<std::string>& warnings);
 
 /// A name with its spaces.

@@ -68,6 +68,14 @@ TEST_F(GltfImport, NodesCamerasAndLights) {
   EXPECT_EQ(model_scene(model, "t", 64, 48).lights.size(), 3u);
 }
 
+TEST_F(GltfImport, AnIndexThatIsNoneIsTold) {
+  const Model model = imported(R"("scenes": [{"nodes": [0, 1, -1]}], "nodes": [{"mesh": 0}, {"camera": 0}], "materials": [{"name": "m"}],
+    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}])");
+  EXPECT_EQ(model.cameras.size(), 1u) << "what stands before it is kept";
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0], (folder_ / "t.gltf").string() + ": its cameras and lights cannot all be read: found -1, expected the index of one of 2 nodes");
+}
+
 // The first "asset" counts for assimp, the last one for who reads cameras and lights beside it: not of glTF 2, so assimp's stay.
 TEST_F(GltfImport, AnAssetThatIsAnArrayHasNoVersion) {
   const Model model = imported(R"("asset": [{"version": "2.0"}], "scenes": [{"nodes": [0, 1]}], "materials": [{"name": "m"}], "nodes": [{"mesh": 0}, {"camera": 0}],

@@ -6,10 +6,12 @@
 namespace tessera {
 namespace {
 
-Model view_of(const std::string& members) {
+constexpr const char* kOrthographic = R"({"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}})";
+
+Model view_of(const std::string& members, const std::string& camera = kOrthographic) {
   Model model;
   EXPECT_TRUE(add_gltf_view_of_bytes(R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "point"}]}},
-    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}], )" + members + "}", model)) << members;
+    "cameras": [)" + camera + "], " + members + "}", model)) << members;
   return model;
 }
 
@@ -39,11 +41,17 @@ TEST(GltfView, IndicesThatNameNothingAreTold) {
 }
 
 TEST(GltfView, AngleOfAPerspectiveIsBelowHalfATurn) {
-  const auto cameras = [](const std::string& angle) {
-    return view_of(R"("scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": )" + angle + R"(, "znear": 1}}])").cameras.size();
+  const auto view = [](const std::string& angle) {
+    return view_of(R"("scenes": [{"nodes": [0, 0]}], "nodes": [{"camera": 0}])", R"({"type": "perspective", "perspective": {"yfov": )" + angle + R"(, "znear": 1}})");
   };
-  for (const char* angle : {"0.001", "3.1415"}) EXPECT_EQ(cameras(angle), 1u) << angle;
-  for (const char* angle : {"0", "-0.7", "3.1416", "13", "1e308", "-1e308"}) EXPECT_EQ(cameras(angle), 0u) << angle;
+  for (const char* angle : {"0.001", "3.1415"}) {
+    EXPECT_EQ(view(angle).cameras.size(), 2u) << angle;
+    EXPECT_TRUE(view(angle).warnings.empty()) << angle;
+  }
+  for (const std::string angle : {"0.0", "-0.7", "3.1416", "13.0", "1e+308", "-1e+308"}) {
+    EXPECT_TRUE(view(angle).cameras.empty()) << angle;
+    EXPECT_EQ(view(angle).warnings, std::vector{"a perspective camera is left out: found an angle of " + angle + ", expected one between 0 and pi"});
+  }
 }
 
 }  // namespace

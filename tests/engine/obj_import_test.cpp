@@ -182,8 +182,10 @@ TEST_F(ObjImport, EachBreakageNamesFileAndLine) {
       {std::string(kTriangle) + "f 1 2\n", ":4: ", "a face has 2 corners, needs 3"},
       {std::string(kTriangle) + "f 1 2 x\n", ":4: ", "found \"x\", expected an index"},
       {std::string(kTriangle) + "f 1 2 99999999999999999999\n", ":4: ", "expected an index"},
-      {std::string(kTriangle) + "f 1/4294967297 2/1 3/1\n", ":4: ", "found \"4294967297\", expected an index up to 2147483647"},
-      {std::string(kTriangle) + "f 1/1 2/-9223372036854775808/1 3/1\n", ":4: ", "found \"-9223372036854775808\", expected an index"},
+      {std::string(kTriangle) + "f 1/4294967297 2/1 3/1\n", ":4: ", "texture index 4294967297 out of bounds"},
+      {std::string(kTriangle) + "f 1/1 2/-9223372036854775808/1 3/1\n", ":4: ", "texture index -9223372036854775808 out of bounds"},
+      {std::string(kTriangle) + "vt 0 0\nf 1/1 2/0 3/1\n", ":5: ", "texture index 0 out of bounds"},
+      {std::string(kTriangle) + "vt 0 0\nf 1/ 2/ 3/1\n", ":5: ", "found \"\", expected an index"},
       {std::string(kTriangle) + "f 1/1 2/x 3/1\n", ":4: ", "found \"x\", expected an index"},
       {"v 0 0 nan\n", ":1: ", "found \"nan\" after \"v\", expected a finite number"},
       {"v 0 0 0\nv inf 0 0\n", ":2: ", "found \"inf\""},
@@ -207,16 +209,33 @@ TEST_F(ObjImport, ABrokenMaterialFileNamesItself) {
   write("bad.mtl", "newmtl a\nKd 1 nan 0\n");
   const std::string message = message_of("mtllib bad.mtl\n" + std::string(kTriangle) + "f 1 2 3\n");
   EXPECT_NE(message.find("bad.mtl:2: found \"nan\" after \"Kd\""), std::string::npos) << message;
-  write("bad.mtl", "newmtl a\nKd 1 0 0\nillum 4294967297\n");
-  const std::string beyond = message_of("mtllib bad.mtl\n" + std::string(kTriangle) + "f 1 2 3\n");
-  EXPECT_NE(beyond.find("bad.mtl:3: found \"4294967297\" after \"illum\", expected an integer"), std::string::npos) << beyond;
 }
 
-// tinyobjloader refuses the first of these, and casts the second to an integer.
+TEST_F(ObjImport, AnIllumThatIsNoIntegerIsLeftOut) {
+  const auto model_of = [this](const std::string& illum) {
+    write("illum.mtl", "newmtl a\nKs 1 1 1\nillum" + illum + "\n");
+    return import_model(write("illum.obj", "mtllib illum.mtl\n" + std::string(kTriangle) + "usemtl a\nf 1 2 3\n"));
+  };
+  for (const char* illum : {" 4294967297", " 1e9", " illum_1", " 1;", "", " # none"}) {
+    const Model model = model_of(illum);
+    EXPECT_EQ(model.parts.at(0).material.specular.r, 1) << illum;
+    ASSERT_EQ(model.warnings.size(), 1u) << illum;
+    EXPECT_NE(model.warnings[0].find("illum of material \"a\" is left out: found \"" + std::string(illum + (*illum != 0 ? 1 : 0)) + "\""), std::string::npos) << model.warnings[0];
+  }
+  for (const char* illum : {" 1", " +1", " 1.0", "\t0 # dull", " -3"}) {
+    const Model model = model_of(illum);
+    EXPECT_EQ(model.parts.at(0).material.specular.r, 0) << illum;
+    EXPECT_TRUE(model.warnings.empty()) << illum;
+  }
+}
+
+// tinyobjloader refuses each of these.
 TEST_F(ObjImport, WhatNobodyNeedsIsNotRead) {
-  const Model model = import_model(write("more.obj", std::string(kTriangle) + "vw 0 -1 0.5\nvw 0 1e30 0.5\ns 4294967298\nl 1 2\np 9\nt tag 1/2/3 x\nf 1 2 3\n"));
-  EXPECT_EQ(model.mesh.indices, (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_TRUE(model.warnings.empty());
+  for (const char* line : {"vw 0 -1 0.5\n", "l 0 1\n", "p 0\n"}) {
+    const Model model = import_model(write("more.obj", std::string(kTriangle) + line + "f 1 2 3\n"));
+    EXPECT_EQ(model.mesh.indices, (std::vector<std::uint32_t>{0, 1, 2})) << line;
+    EXPECT_TRUE(model.warnings.empty()) << line;
+  }
 }
 
 TEST_F(ObjImport, MissingFilesFoldersAndOtherFormatsAreNamed) {
