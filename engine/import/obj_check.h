@@ -18,7 +18,7 @@ struct MtlGiven {
   bool ambient = false, diffuse = false, illum = false, texture = false, dissolve = false;
 };
 
-/// The same for the colours and numbers of an MTL file that are used. Materials by their names.
+/// The same for the colours, Ns and d of an MTL file (of illum: normalized_mtl()). Materials by their names.
 std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, const std::string& file);
 
 }  // namespace tessera

@@ -49,17 +49,19 @@ std::string named(std::string_view keyword, std::string_view name) {
 
 // Of "2.0", too, and of what stands behind a space.
 bool begins_with_int(std::string_view text) {
+  text = text.substr(0, text.find_first_of(kSpaces));
   if (text.starts_with('+')) text.remove_prefix(1);
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && (end == text.data() + text.size() || *end == '.' || kSpaces.find(*end) != kSpaces.npos);
+  const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  return error == std::errc{} && (rest.empty() || (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == rest.npos));
 }
 
 }  // namespace
 
 std::string normalized_obj(const std::string& text) {
   return edit_lines(text, [](std::string_view keyword, std::string_view arguments) -> std::string {
-    if (keyword == "vw" || keyword == "l" || keyword == "p") return "#";
+    if (keyword == "vw" || keyword == "l" || keyword == "p" || keyword == "t") return "#";
     const bool is_name = keyword == "usemtl" || keyword == "mtllib";
     return is_name && arguments.find(' ') != arguments.npos ? named(keyword, arguments) : std::string();
   });

@@ -10,7 +10,8 @@ namespace tessera {
 inline constexpr char kSpaceInName = '\x1f';
 
 /// Takes away a byte order mark, joins continued lines ("\" at the end; lines keep their numbers), puts kSpaceInName into the names of materials and material
-/// files, and empties lines that nobody needs: weights, of which tinyobjloader casts any float to a joint's int, and lines and points, for whose zeros it refuses the model.
+/// files, and empties lines that nobody needs: weights, of which tinyobjloader casts any float to a joint's int; lines and points, for whose zeros it refuses the
+/// model; and tags, which it copies into every group, as large as they say they are.
 std::string normalized_obj(const std::string& text);
 
 /// The same for an MTL file. A colour of one number becomes a grey; colours given as spectral curves or in XYZ, and an illum that is no int, are
