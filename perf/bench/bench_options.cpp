@@ -74,7 +74,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
     return text == "llvmpipe" || text == "softpipe";
   });
   driver->needs(rivals);
-  CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost");
+  CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost, in twice --seconds each");
   add_integer(program, "--memory-cores", "cores that keep the memory of computed machines busy; default: 8", 1024, options.memory_cores)->needs(scaling);
   CLI::Option* const growth = add_path(program, "--growth", "FILE", "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured", options.growth_file);
   CLI::Option* const trace = add_path(program, "--trace", "FILE", "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured", options.trace_file);

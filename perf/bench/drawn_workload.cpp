@@ -92,6 +92,8 @@ class DrawnWorkload : public Workload {
     for (const MeshData& mesh : drawing_.meshes) work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() + mesh.texcoords.size() + mesh.indices.size());
     work.limit = drawing_.limit;
     work.limited_bytes = drawing_.limited_bytes != 0 ? drawing_.limited_bytes : easel_->moved_bytes();
+    const auto in_tile = [&](int pixels) { return static_cast<std::uint64_t>(std::min(pixels, stats.tile_size)); };
+    work.tile_bytes = drawing_.pixel_bytes * in_tile(drawing_.format.width) * in_tile(drawing_.format.height);
     work.kept_bytes = easel_->kept_bytes();
     return work;
   }

@@ -26,6 +26,7 @@ struct Drawing {
   std::uint64_t tested_fragments = 0;  ///< what counts as fragments where depth is all that is drawn; 0: FrameStats::shaded_pixels
   Limit limit = Limit::none;
   std::uint64_t limited_bytes = 0;  ///< what that limit counts; 0: the planes, where a frame reads or keeps them, and the image
+  std::uint64_t pixel_bytes = 0;    ///< of the words of a tile's pixel that are stored, where tiles are what the limit stores
   std::function<std::string(const Picture&)> fault{};  ///< of the picture; may be empty
   std::function<RivalForm(const Drawing&)> rival{};    ///< empty: rivals do not draw it
 };

@@ -28,8 +28,9 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
   for (int k = 0; k < kLayers; ++k) drawing.meshes.push_back(window_grid(1, 1, 0.8f - 0.1f * static_cast<float>(k), 0, texture_repeats));
   drawing.shades_at_once = true;
   drawing.fragments = kLayers * area(width, height);
-  drawing.limit = Limit::l1_stores;
-  drawing.limited_bytes = 4 * drawing.fragments;  // of colour, or of depth where that is all
+  drawing.limit = Limit::tile_stores;
+  drawing.pixel_bytes = 4;  // of colour, or of depth where that is all
+  drawing.limited_bytes = drawing.pixel_bytes * drawing.fragments;
   drawing.record = [change](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     for (int k = 0; k < kLayers; ++k) {
@@ -42,6 +43,12 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
     }
   };
   return drawing;
+}
+
+/// Depth, or a stencil, beside colour.
+void store_a_word_more(Drawing& drawing) {
+  drawing.pixel_bytes *= 2;
+  drawing.limited_bytes *= 2;
 }
 
 /// @param change  of what all layers have
@@ -97,7 +104,7 @@ void with_depth(int, DrawState& state) { state.depth.enabled = true; }
 
 Drawing gouraud_depth_layers(int width, int height) {
   Drawing drawing = gouraud_layers(width, height, with_depth, [](RivalForm& form) { form.tests_depth = true; });
-  drawing.limited_bytes *= 2;  // both
+  store_a_word_more(drawing);
   return drawing;
 }
 
@@ -134,6 +141,7 @@ Drawing stencilled_layers(int width, int height) {
   Drawing drawing = gouraud_layers(width, height, [](int, DrawState& state) { state.stencil = StencilState{.front = {.func = Compare::less, .ref = 0, .zpass = StencilOp::incr}}; },
                                    [](RivalForm& form) { form.counts_in_stencil = true; });
   drawing.format.stencil_bits = 8;
+  store_a_word_more(drawing);
   const auto record = drawing.record;
   drawing.record = [record](const Drawing& d, Frame& frame) {
     frame.clear({.stencil = 1u});

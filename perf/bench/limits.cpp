@@ -48,6 +48,11 @@ void LimitMoves::move(std::size_t part, int turn) {
 
 double LimitMoves::bytes() const { return static_cast<double>(memory_.size() + copies_.size()) * static_cast<double>(share_) * static_cast<double>(times_); }
 
+LimitMoves limit_for(const FrameWork& work, int threads, std::uint64_t moved) {
+  const bool is_in_tiles = work.limit == Limit::tile_stores;
+  return LimitMoves(work.limit, threads, is_in_tiles ? work.tile_bytes * static_cast<std::uint64_t>(threads) : work.limited_bytes, moved);
+}
+
 double measure_limit(Limit limit, int threads, std::uint64_t bytes) {
   LimitMoves moves(limit, threads, bytes, std::uint64_t{512} << 20);
   std::vector<double> rates;

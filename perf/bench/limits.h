@@ -37,6 +37,10 @@ class LimitMoves {
   std::vector<Lines> memory_, copies_;  // of each thread
 };
 
+/// What a frame's work is held against.
+/// @pre there is a limit
+LimitMoves limit_for(const FrameWork& work, int threads, std::uint64_t moved);
+
 /// In 10^9 bytes a second, of all threads together: the median of several runs.
 ///
 /// @param limit  not none

@@ -17,6 +17,7 @@
 #include "perf/bench/bench_options.h"
 #include "perf/bench/compare.h"
 #include "perf/bench/cores.h"
+#include "perf/bench/frame_costs.h"
 #include "perf/bench/growth.h"
 #include "perf/bench/limits.h"
 #include "perf/bench/report.h"
@@ -202,7 +203,7 @@ class Bench {
     for (const WorkloadEntry* entry : entries) {
       report_.scaling.push_back(scaling_of(*entry, setup_, report_.threads, model, options_.measure, counters_));
       show(scaling_line(report_.scaling.back()));
-      is_wrong_ |= !report_.scaling.back().fault.empty();
+      is_wrong_ |= !report_.scaling.back().fault.empty() || !report_.scaling.back().not_computed.empty();
     }
   }
   void measure_noise(const WorkloadEntry& entry) {

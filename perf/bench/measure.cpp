@@ -21,6 +21,7 @@ constexpr int kFewestTurns = 15, kMostTurns = 1000000;
 struct Runner {
   std::unique_ptr<Workload> workload{};
   std::optional<LimitMoves> limit{};
+  double Row::*rate = nullptr;  // of the limit
   std::size_t row = 0;
   FrameStats stats{};  // of the last frame
   std::vector<double> times{};
@@ -54,7 +55,7 @@ std::string fault_of(const Work& work) {
   try {
     work();
   } catch (const std::bad_alloc&) {
-    return "out of memory";
+    return kOutOfMemory;
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -80,17 +81,19 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
 }
 
-/// One more runner for each row that is held against a limit, and runs so long, a millisecond where all is in caches, that its threads' start is little beside it.
+/// One more runner for each limit that a row is held against, which runs so long, a millisecond where all is in caches, that its threads' start is little beside it.
 void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
-  for (drawing = 0; drawing < rows.size(); ++drawing) {
-    const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
-    if (work.limit == Limit::none) continue;
+  const auto add = [&](const FrameWork& work, double Row::*rate) {
     try {
-      LimitMoves limit(work.limit, rows[drawing].threads, work.limited_bytes, std::uint64_t{256} << 20);
-      runners.push_back({.limit = std::move(limit), .row = drawing});
+      runners.push_back({.limit = limit_for(work, rows[drawing].threads, std::uint64_t{256} << 20), .rate = rate, .row = drawing});
     } catch (const std::bad_alloc&) {
       // The row is worth more than what it is held against, and its limit stays 0.
     }
+  };
+  for (drawing = 0; drawing < rows.size(); ++drawing) {
+    const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
+    if (work.limit != Limit::none) add(work, &Row::limit);
+    if (work.limit == Limit::tile_stores) add({.limit = Limit::l1_stores}, &Row::l1_stores);
   }
 }
 
@@ -141,6 +144,7 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
       fault = picture_fault(candidates[k], *runners[k].workload);
     });
     rows[k].fault = stopped.empty() ? fault : stopped;
+    rows[k].is_stopped = !stopped.empty();
   }
   const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
   if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
@@ -151,13 +155,14 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   });
   if (!stopped.empty()) {
     rows[drawing].fault = stopped;
+    rows[drawing].is_stopped = true;
     return rows;
   }
   for (Runner& runner : runners) {
     Row& row = rows[runner.row];
     const Statistics ms = statistics_of(runner.times);
     if (runner.limit) {
-      row.limit = runner.limit->bytes() / ms.median * 1e-6;
+      row.*runner.rate = runner.limit->bytes() / ms.median * 1e-6;
       continue;
     }
     row.frames = runner.times.size();

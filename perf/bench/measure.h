@@ -12,6 +12,9 @@
 
 namespace tessera::bench {
 
+/// The fault of a row whose frames there was no memory for.
+inline constexpr const char* kOutOfMemory = "out of memory";
+
 struct MeasureOptions {
   int repeats = 0;            ///< frames of each row; 0: as many as `seconds` hold, 15 at least
   double seconds = 1;         ///< for each row; for what it is held against always
@@ -31,7 +34,9 @@ struct Row {
   FrameWork work;
   std::optional<HardwareCounters::Counts> counts{};  ///< of a frame
   double limit = 0;           ///< 10^9 bytes a second, where there is one and it was measured
-  std::string fault;          ///< of the picture; empty: it is right
+  double l1_stores = 0;       ///< the same of stores in L1, where tiles' words are what is stored
+  std::string fault;          ///< of the picture, or what stopped it; empty: it is right
+  bool is_stopped = false;    ///< no memory, say: the fault is nothing that was drawn
 };
 
 struct Candidate {

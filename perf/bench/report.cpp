@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kMiB = 1 << 20;
 
-// Of what the machine does at best.
-double share_of_limit(const Row& row) { return static_cast<double>(row.work.limited_bytes) / row.ms.median * 1e-6 / row.limit; }
+// 10^9 bytes a second that a row is held against limits by.
+double moved(const Row& row) { return static_cast<double>(row.work.limited_bytes) / row.ms.median * 1e-6; }
 
 // Of what was working memory in the first frame, where triangles are most of it.
 std::optional<double> bytes_a_triangle(const Row& row) {
@@ -23,6 +23,7 @@ std::optional<double> bytes_a_triangle(const Row& row) {
 const char* name_of(Limit limit) {
   switch (limit) {
     case Limit::l1_stores: return "stores in L1";
+    case Limit::tile_stores: return "stores of a tile's words";
     case Limit::memory_stores: return "stores of as much";
     case Limit::memory_copies: return "copies of as much";
     case Limit::memory_loads: return "loads of as much";
@@ -55,7 +56,10 @@ std::vector<Figure> figures_of(const Row& row) {
   figures.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
   figures.push_back({"bytes_per_triangle", bytes_a_triangle(row)});
   figures.push_back({"limit_gigabytes_per_second", row.limit > 0 ? std::optional(row.limit) : std::nullopt});
-  figures.push_back({"share_of_limit", row.limit > 0 ? std::optional(share_of_limit(row)) : std::nullopt});
+  figures.push_back({"share_of_limit", row.limit > 0 ? std::optional(moved(row) / row.limit) : std::nullopt});
+  figures.push_back({"tile_bytes", row.l1_stores > 0 ? std::optional(static_cast<double>(row.work.tile_bytes)) : std::nullopt});
+  figures.push_back({"l1_stores_gigabytes_per_second", row.l1_stores > 0 ? std::optional(row.l1_stores) : std::nullopt});
+  figures.push_back({"share_of_l1_stores", row.l1_stores > 0 ? std::optional(moved(row) / row.l1_stores) : std::nullopt});
   figures.push_back({"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
   figures.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions)) : std::nullopt});
   return figures;
@@ -119,10 +123,12 @@ std::string table_ending(const Report& report) {
                         static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
   for (const Row& row : report.rows) {
     if (row.frames == 0 || row.work.limit == Limit::none) continue;
-    if (row.limit > 0)
-      text += formatted("%-22s moves %.1f GB/s, %.0f %% of %s (%.1f GB/s)\n", row.name.c_str(), share_of_limit(row) * row.limit, 100 * share_of_limit(row), name_of(row.work.limit), row.limit);
-    else
+    if (row.limit > 0) {
+      const auto share_of = [&](double most, Limit limit) { return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * moved(row) / most, name_of(limit), most); };
+      text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), moved(row)) + share_of(row.limit, row.work.limit) + (row.l1_stores > 0 ? share_of(row.l1_stores, Limit::l1_stores) : "") + "\n";
+    } else {
       text += formatted("%-22s no memory for %s\n", row.name.c_str(), name_of(row.work.limit));
+    }
   }
   return text;
 }

@@ -7,17 +7,21 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <new>
 #include <queue>
 
 #include "engine/parallel.h"
+#include "perf/bench/frame_costs.h"
 #include "perf/bench/limits.h"
 #include "perf/bench/text.h"
+#include "perf/bench/two_apart.h"
 
 namespace tessera::bench {
 namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
+constexpr double kCostSeconds = 2;  // of a measured row's, for each count of cores
 constexpr int kManyCores = 64;  // whose seconds are shown in parts
 static_assert(std::find(std::begin(kCores), std::end(kCores), kManyCores) != std::end(kCores));
 
@@ -91,39 +95,50 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     return Candidate{.name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count};
   };
   Scaling scaling{.workload = entry.name};
-  const auto take = [&](const std::vector<Candidate>& candidates) {
-    std::vector<Row> rows = measure(candidates, options, counters);
+  const auto note_fault = [&](const std::vector<Row>& rows) {
     for (const Row& row : rows)
       if (scaling.fault.empty()) scaling.fault = row.fault;
-    return rows;
   };
   const std::vector<int> counts = measured_threads(threads);
-  if (counts.empty()) scaling.one_ms = take({on(1)}).front().ms.median;
+  if (counts.empty()) {
+    const std::vector<Row> rows = measure(std::vector{on(1)}, options, counters);
+    note_fault(rows);
+    scaling.one_ms = rows.front().ms.median;
+  }
   if (!scaling.fault.empty()) return scaling;
   for (const int count : counts) {
-    const std::vector<Row> rows = take({on(1), on(count)});
+    std::vector<Candidate> candidates{on(1), on(count)};
+    if (count == 2) candidates.push_back({.name = entry.name, .make = [&] { return std::make_unique<TwoApart>(entry, setup); }, .threads = 2});
+    std::vector<Row> rows = measure(candidates, options, counters);
+    if (candidates.size() > 2 && std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_stopped; })) {
+      candidates.pop_back();  // whoever's turn it was: there may be memory for the others alone
+      rows = measure(candidates, options, counters);
+    }
+    note_fault(rows);
     if (!scaling.fault.empty()) return scaling;
     scaling.one_ms = rows[0].ms.median;
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
+    if (rows.size() > 2) scaling.two_apart = TwoApart::speed_up(rows[0].ms, rows[2].ms);
   }
   try {
-    const double one = seconds_on(cost_of_frame(entry, setup, 1), 1, model).sum();
     for (const int cores : kCores) {
-      const CoreSeconds seconds = seconds_on(cost_of_frame(entry, setup, cores), cores, model);
-      scaling.predicted.emplace_back(cores, one / seconds.sum());
+      const std::vector<TracedFrame> costs = costs_of_frames(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
+      const CoreSeconds one = seconds_on(costs[0], 1, model), seconds = seconds_on(costs[1], cores, model);
+      scaling.predicted.emplace_back(cores, one.sum() / seconds.sum());
       if (cores == kManyCores) scaling.of_64 = seconds;
     }
   } catch (const std::bad_alloc&) {
-    scaling.fault = "out of memory";
+    scaling.not_computed = kOutOfMemory;
   } catch (const std::exception& error) {
-    scaling.fault = error.what();
+    scaling.not_computed = error.what();
   }
   return scaling;
 }
 
 std::string scaling_heading(int threads) {
   std::string text = formatted("%-22s %9s ", "workload", "1 core ms");
-  for (const int count : measured_threads(threads)) text += formatted(" %19s", (std::to_string(count) + " threads").c_str());
+  for (const int count : measured_threads(threads)) text += formatted(" %20s", (std::to_string(count) + " threads").c_str());
+  if (threads > 1) text += formatted(" %20s", "2 apart");
   text += "  computed:";
   for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
   return text + "   of 64  working  waiting    alone   memory\n";
@@ -132,13 +147,17 @@ std::string scaling_heading(int threads) {
 std::string scaling_line(const Scaling& scaling) {
   if (!scaling.fault.empty()) return formatted("%-22s not timed: %s\n", scaling.workload.c_str(), scaling.fault.c_str());
   std::string text = formatted("%-22s %9.3f ", scaling.workload.c_str(), scaling.one_ms);
-  for (const auto& [threads, speed] : scaling.measured) text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high);
+  const auto measured = [&](const Ratio& speed) { text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high); };
+  for (const auto& [threads, speed] : scaling.measured) measured(speed);
+  if (scaling.two_apart) measured(*scaling.two_apart);
+  else if (!scaling.measured.empty()) text += formatted(" %20s", "(no memory)");
   text += "           ";
   double of_64 = 0;
   for (const auto& [cores, speed] : scaling.predicted) {
     text += formatted(" %7.2f", speed);
     if (cores == kManyCores) of_64 = speed / kManyCores;
   }
+  if (!scaling.not_computed.empty()) return text + "  not computed: " + scaling.not_computed + "\n";
   text += formatted("  %4.0f %%", 100 * of_64);
   for (const auto& [what, seconds] : parts_of(scaling.of_64)) text += formatted("  %5.0f %%", 100 * seconds / scaling.of_64.sum());
   return text + "\n";
@@ -146,17 +165,20 @@ std::string scaling_line(const Scaling& scaling) {
 
 nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  const auto measured = [](const Ratio& speed) { return nlohmann::ordered_json{{"speed_up", speed.value}, {"low", speed.low}, {"high", speed.high}}; };
   for (const Scaling& scaling : all) {
     nlohmann::ordered_json entry{{"name", scaling.workload}};
     if (!scaling.fault.empty()) {
       entry["fault"] = scaling.fault;
-      json.push_back(std::move(entry));
-      continue;
+    } else {
+      entry["one_thread_ms"] = scaling.one_ms;
+      for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = measured(speed);
+      if (scaling.two_apart) entry["two_apart"] = measured(*scaling.two_apart);
+      if (!scaling.not_computed.empty()) entry["not_computed"] = scaling.not_computed;
+      for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
+      if (scaling.of_64.sum() > 0)
+        for (const auto& [what, seconds] : parts_of(scaling.of_64)) entry["ms_of_64"][what] = 1e3 * seconds;
     }
-    entry["one_thread_ms"] = scaling.one_ms;
-    for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = {{"speed_up", speed.value}, {"low", speed.low}, {"high", speed.high}};
-    for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
-    for (const auto& [what, seconds] : parts_of(scaling.of_64)) entry["ms_of_64"][what] = 1e3 * seconds;
     json.push_back(std::move(entry));
   }
   return json;

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <future>
-#include <limits>
-#include <memory>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
-
-#include "perf/bench/pretended_workers.h"
 
 namespace tessera::bench {
 namespace {
@@ -42,13 +37,6 @@ void paint(std::uint8_t* rgba, double share) {
 }
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-int passes_of(std::span<const FrameTask> tasks) {
-  std::set<int> passes;
-  for (const FrameTask& task : tasks) passes.insert(task.pass);
-  return static_cast<int>(passes.size());
-}
 
 std::set<int> workers_of(std::span<const FrameTask> tasks) {
   std::set<int> workers;
@@ -56,92 +44,33 @@ std::set<int> workers_of(std::span<const FrameTask> tasks) {
   return workers;
 }
 
-/// @param workers  null, or the executor of `setup`
-std::vector<TracedFrame> frames_of(const WorkloadEntry& entry, const WorkloadSetup& setup, PretendedWorkers* workers = nullptr) {
-  WorkloadSetup traced = setup;
-  std::vector<FrameTask> tasks;
-  traced.options.trace = [&tasks](std::span<const FrameTask> of_frame) { tasks.assign(of_frame.begin(), of_frame.end()); };
-  const std::unique_ptr<Workload> workload = entry.make(traced);
-  std::vector<TracedFrame> frames;
-  for (int i = 0; i < kWarmUps + kFrames; ++i) {
-    if (workers != nullptr) workers->take_seconds(), workers->take_calls();
-    const Clock::time_point start = Clock::now();
-    const FrameStats stats = workload->draw();
-    TracedFrame frame{.workload = entry.name, .seconds = seconds_since(start), .tasks = tasks, .work = workload->work(stats)};
-    if (workers != nullptr) {
-      frame.seconds_taking = workers->take_seconds() - frame.seconds_in_tasks();
-      frame.calls_without_tasks = workers->take_calls() - passes_of(frame.tasks);
-    }
-    if (i >= kWarmUps) frames.push_back(std::move(frame));
-  }
-  return frames;
-}
-
-double length(const FrameTask& task) { return task.end - task.begin; }
-
-WorkloadSetup with_workers(WorkloadSetup setup, const std::shared_ptr<PretendedWorkers>& workers) {
-  setup.options.threads = workers->workers();
-  setup.options.executor = workers;
-  return setup;
-}
-
 }  // namespace
 
 double TracedFrame::seconds_in_tasks() const {
-  return std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double sum, const FrameTask& task) { return sum + length(task); });
+  return std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double sum, const FrameTask& task) { return sum + task.end - task.begin; });
+}
+
+TracedWorkload::TracedWorkload(const WorkloadEntry& entry, WorkloadSetup setup) : name_(entry.name) {
+  setup.options.trace = [this](std::span<const FrameTask> of_frame) { tasks_.assign(of_frame.begin(), of_frame.end()); };
+  workload_ = entry.make(setup);
+}
+
+TracedFrame TracedWorkload::draw() {
+  const Clock::time_point start = Clock::now();
+  const FrameStats stats = workload_->draw();
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return {.workload = name_, .seconds = seconds, .tasks = tasks_, .work = workload_->work(stats)};
 }
 
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) {
-  std::vector<TracedFrame> frames = frames_of(entry, setup);
+  TracedWorkload workload(entry, setup);
+  std::vector<TracedFrame> frames;
+  for (int i = 0; i < kWarmUps + kFrames; ++i) {
+    TracedFrame frame = workload.draw();
+    if (i >= kWarmUps) frames.push_back(std::move(frame));
+  }
   std::nth_element(frames.begin(), frames.begin() + kFrames / 2, frames.end(), [](const TracedFrame& a, const TracedFrame& b) { return a.seconds < b.seconds; });
   return frames[kFrames / 2];
-}
-
-TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
-  const auto on_caller = std::make_shared<WorkersOnCaller>(workers);
-  const std::vector<TracedFrame> frames = frames_of(entry, with_workers(setup, on_caller), on_caller.get());
-  TracedFrame least = frames.front();
-  for (const TracedFrame& frame : frames) {
-    least.seconds_taking = std::min(least.seconds_taking, frame.seconds_taking);
-    for (std::size_t i = 0; i < least.tasks.size(); ++i)
-      if (length(frame.tasks[i]) < length(least.tasks[i])) least.tasks[i] = frame.tasks[i];
-  }
-  least.seconds = least.seconds_taking + least.seconds_in_tasks();
-  return least;
-}
-
-namespace {
-
-/// Seconds of a frame in which no worker runs: the least of several frames.
-double seconds_alone(const WorkloadEntry& entry, const WorkloadSetup& setup, const std::shared_ptr<PretendedWorkers>& pretended) {
-  const std::unique_ptr<Workload> workload = entry.make(with_workers(setup, pretended));
-  double least_rest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kWarmUps + kFrames; ++i) {
-    pretended->take_seconds();
-    const Clock::time_point start = Clock::now();
-    workload->draw();
-    const double rest = seconds_since(start) - pretended->take_seconds();
-    if (i >= kWarmUps) least_rest = std::min(least_rest, rest);
-  }
-  return least_rest;
-}
-
-}  // namespace
-
-TracedFrame cost_of_frame(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
-  TracedFrame cost = cost_of_tasks(entry, setup, workers);
-  const std::vector<int> cores = allowed_cores();
-  if (workers == 1 || cores.size() < 2) {
-    cost.seconds += seconds_alone(entry, setup, std::make_shared<WorkersOnCaller>(workers));
-    return cost;
-  }
-  const auto passes = static_cast<std::size_t>(std::max(1, passes_of(cost.tasks) + cost.calls_without_tasks));
-  const std::size_t share_bytes = cost.work.bytes / passes / static_cast<std::size_t>(workers);
-  cost.seconds += std::async(std::launch::async, [&] {
-                    keep_on({&cores.front(), 1});
-                    return seconds_alone(entry, setup, std::make_shared<WorkersElsewhere>(workers, cores.back(), share_bytes));
-                  }).get();
-  return cost;
 }
 
 std::string chrome_trace(const std::vector<TracedFrame>& frames) {

@@ -28,6 +28,7 @@ struct WorkloadSetup {
 enum class Limit : std::uint8_t {
   none,
   l1_stores,      ///< memset of 16 KiB for each thread, again and again
+  tile_stores,    ///< memset of as many bytes as a tile's words for each thread, again and again: the first cache may be too small for them
   memory_stores,  ///< memset of as many bytes as the frame stores
   memory_copies,  ///< memcpy of them: bytes read and bytes written both count
   memory_loads    ///< memchr of them, for what is not there
@@ -43,6 +44,7 @@ struct FrameWork {
   std::uint64_t kept_bytes = 0; ///< of the frame buffer's planes and the image
   Limit limit = Limit::none;    ///< what it is held against
   std::uint64_t limited_bytes = 0;
+  std::uint64_t tile_bytes = 0; ///< a tile's words, where they are what the limit stores
 };
 
 class Workload {

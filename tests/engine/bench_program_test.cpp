@@ -47,9 +47,11 @@ TEST_F(BenchProgram, MeasuresWhatItChecked) {
     EXPECT_LE(row["least_ms"], row["median_ms"]);
     EXPECT_LE(row["median_ms"], row["percentile_99_ms"]);
     // Of hidden layers nothing is stored sixteen times.
-    EXPECT_EQ(row.value("limit", ""), row["name"] == "fill-hidden" ? "" : "stores in L1");
+    EXPECT_EQ(row.value("limit", ""), row["name"] == "fill-hidden" ? "" : "stores of a tile's words");
     EXPECT_EQ(row.value("share_of_limit", 0.0) * row.value("limit_gigabytes_per_second", 0.0) > 0, row.contains("limit")) << row;
+    EXPECT_EQ(row.value("share_of_l1_stores", 0.0) * row.value("l1_stores_gigabytes_per_second", 0.0) > 0, row.contains("limit")) << row;
     if (row["name"] != "fill-hidden") {
+      EXPECT_EQ(row["tile_bytes"], (row["name"] == "fill-gouraud-z" || row["name"] == "fill-stencil" ? 8 : 4) * 64 * 48) << "a word for each plane that is written";
       EXPECT_NEAR(row["megafragments_per_second"].get<double>() / row["megapixels_per_second"].get<double>(), 16, 1e-6) << row;
     }
     const double pixels_a_second = row["megapixels_per_second"].get<double>() * 1e6, ms = row["median_ms"];
@@ -261,6 +263,8 @@ TEST_F(BenchProgram, PredictsMoreCores) {
   ASSERT_EQ(scaling.size(), 1u);
   EXPECT_GT(scaling[0]["measured"]["2"]["speed_up"], 0.0);
   EXPECT_LE(scaling[0]["measured"]["2"]["low"], scaling[0]["measured"]["2"]["high"]);
+  EXPECT_GT(scaling[0]["two_apart"]["speed_up"], 0.0);
+  EXPECT_TRUE(contains(result.out, " 2 apart ")) << result.out;
   for (const char* cores : {"2", "4", "8", "16", "32", "64", "128"}) EXPECT_GT(scaling[0]["computed"][cores], 0.0) << cores;
 }
 

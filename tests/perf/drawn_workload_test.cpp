@@ -40,6 +40,20 @@ TEST(BenchDrawing, RevealsWhatHasNoColorToItsJudgeAlone) {
 
 TEST(BenchDrawing, OfNothingIsNotTimed) { EXPECT_EQ(workload_of([] { return depth_alone(false); })->fault(), "shaded 0 pixels, expected 256"); }
 
+TEST(BenchDrawing, KnowsTheWordsOfItsTiles) {
+  for (const int tile_size : {32, 64}) {
+    const auto fill = drawn("fill", "", [](int, int, std::uint32_t) {
+      Drawing drawing = depth_alone(true);
+      drawing.format = {.width = 48, .height = 200};
+      drawing.pixel_bytes = 8;
+      return drawing;
+    });
+    const auto workload = fill.make({.options = {.threads = 1, .tile_size = tile_size}});
+    const FrameWork work = workload->work(workload->draw());
+    EXPECT_EQ(work.tile_bytes, tile_size == 32 ? 8u * 32 * 32 : 8u * 48 * 64) << "no more than the frame has";
+  }
+}
+
 TEST(BenchDrawing, SaysWhatItsPictureLacks) {
   const auto white = [] {
     Drawing drawing = depth_alone(true);

@@ -54,9 +54,10 @@ struct Made {
   int fails_at = -1;  // the frame
   Limit limit = Limit::none;
   std::uint64_t limited_bytes = 1 << 20;
+  std::uint64_t tile_bytes = 0;
 };
 Candidate counting(Log& log, int number, const Made& made = {}) {
-  const FrameWork work{.pixels = 1, .limit = made.limit, .limited_bytes = made.limited_bytes};
+  const FrameWork work{.pixels = 1, .limit = made.limit, .limited_bytes = made.limited_bytes, .tile_bytes = made.tile_bytes};
   return {.name = "counting", .make = [=, &log] { return std::make_unique<Counting>(log, number, made.picture, made.fault, made.fails_at, work); }, .threads = 1};
 }
 
@@ -81,9 +82,9 @@ TEST(BenchMeasure, TakesTurnsAsOftenEach) {
 TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
   MeasureOptions options = kFewFrames;
   options.takes_limits = true;
-  for (const Limit limit : {Limit::l1_stores, Limit::memory_stores, Limit::memory_copies, Limit::memory_loads}) {
+  for (const Limit limit : {Limit::l1_stores, Limit::tile_stores, Limit::memory_stores, Limit::memory_copies, Limit::memory_loads}) {
     Log log;
-    const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.limit = limit}), counting(log, 1)}, options, HardwareCounters());
+    const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.limit = limit, .tile_bytes = 1 << 20}), counting(log, 1)}, options, HardwareCounters());
     ASSERT_EQ(rows.size(), 2u);
     const double alone = measure_limit(limit, 1, 1 << 20);  // and on a busy machine
     EXPECT_GT(rows[0].limit, alone / 30);
@@ -98,6 +99,22 @@ TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
     Log without;
     EXPECT_EQ(measure(std::vector{counting(without, 0, {.limit = limit})}, kFewFrames, HardwareCounters())[0].limit, 0) << "nobody asked";
   }
+}
+
+TEST(BenchMeasure, WhatTilesStoreIsHeldAgainstTheFirstCacheToo) {
+  MeasureOptions options = kFewFrames;
+  options.takes_limits = true;
+  Log log;
+  const auto row_of = [&](std::uint64_t tile_bytes) { return measure(std::vector{counting(log, 0, {.limit = Limit::tile_stores, .limited_bytes = 1 << 14, .tile_bytes = tile_bytes})}, options, HardwareCounters())[0]; };
+  const Row small = row_of(1 << 14), large = row_of(1 << 26);
+  for (const Row& row : {small, large}) {
+    EXPECT_EQ(row.frames, 7u);
+    EXPECT_GT(row.limit, 0);
+    EXPECT_GT(row.l1_stores, 0);
+  }
+  EXPECT_LT(large.limit, large.l1_stores / 2) << "no cache next to a core holds so much";
+  const Row other = measure(std::vector{counting(log, 0, {.limit = Limit::memory_stores})}, options, HardwareCounters())[0];
+  EXPECT_EQ(other.l1_stores, 0) << "it is not for tiles";
 }
 
 TEST(BenchMeasure, FramesFillTheirSecondsWhateverTheirLimitTakes) {
@@ -133,11 +150,18 @@ TEST(BenchLimits, CountWhatTheyMove) {
   EXPECT_EQ(LimitMoves(Limit::l1_stores, 3, 5000, 1000).bytes(), 20000.0 * 3 * 16384) << "the first caches', whatever the frame";
 }
 
+TEST(BenchLimits, AreTheFramesOwn) {
+  EXPECT_EQ(limit_for({.limit = Limit::memory_stores, .limited_bytes = 1000, .tile_bytes = 8}, 2, 1).bytes(), 1000);
+  EXPECT_EQ(limit_for({.limit = Limit::tile_stores, .limited_bytes = 8, .tile_bytes = 1000}, 2, 1).bytes(), 2000) << "a tile for each thread";
+  EXPECT_EQ(limit_for({.limit = Limit::l1_stores, .limited_bytes = 8, .tile_bytes = 8}, 1, 1).bytes(), 20000.0 * 16384);
+}
+
 TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
   Log log;
   const std::vector<Row> rows = measure(std::vector{counting(log, 0), counting(log, 1, {.fault = "a pixel is off"})}, kFewFrames, HardwareCounters());
   EXPECT_EQ(rows[0].fault, "");
   EXPECT_EQ(rows[1].fault, "a pixel is off");
+  EXPECT_FALSE(rows[1].is_stopped);
   for (const Row& row : rows) EXPECT_EQ(row.frames, 0u);
   EXPECT_EQ(log.frames.size(), 2u);
 }
@@ -147,6 +171,7 @@ TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
     Log log;
     const std::vector<Row> rows = measure(std::vector{counting(log, 0, {.fails_at = frame})}, kFewFrames, HardwareCounters());
     EXPECT_EQ(rows[0].fault, "out of memory") << frame;
+    EXPECT_TRUE(rows[0].is_stopped) << frame;
     EXPECT_EQ(rows[0].frames, 0u) << frame;
     EXPECT_EQ(log.alive, 0) << frame;
   }

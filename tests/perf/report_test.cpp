@@ -40,6 +40,23 @@ TEST(Report, SaysWhatThereWasNoMemoryFor) {
   EXPECT_TRUE(share.ends_with("timed                  moves 4.0 GB/s, 25 % of copies of as much (16.0 GB/s)\n")) << share;
 }
 
+TEST(Report, HoldsTilesAgainstTheirOwnStoresAndTheFirstCaches) {
+  Row filled = kTimed;
+  filled.work.limit = Limit::tile_stores;
+  filled.work.limited_bytes = 8000000;
+  filled.limit = 8;
+  filled.l1_stores = 40;
+  const std::string text = table_ending({.rows = {filled}});
+  EXPECT_TRUE(text.ends_with("timed                  moves 4.0 GB/s, 50 % of stores of a tile's words (8.0 GB/s), 10 % of stores in L1 (40.0 GB/s)\n")) << text;
+  const nlohmann::ordered_json row = report_json({.rows = {filled}})["workloads"][0];
+  EXPECT_EQ(row["limit"], "stores of a tile's words");
+  EXPECT_EQ(row["share_of_limit"], 0.5);
+  EXPECT_EQ(row["l1_stores_gigabytes_per_second"], 40);
+  EXPECT_EQ(row["share_of_l1_stores"], 0.1);
+  filled.l1_stores = 0;  // there was no memory for it
+  EXPECT_TRUE(table_ending({.rows = {filled}}).ends_with("stores of a tile's words (8.0 GB/s)\n"));
+}
+
 TEST(Report, TablesForProgramsHaveFaultyRowsToo) {
   const std::string csv = report_csv({.width = 80, .height = 50, .instruction_set = "avx2", .rows = {kFaulty, kTimed}}), kShared = ",80,50,avx2,0,1,,,\n";
   EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;

@@ -1,7 +1,12 @@
 // Frames on cores that are not there, against schedules made by hand.
 #include "perf/bench/scaling.h"
 
+#include <memory>
+#include <utility>
+
 #include <gtest/gtest.h>
+
+#include "engine/parallel.h"
 
 namespace tessera::bench {
 namespace {
@@ -59,6 +64,64 @@ TEST(BenchScaling, WhatStopsAWorkloadIsItsFault) {
     EXPECT_EQ(scaling_line(scaling), "unmade                 not timed: no such mesh\n");
     EXPECT_TRUE(scaling.predicted.empty());
   }
+}
+
+/// Of which there is memory for no more than `most` at once; the engine says so in its own words. Who asks for more is the first of them, or those beyond.
+class Large : public Workload {
+ public:
+  Large(int& alive, int most, bool first_asks) : alive_(alive), most_(most), asks_(first_asks ? alive == 0 : alive >= most) { ++alive_; }
+  ~Large() override { --alive_; }
+  FrameStats draw() override {
+    if (asks_ && alive_ > most_) throw Error("Renderer: not enough memory");
+    return {};
+  }
+  std::string fault() override { return {}; }
+  const Picture& picture() override { return picture_; }
+  FrameWork work(const FrameStats&) const override { return {}; }
+
+ private:
+  int& alive_;
+  int most_;
+  bool asks_;
+  Picture picture_{1, 1};
+};
+Scaling scaling_of_large(int most, bool first_asks = false) {
+  int alive = 0;
+  const WorkloadEntry entry{.name = "large", .what = "", .make = [&](const WorkloadSetup&) { return std::make_unique<Large>(alive, most, first_asks); }};
+  const ThreadLimit limit(2);
+  const Scaling scaling = scaling_of(entry, {}, 2, kFastMemory, {.repeats = 1, .seconds = 0.001, .warm_up_seconds = 0}, HardwareCounters());
+  EXPECT_EQ(alive, 0);
+  return scaling;
+}
+
+TEST(BenchScaling, WhatWasMeasuredStandsWithoutMemoryForTheRest) {
+  const Scaling all = scaling_of_large(4);
+  EXPECT_EQ(all.fault + all.not_computed, "");
+  EXPECT_TRUE(all.two_apart.has_value());
+  EXPECT_EQ(all.predicted.size(), 7u);
+  EXPECT_TRUE(scaling_json({all})[0].contains("two_apart"));
+  for (const auto& [most, first_asks] : {std::pair(2, false), {3, false}, {3, true}}) {
+    const Scaling scaling = scaling_of_large(most, first_asks);
+    EXPECT_EQ(scaling.fault, "");
+    EXPECT_FALSE(scaling.two_apart.has_value());
+    EXPECT_EQ(scaling.measured.size(), 1u);
+    EXPECT_EQ(scaling.not_computed, "Renderer: not enough memory");
+    const std::string line = scaling_line(scaling);
+    EXPECT_TRUE(line.ends_with(")          (no memory)             not computed: Renderer: not enough memory\n")) << line;
+    const nlohmann::ordered_json json = scaling_json({scaling})[0];
+    EXPECT_TRUE(json.contains("measured")) << json;
+    EXPECT_EQ(json["not_computed"], "Renderer: not enough memory");
+    for (const char* key : {"two_apart", "computed", "ms_of_64"}) EXPECT_FALSE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(scaling_of_large(1).fault, "Renderer: not enough memory") << "nothing is known then";
+}
+
+TEST(BenchScaling, TellsWhatWasComputedBeforeTheMemoryEnded) {
+  const Scaling scaling{.workload = "made up", .one_ms = 1, .predicted = {{2, 1.5}}, .not_computed = "out of memory"};
+  EXPECT_TRUE(scaling_line(scaling).ends_with("    1.50  not computed: out of memory\n")) << scaling_line(scaling);
+  const nlohmann::ordered_json json = scaling_json({scaling})[0];
+  EXPECT_EQ(json["computed"], (nlohmann::ordered_json{{"2", 1.5}}));
+  EXPECT_FALSE(json.contains("ms_of_64"));
 }
 
 TEST(BenchScaling, WhatIsInNoTaskStaysOneCores) {

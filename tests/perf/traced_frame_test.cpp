@@ -5,9 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "perf/bench/bench_meshes.h"
-#include "perf/bench/drawn_workload.h"
-
 namespace tessera::bench {
 namespace {
 
@@ -24,37 +21,6 @@ TracedFrame three_tiles() {
 }
 
 TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().seconds_in_tasks(), 1e-4 + 28e-9, 1e-15); }
-
-WorkloadEntry grid_of(int columns, int draws = 1) {
-  return drawn("grid", "", [columns, draws](int, int, std::uint32_t) {
-    Drawing drawing{.format = {.width = 256, .height = 256}};
-    drawing.meshes.push_back(window_grid(columns, 64));
-    drawing.record = [draws](const Drawing& d, Frame& frame) {
-      frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-      for (int i = 0; i < draws; ++i) frame.draw(d.meshes.front().view(), {.lighting = false});
-    };
-    return drawing;
-  });
-}
-
-// What one worker does between its tasks is neither theirs nor the frame's own.
-TEST(TracedFrame, MeasuresTasksTheirTakingAndTheRestApart) {
-  const WorkloadEntry grid = grid_of(64);
-  for (const int workers : {1, 2, 64}) {
-    const TracedFrame frame = cost_of_frame(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
-    EXPECT_GT(frame.tasks.size(), 64u) << workers;
-    EXPECT_GT(frame.seconds_taking, 0) << workers;
-    EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
-    const TracedFrame tasks = cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
-    EXPECT_DOUBLE_EQ(tasks.seconds, tasks.seconds_taking + tasks.seconds_in_tasks()) << workers;
-  }
-}
-
-TEST(TracedFrame, CountsCallsForWorkersThatNoTaskTellsOf) {
-  EXPECT_EQ(cost_of_frame(grid_of(64), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 0);
-  EXPECT_EQ(cost_of_frame(grid_of(256), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 1) << "so many indices that recording asks for help";
-  EXPECT_EQ(cost_of_frame(grid_of(4, 17), {.options = {.tile_size = 32}}, 2).calls_without_tasks, 1) << "so many draws that planning does";
-}
 
 TEST(TracedFrame, IsAChromeTrace) {
   TracedFrame other = three_tiles();

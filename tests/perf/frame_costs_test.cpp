@@ -1,0 +1,101 @@
+// What frames cost where one thread does what many would: which parts there are, and who draws when.
+#include "perf/bench/frame_costs.h"
+
+#include <array>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "perf/bench/bench_meshes.h"
+#include "perf/bench/drawn_workload.h"
+
+namespace tessera::bench {
+namespace {
+
+WorkloadEntry grid_of(int columns, int draws = 1) {
+  return drawn("grid", "", [columns, draws](int, int, std::uint32_t) {
+    Drawing drawing{.format = {.width = 256, .height = 256}};
+    drawing.meshes.push_back(window_grid(columns, 64));
+    drawing.record = [draws](const Drawing& d, Frame& frame) {
+      frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+      for (int i = 0; i < draws; ++i) frame.draw(d.meshes.front().view(), {.lighting = false});
+    };
+    return drawing;
+  });
+}
+
+TracedFrame cost_of(const WorkloadEntry& entry, int workers) { return costs_of_frames(entry, {.width = 256, .height = 256, .options = {.tile_size = 32}}, std::array{workers}, 0).front(); }
+
+// What one worker does between its tasks is neither theirs nor the frame's own.
+TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
+  const WorkloadEntry grid = grid_of(64);
+  for (const int workers : {1, 2, 64}) {
+    const TracedFrame frame = cost_of(grid, workers);
+    EXPECT_GT(frame.tasks.size(), 64u) << workers;
+    EXPECT_GT(frame.seconds_taking, 0) << workers;
+    EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
+    const TracedFrame tasks = cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
+    EXPECT_DOUBLE_EQ(tasks.seconds, tasks.seconds_taking + tasks.seconds_in_tasks()) << workers;
+  }
+}
+
+TEST(FrameCosts, CountCallsForWorkersThatNoTaskTellsOf) {
+  EXPECT_EQ(cost_of(grid_of(64), 2).calls_without_tasks, 0);
+  EXPECT_EQ(cost_of(grid_of(256), 2).calls_without_tasks, 1) << "so many indices that recording asks for help";
+  EXPECT_EQ(cost_of(grid_of(4, 17), 2).calls_without_tasks, 1) << "so many draws that planning does";
+  const WorkloadEntry onto_planes = drawn("onto", "", [](int, int, std::uint32_t) {
+    Drawing drawing{.format = {.width = 256, .height = 256}};
+    drawing.before = [](const Drawing&, Frame& frame) { frame.clear({.color = Color{1, 0, 0, 1}, .depth = 1.0}); };
+    drawing.record = [](const Drawing&, Frame&) {};
+    return drawing;
+  });
+  EXPECT_EQ(cost_of(onto_planes, 2).calls_without_tasks, 0) << "what is drawn before the first frame is none of it";
+}
+
+/// What is seen of workloads from outside: for how many threads each frame is drawn, and by which of them.
+struct Log {
+  std::vector<std::pair<int, const void*>> frames;
+};
+class Noted : public Workload {
+ public:
+  Noted(Log& log, int threads) : log_(log), threads_(threads) {}
+  FrameStats draw() override {
+    log_.frames.emplace_back(threads_, this);
+    return {};
+  }
+  std::string fault() override { return {}; }
+  const Picture& picture() override { return picture_; }
+  FrameWork work(const FrameStats&) const override { return {}; }
+
+ private:
+  Log& log_;
+  int threads_;
+  Picture picture_{1, 1};
+};
+
+// A clock that changes meanwhile changes for all of them.
+TEST(FrameCosts, AreMeasuredInTurns) {
+  Log log;
+  const WorkloadEntry entry{.name = "noted", .what = "", .make = [&log](const WorkloadSetup& setup) { return std::make_unique<Noted>(log, setup.options.threads); }};
+  const std::vector<TracedFrame> costs = costs_of_frames(entry, {}, std::array{1, 64}, 0);
+  ASSERT_EQ(costs.size(), 2u);
+  for (const TracedFrame& cost : costs) EXPECT_GE(cost.seconds, 0);
+  // The first two frames of each, and then three turns of three frames with tasks noted and three without.
+  std::vector<int> threads;
+  for (const auto& [count, drawn_by] : log.frames) threads.push_back(count);
+  std::vector<int> expected{1, 1, 64, 64};
+  for (int turn = 0; turn < 3; ++turn)
+    for (const int count : {1, 64}) expected.insert(expected.end(), 6, count);
+  EXPECT_EQ(threads, expected);
+  EXPECT_EQ(log.frames[4].second, log.frames[0].second);
+  EXPECT_EQ(log.frames[16].second, log.frames[0].second) << "the same in each turn";
+  EXPECT_NE(log.frames[7].second, log.frames[0].second);
+  const auto start = std::chrono::steady_clock::now();
+  costs_of_frames(entry, {}, std::array{1, 64}, 0.1);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100)) << "they go on for their time";
+}
+
+}  // namespace
+}  // namespace tessera::bench
