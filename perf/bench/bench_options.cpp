@@ -65,7 +65,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
     return false;
   });
   add_integer(program, "--repeats", "frames of each workload; default: a second of them, 15 at least", 1000000, options.measure.repeats);
-  add_text(program, "--seconds", "S", "of frames for each workload, if --repeats does not say how many, and of limits beside them; default: 1", [&options](const std::string& text) { return parse_number(text, 0.001, 3600, options.measure.seconds); }, ", 0.001 to 3600");
+  add_text(program, "--seconds", "S", "of frames for each workload, if --repeats does not say how many, of limits beside them, and, twice, of what --scaling computes; default: 1", [&options](const std::string& text) { return parse_number(text, 0.001, 3600, options.measure.seconds); }, ", 0.001 to 3600");
   add_text(program, "--seed", "N", "of what is random in workloads, and of the order of turns; default: 1",
            [&options](const std::string& text) { return parse_number(text, 0, kLargestSeed, options.measure.seed); }, ", 0 to " + std::to_string(kLargestSeed));
   CLI::Option* const rivals = program.add_flag("--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");
@@ -74,7 +74,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
     return text == "llvmpipe" || text == "softpipe";
   });
   driver->needs(rivals);
-  CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost, in twice --seconds each");
+  CLI::Option* const scaling = program.add_flag("--scaling", options.scaling, "how much faster more cores are: measured up to --threads, and computed for 2 to 128 from what tasks cost");
   add_integer(program, "--memory-cores", "cores that keep the memory of computed machines busy; default: 8", 1024, options.memory_cores)->needs(scaling);
   CLI::Option* const growth = add_path(program, "--growth", "FILE", "SVG picture of how time and memory grow with triangles, pixels, lights and draws; nothing else is measured", options.growth_file);
   CLI::Option* const trace = add_path(program, "--trace", "FILE", "file for a frame of each workload, task by task, as chrome://tracing and ui.perfetto.dev show it; nothing else is measured", options.trace_file);

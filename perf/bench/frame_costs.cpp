@@ -46,8 +46,9 @@ class TaskCosts {
     TracedFrame frame = workload_.draw();
     frame.seconds_taking = workers_->take_seconds() - frame.seconds_in_tasks();
     frame.calls_without_tasks = workers_->take_calls() - passes_of(frame.tasks);
-    if (!counts) return;
-    if (!least_ || least_->tasks.size() != frame.tasks.size()) least_ = frame;  // a trace without memory is empty, and bins that grew need fewer passes
+    const bool has_no_trace = frame.tasks.empty() && least_ && !least_->tasks.empty();  // there was no memory for it
+    if (!counts || has_no_trace) return;
+    if (!least_ || least_->tasks.size() != frame.tasks.size()) least_ = frame;  // bins that grew need fewer passes
     least_->seconds_taking = std::min(least_->seconds_taking, frame.seconds_taking);
     for (std::size_t i = 0; i < frame.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(least_->tasks[i])) least_->tasks[i] = frame.tasks[i];

@@ -67,10 +67,11 @@ CoreModel measure_core_model(int threads) {
 CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
   CoreSeconds seconds{.alone = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking};
   const double taking = frame.seconds_taking / std::max<double>(1, static_cast<double>(frame.tasks.size()));
-  double passes = frame.calls_without_tasks * model.barrier_seconds;
+  const double begins = cores > 1 ? model.barrier_seconds : 0;
+  double passes = frame.calls_without_tasks * begins;
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
     const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.pass != first->pass; });
-    passes += scheduled({first, last}, taking, cores) + model.barrier_seconds;
+    passes += scheduled({first, last}, taking, cores) + begins;
     first = last;
   }
   seconds.working = (frame.seconds_in_tasks() + frame.seconds_taking) / cores;
@@ -107,18 +108,20 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
   }
   if (!scaling.fault.empty()) return scaling;
   for (const int count : counts) {
-    std::vector<Candidate> candidates{on(1), on(count)};
-    if (count == 2) candidates.push_back({.name = entry.name, .make = [&] { return std::make_unique<TwoApart>(entry, setup); }, .threads = 2});
-    std::vector<Row> rows = measure(candidates, options, counters);
-    if (candidates.size() > 2 && std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_stopped; })) {
-      candidates.pop_back();  // whoever's turn it was: there may be memory for the others alone
-      rows = measure(candidates, options, counters);
-    }
+    const std::vector<Row> rows = measure(std::vector{on(1), on(count)}, options, counters);
     note_fault(rows);
     if (!scaling.fault.empty()) return scaling;
     scaling.one_ms = rows[0].ms.median;
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
-    if (rows.size() > 2) scaling.two_apart = TwoApart::speed_up(rows[0].ms, rows[2].ms);
+  }
+  if (!counts.empty()) {
+    const Candidate apart{.name = entry.name, .make = [&] { return std::make_unique<TwoApart>(entry, setup); }, .threads = 2};
+    const std::vector<Row> rows = measure(std::vector{on(1), apart}, options, counters);
+    if (std::none_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_stopped; })) {  // what was measured before is worth more than both
+      note_fault(rows);
+      if (!scaling.fault.empty()) return scaling;
+      scaling.two_apart = TwoApart::speed_up(rows[0].ms, rows[1].ms);
+    }
   }
   try {
     for (const int cores : kCores) {

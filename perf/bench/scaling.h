@@ -40,14 +40,14 @@ struct Scaling {
   double one_ms = 0;                             ///< on one thread
   std::vector<std::pair<int, Ratio>> measured{};    ///< threads, and how many times as fast
   std::vector<std::pair<int, double>> predicted{};  ///< cores, and the same
-  std::optional<Ratio> two_apart{};              ///< how many times as fast two renderers are that share nothing, on a thread each: what this machine has for two threads. None: there is one, or no memory for both
+  std::optional<Ratio> two_apart{};              ///< how many times as fast two renderers are that share nothing, on a thread each. None: there is one thread, or no memory for both
   CoreSeconds of_64{};                              ///< what its seconds on 64 cores go to
   std::string fault;                             ///< why there are no figures; empty: there are
   std::string not_computed;                      ///< why no more is predicted; empty: all is, or there are no figures
 };
 /// Thread counts that are measured beside 1: all up to 8, and beyond them powers of 2 and the last.
 std::vector<int> measured_threads(int threads);
-/// Each thread count takes turns with one thread alone, two threads with two apart, too.
+/// Each thread count takes turns with one thread alone; so do two apart.
 /// @param threads  the most that are measured
 /// @param options  for each count of cores that is computed twice its seconds
 Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads, const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters);

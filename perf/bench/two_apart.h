@@ -1,4 +1,4 @@
-// Two frames at once that share nothing but the machine: what two threads get of it.
+// Two frames at once that share nothing but the machine: where they are not twice as fast as one, it holds two threads back, whatever these share.
 #pragma once
 
 #include <array>

@@ -1,8 +1,11 @@
 // What frames cost where one thread does what many would: which parts there are, and who draws when.
 #include "perf/bench/frame_costs.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -95,6 +98,36 @@ TEST(FrameCosts, AreMeasuredInTurns) {
   const auto start = std::chrono::steady_clock::now();
   costs_of_frames(entry, {}, std::array{1, 64}, 0.1);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100)) << "they go on for their time";
+}
+
+/// Each frame has as many tasks as `tasks` says of it; those beyond the list as the last.
+class Traced : public Workload {
+ public:
+  Traced(const WorkloadSetup& setup, std::vector<std::size_t> tasks) : trace_(setup.options.trace), tasks_(std::move(tasks)) {}
+  FrameStats draw() override {
+    trace_(std::vector<FrameTask>(tasks_[std::min(drawn_++, tasks_.size() - 1)], {.begin = 0, .end = 1e-9}));
+    return {};
+  }
+  std::string fault() override { return {}; }
+  const Picture& picture() override { return picture_; }
+  FrameWork work(const FrameStats&) const override { return {}; }
+
+ private:
+  std::function<void(std::span<const FrameTask>)> trace_;
+  std::vector<std::size_t> tasks_;
+  std::size_t drawn_ = 0;
+  Picture picture_{1, 1};
+};
+std::size_t tasks_of(const std::vector<std::size_t>& tasks) {
+  return cost_of_tasks({.name = "traced", .what = "", .make = [&](const WorkloadSetup& setup) { return std::make_unique<Traced>(setup, tasks); }}, {}, 2).tasks.size();
+}
+
+TEST(FrameCosts, AreOfTheTasksOfLaterFrames) {
+  EXPECT_EQ(tasks_of({5}), 5u);
+  EXPECT_EQ(tasks_of({7, 7, 7, 7, 7, 5}), 5u) << "bins have grown";
+  EXPECT_EQ(tasks_of({5, 5, 5, 5, 5, 7}), 7u);
+  EXPECT_EQ(tasks_of({5, 5, 5, 5, 5, 0}), 5u) << "there was no memory for the trace";
+  EXPECT_EQ(tasks_of({0}), 0u);
 }
 
 }  // namespace
