@@ -158,7 +158,8 @@ void RendererState::look_through_tiles(const TileStage& stage, const TileRange& 
 void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
   worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
   look_through_tiles(stage, tiles, stats, watch);
-  stage.cut_into_strips(tiles, strip_scratch, strips);
+  stage.cut_into_strips(tiles, parallel, strip_memory);
+  const std::vector<TileStrip>& strips = strip_memory.strips;
   watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
     watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], worker_counts[static_cast<std::size_t>(worker)]); });

@@ -28,7 +28,7 @@ void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, F
     most_elements = std::max(most_elements, mesh.elements);
   }
   if (small_.empty()) return;
-  const std::size_t workers = std::min(static_cast<std::size_t>(parallel.threads()), small_.size());
+  const std::size_t workers = parallel.workers_for(small_.size());
   while (makers_.size() < workers) makers_.emplace_back();
   for (std::size_t k = 0; k < workers; ++k) makers_[k].normals.reserve(most_vertices, most_elements);  // whoever has the largest one, and in whichever frame
   watch.begin_stage(FrameStage::vertices, done, small_.size());

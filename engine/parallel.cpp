@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -63,32 +64,58 @@ class TaskOrder {
   std::size_t count_, step_ = 1;
 };
 
+/// Sets a flag, unless it is set, until the end of the scope.
+class Running {
+ public:
+  explicit Running(bool& flag) : flag_(flag ? nullptr : &flag) {
+    if (flag_ != nullptr) *flag_ = true;
+  }
+  ~Running() {
+    if (flag_ != nullptr) *flag_ = false;
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  bool* flag_;
+};
+
 }  // namespace
 
-/// Tasks of one call, taken in order by whichever worker is free, so that callers can put the long ones first.
+/// Tasks of one call.
 struct Parallel::Queue {
   const AnyTask& task;
-  const std::size_t count;
   const TaskOrder order;
-  std::vector<char>& seen;
-  std::atomic<std::size_t> next{0}, done{0};
+  const std::span<Share> shares;
+  std::atomic<std::size_t> done{0};
   std::atomic<bool> failed{false};
   std::exception_ptr failure{};
 
   static void work(void* queue, int worker) noexcept { static_cast<Queue*>(queue)->run(worker); }
   void run(int worker) noexcept {
     const FloatingPointMode mode;
-    bool idle = true;
-    for (std::size_t i = next.fetch_add(1); i < count && !failed.load(std::memory_order_relaxed); i = next.fetch_add(1)) {
-      if (idle) seen[static_cast<std::size_t>(worker)] = 1;
-      idle = false;
+    const auto own = static_cast<std::size_t>(worker);
+    std::size_t ran = 0;
+    for (std::size_t k = 0; k < shares.size(); ++k) ran += run_share(shares[(own + k) % shares.size()], worker);
+    if (ran == 0) return;
+    shares[own].has_run = true;
+    done.fetch_add(ran, std::memory_order_release);
+  }
+  /// @return  tasks that this worker ran
+  std::size_t run_share(Share& share, int worker) noexcept {
+    std::size_t ran = 0;
+    // It looks before it takes: looking leaves the line in the caches of all who look.
+    while (share.next.load(std::memory_order_relaxed) < share.end && !failed.load(std::memory_order_relaxed)) {
+      const std::size_t i = share.next.fetch_add(1, std::memory_order_relaxed);
+      if (i >= share.end) break;
+      ++ran;
       try {
         task.call(task.self, order(i), worker);
       } catch (...) {
         if (!failed.exchange(true)) failure = std::current_exception();
       }
-      done.fetch_add(1, std::memory_order_release);
     }
+    return ran;
   }
 };
 
@@ -103,7 +130,7 @@ Parallel::Parallel(int threads, std::shared_ptr<Executor> executor, std::uint32_
     threads_ = std::clamp(threads, 1, std::max(1, limit));
     executor_ = threads_ == 1 ? serial_executor() : std::make_shared<ArenaExecutor>(threads_);
   }
-  seen_.resize(static_cast<std::size_t>(threads_));
+  shares_ = std::vector<Share>(static_cast<std::size_t>(threads_));
 }
 Parallel::~Parallel() = default;
 Parallel::Parallel(Parallel&&) noexcept = default;
@@ -111,17 +138,27 @@ Parallel& Parallel::operator=(Parallel&&) noexcept = default;
 
 void Parallel::run(std::size_t count, const AnyTask& task) {
   if (count == 0) return;
-  Queue queue{task, count, TaskOrder(order_, count), seen_};
-  executor_->run(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), count)), &Queue::work, &queue);
+  const std::size_t workers = workers_for(count);
+  std::vector<Share> inner(runs_ ? workers : 0);  // of a call by a task
+  const std::span<Share> shares = std::span(runs_ ? inner : shares_).first(workers);
+  for (std::size_t s = 0, first = 0; s < workers; ++s) {
+    shares[s].next.store(first, std::memory_order_relaxed);
+    shares[s].end = first = first_of_share(count, workers, s + 1);
+  }
+  Queue queue{task, TaskOrder(order_, count), shares};
+  {
+    const Running running(runs_);
+    executor_->run(static_cast<int>(workers), &Queue::work, &queue);
+  }
   if (queue.failure) std::rethrow_exception(queue.failure);
   if (queue.done.load(std::memory_order_acquire) != count)
     throw Error("Renderer: the executor returned before its work was done; run() must call work for each worker and wait for all of them");
 }
 
 int Parallel::distinct_workers_seen() {
-  const auto count = std::count(seen_.begin(), seen_.end(), 1);
-  std::fill(seen_.begin(), seen_.end(), 0);
-  return static_cast<int>(count);
+  int count = 0;
+  for (Share& share : shares_) count += std::exchange(share.has_run, false) ? 1 : 0;
+  return count;
 }
 
 void isolated(const std::function<void()>& run) { tbb::this_task_arena::isolate(run); }

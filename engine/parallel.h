@@ -1,6 +1,8 @@
-// The one place where threads are chosen. Everything else asks for "these tasks, in any order" and knows no threads.
+// The one place where threads are chosen. Everything else asks for "these tasks, in any order", knows no threads, and at most in what shares they are taken.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,6 +12,10 @@
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera {
+
+/// Tasks are cut into shares of equal numbers, the first ones with one more where that does not come out: share s is from here to the first of s + 1.
+/// @pre shares > 0
+constexpr std::size_t first_of_share(std::size_t tasks, std::size_t shares, std::size_t s) { return s * (tasks / shares) + std::min(s, tasks % shares); }
 
 /// Runs tasks on the workers of an executor.
 class Parallel {
@@ -23,9 +29,13 @@ class Parallel {
   Parallel& operator=(Parallel&&) noexcept;
 
   int threads() const noexcept { return threads_; }
-  /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below threads() and below count; no two
-  /// tasks that run at the same time share one. Each task runs in the default floating-point mode: rounding to nearest,
-  /// denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not start.
+  /// How many workers run so many tasks.
+  std::size_t workers_for(std::size_t count) const noexcept { return std::min(static_cast<std::size_t>(threads_), count); }
+  /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below workers_for(count); no two
+  /// tasks that run at the same time share one. A worker begins with the share of its number, in order, and goes on to what is left of the next ones: where a
+  /// thread is the same worker again it finds what it left in its caches, and callers can put the long tasks of each share first. Each task runs in the default
+  /// floating-point mode: rounding to nearest, denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not
+  /// start. A task may call it, too.
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     run(count, {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); }, &task});
@@ -40,12 +50,19 @@ class Parallel {
     const void* self;
   };
   struct Queue;
+  /// One worker's. In a cache line of its own, which mostly that worker alone writes to.
+  struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};  // nobody has begun the tasks from here on
+    std::size_t end = 0;
+    bool has_run = false;              // its worker has, since distinct_workers_seen() was asked
+  };
   void run(std::size_t count, const AnyTask& task);
 
   int threads_;
   std::shared_ptr<Executor> executor_;
   std::uint32_t order_ = 0;
-  std::vector<char> seen_;  // one for each worker
+  std::vector<Share> shares_;  // one for each worker
+  bool runs_ = false;
 };
 
 /// Calls run(): if it waits for oneTBB, its thread takes no task of ours meanwhile.

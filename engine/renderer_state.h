@@ -35,7 +35,7 @@ struct RendererState {
   NormalStage normal_stage;
   BinStage bin_stage;
   std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
-  std::vector<TileStrip> strips, strip_scratch;
+  StripMemory strip_memory;
   ShowMemory show_memory;
   std::vector<TileWorkspace> workspaces;  // one for each worker
   std::optional<TileMemory> prepared;     // what all of them have, and maybe more

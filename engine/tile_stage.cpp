@@ -25,6 +25,18 @@ std::uint8_t weight_of(std::uint64_t triangles) {
   return static_cast<std::uint8_t>(4 * highest_bit - 4 + static_cast<int>(triangles >> (highest_bit - 2) & 3));
 }
 
+/// Deals strips of one weight, `sorted` ones from `begin` to before `end`. Place p in the order of weights belongs to share p % shares, as its number p / shares,
+/// so that each share has as many of every weight and none rises. Which strips of the weight take a share's places is free: it is neighbours.
+void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares, std::vector<TileStrip>& dealt) {
+  // Where there are fewer strips than shares, it is the turn of those that follow the last ones served.
+  const std::size_t served = std::min(end - begin, shares), first_share = served < shares ? begin % shares : 0;
+  for (std::size_t k = 0, next = begin; k < served; ++k) {
+    const std::size_t share = (first_share + k) % shares, first_place = begin + (share + shares - begin % shares) % shares;
+    std::size_t at = first_of_share(sorted.size(), shares, share) + first_place / shares;
+    for (std::size_t place = first_place; place < end; place += shares) dealt[at++] = sorted[next++];
+  }
+}
+
 }  // namespace
 
 TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture,
@@ -52,14 +64,14 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize) show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x), show.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
-void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& scratch, std::vector<TileStrip>& strips) const {
+void TileStage::cut_into_strips(const TileRange& tiles, const Parallel& workers, StripMemory& memory) const {
   const TileGrid& grid = frame_.grid;
   const BinBatches& batches = *frame_.batches;
   const auto is_cleared = [&](int row, int column) { return shows_clears_ && batches.untouched(row * grid.columns() + column); };
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
   std::array<std::uint32_t, kWeights> next{};  // how many strips have a weight, then where the next one of them goes
-  scratch.clear();
+  memory.cut.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
       const bool cleared = is_cleared(row, column);
@@ -68,14 +80,21 @@ void TileStage::cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& 
       std::uint64_t triangles = 0;
       for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
       const auto small = [](int number) { return static_cast<std::int16_t>(number); };
-      scratch.push_back({small(row), small(column), small(end - 1), cleared, weight_of(triangles)});
-      ++next[scratch.back().weight];
+      memory.cut.push_back({small(row), small(column), small(end - 1), cleared, weight_of(triangles)});
+      ++next[memory.cut.back().weight];
     }
   }
   std::uint32_t count = 0;
   for (std::size_t w = kWeights; w-- > 0;) count += std::exchange(next[w], count);
-  strips.resize(count);
-  for (const TileStrip& strip : scratch) strips[next[strip.weight]++] = strip;
+  memory.sorted.resize(count);
+  memory.strips.resize(count);
+  for (const TileStrip& strip : memory.cut) memory.sorted[next[strip.weight]++] = strip;
+  const std::size_t shares = workers.workers_for(count);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const auto weight = memory.sorted[begin].weight;
+    end = next[weight];
+    deal(memory.sorted, begin, end, shares, memory.strips);
+  }
 }
 
 void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {

@@ -10,6 +10,7 @@
 #include "engine/capture_stage.h"
 #include "engine/frame_buffer_state.h"
 #include "engine/frame_commands.h"
+#include "engine/parallel.h"
 #include "framebuffer/bit_transpose.h"
 #include "framebuffer/scan_out.h"
 #include "shading/tile_renderer.h"
@@ -23,6 +24,13 @@ struct TileStrip {
   std::uint8_t weight = 0;                                  ///< class of how many triangles do; more of them are never of a lower class
 };
 static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int16_t>::max());
+
+/// The strips of a frame, and what is needed on the way to them. Kept from frame to frame.
+struct StripMemory {
+  std::vector<TileStrip> cut;     ///< in the order of their places
+  std::vector<TileStrip> sorted;  ///< of their weights
+  std::vector<TileStrip> strips;  ///< in which workers take them
+};
 
 struct StripCounts {
   std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
@@ -44,11 +52,12 @@ class TileStage {
   const TileGrid& grid() const { return frame_.grid; }
   /// Tiles whose colours a workspace keeps until they are stored together. Depth, stencil and accumulation are seldom stored: tile by tile.
   int kept_tiles() const { return kept_tiles_; }
-  /// Those with most triangles first, give or take a quarter: nobody waits for one that began last. Their order changes no bit.
+  /// For workers.for_each(): in each share strips with most triangles come first, give or take a quarter, so that nobody waits for one that began last; and each
+  /// share has as many of every weight. Where there are many more of a weight than workers, those of a share are neighbours, much the same ones as in a like
+  /// frame before. Their order changes no bit.
   ///
-  /// @param scratch  memory for the time of the call
-  /// @param strips  are replaced
-  void cut_into_strips(const TileRange& tiles, std::vector<TileStrip>& scratch, std::vector<TileStrip>& strips) const;
+  /// @param memory  its strips are replaced
+  void cut_into_strips(const TileRange& tiles, const Parallel& workers, StripMemory& memory) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 

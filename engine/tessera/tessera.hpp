@@ -633,7 +633,7 @@ class TESSERA_API Executor {
   /// How many workers may be busy at the same time, at least 1.
   virtual int workers() const noexcept = 0;
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
-  /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
+  /// the other, on any threads; faster where k is the same thread's again, which finds its share of a frame in its caches. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
   /// of finish(), or of the draw that the renderer helps with.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
@@ -669,7 +669,7 @@ struct RendererOptions {
   /// part by part, to the same bits; that takes longer.
   std::size_t bin_memory = std::size_t{256} << 20;
   bool count_fragments = false;             ///< one more pass over the tiles, for FrameStats::fragments
-  std::uint32_t task_order = 0;             ///< 0: what is long begins first; any other number: vertices, bins and tiles are worked on in an order of its own. Same bits: for who wants to see that
+  std::uint32_t task_order = 0;             ///< 0: each worker begins with a share of its own, and of tiles with those that hold most; any other number: vertices, bins and tiles are worked on in an order of its own. Same bits: for who wants to see that
   std::shared_ptr<Executor> executor{};     ///< absent: oneTBB's threads
   /// Called now and then while a frame runs, at the end of each stage and at most about a hundred times a second in between, on
   /// any of the threads that work, never by two of one renderer at once: `done` rises, to 1 in frames that have tiles to render.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/engine/api_random_frame.h"
+#include "tests/engine/workers_in_turn.h"
 
 namespace tessera {
 namespace {
@@ -27,18 +28,6 @@ class OwnThreads : public Executor {
     ++runs;
   }
   int runs = 0;
-
- private:
-  int count_;
-};
-
-class Backwards : public Executor {
- public:
-  explicit Backwards(int count = 5) : count_(count) {}
-  int workers() const noexcept override { return count_; }
-  void run(int count, void (*work)(void*, int), void* context) override {
-    for (int k = count; k-- > 0;) work(context, k);
-  }
 
  private:
   int count_;
@@ -78,7 +67,7 @@ TEST(Executors, GiveTheSameBits) {
   const auto own = std::make_shared<OwnThreads>(3);
   EXPECT_EQ(drawn({.executor = own}), expected);
   EXPECT_GT(own->runs, 2);
-  EXPECT_EQ(drawn({.executor = std::make_shared<Backwards>()}), expected);
+  EXPECT_EQ(drawn({.executor = std::make_shared<WorkersInTurn>(5, 4)}), expected);
 }
 
 /// Small triangles on the left, then clipped ones everywhere, then small lines and points on the right, then a triangle everywhere: of many batches most tiles
@@ -143,7 +132,7 @@ TEST(Executors, OfManyWorkersGiveTheSameBits) {
   const std::vector<Fingerprint> expected = scene.drawn({.threads = 1, .tile_size = 32}, batches);
   EXPECT_EQ(batches, 4);
   for (const int workers : {3, 17, 32, 64}) {
-    EXPECT_TRUE(scene.drawn({.tile_size = 32, .executor = std::make_shared<Backwards>(workers)}, batches) == expected) << workers;
+    EXPECT_TRUE(scene.drawn({.tile_size = 32, .executor = std::make_shared<WorkersInTurn>(workers, workers - 1)}, batches) == expected) << workers;
     EXPECT_EQ(batches, std::min(4 * workers, 3 * ManyBatches::kSmall / 1024)) << workers;
   }
 }

@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
+#include <ranges>
 #include <set>
 
+#include "engine/parallel.h"
 #include "tests/engine/api_support.h"
+#include "tests/engine/workers_in_turn.h"
 
 namespace tessera {
 namespace {
@@ -118,28 +123,69 @@ TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
   EXPECT_TRUE(std::any_of(first_tile, frame.tasks.end(), [](const FrameTask& task) { return task.stage == FrameStage::binning; }));
 }
 
-// Rows of tiles whose planes are stored are tasks. Those with nearly as many go from the top down.
-TEST(FrameTrace, BeginsWithTheTilesThatHoldMost) {
-  constexpr int kTile = 32, kRows = 12, kHeight = kTile * kRows;
-  constexpr int kTriangles[kRows] = {3, 41, 0, 900, 5, 3, 1, 100, 40, 2, 700, 7};
+/// Rows of tiles, 0 at the bottom, as a worker takes them to which others leave all. Where planes are stored, rows of a narrow frame are tasks.
+///
+/// @param triangles  of each row
+std::vector<int> rows_in_order(const std::vector<int>& triangles, int workers, int worker = 0) {
+  constexpr int kTile = 32;
+  const int height = kTile * static_cast<int>(triangles.size());
   std::vector<float> positions;
-  for (int row = 0; row < kRows; ++row)
-    for (int i = 0; i < kTriangles[row]; ++i)
+  for (int row = 0; row < static_cast<int>(triangles.size()); ++row)
+    for (int i = 0; i < triangles[static_cast<std::size_t>(row)]; ++i)
       for (const auto& [x, y] : {std::pair{8, 8}, std::pair{10, 8}, std::pair{8, 10}})
-        for (const float value : {2.0f * static_cast<float>(x + i % 10 * kTile) / 300 - 1, 2.0f * static_cast<float>(y + row * kTile) / kHeight - 1, 0.0f}) positions.push_back(value);
+        for (const float value : {2.0f * static_cast<float>(x + i % 10 * kTile) / 300 - 1, 2.0f * static_cast<float>(y + row * kTile) / static_cast<float>(height) - 1, 0.0f}) positions.push_back(value);
   std::vector<int> rows;
-  RendererOptions options{.threads = 1, .tile_size = kTile};
+  RendererOptions options{.tile_size = kTile, .executor = std::make_shared<WorkersInTurn>(workers, worker)};
   options.trace = [&](std::span<const FrameTask> tasks) {
     for (const FrameTask& task : tasks)
       if (task.stage == FrameStage::tiles) rows.push_back(task.pixels.y / kTile);
   };
-  FrameBuffer buffer({.width = 300, .height = kHeight});
+  FrameBuffer buffer({.width = 300, .height = height});
   Renderer renderer(options);
   Frame frame(buffer);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   frame.draw({.positions = positions}, {.lighting = false});
   EXPECT_EQ(renderer.finish(frame).binned, positions.size() / 9);
-  EXPECT_EQ(rows, (std::vector{3, 10, 7, 8, 1, 11, 4, 5, 0, 9, 6, 2}));
+  return rows;
+}
+
+// Those with nearly as many go from the top down.
+TEST(FrameTrace, BeginsWithTheTilesThatHoldMost) {
+  const std::vector<int> triangles{3, 41, 0, 900, 5, 3, 1, 100, 40, 2, 700, 7};
+  EXPECT_EQ(rows_in_order(triangles, 1), (std::vector{3, 10, 7, 8, 1, 11, 4, 5, 0, 9, 6, 2}));
+  EXPECT_EQ(rows_in_order(triangles, 3), (std::vector{3, 8, 4, 9, 10, 1, 5, 6, 7, 11, 0, 2})) << "each of three begins with a long one";
+}
+
+TEST(FrameTrace, GivesEachWorkerNeighboursOfEachLength) {
+  const std::vector<int> triangles{100, 3, 100, 3, 100, 3, 100, 3, 100, 3, 100, 3};
+  EXPECT_EQ(rows_in_order(triangles, 2), (std::vector{10, 8, 6, 11, 9, 7, 4, 2, 0, 5, 3, 1}));
+  EXPECT_EQ(rows_in_order(triangles, 4), (std::vector{10, 8, 11, 6, 4, 9, 2, 7, 5, 0, 3, 1})) << "as many of both, where that comes out";
+}
+
+// Loads that are powers of two are of a weight each.
+TEST(FrameTrace, DealsTilesOfEachLoadToAllWorkers) {
+  Random random(17);
+  for (int round = 0; round < 40; ++round) {
+    const int workers = 1 + static_cast<int>(random.next() % 6), rows = workers + static_cast<int>(random.next() % 20);
+    std::vector<int> triangles;
+    std::map<int, int> rows_of_load;
+    for (int row = 0; row < rows; ++row) ++rows_of_load[triangles.emplace_back(1 << random.next() % 4)];
+    const int worker = static_cast<int>(random.next() % static_cast<unsigned>(workers));
+    std::vector<int> order = rows_in_order(triangles, workers, worker);
+    ASSERT_EQ(order.size(), triangles.size());
+    const auto first = [&](int share) { return static_cast<std::ptrdiff_t>(first_of_share(order.size(), static_cast<std::size_t>(workers), static_cast<std::size_t>(share))); };
+    std::rotate(order.begin(), order.end() - first(worker), order.end());  // it begins with its own share, and ends with the one before
+    EXPECT_TRUE(std::is_permutation(order.begin(), order.end(), std::views::iota(0, rows).begin()));
+    for (int share = 0; share < workers; ++share) {
+      std::vector<int> loads;
+      for (std::ptrdiff_t i = first(share); i < first(share + 1); ++i) loads.push_back(triangles[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])]);
+      EXPECT_TRUE(std::ranges::is_sorted(loads, std::greater())) << "share " << share << " of " << workers;
+      for (const auto& [load, count] : rows_of_load) {
+        const auto had = std::ranges::count(loads, load);
+        EXPECT_TRUE(had == count / workers || had == count / workers + 1) << had << " of " << count << " rows of " << load << " triangles in share " << share << " of " << workers;
+      }
+    }
+  }
 }
 
 TEST(FrameTrace, OfAFrameThatFailsIsNotTold) {

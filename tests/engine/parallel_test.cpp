@@ -7,10 +7,13 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "tests/engine/workers_in_turn.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -62,6 +65,80 @@ TEST(Parallel, AnotherOrderIsAnother) {
   EXPECT_NE(order_of(1), order_of(0));
   EXPECT_NE(order_of(2), order_of(1));
   EXPECT_EQ(order_of(2), order_of(2));
+}
+
+TEST(Parallel, SharesFollowEachOtherAndAreAsLarge) {
+  for (const std::size_t tasks : {1, 2, 7, 12, 1000}) {
+    for (const std::size_t shares : {1, 2, 3, 7, 64}) {
+      EXPECT_EQ(first_of_share(tasks, shares, 0), 0);
+      EXPECT_EQ(first_of_share(tasks, shares, shares), tasks);
+      for (std::size_t s = 0, last = tasks; s < shares; ++s) {
+        const std::size_t size = first_of_share(tasks, shares, s + 1) - first_of_share(tasks, shares, s);
+        EXPECT_TRUE(size == tasks / shares || size == tasks / shares + 1) << s << " of " << shares << " shares of " << tasks;
+        EXPECT_LE(size, last) << "the first ones have more";
+        last = size;
+      }
+    }
+  }
+}
+
+/// A thread for each worker, so that all of them run at the same time.
+class AThreadEach : public Executor {
+ public:
+  explicit AThreadEach(int count) : count_(count) {}
+  int workers() const noexcept override { return count_; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    std::vector<std::jthread> threads;
+    for (int k = 0; k < count; ++k) threads.emplace_back(work, context, k);
+  }
+
+ private:
+  int count_;
+};
+
+TEST(Parallel, AWorkerBeginsWithItsShare) {
+  constexpr std::size_t kTasks = 11, kThreads = 3;
+  Parallel parallel(kThreads, std::make_shared<AThreadEach>(kThreads));
+  for (int round = 0; round < 20; ++round) {
+    std::vector<std::size_t> first(kThreads, kTasks);
+    std::atomic<std::size_t> began = 0;
+    parallel.for_each(kTasks, [&](std::size_t task, int worker) {
+      std::size_t& mine = first.at(static_cast<std::size_t>(worker));
+      if (mine != kTasks) return;
+      mine = task;
+      ++began;
+      while (began != kThreads) std::this_thread::yield();  // nobody goes on before all have begun
+    });
+    EXPECT_EQ(first, (std::vector<std::size_t>{0, 4, 8}));
+  }
+}
+
+TEST(Parallel, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
+  Parallel parallel(3, std::make_shared<test::WorkersInTurn>(3, 2));
+  EXPECT_EQ(parallel.workers_for(11), 3);
+  EXPECT_EQ(parallel.workers_for(2), 2);
+  std::vector<std::size_t> tasks;
+  parallel.for_each(11, [&](std::size_t task, int worker) {
+    EXPECT_EQ(worker, 2);
+    tasks.push_back(task);
+  });
+  EXPECT_EQ(tasks, (std::vector<std::size_t>{8, 9, 10, 0, 1, 2, 3, 4, 5, 6, 7}));
+}
+
+// A draw in a progress callback, say, that the renderer helps with.
+TEST(Parallel, ATaskMayCallIt) {
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    Parallel parallel(threads);
+    std::vector<std::atomic<int>> runs(10), inner_runs(20);
+    for (int round = 0; round < 3; ++round)
+      parallel.for_each(runs.size(), [&](std::size_t task, int) {
+        ++runs[task];
+        if (task % 3 == 0) parallel.for_each(inner_runs.size(), [&](std::size_t inner, int) { ++inner_runs[inner]; });
+      });
+    for (const std::atomic<int>& run : runs) EXPECT_EQ(run, 3);
+    for (const std::atomic<int>& run : inner_runs) EXPECT_EQ(run, 3 * 4);
+  }
 }
 
 TEST(Parallel, NoTwoTasksAtTheSameTimeShareAWorker) {

@@ -12,6 +12,7 @@
 #include "engine/parallel.h"
 #include "tests/engine/api_random_operations.h"
 #include "tests/engine/full_tile.h"
+#include "tests/engine/workers_in_turn.h"
 
 namespace tessera {
 namespace {
@@ -75,7 +76,7 @@ struct MadeOnTheWay {
   }
 };
 
-/// Small meshes, whose normals whichever worker is free makes, and draws that change nothing between them.
+/// Small meshes, whose normals any worker may make, and draws that change nothing between them.
 struct ManySmallMeshes {
   FrameBufferFormat format{.width = 300, .height = 200};
   std::vector<MeshData> meshes;
@@ -106,18 +107,9 @@ TEST(SteadyFrames, AllocateNothing) {
   }
 }
 
-/// Of two workers one finds all the tasks.
-struct OneTakesAll : Executor {
-  int workers() const noexcept override { return 2; }
-  void run(int count, void (*work)(void*, int), void* context) override {
-    for (int k = 0; k < count; ++k) work(context, (first + k) % count);
-  }
-  int first = 0;
-};
-
-TEST(SteadyFrames, AllocateNothingWhicheverWorkerIsFree) {
+TEST(SteadyFrames, AllocateNothingWhicheverWorkerRuns) {
   for (const bool keeps_planes : {false, true}) {
-    const auto executor = std::make_shared<OneTakesAll>();
+    const auto executor = std::make_shared<WorkersInTurn>(2);
     expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes, [&] { executor->first = 1; });
   }
 }

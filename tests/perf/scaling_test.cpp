@@ -40,12 +40,15 @@ TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
   EXPECT_DOUBLE_EQ(seconds_on(untold, 4, {.core_bytes = 1e9, .barrier_seconds = 0.25}).sum(), 1.5 + 3 * 0.25);
 }
 
-TEST(BenchScaling, TasksGoInTheirOrderToWhoeverIsFree) {
+TEST(BenchScaling, CoresBeginWithTheirSharesAndGoOnToOthers) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 1}), 2, kFastMemory).sum(), 2);
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 1, 3}), 2, kFastMemory).sum(), 4) << "what is long begins last";
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 1, 1}), 2, kFastMemory).sum(), 3);
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2, 2, 1}), 3, kFastMemory).sum(), 4);
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2}), 64, kFastMemory).sum(), 3) << "the longest";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 4, 1}), 2, kFastMemory).sum(), 4) << "the second core begins with the third task";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 3, 1, 1}), 2, kFastMemory).sum(), 5) << "and comes back to the second";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 2, 3, 5, 1, 1}), 3, kFastMemory).sum(), 2 + 5) << "the third is free before the second, and so the fourth task is its";
 }
 
 TEST(BenchScaling, MeasuresEachOfFewThreadsAndDoublesBeyond) {
