@@ -76,7 +76,7 @@ class Bins {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kBlockEntries = 62;
-  struct Block {
+  struct alignas(64) Block {  // whole cache lines
     std::uint32_t count, next;
     std::uint32_t entries[kBlockEntries];
   };
@@ -116,6 +116,15 @@ class Bins {
   /// The same of that tile and those after it.
   const std::uint32_t* triangles_from(int tile) const { return triangles_.data() + index_of(tile); }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
+  /// first() of a tile is asked for soon.
+  void fetch_first(int tile) const { __builtin_prefetch(&tail_of(tile)); }
+  /// That block is read soon, unless it is kNone.
+  void fetch_block(std::uint32_t index) const {
+    if (index == kNone) return;
+    constexpr std::size_t kLineBytes = 64;
+    const auto* const bytes = reinterpret_cast<const char*>(&blocks_[index]);
+    for (std::size_t i = 0; i < sizeof(Block); i += kLineBytes) __builtin_prefetch(bytes + i);
+  }
 
   /// A new piece at the end of the list, with room for the attributes of its corners. After an overflow it is the only one.
   /// Throws std::bad_alloc.
@@ -196,6 +205,8 @@ class BinBatches {
     fill_(b);
     return *bins_;
   }
+  /// Batch b, if it is there already and may be read beside the one that was read last; otherwise null, as for count().
+  const Bins* ahead(std::uint32_t b) const { return one_by_one() || b >= count_ ? nullptr : bins_ + b; }
 
  private:
   std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_); }

@@ -74,12 +74,18 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     }
     clears_before(draw, frame.clear_count);
   };
-  for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count(); b = frame.batches->next(tile, b + 1)) {
+  for (std::uint32_t b = frame.batches->next(tile, 0), following; b < frame.batches->count(); b = following) {
     if (frame.batches->one_by_one()) shade_whole_tile(run);  // triangles that were seen refer to the batch before
     const Bins& bins = frame.batches->read(b);
+    // Other cores binned most of the batches, and a list is a chain: what comes next is fetched while the block before it is worked on.
+    following = frame.batches->next(tile, b + 1);
+    const Bins* const ahead = frame.batches->ahead(following);
+    if (ahead != nullptr) ahead->fetch_first(tile);
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
       run.counts.touched = true;
       const Bins::Block& block = bins.block(index);
+      if (block.next != Bins::kNone) bins.fetch_block(block.next);
+      else if (ahead != nullptr) ahead->fetch_block(ahead->first(tile));
       for (std::uint32_t e = 0; e < block.count; ++e) {
         e += builder.add_own(block.entries + e, block.count - e);
         if (e == block.count) break;

@@ -123,6 +123,8 @@ TEST(BinBatches, TilesReadThoseThatHoldSomethingOfThemInOrder) {
         EXPECT_EQ(read_by(batches, kFirst + t), expected[t]) << count;
         EXPECT_EQ(batches.untouched(kFirst + t), expected[t].empty());
       }
+      for (std::uint32_t b = 0; b < count; ++b) EXPECT_EQ(batches.ahead(b), &batches.read(b));
+      EXPECT_EQ(batches.ahead(static_cast<std::uint32_t>(count)), nullptr);
     }
   }
 }
@@ -137,6 +139,7 @@ TEST(BinBatches, OneByOneAreAllRead) {
   EXPECT_FALSE(batches.untouched(7)) << "nobody looked";
   const std::vector<std::uint32_t> read = read_by(batches, 7);
   ASSERT_EQ(read.size(), 70);
+  EXPECT_EQ(batches.ahead(0), nullptr) << "it would take the place of the one before";
   for (std::uint32_t b = 0; b < 70; ++b) {
     EXPECT_EQ(read[b], b);
     EXPECT_EQ(&batches.read(b), &place);
