@@ -24,7 +24,7 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// oneTBB's threads, in an arena that nobody else works in.
+/// oneTBB's threads, in an arena that nobody else works in. Two keep their numbers from call to call; which of more takes which is chance.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
@@ -95,8 +95,11 @@ struct Parallel::Queue {
   void run(int worker) noexcept {
     const FloatingPointMode mode;
     const auto own = static_cast<std::size_t>(worker);
-    std::size_t ran = 0;
-    for (std::size_t k = 0; k < shares.size(); ++k) ran += run_share(shares[(own + k) % shares.size()], worker);
+    std::size_t ran = 0, s = own;
+    do {
+      ran += run_share(shares[s], worker);
+      if (++s == shares.size()) s = 0;
+    } while (s != own);
     if (ran == 0) return;
     shares[own].has_run = true;
     done.fetch_add(ran, std::memory_order_release);

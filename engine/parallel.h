@@ -1,4 +1,5 @@
-// The one place where threads are chosen. Everything else asks for "these tasks, in any order", knows no threads, and at most in what shares they are taken.
+// The one place where threads are chosen. Everything else asks for "these tasks, in any order" and knows no threads; who wants long tasks to begin first
+// knows in what shares they are taken.
 #pragma once
 
 #include <algorithm>
@@ -32,15 +33,16 @@ class Parallel {
   /// How many workers run so many tasks.
   std::size_t workers_for(std::size_t count) const noexcept { return std::min(static_cast<std::size_t>(threads_), count); }
   /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below workers_for(count); no two
-  /// tasks that run at the same time share one. A worker begins with the share of its number, in order, and goes on to what is left of the next ones: where a
-  /// thread is the same worker again it finds what it left in its caches, and callers can put the long tasks of each share first. Each task runs in the default
-  /// floating-point mode: rounding to nearest, denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not
-  /// start. A task may call it, too.
+  /// tasks of one call that run at the same time share one. A worker begins with the share of its number, in order, and goes on to
+  /// what is left of the next ones: where a thread is the same worker again it finds what it left in its caches, and callers can put
+  /// the long tasks of each share first. Each task runs in the default floating-point mode: rounding to nearest, denormals kept. An
+  /// exception of a task is thrown here, after the running tasks have ended; the rest do not start. For one thread at a time, and for
+  /// tasks: of a task's call the workers count from 0 anew, and it takes memory (std::bad_alloc).
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     run(count, {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); }, &task});
   }
-  /// How many distinct workers have run tasks since the last call: what tests of thread counts assert.
+  /// How many distinct workers have run tasks, but for those of tasks' calls, since it was asked last: what tests of thread counts assert.
   int distinct_workers_seen();
 
  private:
@@ -62,7 +64,7 @@ class Parallel {
   std::shared_ptr<Executor> executor_;
   std::uint32_t order_ = 0;
   std::vector<Share> shares_;  // one for each worker
-  bool runs_ = false;
+  bool runs_ = false;          // a call that is no task's; tasks only read it
 };
 
 /// Calls run(): if it waits for oneTBB, its thread takes no task of ours meanwhile.

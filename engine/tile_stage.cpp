@@ -26,7 +26,7 @@ std::uint8_t weight_of(std::uint64_t triangles) {
 }
 
 /// Deals strips of one weight, `sorted` ones from `begin` to before `end`. Place p in the order of weights belongs to share p % shares, as its number p / shares,
-/// so that each share has as many of every weight and none rises. Which strips of the weight take a share's places is free: it is neighbours.
+/// so that each share has as many of every weight, or one more, and weights do not rise in it. Which strips of the weight take a share's places is free: it is neighbours.
 void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares, std::vector<TileStrip>& dealt) {
   // Where there are fewer strips than shares, it is the turn of those that follow the last ones served.
   const std::size_t served = std::min(end - begin, shares), first_share = served < shares ? begin % shares : 0;
@@ -71,7 +71,7 @@ void TileStage::cut_into_strips(const TileRange& tiles, const Parallel& workers,
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
   std::array<std::uint32_t, kWeights> next{};  // how many strips have a weight, then where the next one of them goes
-  memory.cut.clear();
+  memory.strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
       const bool cleared = is_cleared(row, column);
@@ -80,15 +80,14 @@ void TileStage::cut_into_strips(const TileRange& tiles, const Parallel& workers,
       std::uint64_t triangles = 0;
       for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
       const auto small = [](int number) { return static_cast<std::int16_t>(number); };
-      memory.cut.push_back({small(row), small(column), small(end - 1), cleared, weight_of(triangles)});
-      ++next[memory.cut.back().weight];
+      memory.strips.push_back({small(row), small(column), small(end - 1), cleared, weight_of(triangles)});
+      ++next[memory.strips.back().weight];
     }
   }
   std::uint32_t count = 0;
   for (std::size_t w = kWeights; w-- > 0;) count += std::exchange(next[w], count);
   memory.sorted.resize(count);
-  memory.strips.resize(count);
-  for (const TileStrip& strip : memory.cut) memory.sorted[next[strip.weight]++] = strip;
+  for (const TileStrip& strip : memory.strips) memory.sorted[next[strip.weight]++] = strip;
   const std::size_t shares = workers.workers_for(count);
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     const auto weight = memory.sorted[begin].weight;

@@ -27,9 +27,8 @@ static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int
 
 /// The strips of a frame, and what is needed on the way to them. Kept from frame to frame.
 struct StripMemory {
-  std::vector<TileStrip> cut;     ///< in the order of their places
-  std::vector<TileStrip> sorted;  ///< of their weights
-  std::vector<TileStrip> strips;  ///< in which workers take them
+  std::vector<TileStrip> sorted;  ///< by weight
+  std::vector<TileStrip> strips;  ///< in the order in which workers take them
 };
 
 struct StripCounts {
@@ -53,7 +52,7 @@ class TileStage {
   /// Tiles whose colours a workspace keeps until they are stored together. Depth, stencil and accumulation are seldom stored: tile by tile.
   int kept_tiles() const { return kept_tiles_; }
   /// For workers.for_each(): in each share strips with most triangles come first, give or take a quarter, so that nobody waits for one that began last; and each
-  /// share has as many of every weight. Where there are many more of a weight than workers, those of a share are neighbours, much the same ones as in a like
+  /// share has as many of every weight, or one more. Where there are many more of a weight than workers, those of a share are neighbours, much the same ones as in a like
   /// frame before. Their order changes no bit.
   ///
   /// @param memory  its strips are replaced

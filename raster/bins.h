@@ -76,7 +76,8 @@ class Bins {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kBlockEntries = 62;
-  struct alignas(64) Block {  // whole cache lines
+  static constexpr std::size_t kLineBytes = 64;
+  struct alignas(kLineBytes) Block {
     std::uint32_t count, next;
     std::uint32_t entries[kBlockEntries];
   };
@@ -121,7 +122,6 @@ class Bins {
   /// That block is read soon, unless it is kNone.
   void fetch_block(std::uint32_t index) const {
     if (index == kNone) return;
-    constexpr std::size_t kLineBytes = 64;
     const auto* const bytes = reinterpret_cast<const char*>(&blocks_[index]);
     for (std::size_t i = 0; i < sizeof(Block); i += kLineBytes) __builtin_prefetch(bytes + i);
   }

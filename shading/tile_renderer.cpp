@@ -74,11 +74,11 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     }
     clears_before(draw, frame.clear_count);
   };
-  for (std::uint32_t b = frame.batches->next(tile, 0), following; b < frame.batches->count(); b = following) {
+  for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count();) {
     if (frame.batches->one_by_one()) shade_whole_tile(run);  // triangles that were seen refer to the batch before
     const Bins& bins = frame.batches->read(b);
     // Other cores binned most of the batches, and a list is a chain: what comes next is fetched while the block before it is worked on.
-    following = frame.batches->next(tile, b + 1);
+    const std::uint32_t following = frame.batches->next(tile, b + 1);
     const Bins* const ahead = frame.batches->ahead(following);
     if (ahead != nullptr) ahead->fetch_first(tile);
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
@@ -103,6 +103,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     }
     // Groups go on in the next batch, if this one is still there.
     frame.batches->one_by_one() ? builder.flush(bins) : builder.leave(bins);
+    b = following;
   }
   builder.finish();
   commands_before(frame.draw_count);

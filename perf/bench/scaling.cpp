@@ -28,14 +28,16 @@ static_assert(std::find(std::begin(kCores), std::end(kCores), kManyCores) != std
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// Until the last core is done, as Parallel hands tasks out. @param tasks  in the order of their numbers  @param taking  seconds before each
+/// Until the last core is done, as Parallel hands tasks out.
+/// @param tasks  in the order of their numbers
+/// @param taking  seconds before each
 double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
   const std::size_t workers = std::min(static_cast<std::size_t>(cores), tasks.size());
   std::vector<std::size_t> next;  // of each share
   for (std::size_t s = 0; s < workers; ++s) next.push_back(first_of_share(tasks.size(), workers, s));
   struct Core {
     double free_at = 0;
-    std::size_t worker = 0, share = 0;  // how many after its own
+    std::size_t worker = 0, shares_done = 0;  // its own is the first
     bool operator>(const Core& other) const { return std::tie(free_at, worker) > std::tie(other.free_at, other.worker); }
   };
   std::priority_queue<Core, std::vector<Core>, std::greater<>> cores_free;
@@ -44,9 +46,9 @@ double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
   while (!cores_free.empty()) {
     Core core = cores_free.top();
     cores_free.pop();
-    const auto share = [&] { return (core.worker + core.share) % workers; };
-    while (core.share < workers && next[share()] == first_of_share(tasks.size(), workers, share() + 1)) ++core.share;
-    if (core.share == workers) continue;
+    const auto share = [&] { return (core.worker + core.shares_done) % workers; };
+    while (core.shares_done < workers && next[share()] == first_of_share(tasks.size(), workers, share() + 1)) ++core.shares_done;
+    if (core.shares_done == workers) continue;
     core.free_at += taking + length(tasks[next[share()]++]);
     end = std::max(end, core.free_at);
     cores_free.push(core);

@@ -31,8 +31,8 @@ struct CoreSeconds {
 
   double sum() const { return working + waiting + alone + memory; }
 };
-/// From costs_of_frames() for as many workers. Of the tasks of a pass each core begins with a share, as Parallel cuts them, and goes on to what is left of others', and takes
-/// as long for each to be taken; passes wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
+/// From costs_of_frames() for as many workers. Of the tasks of a pass each core begins with a share, as Parallel cuts them, and goes on to what is left of others'; the
+/// taking of each is the frame's mean; passes wait for each other; what no task does is done by one core; and what the frame moves, the memory has to move.
 CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model);
 
 struct Scaling {

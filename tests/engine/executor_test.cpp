@@ -9,29 +9,12 @@
 #include <vector>
 
 #include "tests/engine/api_random_frame.h"
-#include "tests/engine/workers_in_turn.h"
+#include "tests/engine/test_executors.h"
 
 namespace tessera {
 namespace {
 
 using namespace test;
-
-// Threads that are made for each call: the simplest pool there is.
-class OwnThreads : public Executor {
- public:
-  explicit OwnThreads(int count) : count_(count) {}
-  int workers() const noexcept override { return count_; }
-  void run(int count, void (*work)(void*, int), void* context) override {
-    std::vector<std::thread> threads;
-    for (int k = 0; k < count; ++k) threads.emplace_back(work, context, k);
-    for (std::thread& thread : threads) thread.join();
-    ++runs;
-  }
-  int runs = 0;
-
- private:
-  int count_;
-};
 
 class Idle : public Executor {
  public:

@@ -10,7 +10,7 @@
 
 #include "engine/parallel.h"
 #include "tests/engine/api_support.h"
-#include "tests/engine/workers_in_turn.h"
+#include "tests/engine/test_executors.h"
 
 namespace tessera {
 namespace {

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/engine/workers_in_turn.h"
+#include "tests/engine/test_executors.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -82,23 +82,9 @@ TEST(Parallel, SharesFollowEachOtherAndAreAsLarge) {
   }
 }
 
-/// A thread for each worker, so that all of them run at the same time.
-class AThreadEach : public Executor {
- public:
-  explicit AThreadEach(int count) : count_(count) {}
-  int workers() const noexcept override { return count_; }
-  void run(int count, void (*work)(void*, int), void* context) override {
-    std::vector<std::jthread> threads;
-    for (int k = 0; k < count; ++k) threads.emplace_back(work, context, k);
-  }
-
- private:
-  int count_;
-};
-
 TEST(Parallel, AWorkerBeginsWithItsShare) {
   constexpr std::size_t kTasks = 11, kThreads = 3;
-  Parallel parallel(kThreads, std::make_shared<AThreadEach>(kThreads));
+  Parallel parallel(kThreads, std::make_shared<test::OwnThreads>(kThreads));
   for (int round = 0; round < 20; ++round) {
     std::vector<std::size_t> first(kThreads, kTasks);
     std::atomic<std::size_t> began = 0;
@@ -107,7 +93,8 @@ TEST(Parallel, AWorkerBeginsWithItsShare) {
       if (mine != kTasks) return;
       mine = task;
       ++began;
-      while (began != kThreads) std::this_thread::yield();  // nobody goes on before all have begun
+      const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+      while (began != kThreads && std::chrono::steady_clock::now() < late) std::this_thread::yield();  // nobody goes on before all have begun
     });
     EXPECT_EQ(first, (std::vector<std::size_t>{0, 4, 8}));
   }

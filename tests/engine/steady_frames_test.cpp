@@ -12,7 +12,7 @@
 #include "engine/parallel.h"
 #include "tests/engine/api_random_operations.h"
 #include "tests/engine/full_tile.h"
-#include "tests/engine/workers_in_turn.h"
+#include "tests/engine/test_executors.h"
 
 namespace tessera {
 namespace {
@@ -110,7 +110,7 @@ TEST(SteadyFrames, AllocateNothing) {
 TEST(SteadyFrames, AllocateNothingWhicheverWorkerRuns) {
   for (const bool keeps_planes : {false, true}) {
     const auto executor = std::make_shared<WorkersInTurn>(2);
-    expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes, [&] { executor->first = 1; });
+    expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes, [&] { executor->begin_with(1); });
   }
 }
 
