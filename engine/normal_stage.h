@@ -14,7 +14,7 @@ namespace tessera {
 /// Memory for them is kept from frame to frame.
 class NormalStage {
  public:
-  /// Makes those that draws want: of a large mesh all workers together, of small ones some worker each by itself.
+  /// Makes those that draws want: of a large mesh all workers together, each small one some worker alone.
   /// Throws std::bad_alloc, and what FrameWatch::task() throws.
   /// @param done  share of the frame that is done then
   void run(std::span<const GeometryDraw> draws, Parallel& parallel, FrameWatch& watch, double done);

@@ -5,6 +5,7 @@
 #include <exception>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,10 +31,10 @@ class ArenaExecutor : public Executor {
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
   int workers() const noexcept override { return threads_; }
   void run(int count, void (*work)(void*, int), void* context) override {
-    arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); }, tbb::simple_partitioner());
-    });
+    const auto call = [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); };
+    // Isolated in the arena, into which a task's call comes by execute() anew: whoever waits for such a call's workers takes up none of the outer call's,
+    // which would run in the midst of the task that waits.
+    arena_.execute([&] { tbb::this_task_arena::isolate([&] { tbb::parallel_for(tbb::blocked_range<int>(0, count, 1), call, tbb::simple_partitioner()); }); });
   }
 
  private:
@@ -90,11 +91,16 @@ struct Parallel::Queue {
   std::atomic<std::size_t> done{0};
   std::atomic<bool> failed{false};
   std::exception_ptr failure{};
+  std::atomic<int> stray{0};  // a worker that nobody asked for; 0: none
 
   static void work(void* queue, int worker) noexcept { static_cast<Queue*>(queue)->run(worker); }
   void run(int worker) noexcept {
     const FloatingPointMode mode;
     const auto own = static_cast<std::size_t>(worker);
+    if (own >= shares.size()) {
+      stray.store(worker, std::memory_order_release);
+      return;
+    }
     std::size_t ran = 0, s = own;
     do {
       ran += run_share(shares[s], worker);
@@ -154,6 +160,8 @@ void Parallel::run(std::size_t count, const AnyTask& task) {
     executor_->run(static_cast<int>(workers), &Queue::work, &queue);
   }
   if (queue.failure) std::rethrow_exception(queue.failure);
+  if (const int stray = queue.stray.load(std::memory_order_acquire); stray != 0)
+    throw Error("Renderer: the executor called work for worker " + std::to_string(stray) + ", run() must call it for 0 .. " + std::to_string(workers - 1));
   if (queue.done.load(std::memory_order_acquire) != count)
     throw Error("Renderer: the executor returned before its work was done; run() must call work for each worker and wait for all of them");
 }

@@ -14,8 +14,10 @@
 
 namespace tessera {
 
-/// Tasks are cut into shares of equal numbers, the first ones with one more where that does not come out: share s is from here to the first of s + 1.
-/// @pre shares > 0
+/// Tasks are cut into shares of equal numbers, the first ones with one more where that does not come out.
+///
+/// @pre  shares > 0, s <= shares
+/// @return  the first task of share s, which ends before that of share s + 1
 constexpr std::size_t first_of_share(std::size_t tasks, std::size_t shares, std::size_t s) { return s * (tasks / shares) + std::min(s, tasks % shares); }
 
 /// Runs tasks on the workers of an executor.
@@ -33,11 +35,12 @@ class Parallel {
   /// How many workers run so many tasks.
   std::size_t workers_for(std::size_t count) const noexcept { return std::min(static_cast<std::size_t>(threads_), count); }
   /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below workers_for(count); no two
-  /// tasks of one call that run at the same time share one. A worker begins with the share of its number, in order, and goes on to
-  /// what is left of the next ones: where a thread is the same worker again it finds what it left in its caches, and callers can put
-  /// the long tasks of each share first. Each task runs in the default floating-point mode: rounding to nearest, denormals kept. An
-  /// exception of a task is thrown here, after the running tasks have ended; the rest do not start. For one thread at a time, and for
-  /// tasks: of a task's call the workers count from 0 anew, and it takes memory (std::bad_alloc).
+  /// tasks of one call that run at the same time share one. A worker begins with the share of its number, from the lowest task on (unless
+  /// they have another order), and goes on to what is left of the next ones: where a thread is the same worker again it finds what it
+  /// left in its caches, and callers can put the long tasks of each share first. Each task runs in the default floating-point mode:
+  /// rounding to nearest, denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not
+  /// start. For one thread at a time, and for tasks: of a task's call the workers count from 0 anew, it takes memory (std::bad_alloc),
+  /// and a thread that waits for it begins no other task.
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     run(count, {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); }, &task});
@@ -64,7 +67,7 @@ class Parallel {
   std::shared_ptr<Executor> executor_;
   std::uint32_t order_ = 0;
   std::vector<Share> shares_;  // one for each worker
-  bool runs_ = false;          // a call that is no task's; tasks only read it
+  bool runs_ = false;          // a call that is no task's. Tasks' calls read it: the executor's handing over orders that
 };
 
 /// Calls run(): if it waits for oneTBB, its thread takes no task of ours meanwhile.

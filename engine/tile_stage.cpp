@@ -28,7 +28,7 @@ std::uint8_t weight_of(std::uint64_t triangles) {
 /// Deals strips of one weight, `sorted` ones from `begin` to before `end`. Place p in the order of weights belongs to share p % shares, as its number p / shares,
 /// so that each share has as many of every weight, or one more, and weights do not rise in it. Which strips of the weight take a share's places is free: it is neighbours.
 void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares, std::vector<TileStrip>& dealt) {
-  // Where there are fewer strips than shares, it is the turn of those that follow the last ones served.
+  // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among these.
   const std::size_t served = std::min(end - begin, shares), first_share = served < shares ? begin % shares : 0;
   for (std::size_t k = 0, next = begin; k < served; ++k) {
     const std::size_t share = (first_share + k) % shares, first_place = begin + (share + shares - begin % shares) % shares;

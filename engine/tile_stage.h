@@ -27,8 +27,8 @@ static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int
 
 /// The strips of a frame, and what is needed on the way to them. Kept from frame to frame.
 struct StripMemory {
-  std::vector<TileStrip> sorted;  ///< by weight
-  std::vector<TileStrip> strips;  ///< in the order in which workers take them
+  std::vector<TileStrip> sorted;  ///< from the heaviest to the lightest
+  std::vector<TileStrip> strips;  ///< row by row, and then as cut_into_strips() leaves them
 };
 
 struct StripCounts {
@@ -55,7 +55,7 @@ class TileStage {
   /// share has as many of every weight, or one more. Where there are many more of a weight than workers, those of a share are neighbours, much the same ones as in a like
   /// frame before. Their order changes no bit.
   ///
-  /// @param memory  its strips are replaced
+  /// @param memory  whose `strips` they become; its `sorted` is used
   void cut_into_strips(const TileRange& tiles, const Parallel& workers, StripMemory& memory) const;
   /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;

@@ -633,8 +633,10 @@ class TESSERA_API Executor {
   /// How many workers may be busy at the same time, at least 1.
   virtual int workers() const noexcept = 0;
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
-  /// the other, on any threads. Frames are faster where each k is the thread's that ran it before: its share is in that thread's caches. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
-  /// of finish(), or of the draw that the renderer helps with.
+  /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
+  /// of finish(), or of the draw that the renderer helps with. Where such a draw stands in the renderer's progress callback, `work`
+  /// calls run once more: that must neither wait for threads that are busy with the outer call nor take up the outer call's work
+  /// meanwhile. Frames are faster where each k is the thread's that ran it before: its share is in that thread's caches.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
 /// Everything on the thread that calls.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "engine/parallel.h"
 #include "tests/engine/api_random_frame.h"
 
 namespace tessera {
@@ -46,6 +47,40 @@ TEST(Progress, RisesToOneAndIsNeverCalledByTwoAtOnce) {
     EXPECT_DOUBLE_EQ(calls.back(), 1);
     Renderer plain({.threads = 1});
     EXPECT_EQ(watched, finished(plain, buffer));
+  }
+}
+
+// The renderer helps although it is busy, and a thread that waits for that help does not wait for itself.
+TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
+  const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  std::vector<std::uint32_t> many(90'000);
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<std::uint32_t>(i % 3);
+  many.back() = 3;  // beyond the vertices: somebody has looked at all of them
+  Renderer plain({.threads = 1});
+  FrameBuffer fresh(scene().format);
+  const Fingerprint expected = finished(plain, fresh);
+  for (const int threads : {1, 2, 8}) {
+    const ThreadLimit limit(threads);
+    Renderer* helper = nullptr;
+    int drawn = 0, told = 0;
+    Renderer renderer({.threads = threads, .tile_size = 32, .progress = [&](double) {
+                         FrameBuffer next_buffer({.width = 8, .height = 8});
+                         Frame next(next_buffer, *helper);
+                         ++drawn;
+                         try {
+                           next.draw({.positions = triangle, .indices = many});
+                         } catch (const Error&) {
+                           ++told;
+                         }
+                         return true;
+                       }});
+    helper = &renderer;
+    for (int round = 0; round < 10; ++round) {
+      FrameBuffer buffer(scene().format);
+      EXPECT_EQ(finished(renderer, buffer), expected);
+    }
+    EXPECT_GE(drawn, 20);
+    EXPECT_EQ(told, drawn);
   }
 }
 

@@ -28,6 +28,20 @@ class Throwing : public Executor {
   void run(int, void (*)(void*, int), void*) override { throw std::length_error("no threads today"); }
 };
 
+/// Also wakes a worker that nobody asked for.
+class Waking : public Executor {
+ public:
+  explicit Waking(int stray) : stray_(stray) {}
+  int workers() const noexcept override { return 4; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    work(context, stray_);
+    for (int k = 0; k < count; ++k) work(context, k);
+  }
+
+ private:
+  int stray_;
+};
+
 class Nobody : public Executor {
  public:
   int workers() const noexcept override { return 0; }
@@ -129,6 +143,8 @@ TEST(Executors, NumberOfWorkersIsTheNumberOfThreads) {
 TEST(Executors, ThatDoNotDoTheirWorkAreNamed) {
   EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Idle>()}); }).value_or(""), testing::HasSubstr("executor returned before its work was done"));
   EXPECT_THAT(error_of([] { Renderer({.executor = std::make_shared<Nobody>()}); }).value_or(""), testing::HasSubstr("0 workers"));
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(4)}); }).value_or(""), testing::HasSubstr("executor called work for worker 4, run() must call it for 0 .. "));
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(-1)}); }).value_or(""), testing::HasSubstr("executor called work for worker -1, run() must call it for 0 .. "));
   EXPECT_THROW(drawn({.executor = std::make_shared<Throwing>()}), std::length_error) << "its own exceptions pass through";
 }
 

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/engine/test_executors.h"
@@ -96,7 +97,7 @@ TEST(Parallel, AWorkerBeginsWithItsShare) {
       const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
       while (began != kThreads && std::chrono::steady_clock::now() < late) std::this_thread::yield();  // nobody goes on before all have begun
     });
-    EXPECT_EQ(first, (std::vector<std::size_t>{0, 4, 8}));
+    ASSERT_EQ(first, (std::vector<std::size_t>{0, 4, 8}));
   }
 }
 
@@ -112,20 +113,52 @@ TEST(Parallel, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
   EXPECT_EQ(tasks, (std::vector<std::size_t>{8, 9, 10, 0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
-// A draw in a progress callback, say, that the renderer helps with.
+/// In whose call the thread waits; -1: in none.
+thread_local int waits_for = -1;
+
+// A draw in a progress callback, say, that the renderer helps with. The callback holds a lock, for which what else its thread took up would wait.
 TEST(Parallel, ATaskMayCallIt) {
-  for (const int threads : {1, 2}) {
+  constexpr int kRounds = 200;
+  for (const int threads : {1, 2, 3, 8}) {
     const ThreadLimit limit(threads);
     Parallel parallel(threads);
     std::vector<std::atomic<int>> runs(10), inner_runs(20);
-    for (int round = 0; round < 3; ++round)
+    std::atomic<int> in_the_midst = 0, beyond = 0;
+    const int inner_workers = static_cast<int>(parallel.workers_for(inner_runs.size()));
+    for (int round = 0; round < kRounds; ++round)
       parallel.for_each(runs.size(), [&](std::size_t task, int) {
+        if (waits_for != -1) ++in_the_midst;
         ++runs[task];
-        if (task % 3 == 0) parallel.for_each(inner_runs.size(), [&](std::size_t inner, int) { ++inner_runs[inner]; });
+        spin(std::chrono::microseconds(20));
+        if (task % 3 != 0) return;
+        const int caller = static_cast<int>(task);
+        waits_for = caller;
+        parallel.for_each(inner_runs.size(), [&](std::size_t inner, int worker) {
+          if (waits_for != -1 && waits_for != caller) ++in_the_midst;
+          if (worker < 0 || worker >= inner_workers) ++beyond;
+          ++inner_runs[inner];
+          spin(std::chrono::microseconds(20));
+        });
+        waits_for = -1;
       });
-    for (const std::atomic<int>& run : runs) EXPECT_EQ(run, 3);
-    for (const std::atomic<int>& run : inner_runs) EXPECT_EQ(run, 3 * 4);
+    for (const std::atomic<int>& run : runs) EXPECT_EQ(run, kRounds);
+    for (const std::atomic<int>& run : inner_runs) EXPECT_EQ(run, kRounds * 4);
+    EXPECT_EQ(in_the_midst, 0) << threads << " threads took up other tasks while they waited";
+    EXPECT_EQ(beyond, 0);
   }
+}
+
+TEST(Parallel, AnExceptionInATasksCallReachesTheCaller) {
+  const ThreadLimit limit(3);
+  Parallel parallel(3);
+  const auto run = [&] {
+    parallel.for_each(6, [&](std::size_t task, int) {
+      parallel.for_each(6, [&](std::size_t inner, int) {
+        if (task == 4 && inner == 5) throw std::out_of_range("four and five");
+      });
+    });
+  };
+  EXPECT_THROW(run(), std::out_of_range);
 }
 
 TEST(Parallel, NoTwoTasksAtTheSameTimeShareAWorker) {
@@ -173,6 +206,28 @@ TEST(Parallel, AnExceptionOfATaskReachesTheCaller) {
     parallel.for_each(100, [&](std::size_t, int) { ++after; });
     EXPECT_EQ(after, 100) << "it works as before";
   }
+}
+
+class FailsOnce : public test::WorkersInTurn {
+ public:
+  FailsOnce() : WorkersInTurn(2) {}
+  void run(int count, void (*work)(void*, int), void* context) override {
+    if (!std::exchange(has_failed_, true)) throw std::length_error("no threads yet");
+    WorkersInTurn::run(count, work, context);
+  }
+
+ private:
+  bool has_failed_ = false;
+};
+
+TEST(Parallel, WorksAsBeforeAfterItsExecutorHasFailed) {
+  Parallel parallel(2, std::make_shared<FailsOnce>());
+  std::vector<std::size_t> tasks;
+  const auto run = [&] { parallel.for_each(5, [&](std::size_t task, int) { tasks.push_back(task); }); };
+  EXPECT_THROW(run(), std::length_error);
+  run();
+  EXPECT_EQ(tasks, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(parallel.distinct_workers_seen(), 1) << "as a call that is no task's";
 }
 
 TEST(Parallel, AThreadCountAboveTheProcessesLimitIsLowered) {
