@@ -102,7 +102,7 @@ int run(int argc, char** argv) {
     register_row(std::string("mesa_") + kind.name, mesa);
   }
   const RatioReporter reporter = run_rows(options, "Mesa", "Tessera");
-  for (const Kind& kind : kKinds) print_ratio(reporter, std::string("1 M ") + kind.name, std::string("mesa_") + kind.name, std::string("tessera_") + kind.name, 3);
+  for (const Kind& kind : kKinds) print_ratio(reporter, std::string("1 M ") + kind.name, std::string("mesa_") + kind.name, std::string("tessera_") + kind.name);
   return 0;
 }
 

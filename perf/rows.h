@@ -39,13 +39,10 @@ class RatioReporter : public benchmark::ConsoleReporter {
   std::map<std::string, std::vector<double>> times_;
 };
 
-/// @param goal  0: none
-inline void print_ratio(const RatioReporter& reporter, const std::string& label, const std::string& slow, const std::string& fast, double goal) {
+inline void print_ratio(const RatioReporter& reporter, const std::string& label, const std::string& slow, const std::string& fast) {
   if (!reporter.has(slow) || !reporter.has(fast)) return;
   const auto s = reporter.quartiles(slow), f = reporter.quartiles(fast);
-  std::printf("%-34s %8.3f ms (%.3f .. %.3f)   %8.3f ms (%.3f .. %.3f)   ratio %.2f", label.c_str(), s.median, s.low, s.high, f.median, f.low, f.high, s.median / f.median);
-  if (goal > 0) std::printf(" (goal %.1f)", goal);
-  std::printf("\n");
+  std::printf("%-34s %8.3f ms (%.3f .. %.3f)   %8.3f ms (%.3f .. %.3f)   ratio %.2f\n", label.c_str(), s.median, s.low, s.high, f.median, f.low, f.high, s.median / f.median);
 }
 
 template <class Side>
