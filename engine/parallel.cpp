@@ -25,20 +25,47 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
+/// Sets a flag, unless it is set, until the end of the scope.
+class Running {
+ public:
+  explicit Running(bool& flag) : flag_(flag ? nullptr : &flag) {
+    if (flag_ != nullptr) *flag_ = true;
+  }
+  ~Running() {
+    if (flag_ != nullptr) *flag_ = false;
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  bool* flag_;
+};
+
 /// oneTBB's threads, in an arena that nobody else works in. Two keep their numbers from call to call; which of more takes which is chance.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
   int workers() const noexcept override { return threads_; }
   void run(int count, void (*work)(void*, int), void* context) override {
-    const auto call = [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); };
-    // Isolated in the arena, into which a task's call comes by execute() anew: whoever waits for such a call's workers takes up none of the outer call's,
-    // which would run in the midst of the task that waits.
-    arena_.execute([&] { tbb::this_task_arena::isolate([&] { tbb::parallel_for(tbb::blocked_range<int>(0, count, 1), call, tbb::simple_partitioner()); }); });
+    const auto run_workers = [&] {
+      tbb::parallel_for(
+          tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); }, tbb::simple_partitioner());
+    };
+    // Who waits in a task for that task's own call must not take up the outer call's workers meanwhile: they would run in the midst of the task. Whatever
+    // isolation there was, execute() ends it. Who waits for the outer call takes up anything.
+    const bool is_inner = runs_;
+    const Running running(runs_);
+    arena_.execute([&] {
+      if (is_inner)
+        tbb::this_task_arena::isolate(run_workers);
+      else
+        run_workers();
+    });
   }
 
  private:
   int threads_;
+  bool runs_ = false;  // a call that is no task's. Tasks' calls read it: oneTBB's handing over orders that
   tbb::task_arena arena_;
 };
 
@@ -63,22 +90,6 @@ class TaskOrder {
  private:
   std::uint32_t order_;
   std::size_t count_, step_ = 1;
-};
-
-/// Sets a flag, unless it is set, until the end of the scope.
-class Running {
- public:
-  explicit Running(bool& flag) : flag_(flag ? nullptr : &flag) {
-    if (flag_ != nullptr) *flag_ = true;
-  }
-  ~Running() {
-    if (flag_ != nullptr) *flag_ = false;
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
- private:
-  bool* flag_;
 };
 
 }  // namespace

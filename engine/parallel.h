@@ -40,7 +40,7 @@ class Parallel {
   /// left in its caches, and callers can put the long tasks of each share first. Each task runs in the default floating-point mode:
   /// rounding to nearest, denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not
   /// start. For one thread at a time, and for tasks: of a task's call the workers count from 0 anew, it takes memory (std::bad_alloc),
-  /// and a thread that waits for it begins no other task.
+  /// and a thread that waits for it begins no other task (of a user's executor see Executor::run).
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     run(count, {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); }, &task});

@@ -81,7 +81,7 @@ class Bins {
     std::uint32_t count, next;
     std::uint32_t entries[kBlockEntries];
   };
-  static_assert(sizeof(Block) == (2 + kBlockEntries) * sizeof(std::uint32_t));  // whole lines
+  static_assert(sizeof(Block) == (2 + kBlockEntries) * sizeof(std::uint32_t));  // full lines, no padding
 
   /// Empty bins of tiles first_tile, first_tile + 1, ... What `bytes()` says is already taken from the budget, which may be null: no limit.
   /// Throws std::bad_alloc.

@@ -578,7 +578,8 @@ class TESSERA_API Frame {
   explicit Frame(FrameBuffer& target);
   /// One whose draws of large meshes go faster: where a mesh has 65,536 indices or more, the helper's workers look through them, of
   /// which the caller alone checks about 5 10^9 a second. draw() then uses the helper as finish() does, so both are for one thread at a
-  /// time; it must outlive the frame, may be moved, and must not be assigned to. Any renderer may finish the frame.
+  /// time (and for the helper's own progress callback); it must outlive the frame, may be moved, and must not be assigned to. Any
+  /// renderer may finish the frame.
   Frame(FrameBuffer& target, Renderer& helper);
   ~Frame();
   Frame(Frame&&) noexcept;

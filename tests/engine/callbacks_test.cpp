@@ -9,6 +9,7 @@
 
 #include "engine/parallel.h"
 #include "tests/engine/api_random_frame.h"
+#include "tests/engine/test_executors.h"
 
 namespace tessera {
 namespace {
@@ -59,11 +60,12 @@ TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
   Renderer plain({.threads = 1});
   FrameBuffer fresh(scene().format);
   const Fingerprint expected = finished(plain, fresh);
-  for (const int threads : {1, 2, 8}) {
-    const ThreadLimit limit(threads);
+  for (const int threads : {1, 2, 8, 0}) {  // 0: three of somebody else's
+    const ThreadLimit limit(std::max(1, threads));
     Renderer* helper = nullptr;
     int drawn = 0, told = 0;
-    Renderer renderer({.threads = threads, .tile_size = 32, .progress = [&](double) {
+    const std::shared_ptr<Executor> executor = threads == 0 ? std::make_shared<OwnThreads>(3) : nullptr;
+    Renderer renderer({.threads = threads, .tile_size = 32, .executor = executor, .progress = [&](double) {
                          FrameBuffer next_buffer({.width = 8, .height = 8});
                          Frame next(next_buffer, *helper);
                          ++drawn;

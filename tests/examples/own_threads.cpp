@@ -1,6 +1,7 @@
 // The work of frames on a thread pool of the caller's own: twenty lines of it.
 #include <tessera/tessera.hpp>
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdio>
 #include <memory>
@@ -21,46 +22,43 @@ class Pool : public tessera::Executor {
   int workers() const noexcept override { return static_cast<int>(threads_.size()) + 1; }
 
   void run(int count, void (*work)(void*, int), void* context) override {
-    {
-      const std::lock_guard lock(mutex_);
-      work_ = work, context_ = context, next_ = 0, count_ = count, busy_ = 0;
-    }
-    wake_.notify_all();
-    take();  // the caller works, too
+    Job job{work, context, count};
     std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return next_ == count_ && busy_ == 0; });
+    jobs_.push_back(&job);
+    wake_.notify_all();
+    while (job.begun < job.count) take(job, lock);  // the caller works, too: on this job alone, as it may be in the midst of another
+    done_.wait(lock, [&] { return job.ended == job.count; });
+    std::erase(jobs_, &job);
   }
 
  private:
+  struct Job {
+    void (*work)(void*, int);
+    void* context;
+    int count, begun = 0, ended = 0;
+  };
   void serve() {
-    for (;;) {
-      {
-        std::unique_lock lock(mutex_);
-        wake_.wait(lock, [this] { return ends_ || next_ < count_; });
-        if (ends_) return;
-      }
-      take();
+    std::unique_lock lock(mutex_);
+    while (!ends_) {
+      const auto job = std::find_if(jobs_.begin(), jobs_.end(), [](const Job* any) { return any->begun < any->count; });
+      if (job == jobs_.end())
+        wake_.wait(lock);
+      else
+        take(**job, lock);
     }
   }
-  void take() {
-    std::unique_lock lock(mutex_);
-    while (next_ < count_) {
-      const int worker = next_++;
-      ++busy_;
-      lock.unlock();
-      work_(context_, worker);
-      lock.lock();
-      --busy_;
-    }
-    done_.notify_all();
+  void take(Job& job, std::unique_lock<std::mutex>& lock) {
+    const int worker = job.begun++;
+    lock.unlock();
+    job.work(job.context, worker);
+    lock.lock();
+    if (++job.ended == job.count) done_.notify_all();
   }
 
   std::mutex mutex_;
   std::condition_variable wake_, done_;
   std::vector<std::thread> threads_;
-  void (*work_)(void*, int) = nullptr;
-  void* context_ = nullptr;
-  int next_ = 0, count_ = 0, busy_ = 0;
+  std::vector<Job*> jobs_;
   bool ends_ = false;
 };
 
