@@ -25,47 +25,20 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// Sets a flag, unless it is set, until the end of the scope.
-class Running {
- public:
-  explicit Running(bool& flag) : flag_(flag ? nullptr : &flag) {
-    if (flag_ != nullptr) *flag_ = true;
-  }
-  ~Running() {
-    if (flag_ != nullptr) *flag_ = false;
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
- private:
-  bool* flag_;
-};
-
-/// oneTBB's threads, in an arena that nobody else works in. Two keep their numbers from call to call; which of more takes which is chance.
+/// oneTBB's threads, in an arena of their own, where progress callbacks may work, too. Two keep their numbers from call to call; which of more takes which is chance.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
   int workers() const noexcept override { return threads_; }
   void run(int count, void (*work)(void*, int), void* context) override {
-    const auto run_workers = [&] {
+    arena_.execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); }, tbb::simple_partitioner());
-    };
-    // Who waits in a task for that task's own call must not take up the outer call's workers meanwhile: they would run in the midst of the task. Whatever
-    // isolation there was, execute() ends it. Who waits for the outer call takes up anything.
-    const bool is_inner = runs_;
-    const Running running(runs_);
-    arena_.execute([&] {
-      if (is_inner)
-        tbb::this_task_arena::isolate(run_workers);
-      else
-        run_workers();
     });
   }
 
  private:
   int threads_;
-  bool runs_ = false;  // a call that is no task's. Tasks' calls read it: oneTBB's handing over orders that
   tbb::task_arena arena_;
 };
 
@@ -90,6 +63,18 @@ class TaskOrder {
  private:
   std::uint32_t order_;
   std::size_t count_, step_ = 1;
+};
+
+/// Sets a flag until the end of the scope.
+class Running {
+ public:
+  explicit Running(bool& flag) : flag_(flag) { flag_ = true; }
+  ~Running() { flag_ = false; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  bool& flag_;
 };
 
 }  // namespace
@@ -158,14 +143,20 @@ Parallel& Parallel::operator=(Parallel&&) noexcept = default;
 
 void Parallel::run(std::size_t count, const AnyTask& task) {
   if (count == 0) return;
+  const TaskOrder order(order_, count);
+  if (runs_) {
+    // A task's call: the others are busy with the outer one. Who waited for them here might wait for one who waits for this task.
+    const FloatingPointMode mode;
+    for (std::size_t i = 0; i < count; ++i) task.call(task.self, order(i), 0);
+    return;
+  }
   const std::size_t workers = workers_for(count);
-  std::vector<Share> inner(runs_ ? workers : 0);  // of a call by a task
-  const std::span<Share> shares = std::span(runs_ ? inner : shares_).first(workers);
+  const std::span<Share> shares = std::span(shares_).first(workers);
   for (std::size_t s = 0, first = 0; s < workers; ++s) {
     shares[s].next.store(first, std::memory_order_relaxed);
     shares[s].end = first = first_of_share(count, workers, s + 1);
   }
-  Queue queue{task, TaskOrder(order_, count), shares};
+  Queue queue{task, order, shares};
   {
     const Running running(runs_);
     executor_->run(static_cast<int>(workers), &Queue::work, &queue);

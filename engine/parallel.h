@@ -39,8 +39,7 @@ class Parallel {
   /// they have another order), and goes on to what is left of the next ones: where a thread is the same worker again it finds what it
   /// left in its caches, and callers can put the long tasks of each share first. Each task runs in the default floating-point mode:
   /// rounding to nearest, denormals kept. An exception of a task is thrown here, after the running tasks have ended; the rest do not
-  /// start. For one thread at a time, and for tasks: of a task's call the workers count from 0 anew, it takes memory (std::bad_alloc),
-  /// and a thread that waits for it begins no other task (of a user's executor see Executor::run).
+  /// start. For one thread at a time, and for tasks, whose calls their own thread runs alone, as worker 0.
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     run(count, {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); }, &task});
@@ -70,7 +69,7 @@ class Parallel {
   bool runs_ = false;          // a call that is no task's. Tasks' calls read it: the executor's handing over orders that
 };
 
-/// Calls run(): if it waits for oneTBB, its thread takes no task of ours meanwhile.
+/// Calls run(): if it waits for oneTBB, its thread takes no task meanwhile of the call that it is in.
 void isolated(const std::function<void()>& run);
 
 /// Cores that the process may use.

@@ -578,8 +578,8 @@ class TESSERA_API Frame {
   explicit Frame(FrameBuffer& target);
   /// One whose draws of large meshes go faster: where a mesh has 65,536 indices or more, the helper's workers look through them, of
   /// which the caller alone checks about 5 10^9 a second. draw() then uses the helper as finish() does, so both are for one thread at a
-  /// time (and for the helper's own progress callback); it must outlive the frame, may be moved, and must not be assigned to. Any
-  /// renderer may finish the frame.
+  /// time; in the helper's own progress callback, whose workers are busy, the caller looks alone. The helper must outlive the frame, may
+  /// be moved, and must not be assigned to. Any renderer may finish the frame.
   Frame(FrameBuffer& target, Renderer& helper);
   ~Frame();
   Frame(Frame&&) noexcept;
@@ -635,9 +635,8 @@ class TESSERA_API Executor {
   virtual int workers() const noexcept = 0;
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
   /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
-  /// of finish(), or of the draw that the renderer helps with. Where such a draw stands in the renderer's progress callback, `work`
-  /// calls run once more: that must neither wait for threads that are busy with the outer call nor take up the outer call's work
-  /// meanwhile. Frames are faster where each k is the thread's that ran it before: its share is in that thread's caches.
+  /// of finish(), or of the draw that the renderer helps with. Frames are faster where each k is the thread's that ran it before: its
+  /// share is in that thread's caches.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
 /// Everything on the thread that calls.

@@ -1,4 +1,4 @@
-// The work of frames on a thread pool of the caller's own: twenty lines of it.
+// The work of frames on a thread pool of the caller's own: fifty lines of it.
 #include <tessera/tessera.hpp>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class Pool : public tessera::Executor {
     std::unique_lock lock(mutex_);
     jobs_.push_back(&job);
     wake_.notify_all();
-    while (job.begun < job.count) take(job, lock);  // the caller works, too: on this job alone, as it may be in the midst of another
+    while (job.begun < job.count) take(job, lock);  // the caller works, too, but for nobody else
     done_.wait(lock, [&] { return job.ended == job.count; });
     std::erase(jobs_, &job);
   }
