@@ -636,7 +636,8 @@ class TESSERA_API Executor {
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
   /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
   /// of finish(), or of the draw that the renderer helps with. Frames are faster where each k is the thread's that ran it before: its
-  /// share is in that thread's caches.
+  /// share is in that thread's caches. One that serves several renderers is called by several threads at the same time if these are, and
+  /// from inside `work` where a progress callback of one renderer uses another; one renderer alone calls it once at a time, never from there.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
 /// Everything on the thread that calls.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -86,6 +87,43 @@ TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
     EXPECT_GE(drawn, 20);
     EXPECT_EQ(told, drawn);
   }
+}
+
+/// Notes how deep its calls are within each other.
+class Depth : public WorkersInTurn {
+ public:
+  Depth() : WorkersInTurn(3) {}
+  void run(int count, void (*work)(void*, int), void* context) override {
+    deepest = std::max(deepest, ++depth_);
+    WorkersInTurn::run(count, work, context);
+    --depth_;
+  }
+  int deepest = 0;
+
+ private:
+  int depth_ = 0;
+};
+
+TEST(Progress, MayUseAnotherRendererOfTheSameExecutor) {
+  Renderer plain({.threads = 1});
+  FrameBuffer fresh(scene().format);
+  const Fingerprint expected = finished(plain, fresh);
+  const auto executor = std::make_shared<Depth>();
+  Renderer other({.executor = executor});
+  int calls = 0;
+  Renderer renderer({.executor = executor, .progress = [&](double) {
+                       FrameBuffer buffer(scene().format);
+                       if (++calls <= 3) {
+                         EXPECT_EQ(finished(other, buffer), expected);
+                       }
+                       return true;
+                     }});
+  FrameBuffer buffer(scene().format);
+  EXPECT_EQ(finished(other, buffer), expected);
+  EXPECT_EQ(executor->deepest, 1);
+  EXPECT_EQ(finished(renderer, buffer), expected);
+  EXPECT_GE(calls, 3);
+  EXPECT_EQ(executor->deepest, 2) << "from inside the first one's work";
 }
 
 // Ends a frame at every call of the callback in turn, then finishes it.

@@ -263,6 +263,26 @@ TEST(Parallel, TasksRunInTheDefaultFloatingPointMode) {
   }
 }
 
+TEST(Parallel, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
+  const ThreadLimit limit(3);
+  const unsigned odd = kDefaultMode | kFlushToZero | kDenormalsAreZero | kRoundUp;
+  for (const int threads : {1, 3}) {
+    Parallel parallel(threads);
+    std::atomic<int> wrong = 0, changed = 0;
+    parallel.for_each(12, [&](std::size_t, int) {
+      const unsigned before = _mm_getcsr();
+      _mm_setcsr(odd);  // as a progress callback may leave it
+      parallel.for_each(5, [&](std::size_t, int) {
+        if ((_mm_getcsr() & kModeBits) != kDefaultMode) ++wrong;
+      });
+      if ((_mm_getcsr() & kModeBits) != (odd & kModeBits)) ++changed;
+      _mm_setcsr(before);
+    });
+    EXPECT_EQ(wrong, 0) << threads << " threads";
+    EXPECT_EQ(changed, 0) << "a task's mode is the task's";
+  }
+}
+
 TEST(Parallel, TheFloatingPointModeEndsWithItsScope) {
   const unsigned before = _mm_getcsr();
   _mm_setcsr(kDefaultMode | kFlushToZero | kRoundUp);
