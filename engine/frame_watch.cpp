@@ -24,7 +24,10 @@ void FrameWatch::report() {
   const double share = std::lerp(begin_, end_, static_cast<double>(done_.load()) / static_cast<double>(tasks_));
   stopped_ = true;  // unless it says to go on
   bool goes_on = false;
-  isolated([&] { goes_on = progress_(share); });
+  isolated([&] {
+    const FloatingPointMode mode;  // its worker has more tasks to run, whatever mode it leaves
+    goes_on = progress_(share);
+  });
   if (!goes_on) throw Cancelled("Renderer::finish: cancelled by the progress callback");
   stopped_ = false;
 }

@@ -631,13 +631,14 @@ TESSERA_API std::string_view name(InstructionSet set);
 class TESSERA_API Executor {
  public:
   virtual ~Executor();
-  /// How many workers may be busy at the same time, at least 1.
+  /// How many workers may be busy at the same time, at least 1; always the same number. Renderers ask when they are made.
   virtual int workers() const noexcept = 0;
   /// Calls work(context, k) once for each k in 0 .. count-1, count <= workers(): in any order, at the same time or one after
   /// the other, on any threads. Returns when all of them have returned. `work` throws nothing; what run itself throws comes out
   /// of finish(), or of the draw that the renderer helps with. Frames are faster where each k is the thread's that ran it before: its
-  /// share is in that thread's caches. One that serves several renderers is called by several threads at the same time if these are, and
-  /// from inside `work` where a progress callback of one renderer uses another; one renderer alone calls it once at a time, never from there.
+  /// share is in that thread's caches. A single renderer calls it once at a time, never from inside `work`. An executor of several renderers
+  /// is called by several threads at the same time if the renderers are used by several; and where a progress callback of one renderer uses
+  /// another, from inside `work`, by the thread that runs it.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
 /// Everything on the thread that calls.

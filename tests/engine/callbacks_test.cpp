@@ -104,26 +104,34 @@ class Depth : public WorkersInTurn {
   int depth_ = 0;
 };
 
-TEST(Progress, MayUseAnotherRendererOfTheSameExecutor) {
+/// A frame in the midst of whose work another renderer of its executor finishes frames, and what they have to be.
+void expect_frames_within_a_frame(const std::shared_ptr<Executor>& executor) {
   Renderer plain({.threads = 1});
   FrameBuffer fresh(scene().format);
   const Fingerprint expected = finished(plain, fresh);
-  const auto executor = std::make_shared<Depth>();
   Renderer other({.executor = executor});
   int calls = 0;
   Renderer renderer({.executor = executor, .progress = [&](double) {
-                       FrameBuffer buffer(scene().format);
                        if (++calls <= 3) {
+                         FrameBuffer buffer(scene().format);
                          EXPECT_EQ(finished(other, buffer), expected);
                        }
                        return true;
                      }});
   FrameBuffer buffer(scene().format);
-  EXPECT_EQ(finished(other, buffer), expected);
-  EXPECT_EQ(executor->deepest, 1);
   EXPECT_EQ(finished(renderer, buffer), expected);
   EXPECT_GE(calls, 3);
-  EXPECT_EQ(executor->deepest, 2) << "from inside the first one's work";
+}
+
+TEST(Progress, MayUseAnotherRendererOfTheSameExecutor) {
+  const auto depth = std::make_shared<Depth>();
+  Renderer alone({.executor = depth});
+  FrameBuffer buffer(scene().format);
+  finished(alone, buffer);
+  EXPECT_EQ(depth->deepest, 1);
+  expect_frames_within_a_frame(depth);
+  EXPECT_EQ(depth->deepest, 2) << "the executor hears of the frames within the frame";
+  expect_frames_within_a_frame(std::make_shared<OwnThreads>(3));
 }
 
 // Ends a frame at every call of the callback in turn, then finishes it.

@@ -271,7 +271,7 @@ TEST(Parallel, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
     std::atomic<int> wrong = 0, changed = 0;
     parallel.for_each(12, [&](std::size_t, int) {
       const unsigned before = _mm_getcsr();
-      _mm_setcsr(odd);  // as a progress callback may leave it
+      _mm_setcsr(odd);  // as a progress callback may have set it
       parallel.for_each(5, [&](std::size_t, int) {
         if ((_mm_getcsr() & kModeBits) != kDefaultMode) ++wrong;
       });

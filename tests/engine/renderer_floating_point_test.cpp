@@ -5,7 +5,9 @@
 
 #include <immintrin.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "engine/parallel.h"
 #include "engine/scene/scene.h"
@@ -127,7 +129,29 @@ TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfReadDepthsPalettesAndClears) {
   EXPECT_EQ(shown[0], shown[1]);
 }
 
-// An exception of the frame must not leave the engine's mode behind.
+// Called after every task, and slow enough to be called again after the next one.
+TEST(FloatingPointModeOfTheCaller, LeftByAProgressCallbackChangesNoBit) {
+  const ThreadLimit limit(4);
+  const FrameBufferFormat format{.width = 140, .height = 90};
+  const RandomFrame random(format, 400);
+  for (const int threads : {1, 4}) {
+    Fingerprint prints[2];
+    for (const bool odd : {false, true}) {
+      Renderer renderer({.threads = threads, .tile_size = 32, .progress = [&](double) {
+                           if (odd) _mm_setcsr(kModes[3]);
+                           std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                           return true;
+                         }});
+      FrameBuffer buffer(format);
+      Frame frame(buffer);
+      record(random, frame);
+      renderer.finish(frame);
+      prints[odd] = fingerprint(buffer);
+    }
+    EXPECT_EQ(prints[0], prints[1]) << threads << " threads";
+  }
+}
+
 TEST(FloatingPointModeOfTheCaller, IsRestoredByAFrameThatFails) {
   Renderer renderer({.threads = 1});
   FrameBuffer buffer({.width = 8, .height = 8});

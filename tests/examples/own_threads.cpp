@@ -70,10 +70,12 @@ int main() {
     tessera::Renderer renderer(std::move(options));
     tessera::FrameBuffer buffer({.width = 300, .height = 200});
     tessera::Frame frame(buffer);
-    frame.clear({.color = tessera::Color{0, 0, 0.2f, 1}, .depth = 1.0});
-    frame.draw({.positions = positions}, {});
     std::vector<unsigned char> pixels(300 * 200 * 4);
-    renderer.finish(frame, {.pixels = pixels.data(), .width = 300, .height = 200, .stride_bytes = 1200});
+    for (int i = 0; i < 20; ++i) {
+      frame.clear({.color = tessera::Color{0, 0, 0.2f, 1}, .depth = 1.0});
+      frame.draw({.positions = positions}, {.transform = tessera::rotate(10.0 * i, 0, 0, 1)});
+      renderer.finish(frame, {.pixels = pixels.data(), .width = 300, .height = 200, .stride_bytes = 1200});
+    }
     return pixels;
   };
   const auto pool = std::make_shared<Pool>(3);
