@@ -8,28 +8,30 @@
 namespace tessera {
 
 void FrameWatch::report() {
+  done_.fetch_add(1);
+  // Nobody waits here: the callback may need this very thread, for another renderer's frame. Who calls already looks again afterwards.
+  while (!calling_.exchange(true)) {
+    const std::size_t done = done_;
+    call_if_due(done);
+    calling_ = false;
+    if (done == done_) return;
+  }
+}
+
+void FrameWatch::call_if_due(std::size_t done) {
   constexpr auto kPause = std::chrono::milliseconds(10);
-  const std::size_t done = done_.fetch_add(1) + 1;
-  const bool is_last = done == tasks_;
-  std::unique_lock<std::mutex> lock(calling_, std::defer_lock);
-  if (is_last)
-    lock.lock();
-  else if (!lock.try_lock())
-    return;
-  if (stopped_) return;
+  if (done == told_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (!is_last && now - last_call_ < kPause) return;
+  if (done < tasks_ && now - last_call_ < kPause) return;
   last_call_ = now;
-  // Read under the lock, so that it never falls.
-  const double share = std::lerp(begin_, end_, static_cast<double>(done_.load()) / static_cast<double>(tasks_));
-  stopped_ = true;  // unless it says to go on
+  told_ = done;
+  const double share = std::lerp(begin_, end_, static_cast<double>(done) / static_cast<double>(tasks_));
   bool goes_on = false;
   isolated([&] {
     const FloatingPointMode mode;  // its worker has more tasks to run, whatever mode it leaves
     goes_on = progress_(share);
   });
   if (!goes_on) throw Cancelled("Renderer::finish: cancelled by the progress callback");
-  stopped_ = false;
 }
 
 }  // namespace tessera

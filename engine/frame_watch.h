@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <mutex>
 
 #include "engine/frame_trace.h"
 
@@ -22,7 +21,7 @@ class FrameWatch {
     begin_ = end_;
     end_ = end;
     tasks_ = tasks;
-    done_ = 0;
+    done_ = told_ = 0;
   }
   /// Runs a task, on any worker. Throws Cancelled, or what the callback throws.
   template <class Work>
@@ -37,14 +36,15 @@ class FrameWatch {
 
  private:
   void report();
+  void call_if_due(std::size_t done);
 
   const std::function<bool(double)>& progress_;
   FrameTrace& trace_;
   double begin_ = 0, end_ = 0;
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;
-  std::mutex calling_;
-  bool stopped_ = false;
+  std::atomic<bool> calling_ = false;  // the callback, by one at a time; for ever once it has stopped the frame
+  std::size_t told_ = 0;               // of done_, in this stage
   std::chrono::steady_clock::time_point last_call_{};
 };
 

@@ -32,6 +32,8 @@ class Parallel {
   Parallel& operator=(Parallel&&) noexcept;
 
   int threads() const noexcept { return threads_; }
+  /// Whether a call runs: it is a task that asks.
+  bool runs() const noexcept { return runs_; }
   /// How many workers run so many tasks.
   std::size_t workers_for(std::size_t count) const noexcept { return std::min(static_cast<std::size_t>(threads_), count); }
   /// Calls task(i, worker) for 0 <= i < count, each once, and returns when all are done. `worker` is below workers_for(count); no two

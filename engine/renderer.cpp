@@ -79,6 +79,7 @@ FrameRecording& require_recording(const std::unique_ptr<FrameRecording>& recordi
 }
 
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
+  if (state.parallel.runs()) throw Error("Renderer::finish: called by this renderer's own progress callback; a frame must have ended before the next one");
   return with_memory("Renderer::finish", [&] {
     const FrameStats stats = state.run(recording, image);
     state.report(stats);

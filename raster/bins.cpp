@@ -28,7 +28,6 @@ bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t least) 
 void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   const auto tiles = static_cast<std::size_t>(tile_count);
   budget_ = budget;
-  overflowed_ = false;
   first_tile_ = first_tile;
   used_ = 0;
   pieces_.clear();
@@ -40,9 +39,11 @@ void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   attributes_.clear();
   attributes_.assign(kAttributePadding, 0.0f);
   if (budget_ != nullptr) budget_->charge(bytes() - before);
-  if (!reserve(tails_, tiles, 0) || !reserve(triangles_, tiles, 0)) overflowed_ = true;
-  tails_.assign(tiles, Tail{kNone, kNone, kNone});
-  triangles_.assign(tiles, 0);
+  overflowed_ = !reserve(tails_, tiles, 0) || !reserve(triangles_, tiles, 0);
+  tile_mask_ = overflowed_ ? 0 : ~std::size_t{0};  // without room for all they share one list, which nobody reads
+  const std::size_t lists = overflowed_ ? 1 : tiles;
+  tails_.assign(lists, Tail{kNone, kNone, kNone});
+  triangles_.assign(lists, 0);
 }
 
 void Bins::overflow() {

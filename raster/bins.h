@@ -145,7 +145,7 @@ class Bins {
   struct Tail {
     std::uint32_t first, last, draw;
   };
-  std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_); }
+  std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_) & tile_mask_; }
   Tail& tail_of(int tile) { return tails_[index_of(tile)]; }
   const Tail& tail_of(int tile) const { return tails_[index_of(tile)]; }
   Block& block_with_room(Tail& tail) {
@@ -169,6 +169,7 @@ class Bins {
   std::vector<Block> blocks_;
   std::size_t used_ = 0;
   int first_tile_ = 0;
+  std::size_t tile_mask_ = 0;  // of indices of lists
   BinBudget* budget_ = nullptr;
   bool overflowed_ = false;
 };

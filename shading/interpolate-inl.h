@@ -88,7 +88,10 @@ inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const 
       w[k][l] = static_cast<float>(start + wide.a[k] * kBlockColumn[p] + wide.b[k] * kBlockRow[p]) * t.scale[k];
     }
   }
-  return from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
+  const Barycentric found = from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
+  // Beyond a line's end the weights' sum may be 0: no value is the right one there, so the first vertex's, which is the one of constants.
+  const auto known = hn::And(hn::IsFinite(found.b1), hn::IsFinite(found.b2));
+  return {hn::IfThenElseZero(known, found.b1), hn::IfThenElseZero(known, found.b2), hn::IfThenElseZero(known, found.inverse)};
 }
 
 HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by, int chunk) {

@@ -124,7 +124,8 @@ struct LineColors {
     Float t = to_floats(parameters);
     if (rw[0] != rw[1]) {
       const Float far = hn::Mul(t, splat(rw[1])), sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
-      t = hn::IfThenElse(hn::Ne(sum, hn::Zero(kFloat)), hn::Div(far, sum), t);
+      t = hn::Div(far, sum);
+      t = hn::IfThenElseZero(hn::IsFinite(t), t);  // as barycentric_wide
     }
     Int word = hn::Zero(kInt);
     for (int c = 0; c < 3; ++c) {

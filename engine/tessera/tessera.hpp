@@ -572,7 +572,8 @@ struct FrameStats {
 
 class Renderer;
 
-/// Records what happens in a frame, in order. Nothing is rendered until Renderer::finish. The frame buffer must outlive it.
+/// Records what happens in a frame, in order. Nothing is rendered until Renderer::finish. The frame buffer must outlive
+/// it, may be moved, and must not be assigned to.
 class TESSERA_API Frame {
  public:
   explicit Frame(FrameBuffer& target);
@@ -677,9 +678,11 @@ struct RendererOptions {
   std::shared_ptr<Executor> executor{};     ///< absent: oneTBB's threads
   /// Called now and then while a frame runs, at the end of each stage and at most about a hundred times a second in between, on
   /// any of the threads that work, never by two of one renderer at once: `done` rises, to 1 in frames that have tiles to render.
-  /// Where it returns false, it is not called again and finish() throws Cancelled; where it throws, finish() throws that. The
-  /// frame buffer then holds what it held before, but for tiles of the buffers kept that were done already; images and captures
-  /// may be written in part. Finishing the frame after all gives its picture if it starts with clears of the whole.
+  /// It may record frames and finish them with other renderers; finish() of its own one throws Error, and the frame that runs must
+  /// be left alone. Where it returns false, it is not called again and finish() throws Cancelled; where it throws, finish() throws that
+  /// (std::bad_alloc as Error). The frame buffer then holds what it held before, but for tiles of the buffers kept that were done
+  /// already; images and captures may be written in part. Finishing the frame after all gives its picture if it starts with clears of
+  /// the whole.
   std::function<bool(double done)> progress{};
   /// What the library has to say; it never prints. Called by the thread that calls the Renderer. What it throws comes out there;
   /// a frame is then rendered, and still recorded.

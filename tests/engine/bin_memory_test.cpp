@@ -11,6 +11,7 @@
 #include "tests/engine/api_random_operations.h"
 #include "tests/engine/failing_allocations.h"
 #include "tests/engine/full_tile.h"
+#include "tests/engine/test_executors.h"
 
 namespace tessera {
 namespace {
@@ -112,20 +113,43 @@ long most_bytes(int count, RendererOptions options, int tile_size) {
   return most_live_bytes - before;
 }
 
+/// Bytes that each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow the end of a list and its count, and one piece with its attributes.
+constexpr long kUnasked = sizeof(Bins::Block) + 16 + sizeof(Piece) + 64 * sizeof(float);
+
 TEST(BinMemory, IsTheMostThatTheBinsTake) {
   ThreadLimit limit(4);
   constexpr int kLayers = 2500;
-  // What each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow the ends of its tiles' lists and their counts, 16 bytes a tile, and one
-  // piece with its attributes.
-  constexpr long kBatches = 2 * kLayers / 1024, kTiles = 20, kAllowance = kBatches * static_cast<long>(sizeof(Bins::Block) + 16 * kTiles + sizeof(Piece) + 64 * sizeof(float));
+  constexpr long kBatches = 2 * kLayers / 1024;
   for (const int threads : {1, 4})
     for (const int tile_size : {32, 128}) {
       SCOPED_TRACE(std::to_string(threads) + " threads, tiles of " + std::to_string(tile_size));
       const RendererOptions whole{.threads = threads};
       const long empty = most_bytes(0, whole, tile_size);
       EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kLeastBinMemory)) << "a frame that is to be in parts";
-      EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty, static_cast<long>(kLeastBinMemory) + kAllowance);
+      EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty, static_cast<long>(kLeastBinMemory) + kBatches * kUnasked);
     }
+}
+
+// 16 batches of 4,096 tiles take 16 bytes for each tile's list, and 16 KB for the first blocks.
+TEST(BinMemory, IsTheMostThatManyTilesTake) {
+  constexpr int kBatches = 16;
+  MeshData triangles;
+  triangles.positions = {0, 0, 0, 0.001f, 0, 0, 0, 0.001f, 0};
+  for (int i = 0; i < 1024 * kBatches; ++i) triangles.indices.insert(triangles.indices.end(), {0, 1, 2});
+  FrameBuffer buffer({.width = 2048, .height = 2048});
+  Frame frame(buffer);
+  const auto most = [&](std::size_t bin_memory) {
+    Renderer renderer({.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<WorkersInTurn>(4)});
+    frame.keep({});
+    frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+    frame.draw(triangles.view(), {.lighting = false});
+    const long before = live_bytes;
+    most_live_bytes = before;
+    renderer.finish(frame);
+    return most_live_bytes - before;
+  };
+  const long whole = most(std::size_t{8} << 20), parts = most(kLeastBinMemory);
+  EXPECT_GT(whole - parts, kBatches * (16 * 4096 + 16384 - kUnasked) - static_cast<long>(kLeastBinMemory));
 }
 
 #endif

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "engine/parallel.h"
 #include "tests/engine/api_random_frame.h"
@@ -104,6 +109,28 @@ class Depth : public WorkersInTurn {
   int depth_ = 0;
 };
 
+/// One thread, which does whatever work there is while it waits: also that of a call that it is in the midst of.
+class Helping : public Executor {
+ public:
+  int workers() const noexcept override { return 3; }
+  void run(int count, void (*work)(void*, int), void* context) override {
+    int left = count;
+    for (int k = 0; k < count; ++k)
+      jobs_.push_back([&left, work, context, k] {
+        work(context, k);
+        --left;
+      });
+    while (left > 0) {
+      const std::function<void()> job = std::move(jobs_.front());
+      jobs_.pop_front();
+      job();
+    }
+  }
+
+ private:
+  std::deque<std::function<void()>> jobs_;
+};
+
 /// A frame in the midst of whose work another renderer of its executor finishes frames, and what they have to be.
 void expect_frames_within_a_frame(const std::shared_ptr<Executor>& executor) {
   Renderer plain({.threads = 1});
@@ -132,6 +159,30 @@ TEST(Progress, MayUseAnotherRendererOfTheSameExecutor) {
   expect_frames_within_a_frame(depth);
   EXPECT_EQ(depth->deepest, 2) << "the executor hears of the frames within the frame";
   expect_frames_within_a_frame(std::make_shared<OwnThreads>(3));
+  expect_frames_within_a_frame(std::make_shared<Helping>());
+}
+
+TEST(Progress, MustNotFinishFramesOfItsRenderer) {
+  Renderer plain({.threads = 1});
+  FrameBuffer buffer(scene().format), next_buffer({.width = 8, .height = 8});
+  const Fingerprint expected = finished(plain, buffer);
+  for (const int threads : {1, 2}) {
+    Renderer* self = nullptr;
+    Frame next(next_buffer);
+    next.clear({.color = Color{0, 0, 1, 1}});
+    std::vector<std::string> errors;
+    int calls = 0;
+    Renderer renderer({.threads = threads, .progress = [&](double) {
+                         ++calls;
+                         errors.push_back(error_of([&] { self->finish(next); }).value_or(""));
+                         return true;
+                       }});
+    self = &renderer;
+    EXPECT_EQ(finished(renderer, buffer), expected);
+    ASSERT_GE(calls, 2);
+    EXPECT_THAT(errors, testing::Each(testing::HasSubstr("called by this renderer's own progress callback")));
+    EXPECT_FALSE(error_of([&] { plain.finish(next); })) << "nothing of it is lost";
+  }
 }
 
 // Ends a frame at every call of the callback in turn, then finishes it.

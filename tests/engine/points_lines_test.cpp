@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "tests/engine/api_support.h"
 #include "tests/raster/diamond_exit_rule.h"
@@ -275,6 +276,31 @@ TEST(Lines, ClippedAtTheNearPlaneAreAPartOfTheWhole) {
   }
   EXPECT_NEAR(both, 0.75 * 0.75 * kWidth, 1);  // three quarters of it are behind the near plane
   EXPECT_LE(differ, 2);                        // rounding of a level at most
+}
+
+// So wide a line has pixels far beyond its ends, at one of which, (11, 28), the sum of the ends' weights is 0: there is no perspective
+// there, but what is the same at both ends still is.
+TEST(Lines, KeepTheColorOfBothEndsWhereTheirWeightsCancel) {
+  const float positions[] = {-0.671875f, -0.359375f, 0, 1, -1.21875f, -0.65625f, 0, 2}, colors[] = {1, 0, 0, 1, 1, 0, 0, 1};
+  const std::uint8_t texels[] = {255, 255, 255, 255, 255, 255, 255, 255};
+  const Texture texture({.pixels = texels, .width = 2, .height = 1}, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest});
+  DrawState plain = unlit({1, 1, 1, 1});
+  plain.line_width = 20;
+  DrawState blended = plain, textured = plain;
+  blended.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
+  textured.texture = &texture;
+  for (const InstructionSet set : available_instruction_sets()) {
+    Renderer renderer({.threads = 1, .instruction_set = set});
+    for (const auto& [state, dither] : {std::pair{plain, Dither::none}, std::pair{plain, Dither::bayer4}, std::pair{blended, Dither::none}, std::pair{textured, Dither::none}}) {
+      FrameBuffer buffer({.width = 64, .height = 64, .dither = dither});
+      Frame frame(buffer);
+      frame.draw({.primitive = Primitive::lines, .positions = positions, .position_components = 4, .colors = colors}, state);
+      renderer.finish(frame);
+      const std::vector<std::uint32_t> words = color_words(buffer);
+      EXPECT_EQ(std::count(words.begin(), words.end(), 0xff0000u), 40) << name(set);
+      EXPECT_EQ(std::count(words.begin(), words.end(), 0u), 64 * 64 - 40) << name(set);
+    }
+  }
 }
 
 TEST(Lines, AreFrontsThatNothingCulls) {
