@@ -72,14 +72,14 @@ void BinStage::prepare_draws(int samples) {
     draws_.push_back(draw);
     rects_.push_back(draw.rect);
   }
-  polygons_.cut(draws_.size(), [&](std::size_t d) { return draws_[d].facing != nullptr ? commands_->geometry[d].mesh->elements : 0; }, kTrianglesPerBatch);
+  polygons_.cut(draws_.size(), [&](std::size_t d) { return draws_[d].facing != nullptr || commands_->geometry[d].depth_offsets() != nullptr ? commands_->geometry[d].mesh->elements : 0; }, kTrianglesPerBatch);
   parallel_.for_each(polygons_.size(), [&](std::size_t i, int) {
     const DrawRange range = polygons_[i];
     const GeometryDraw& geometry = commands_->geometry[range.draw];
     const std::size_t each = geometry.mesh->polygon_triangles();
-    face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
+    if (geometry.facing() != nullptr) face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
     const DrawPlan& plan = *geometry.plan;
-    if (plan.has_offset()) offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
+    if (geometry.depth_offsets() != nullptr) offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
   });
 }
 

@@ -64,7 +64,7 @@ class BinStage {
   std::vector<BinDraw> draws_;
   std::vector<PixelRect> rects_;           ///< of the draws, in the whole frame
   std::vector<std::size_t> first_element_;  ///< of each draw, counted through the frame; a bitmap or an image counts as one
-  DrawRanges polygons_;                    ///< triangles whose polygons are faced together
+  DrawRanges polygons_;                    ///< triangles whose polygons are faced together, or moved
   std::size_t batch_count_ = 1;
   BinBatches batches_;
   std::vector<WorkerCounts> worker_counts_;

@@ -142,7 +142,7 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
 
 /// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one colour itself.
 void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
-  plan.constant_color = color;
+  plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
   if (plan.index[0] || plan.texture.use == TexturePlan::Use::none) return;
   if (plan.texture.use == TexturePlan::Use::texels) {
     plan.textures_pixels = true;
@@ -150,7 +150,7 @@ void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& lay
     plan.deferred = !needs_order(plan, layout);
     return;
   }
-  const auto [r, g, b, a] = textured_color(plan.texture.texture, {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2]), plan.alpha[0]}, plan.texture.texture.texel);
+  const auto [r, g, b, a] = textured_color(plan.texture.texture, {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2], plan.alpha[0]}, plan.texture.texture.texel);
   plan.constant_color = {r, g, b};
   plan.alpha[0] = plan.alpha[1] = a;
 }

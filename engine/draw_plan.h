@@ -49,7 +49,7 @@ struct DrawPlan {
   bool two_sided = false;         ///< back faces have a program of their own
   std::vector<EyeLight> lights;
   LightingProgram front, back;
-  Rgb constant_color{};           ///< ColorSource::constant
+  Rgb constant_color{};           ///< ColorSource::constant; within 0 .. 1
   bool index[2] = {};             ///< front, back: the colour is an index
   float constant_index = 0;       ///< ColorSource::constant, if it is
   bool uses_vertex_colors = false, uses_color_indices = false;

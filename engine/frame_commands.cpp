@@ -142,7 +142,7 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
   for (int face = 0; face < 2; ++face) {
     const int side = plan.two_sided ? face : 0;
     if (plan.flat && plan.colors_triangles()) draw.face_colors[face] = buffers.face_colors[side].data();
-    for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = clamp_unit(plan.constant_color[c]);
+    for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = plan.constant_color[c];
     if (plan.index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
     if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face]) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
@@ -326,7 +326,7 @@ void connect_draws(FrameCommands& commands) {
                                 : color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
     if (plan.textures_pixels) {
       draw.texture = &plan.texture.texture;
-      for (int face = 0; face < 2; ++face) draw.color[face] = {clamp_unit(plan.constant_color[0]), clamp_unit(plan.constant_color[1]), clamp_unit(plan.constant_color[2]), plan.alpha[face]};
+      for (int face = 0; face < 2; ++face) draw.color[face] = {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2], plan.alpha[face]};
     }
     if (plan.has_ops) connect_operations(draw, plan, buffers);
     if (plan.source == ColorSource::per_pixel) {

@@ -173,8 +173,10 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
   eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
   float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal;
-  for (std::size_t i = 0; i < count; ++i, out += stride)
-    for (std::size_t c = 0; c < 3; ++c) out[c] = eye[c][i];
+  for (std::size_t i = 0; i < count; ++i, out += stride) {
+    const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
+    for (std::size_t c = 0; c < 3; ++c) out[c] = is_finite ? eye[c][i] : 0;  // a capture drops nothing of the picture
+  }
 }
 
 // The corners of each element, its provoking vertex where provoking_place() says.
@@ -218,7 +220,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.words[1].resize(plan.two_sided ? words : 0);
   if (draw.makes_indices()) buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
   buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
-  buffers.depth_offsets.resize(draw.faces_polygons() && plan.has_offset() ? triangles : 0);
+  buffers.depth_offsets.resize(plan.has_offset() ? triangles : 0);
   const std::size_t polygon_triangles = draw.mesh->polygon_triangles();
   if (plan.outlines) buffers.boundary.resize(triangles / polygon_triangles * (polygon_triangles + 2));
   if (plan.face_normals) buffers.face_normals.resize(3 * triangles);

@@ -22,7 +22,7 @@ struct DrawBuffers {
   Scratch<std::uint32_t> indices;        ///< of elements: widened from 16 bits, or made of other primitives
   Scratch<Facing> facing;                ///< of each triangle, where several make a polygon or outlines are drawn
   Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
-  Scratch<double> depth_offsets;         ///< of each triangle's polygon, likewise
+  Scratch<double> depth_offsets;         ///< of each triangle's polygon, where there are offsets
   PolygonModes modes;
   Scratch<float> smooth_normals;         ///< generated, for the plan or for a capture
   Scratch<float> face_normals;           ///< generated, of each triangle
@@ -47,7 +47,7 @@ struct GeometryDraw {
   /// Of each triangle, or null: its own area decides. @pre face_polygons
   const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
   /// Of each triangle's polygon, or null: each has its own, or there are none. @pre offset_polygons
-  const double* depth_offsets() const { return faces_polygons() && plan->has_offset() ? buffers->depth_offsets.data() : nullptr; }
+  const double* depth_offsets() const { return plan->has_offset() && (faces_polygons() || buffers->any_code) ? buffers->depth_offsets.data() : nullptr; }
   /// It has elements whose corners or normals are not there yet. @see assemble_elements
   bool assembles() const { return makes_indices() || plan->outlines || plan->face_normals; }
   bool wants_smooth_normals() const { return plan->smooth_normals || (plan->captured_normal >= 0 && !mesh->normals); }

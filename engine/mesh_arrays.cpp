@@ -17,9 +17,15 @@ constexpr std::size_t kIndicesPerTask = 4096, kManyIndices = 65536;  // fewer th
 
 [[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
 
+void require_one_form(const char* what, std::size_t packed, const char* unit, std::size_t vertices, std::size_t stride_bytes) {
+  if (packed != 0 && (vertices != 0 || stride_bytes != 0))
+    fail("has " + std::to_string(packed) + " packed " + unit + " of " + what + " and also " + std::to_string(vertices) + " vertices with a stride of " + std::to_string(stride_bytes) + " bytes, must have one or the other");
+}
+
 // Packed arrays have floats, or vertices as those with a stride do.
 std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
-  if (positions.stride_bytes != 0 || positions.floats == 0) return positions.vertices;
+  require_one_form("positions", positions.floats, "floats", positions.vertices, positions.stride_bytes);
+  if (positions.floats == 0) return positions.vertices;
   if (positions.floats % components != 0)
     fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " + std::to_string(components));
   return positions.floats / components;
@@ -42,8 +48,9 @@ void require_address(const char* what, const void* data, std::size_t multiple) {
 
 StridedFloats strided(const FloatArray& array, const char* what, std::size_t components, std::size_t vertices) {
   if (array.empty()) return {};
+  require_one_form(what, array.floats, "floats", array.vertices, array.stride_bytes);
   require_address(what, array.data, alignof(float));
-  if (array.stride_bytes == 0 && array.floats != 0) {
+  if (array.floats != 0) {
     if (array.floats != vertices * components)
       fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
     return {array.data, components};
@@ -60,6 +67,7 @@ void add_colors(const ColorArray& colors, MeshArrays& mesh) {
     return;
   }
   if (!colors.floats.empty()) fail("has colors twice, as floats and as bytes");
+  require_one_form("colors", colors.byte_count, "bytes", colors.vertices, colors.stride_bytes);
   require_address("colors", colors.bytes, 1);
   mesh.color_bytes = colors.bytes;
   mesh.color_stride = colors.stride_bytes == 0 ? 4 : colors.stride_bytes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "raster/binning.h"
 
@@ -23,9 +24,14 @@ double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, co
   return std::max(std::abs(by_x), std::abs(by_y)) * kSubpixelScale / area;
 }
 
-WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
+std::uint8_t codes_of(const BinDraw& draw, std::uint32_t triangle) {
   std::uint8_t codes = 0;
   for (std::uint32_t k = 0; draw.any_code && k < 3; ++k) codes |= draw.codes[vertex_index<3>(draw, triangle, k)];
+  return codes;
+}
+
+WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
+  const std::uint8_t codes = codes_of(draw, triangle);
   if (codes != 0) return clip_to_window(draw, triangle, codes, 0);
   return WindowPolygon(draw.vertices[vertex_index<3>(draw, triangle, 0)], draw.vertices[vertex_index<3>(draw, triangle, 1)], draw.vertices[vertex_index<3>(draw, triangle, 2)]);
 }
@@ -60,8 +66,13 @@ double offset_of(const BinDraw& draw, float factor, float units, std::size_t fir
 
 void offset_polygons(const BinDraw& draw, std::size_t each, float factor, float units, std::size_t first, std::size_t last, double* offsets) {
   for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
-    const bool is_seen = draw.facing == nullptr || draw.facing[begin] != Facing::dropped;
-    std::fill_n(offsets + begin, each, is_seen ? offset_of(draw, factor, units, begin, begin + each) : 0.0);
+    if (draw.facing == nullptr) {
+      const std::uint8_t codes = codes_of(draw, static_cast<std::uint32_t>(begin));
+      const bool is_cut = codes != 0 && (codes & kNonFinite) == 0;
+      offsets[begin] = is_cut ? offset_of(draw, factor, units, begin, begin + 1) : std::numeric_limits<double>::quiet_NaN();
+    } else {
+      std::fill_n(offsets + begin, each, draw.facing[begin] != Facing::dropped ? offset_of(draw, factor, units, begin, begin + each) : 0.0);
+    }
   }
 }
 

@@ -7,22 +7,27 @@
 namespace tessera {
 namespace {
 
-void set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
+/// Returns whether it was cut, and not left out as a whole.
+bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
   auto& [vertices, window, clipper] = boundary;
   const std::size_t corners = draw.modes->triangles + 2;
   const std::uint32_t* const polygon = draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
   vertices.clear();
   window.clear();
-  std::uint8_t codes = 0;
+  std::uint8_t codes = 0, shared = draw.any_code ? 0xff : 0;
   for (std::size_t i = 0; i < corners; ++i) {
-    if (draw.any_code) codes |= draw.codes[polygon[i]];
+    if (draw.any_code) {
+      codes |= draw.codes[polygon[i]];
+      shared &= draw.codes[polygon[i]];
+    }
     vertices.push_back(clip_vertex(draw, polygon[i], draw.attribute_count));
     window.push_back(draw.vertices[polygon[i]]);
   }
-  if (codes == 0) return;
+  if (codes == 0) return false;
   clipper.clip(*draw.transform, vertices, codes, draw.attribute_count);
   window.clear();
   for (const ClipVertex& v : vertices) window.push_back(project(*draw.transform, v.position));
+  return shared == 0;
 }
 
 void add_corner(Bins& bins, const BinDraw& draw, Piece& piece, int k, const ClippedBoundary& boundary, std::size_t corner) {
@@ -79,7 +84,7 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
       bin_triangles(bins, grid, filled, t, t + each, isa);
       continue;
     } else {
-      set_up(bins.boundary, draw, t);
+      if (set_up(bins.boundary, draw, t)) counts.clipped += each;
       const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, bins.boundary, t) : bin_corners(bins, grid, corners, bins.boundary, t);
       (is_seen ? counts.binned : counts.outside) += each;
     }

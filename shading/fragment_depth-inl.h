@@ -7,6 +7,8 @@
 #define TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
 #endif
 
+#include <cmath>
+
 #include "raster/depth_offset-inl.h"
 #include "shading/tile_renderer.h"
 
@@ -23,7 +25,7 @@ class FragmentDepth {
     if (!has_depth(frame, draw)) return;
     const bool moved = draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
     const auto move = [&](auto& depth) HWY_ATTR {
-      if (draw.depth_offsets != nullptr)
+      if (draw.depth_offsets != nullptr && !std::isnan(draw.depth_offsets[source]))
         depth.move_by(draw.depth_offsets[source]);
       else if (moved)
         depth.offset_by(g, i, draw.offset_factor, draw.offset_units);

@@ -75,7 +75,7 @@ struct TileDraw {
   int alpha_attribute[2] = {-1, -1};       ///< interpolated alpha for front and back faces; -1: `alpha`
   float alpha[2] = {1, 1};
   float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
-  const double* depth_offsets = nullptr;      ///< what they come to of each triangle's polygon (raster/polygon_offset.h); null: a triangle has its own
+  const double* depth_offsets = nullptr;      ///< what they come to of each triangle's polygon (raster/polygon_offset.h); null, or NaN: a triangle has its own
   enum class Number : std::uint8_t { none, draw, primitive } number = Number::none;  ///< colour words are `word`, or the primitive's number
 
   /// A bitmap or an image, in place of triangles: constant, texels, none, or a number's words. @pre not deferred, without offset

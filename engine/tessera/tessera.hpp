@@ -540,7 +540,7 @@ struct Accum {
 
 /// What a frame can tell of each pixel besides its colour: for picking, and for tools. Rows from the top, width * height
 /// pixels. Each costs one more pass over the tiles, and nothing where its span is empty. With several samples it is what is seen
-/// at the pixel's centre; of draws that blend, the last one that passed the tests. Accumulation does not change it.
+/// at the pixel's centre, of points and lines as one sample has them; of draws that blend, the last one that passed the tests. Accumulation does not change it.
 struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 

@@ -1,6 +1,7 @@
 // Odd data is no error: it is dropped, counted, and leaves the rest of the frame as it is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -109,6 +110,22 @@ TEST(OddData, NonFiniteNormalsDropTheirTriangleWhereNormalsMatter) {
       spoil(bad);
       EXPECT_EQ(draw(bad, unlit({1, 1, 1, 1})).stats.binned, 9u) << "nothing looks at them";
     }
+}
+
+// Neither the picture nor what is told of it.
+TEST(OddData, NonFiniteNormalsAreNoneToACaptureThatAloneAsksForThem) {
+  FrameBuffer buffer({.width = 16, .height = 16});
+  Frame frame(buffer);
+  MeshData mesh;
+  mesh.positions = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
+  mesh.normals = {0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 1, std::numeric_limits<float>::infinity(), 0, 0};
+  std::vector<float> normals(3 * 16 * 16, 7.0f);
+  frame.capture({.normals = normals});
+  frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
+  Renderer({.threads = 1}).finish(frame);
+  for (std::size_t i = 0; i < normals.size(); ++i) ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);  // the first vertex's, which is left
+  const std::vector<std::uint32_t> words = color_words(buffer);
+  EXPECT_EQ(std::count(words.begin(), words.end(), 0xffffffu), 16 * 16);
 }
 
 TEST(OddData, NonFiniteColorsDropTheirTriangleWhereColorsMatter) {

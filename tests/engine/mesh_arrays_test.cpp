@@ -127,6 +127,9 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
       {"too few bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), 2, 4}; }, "colors of 2 vertices"},
       {"half a colour", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = std::span(n.bytes).first(4 * kVertices - 1); }, "239 bytes of colors, its 60 vertices need 240"},
       {"both", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.floats = n.colors; }, "colors twice"},
+      {"packed with a stride", [](Mesh& mesh, const float*, const Meshes&) { mesh.positions.stride_bytes = 12; }, "180 packed floats of positions and also 0 vertices with a stride of 12 bytes"},
+      {"packed of vertices", [](Mesh& mesh, const float*, const Meshes&) { mesh.normals.vertices = 60; }, "180 packed floats of normals and also 60 vertices"},
+      {"packed bytes with a stride", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.stride_bytes = 4096; }, "240 packed bytes of colors and also 0 vertices with a stride of 4096 bytes"},
       {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; }, "indices of 8 bits, must be 16 or 32"},
   };
   for (const auto& row : rows) {

@@ -207,6 +207,10 @@ TEST(PolygonMode, ClosesTheBoundaryWhereClippingCutIt) {
   int count = 0;
   for (std::size_t y = 0; y < kHeight; ++y) count += words[y * kWidth + column] != 0;
   EXPECT_GE(count, kHeight / 2 - 1);
+  FrameBuffer buffer({.width = kWidth, .height = kHeight});
+  Frame frame(buffer);
+  frame.draw(mesh.view(), outlined(PolygonMode::line, PolygonMode::line));
+  EXPECT_EQ(Renderer({.threads = 1}).finish(frame).clipped, 2u) << "a quad's two triangles";
 }
 
 TEST(PolygonMode, CapturesThePolygonAndItsDraw) {

@@ -294,6 +294,47 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
   }
 }
 
+// Clipping cuts it into pieces with largest depths of 0.3 and 0.9, whose units are not the same. Its neighbour is cut by nothing.
+TEST(PolygonOffset, IsTheSameForAllThatClippingLeavesOfATriangle) {
+  MeshData mesh;
+  mesh.positions = {-0.9f, -0.9f, -3, 0.9f, -0.9f, 0.8f, 0, 0.9f, -0.4f, 0.95f, 0.9f, -0.5f, 0.95f, 0, -0.6f, 0.5f, 0.9f, -0.7f};
+  for (const float factor : {0.0f, 0.25f}) {
+    const auto depths = [&](bool offset, bool neighbor_alone = false) {
+      FrameBuffer buffer({.width = 64, .height = 64, .depth = DepthFormat::float32});
+      Frame frame(buffer);
+      frame.clear({.depth = 1.0});
+      DrawState state = unlit({1, 1, 1, 1});
+      if (offset) state.polygon_offset = {factor, 0x1p20f};
+      MeshData drawn = mesh;
+      if (neighbor_alone) drawn.positions.erase(drawn.positions.begin(), drawn.positions.begin() + 9);
+      frame.draw(drawn.view(), state);
+      Renderer({.threads = 1}).finish(frame);
+      std::vector<float> depth(64 * 64);
+      buffer.read_depth(depth);
+      return depth;
+    };
+    const std::vector<float> plain = depths(false), moved = depths(true), neighbor = depths(true, true);
+    float least = 1, most = 0;
+    int count = 0, of_neighbor = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      if (neighbor[i] != 1) {
+        ++of_neighbor;
+        ASSERT_EQ(moved[i], neighbor[i]) << "whatever else is drawn";
+      } else if (plain[i] != 1) {
+        ++count;
+        least = std::min(least, moved[i] - plain[i]);
+        most = std::max(most, moved[i] - plain[i]);
+      }
+    }
+    EXPECT_GT(count, 500);
+    EXPECT_GT(of_neighbor, 50);
+    EXPECT_LT(most - least, 1e-6f) << factor;
+    if (factor == 0) {
+      EXPECT_NEAR(least, 0x1p-4f, 1e-6f);  // 2^20 units of 2^-24: its largest depth is 0.9
+    }
+  }
+}
+
 // However far it is pushed, a depth ends at 0 or 1, and not beyond them at the other end.
 TEST(PolygonOffset, EndsAtTheEndsOfTheRange) {
   for (const DepthFormat format : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
