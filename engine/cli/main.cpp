@@ -1,6 +1,7 @@
 // The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference or the self-test
 // found something wrong, 130 it was interrupted; then one line on stderr says why.
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -61,12 +62,23 @@ CLI::Validator one_of(const Names& names) {
   return {check, ""};
 }
 
+// Transforms what was typed, which CLI11 would take for octal where it begins with 0.
 CLI::Validator integer_from(int least, int most) {
   const auto check = [least, most](std::string& value) -> std::string {
     int number = 0;
-    if (CLI::detail::lexical_cast(value, number) && number >= least && number <= most) return "";
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error == std::errc() && end == value.data() + value.size() && number >= least && number <= most) {
+      value = std::to_string(number);
+      return "";
+    }
     return "found \"" + value + "\", expected an integer from " + std::to_string(least) + " to " + std::to_string(most);
   };
+  return {check, ""};
+}
+
+// An option that is given without a name is no option that is left out.
+CLI::Validator not_empty(const std::string& expected) {
+  const auto check = [expected](std::string& value) -> std::string { return value.empty() ? "found \"\", expected " + expected : ""; };
   return {check, ""};
 }
 
@@ -74,13 +86,14 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   CLI::App* command = program.add_subcommand("render", "Render a scene (.json) or a model (.obj, .gltf, .glb, .ply, .stl, ...); without one, the built-in teapot");
   command->footer(kExamples);
   command->option_defaults()->take_last();
-  command->add_option("input", request.input, "scene or model")->option_text("[SCENE.json | MODEL]");
+  command->add_option("input", request.input, "scene or model")->option_text("[SCENE.json | MODEL]")->check(not_empty("a scene's or a model's name"));
   command
       ->add_option("-o,--output", request.output.path,
                    "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO, {frame} in its name is the number; - is the "
                    "standard output (PPM), term the terminal; default: the input's name with .png, here")
-      ->option_text("FILE");
-  command->add_option("--compression", request.output.compression, "of PNG files: 0 (none) .. 9 (smallest); default: 3")->option_text("N")->check(integer_from(0, 9));
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
+  command->add_option("--compression", request.output.compression, "of PNG files: 0 (none) .. 9 (smallest); default: 3")->option_text("N")->transform(integer_from(0, 9));
   command
       ->add_option_function<std::string>(
           "--size",
@@ -99,12 +112,13 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
           "shading of every draw")
       ->option_text("flat|gouraud|phong")
       ->check(one_of({"flat", "gouraud", "phong"}));
-  command->add_option("--color-bits", request.overrides.color_bits, "colour planes: 1 .. 24")->option_text("N")->check(integer_from(1, 24));
+  command->add_option("--color-bits", request.overrides.color_bits, "colour planes: 1 .. 24")->option_text("N")->transform(integer_from(1, 24));
   command->add_option("--palette", request.overrides.palette, "palette; the colour buffer then holds indices")
       ->option_text("bw|gray|ega16|vga256|web216")
       ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
   command->add_option("--planes", request.planes_folder, "folder for every plane of colour, depth, stencil and accumulation as color_00.pbm, ...; set bits are PBM's 1")
-      ->option_text("DIR");
+      ->option_text("DIR")
+      ->check(not_empty("DIR's name"));
   command
       ->add_option_function<std::string>(
           "--camera",
@@ -122,13 +136,13 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
           "white light for the whole frame, in place of the scene's; may be given more than once")
       ->option_text("X,Y,Z[,W]")
       ->trigger_on_parse();  // for each of them
-  command->add_option("--frames", request.frames, "pictures of an animation, t = 0 .. 1; {frame} in names is the number")->option_text("N")->check(integer_from(1, 1000000));
-  command->add_option("--repeat", request.repeat, "render each picture N times; --stats tells the median")->option_text("N")->check(integer_from(1, 1000000));
-  command->add_option("--compare", request.reference, "picture that the last frame should be; exits with 3 where it is not")->option_text("FILE");
-  command->add_option("--threshold", request.threshold, "levels of 255 that --compare lets pass; default: 0")->option_text("N")->check(integer_from(0, 255));
+  command->add_option("--frames", request.frames, "pictures of an animation, t = 0 .. 1; {frame} in names is the number")->option_text("N")->transform(integer_from(1, 1000000));
+  command->add_option("--repeat", request.repeat, "render each picture N times; --stats tells the median")->option_text("N")->transform(integer_from(1, 1000000));
+  command->add_option("--compare", request.reference, "picture that the last frame should be; exits with 3 where it is not")->option_text("FILE")->check(not_empty("FILE's name"));
+  command->add_option("--threshold", request.threshold, "levels of 255 that --compare lets pass; default: 0")->option_text("N")->transform(integer_from(0, 255));
   command->add_option("--threads", request.options.threads, "threads; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
-      ->check(integer_from(1, 1024));
+      ->transform(integer_from(1, 1024));
   command->add_option("--tile-size", request.options.tile_size, "pixels of a tile's side; default: chosen by the frame")
       ->option_text("32|64|128")
       ->check(one_of({"32", "64", "128"}));
@@ -166,9 +180,9 @@ CLI::App* add_selftest(CLI::App& program, SelftestRequest& request) {
   CLI::App* command = program.add_subcommand("selftest", "Render scenes and exact cases in every way that this machine has, and say whether all of it is right");
   command->footer(kSelftestExamples);
   command->option_defaults()->take_last();
-  command->add_option("--expect", request.expected, "hashes that the scenes should come to, from another machine or version; default: those of this version")->option_text("FILE");
+  command->add_option("--expect", request.expected, "hashes that the scenes should come to, from another machine or version; default: those of this version")->option_text("FILE")->check(not_empty("FILE's name"));
   command->add_flag("--hashes", request.hashes, "print what the scenes come to here, as --expect reads it, and nothing else");
-  command->add_option("--threads", request.threads, "threads beside one; default: TESSERA_THREADS, or all cores")->option_text("N")->check(integer_from(1, 1024));
+  command->add_option("--threads", request.threads, "threads beside one; default: TESSERA_THREADS, or all cores")->option_text("N")->transform(integer_from(1, 1024));
   command->parse_complete_callback([&request] {
     if (request.hashes && !request.expected.empty()) throw CLI::ValidationError("--hashes", "it prints what scenes come to and compares nothing, --expect compares");
   });
@@ -211,7 +225,7 @@ std::string threads_of_environment(int& threads) {
   if (value == nullptr || *value == '\0' || threads != 0) return "";
   std::string text = value;
   if (std::string wrong = integer_from(1, 1024)(text); !wrong.empty()) return wrong;
-  CLI::detail::lexical_cast(text, threads);  // as options are read
+  CLI::detail::lexical_cast(text, threads);  // decimal now, as options are
   return "";
 }
 

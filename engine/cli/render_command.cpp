@@ -7,6 +7,10 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <utility>
+
+#include <sys/stat.h>
 
 #include "engine/cli/compare.h"
 #include "engine/cli/printable.h"
@@ -36,13 +40,17 @@ class Input {
     } else if (lower_case_ending(request.input) == ".json") {
       file_.emplace(request.input, go_on);
       scene_ = file_->at(0);
+      files_ = file_->files();
     } else {
       const FrameBufferFormat standard;
       scene_ = model_scene(import_model(request.input, ModelUse::display, go_on), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
+      files_ = {request.input};
     }
     apply(overrides_, scene_);
   }
   const Scene& scene() const { return scene_; }
+  /// That it was read from.
+  const std::set<std::string>& files() const { return files_; }
   /// The scene becomes that of a time, 0 .. 1.
   void move_to(double time) {
     if (!file_ || !file_->is_animated()) return;
@@ -53,6 +61,7 @@ class Input {
  private:
   SceneOverrides overrides_;
   std::optional<SceneFile> file_;
+  std::set<std::string> files_;
   Scene scene_;
 };
 
@@ -152,8 +161,33 @@ int report_difference(const Picture& picture, const Picture& reference, const Re
   return difference.pixels == 0 ? 0 : kDiffers;
 }
 
+/// What a file is, whichever path leads to it.
+using FileId = std::pair<dev_t, ino_t>;
+
+std::optional<FileId> file_id(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileId(status.st_dev, status.st_ino);
+}
+
+// No picture takes the place of what is read.
+void check_frames(const RenderRequest& request, const std::string& path, const std::set<std::string>& files) {
+  std::optional<FileId> reference;
+  if (!request.reference.empty()) reference = file_id(request.reference);
+  std::set<FileId> inputs;
+  for (const std::string& file : files)
+    if (const auto id = file_id(file)) inputs.insert(*id);
+  for (int f = 0; f < request.frames; ++f) {
+    const std::string name = frame_path(path, f, request.frames);
+    const std::optional<FileId> id = file_id(name);
+    if (!id) continue;
+    if (id == reference) throw Error("\"" + name + "\" is the reference itself; name another file with -o");
+    if (inputs.contains(*id)) throw Error("\"" + name + "\" is read for the picture; name another file with -o");
+  }
+}
+
 // What cannot go together is said before anything is rendered.
-void check_outputs(const RenderRequest& request, const std::string& path) {
+void check_outputs(const RenderRequest& request, const std::string& path, const std::set<std::string>& files) {
   const bool to_stdout = path == "-" || path == "term";
   const auto require_frame = [&](const std::string& name) {
     if (request.frames > 1 && name.find("{frame}") == std::string::npos)
@@ -168,10 +202,7 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
     if (!found.empty()) throw Error(found + " and " + rival + " cannot both go to the standard output");
     found = rival;
   }
-  std::error_code error;
-  const std::string last = frame_path(path, request.frames - 1, request.frames);
-  if (!request.reference.empty() && fs::exists(last, error) && fs::equivalent(last, request.reference, error))
-    throw Error("\"" + last + "\" is the reference itself; name another file with -o");
+  if (!to_stdout) check_frames(request, path, files);
 }
 
 }  // namespace
@@ -185,7 +216,7 @@ int render(RenderRequest request) {
   run.load_ms = milliseconds_since(start);
 
   const std::string path = output_path(request);
-  check_outputs(request, path);
+  check_outputs(request, path, input.files());
   std::optional<Picture> reference;
   if (!request.reference.empty()) reference = read_picture(request.reference);
 

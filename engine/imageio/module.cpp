@@ -57,6 +57,8 @@ Bytes decode(const std::string& ending, const unsigned char* file, std::size_t c
   if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels_a_side || spec.height > most_pixels_a_side)
     throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + ", at most " + std::to_string(most_pixels_a_side) + " a side are read"};
   const int channels = spec.nchannels;
+  if (spec.depth > 1 || channels < 1)  // read_image() gives every layer of a volume
+    throw Failure{"the image has " + std::to_string(spec.depth) + " layers of " + std::to_string(channels) + " channels, expected one layer"};
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   const int size[3] = {spec.width, spec.height, channels < 4 ? channels : 4};
   Bytes raw(pixels * static_cast<std::size_t>(channels)), bytes(sizeof size + 4 * pixels, 255);

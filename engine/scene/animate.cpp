@@ -37,10 +37,9 @@ bool walk(Json& json, double time, const std::string& pointer, const std::string
   bool any = false;
   if (json.is_object())
     for (auto& [key, member] : json.items()) any |= walk(member, time, pointer + "/" + key, file);
-  if (json.is_array() && !json.empty() && (json[0].is_structured() || json.size() <= 16)) {  // not the numbers of a long list
-    std::size_t i = 0;
-    for (Json& element : json) any |= walk(element, time, pointer + "/" + std::to_string(i++), file);
-  }
+  if (json.is_array())
+    for (std::size_t i = 0; i < json.size(); ++i)
+      if (json[i].is_structured()) any |= walk(json[i], time, pointer + "/" + std::to_string(i), file);  // a long list of numbers costs no pointers
   return any;
 }
 

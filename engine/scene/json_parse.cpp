@@ -1,5 +1,5 @@
-// The library's parser, watched: it would let a second key of the same name win in silence.
-#include <cstdio>
+// The library's parser, and values made of what it says. It would let a second key of the same name win in silence, look at all keys of an object
+// before each new one, and, where its own callback watches, at all elements of a list after each object in it.
 #include <set>
 
 #include "engine/scene/json_value.h"
@@ -7,21 +7,41 @@
 namespace tessera::json {
 namespace {
 
-// Follows the parser through the file and knows the pointer of where it is.
-class Watch {
+// Follows the parser through the file and knows the pointer of where it is. What the parser calls returns true: it shall go on.
+class Reader {
  public:
-  explicit Watch(const std::string& file) : file_(file) {}
+  Reader(const std::string& file, Json& whole) : file_(file), whole_(whole) {}
 
-  void see(Json::parse_event_t event, const Json& parsed) {
-    using Event = Json::parse_event_t;
-    if (event == Event::key) {
-      enter_key(parsed.get_ref<const std::string&>());
-    } else if (event == Event::object_end || event == Event::array_end) {
-      levels_.pop_back();
-    } else {
-      if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
-      if (event == Event::object_start || event == Event::array_start) open(event == Event::array_start);
-    }
+  bool null() { return take(Json()); }
+  bool boolean(bool value) { return take(Json(value)); }
+  bool number_integer(Json::number_integer_t value) { return take(Json(value)); }
+  bool number_unsigned(Json::number_unsigned_t value) { return take(Json(value)); }
+  bool number_float(Json::number_float_t value, const std::string&) { return take(Json(value)); }
+  bool string(std::string& value) { return take(Json(std::move(value))); }
+  bool binary(Json::binary_t&) { return true; }  // which JSON text has none of
+  bool start_object(std::size_t) { return open(false); }
+  bool start_array(std::size_t) { return open(true); }
+  bool key(std::string& name) {
+    Level& object = levels_.back();
+    object.key = name;
+    if (!object.keys.insert(name).second) throw Error(file_ + ": " + pointer() + ": the key \"" + name + "\" occurs twice in one object");
+    return true;
+  }
+  bool end_object() {
+    Json object(Json::value_t::object);
+    auto& members = object.get_ref<Json::object_t&>();
+    members.reserve(levels_.back().members.size());  // its keys are constant: to grow, it would copy them with all that is in them
+    for (Member& member : levels_.back().members) members.emplace_back(std::move(member.key), std::move(member.value));
+    return close(std::move(object));
+  }
+  bool end_array() {
+    Json array(Json::value_t::array);
+    array.get_ref<Json::array_t&>() = std::move(levels_.back().elements);
+    return close(std::move(array));
+  }
+  template <class Exception>
+  bool parse_error(std::size_t, const std::string&, const Exception& error) {
+    throw error;
   }
 
   std::string pointer() const {
@@ -32,46 +52,72 @@ class Watch {
   }
 
  private:
+  struct Member {
+    std::string key;
+    Json value;
+  };
   struct Level {
     bool is_array = false;
     std::size_t index = 0;  // elements seen so far
     std::string key;        // the current one
     std::set<std::string> keys;
+    Json::array_t elements;
+    std::vector<Member> members;
   };
 
-  void open(bool is_array) {
-    constexpr std::size_t kDeepest = 64;
-    if (levels_.size() == kDeepest) throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
-    levels_.push_back({.is_array = is_array});
+  void see() {
+    if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
   }
 
-  void enter_key(const std::string& key) {
-    Level& object = levels_.back();
-    object.key = key;
-    if (!object.keys.insert(key).second) throw Error(file_ + ": " + pointer() + ": the key \"" + key + "\" occurs twice in one object");
+  bool open(bool is_array) {
+    see();
+    constexpr std::size_t kDeepest = 64;
+    if (levels_.size() == kDeepest) throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
+    levels_.emplace_back();
+    levels_.back().is_array = is_array;
+    return true;
+  }
+
+  bool take(Json value) {
+    see();
+    return put(std::move(value));
+  }
+
+  bool close(Json value) {
+    levels_.pop_back();
+    return put(std::move(value));
+  }
+
+  bool put(Json value) {
+    if (levels_.empty())
+      whole_ = std::move(value);
+    else if (levels_.back().is_array)
+      levels_.back().elements.push_back(std::move(value));
+    else
+      levels_.back().members.push_back(Member{levels_.back().key, std::move(value)});
+    return true;
   }
 
   const std::string& file_;
+  Json& whole_;
   std::vector<Level> levels_;
 };
 
 }  // namespace
 
 Json parse(std::string_view text, const std::string& file) {
-  Watch watch(file);
-  const auto callback = [&](int, Json::parse_event_t event, Json& parsed) {
-    watch.see(event, parsed);
-    return true;
-  };
+  Json whole;
+  Reader reader(file, whole);
   try {
-    return Json::parse(text.begin(), text.end(), callback, /*allow_exceptions=*/true, /*ignore_comments=*/true);
+    Json::sax_parse(text.begin(), text.end(), &reader, Json::input_format_t::json, /*strict=*/true, /*ignore_comments=*/true);
+    return whole;
   } catch (const Json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while ..."
     std::string message = error.what();
     if (const std::size_t bracket = message.find("] "); bracket != std::string::npos) message.erase(0, bracket + 2);
     constexpr std::string_view kPrefix = "parse error at ";
     if (message.starts_with(kPrefix)) throw Error(file + ": " + message.substr(kPrefix.size()));
-    throw Error(file + ": " + watch.pointer() + ": " + message);
+    throw Error(file + ": " + reader.pointer() + ": " + message);
   }
 }
 

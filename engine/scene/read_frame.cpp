@@ -1,7 +1,7 @@
 // What happens in a frame, in order.
-#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
 
 #include "engine/scene/read_scene.h"
 #include "engine/scene/suggest.h"
@@ -15,24 +15,34 @@ using json::Value;
 
 constexpr std::int64_t kMost32Bits = std::numeric_limits<std::uint32_t>::max();
 
+struct NameList {
+  std::vector<std::string_view> names{};
+  std::unordered_map<std::string_view, std::size_t> index_of{};
+
+  void add(std::string_view name) {
+    index_of.emplace(name, names.size());
+    names.push_back(name);
+  }
+};
+
 // What the commands of a frame refer to.
 struct Names {
-  std::vector<std::string_view> meshes, materials, textures;
+  NameList meshes{}, materials{}, textures{};
   const Materials& material_of;
   const Scene& scene;
   LightList lights;  // those in force
 };
 
-std::size_t read_name(const Value& value, std::string_view kind, const std::vector<std::string_view>& names) {
+std::size_t read_name(const Value& value, std::string_view kind, const NameList& list) {
   const std::string& name = value.text();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    value.fail("the name of a " + std::string(kind) + (names.empty() ? " (the scene has none)" : did_you_mean(name, names)));
-  return static_cast<std::size_t>(found - names.begin());
+  const auto found = list.index_of.find(name);
+  if (found == list.index_of.end())
+    value.fail("the name of a " + std::string(kind) + (list.names.empty() ? " (the scene has none)" : did_you_mean(name, list.names)));
+  return found->second;
 }
 
 const Material& read_material_name(const Value& value, const Names& names) {
-  return names.material_of.find(names.materials[read_name(value, "material", names.materials)])->second;
+  return names.material_of.find(names.materials.names[read_name(value, "material", names.materials)])->second;
 }
 
 Matrix read_transform(const Value& value) {
@@ -232,9 +242,9 @@ void read_fragment_state(const Object& object, const Scene& scene, DrawState& st
 std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials, const std::vector<std::string>& textures,
                                      const std::string& base_folder, ModelCache& cache) {
   Names names{.material_of = materials, .scene = scene, .lights = scene.lights};
-  for (const MeshData& mesh : scene.meshes) names.meshes.push_back(mesh.name);
-  for (const auto& [name, material] : materials) names.materials.push_back(name);
-  names.textures.assign(textures.begin(), textures.end());
+  for (const MeshData& mesh : scene.meshes) names.meshes.add(mesh.name);
+  for (const auto& [name, material] : materials) names.materials.add(name);
+  for (const std::string& name : textures) names.textures.add(name);
   std::vector<SceneCommand> frame;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value element = value.element(i);

@@ -27,6 +27,7 @@ MeshData read_file(const Value& value, const std::string& base_folder, ModelCach
   const Object object(value, {"file"});
   const Value file = object.require("file");
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
+  cache.files.insert(path.string());
   auto model = cache.models.find(path.string());
   if (model == cache.models.end())
     model = cache.models.emplace(path.string(), file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.go_on); })).first;

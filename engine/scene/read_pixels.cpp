@@ -40,6 +40,7 @@ FragmentState read_state(const Object& object, const Scene& scene) {
 
 std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder, ModelCache& cache) {
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
+  cache.files.insert(path.string());
   auto picture = cache.pictures.find(path.string());
   if (picture == cache.pictures.end()) {
     const auto read = [&] {

@@ -190,6 +190,7 @@ struct SceneFile::Content {
 SceneFile::SceneFile(const std::string& path, std::function<bool()> go_on) : content_(std::make_unique<Content>()) {
   content_->models.go_on = std::move(go_on);
   content_->path = path;
+  content_->models.files.insert(path);
   content_->json = json::parse(read_text_file(path), path);
   Json still = content_->json;
   content_->animated = json::animate(still, 0, path);
@@ -198,6 +199,8 @@ SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&&) noexcept = default;
 
 bool SceneFile::is_animated() const { return content_->animated; }
+
+const std::set<std::string>& SceneFile::files() const { return content_->models.files; }
 
 Scene SceneFile::at(double time) {
   Json json = content_->json;

@@ -61,6 +61,7 @@ std::shared_ptr<const Texture> read_texture(const Value& value, const std::strin
   const Object object = in_scene ? Object(value, {"channels", "rows", "mag", "min", "wrap_s", "wrap_t"}) : Object(value, {"file", "mag", "min", "wrap_s", "wrap_t"});
   const TextureSampler sampler = read_sampler(object);
   const std::string path = in_scene ? "" : (std::filesystem::path(base_folder) / object.require("file").text()).string();  // an absolute path stays as it is
+  if (!in_scene) cache.files.insert(path);
   std::string key = in_scene ? value.json().dump() : path;
   for (const int part : {static_cast<int>(sampler.mag), static_cast<int>(sampler.min), static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)}) key += '\n' + std::to_string(part);
   auto texture = cache.textures.find(key);

@@ -60,7 +60,9 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
 
   // What is overridden no longer changes within the frame.
   if (overrides.camera) {
+    const bool reversed = scene.camera.reversed;  // as the frame's depth clears and tests are
     scene.camera = *overrides.camera;
+    scene.camera.reversed = reversed;
     std::erase_if(scene.frame, [](const SceneCommand& command) { return std::holds_alternative<SceneCamera>(command.what); });
   }
   if (!overrides.lights.empty()) {

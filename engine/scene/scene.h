@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -87,6 +88,8 @@ class SceneFile {
   Scene at(double time);
   /// Some number changes over time.
   bool is_animated() const;
+  /// The files that scenes so far were read from: this one, images and models, without what models refer to.
+  const std::set<std::string>& files() const;
 
  private:
   struct Content;
@@ -108,7 +111,7 @@ struct SceneOverrides {
   std::optional<Shading> shading = {};          ///< of every draw
   std::optional<int> color_bits = {};
   std::optional<std::string> palette = {};      ///< by name; turns the colour buffer into an index buffer
-  std::optional<SceneCamera> camera = {};       ///< for the whole frame
+  std::optional<SceneCamera> camera = {};       ///< for the whole frame; reversed if the scene's is
   LightList lights = {};                        ///< for the whole frame; empty: the scene's
 };
 /// @throws Error for values out of range and for a palette that does not fit into the bits.

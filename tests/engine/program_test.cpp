@@ -64,7 +64,13 @@ TEST_F(Program, BadUsageExitsWithTwoAndOneLine) {
       {"render --light 1,2,nan", "X,Y,Z[,W]"},
       {"render --stats=xml", "expected one of text, json"},
       {"render --frames 0", "expected an integer from 1"},
+      {"render --frames 0x10", "found \"0x10\", expected an integer from 1"},
       {"render --compression 10", "expected an integer from 0 to 9"},
+      {"render ''", "found \"\", expected a scene's or a model's name"},
+      {"render -o ''", "--output: found \"\", expected FILE's name"},
+      {"render --planes ''", "--planes: found \"\", expected DIR's name"},
+      {"render --compare ''", "--compare: found \"\", expected FILE's name"},
+      {"selftest --expect ''", "--expect: found \"\", expected FILE's name"},
       {"completion csh", "expected one of bash, zsh, fish"},
       {"inof", "did you mean \"info\"?"},
       {"selftset", "did you mean \"selftest\"?"},
@@ -234,6 +240,55 @@ TEST_F(Program, AnimationsMoveAndCountTheirFrames) {
   EXPECT_TRUE(exists("move_0001.png"));
 }
 
+TEST_F(Program, NumbersThatBeginWithZeroAreDecimal) {
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}})");
+  ASSERT_EQ(run("render s.json --frames 010 -o 'f_{frame}.ppm'").code, 0);
+  EXPECT_TRUE(exists("f_0009.ppm"));
+  EXPECT_FALSE(exists("f_0010.ppm"));
+}
+
+TEST_F(Program, ACameraIsReversedAsTheOneOfTheScene) {
+  const auto scene = [](const std::string& camera) {
+    return R"({"tessera": 1, "framebuffer": {"width": 32, "height": 24}, "camera": {)" + camera + R"(}, "lights": [],
+      "materials": {"red": {"emission": [1, 0, 0, 1]}, "green": {"emission": [0, 1, 0, 1]}},
+      "meshes": {"near": {"positions": [[-1, -1, 1], [1, -1, 1], [0, 1, 1]]}, "far": {"positions": [[-2, -2, -1], [2, -2, -1], [0, 2, -1]]}},
+      "frame": [{"clear": {"color": [0, 0, 1, 1], "depth": 0}}, {"draw": "near", "material": "red", "depth": {"test": "greater"}}, {"draw": "far", "material": "green", "depth": {"test": "greater"}}]})";
+  };
+  write("other.json", scene(R"("projection": {"reversed": true})"));
+  write("written.json", scene(R"("eye": [0, 0, 5], "projection": {"fovy": 40, "near": 0.05, "far": 500, "reversed": true})"));
+  const Result other = run("render other.json --camera 0,0,5,0,0,0,40 -o other.ppm"), written = run("render written.json -o written.ppm");
+  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_EQ(written.code, 0) << written.err;
+  EXPECT_TRUE(content("other.ppm") == content("written.ppm"));
+}
+
+TEST_F(Program, NoPictureTakesThePlaceOfWhatIsRead) {
+  for (const char* name : {"pot.png", "pot_0001.ppm"}) ASSERT_EQ(run("render --size 8x8 -o " + std::string(name)).code, 0);
+  const std::string texture = content("pot.png"), image = content("pot_0001.ppm");
+  write("pot.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}, "textures": {"t": {"file": "pot.png"}}, "frame": [{"image": {"at": [0, 0], "file": "pot_0001.ppm"}}]})");
+  const struct {
+    const char *options, *file;
+  } kRefused[] = {{"", "pot.png"}, {"-o ./pot.png", "./pot.png"}, {"-o pot_0001.ppm", "pot_0001.ppm"}, {"--frames 3 -o 'pot_{frame}.ppm'", "pot_0001.ppm"}};
+  for (const auto& [options, file] : kRefused) {
+    const Result result = run("render pot.json " + std::string(options));
+    EXPECT_EQ(result.code, 1) << options;
+    EXPECT_EQ(result.err, "tessera: error: \"" + std::string(file) + "\" is read for the picture; name another file with -o\n") << options;
+  }
+  EXPECT_FALSE(exists("pot_0000.ppm")) << "nothing is rendered";
+  EXPECT_TRUE(content("pot.png") == texture && content("pot_0001.ppm") == image) << "untouched";
+  EXPECT_EQ(run("render pot.json -o other.png").code, 0);
+}
+
+TEST_F(Program, NoFrameTakesThePlaceOfTheReference) {
+  ASSERT_EQ(run("render --size 8x8 -o f_0001.ppm").code, 0);
+  const std::string before = content("f_0001.ppm");
+  const Result result = run("render --size 8x8 --light 1,0,0,0 --frames 3 -o 'f_{frame}.ppm' --compare f_0001.ppm");
+  EXPECT_EQ(result.code, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "\"f_0001.ppm\" is the reference itself; name another file with -o")) << result.err;
+  EXPECT_FALSE(exists("f_0000.ppm")) << "nothing is rendered";
+  EXPECT_TRUE(content("f_0001.ppm") == before) << "untouched";
+}
+
 TEST_F(Program, ComparesWithAReferenceAndExitsWithThree) {
   ASSERT_EQ(run("render --size 64x48 -o right.png").code, 0);
   EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare right.png").code, 0);
@@ -286,15 +341,19 @@ TEST_F(Program, StatsAreJsonForPrograms) {
 TEST_F(Program, EnvironmentAndLogAreHeard) {
   ::setenv("TESSERA_THREADS", "1", 1);
   const Result one = run("render --size 8x8 --log info -o a.ppm");
+  ::setenv("TESSERA_THREADS", "010", 1);
+  const Result ten = run("render --size 8x8 --log info -o a.ppm"), as_option = run("render --size 8x8 --threads 010 --log info -o a.ppm");
   ::setenv("TESSERA_THREADS", "0x3", 1);
-  const Result three = run("render --size 8x8 --log info -o a.ppm"), as_option = run("render --size 8x8 --threads 0x3 --log info -o a.ppm");
+  const Result hexadecimal = run("render --size 8x8 -o a.ppm");
   ::setenv("TESSERA_THREADS", "many", 1);
   const Result wrong = run("render --size 8x8 -o a.ppm");
   ::unsetenv("TESSERA_THREADS");
   EXPECT_TRUE(contains(one.err, "1 thread, ")) << one.err;
-  for (const Result& result : {three, as_option}) EXPECT_TRUE(contains(result.err, "3 threads, ")) << result.err;
-  EXPECT_EQ(wrong.code, 2) << wrong.err;
-  EXPECT_TRUE(contains(wrong.err, "TESSERA_THREADS")) << wrong.err;
+  for (const Result& result : {ten, as_option}) EXPECT_TRUE(contains(result.err, "10 threads, ")) << result.err;
+  for (const Result& result : {hexadecimal, wrong}) {
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_TRUE(contains(result.err, "TESSERA_THREADS")) << result.err;
+  }
   EXPECT_TRUE(contains(run("render --size 8x8 --log debug -o a.ppm").err, "tessera: debug: frame: "));
   EXPECT_TRUE(contains(run("render --size 8x8 --progress=always -o a.ppm").err, " left ")) << "a line of progress";
   EXPECT_FALSE(contains(run("render --size 8x8 -o a.ppm").err, "left"));

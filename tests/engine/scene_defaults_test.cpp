@@ -145,6 +145,13 @@ TEST(SceneDefaults, InlineMeshesArrive) {
   EXPECT_EQ(scene.meshes[1].triangle_count(), 1u);
 }
 
+TEST(SceneDefaults, NumbersOfLongListsMayChangeToo) {
+  const Scene scene = parse(R"("meshes": {"m": {"positions": [[0,0,0],[1,0,0],[0,1,0]],
+    "indices": [0,1,2, 0,1,2, 0,1,2, 0,1,2, 0,1,2, 0,1,{"keys": [[0, 2], [1, 0]]}]}})");
+  ASSERT_EQ(scene.meshes[0].indices.size(), 18u);
+  EXPECT_EQ(scene.meshes[0].indices.back(), 2u);
+}
+
 TEST(SceneDefaults, CamerasAndLightsChangeInBetween) {
   const Scene scene = parse(R"("frame": [{"camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,-5, 0,0,0,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "reversed": true}},
                                          {"lights": []}, {"lights": [{}, {}]}])");
