@@ -54,6 +54,7 @@ void BinStage::prepare_draws(int samples) {
     draw.keep_back = plan.keep_back;
     draw.front_is_clockwise = plan.front_is_clockwise;
     draw.facing = geometry.facing();
+    if (geometry.offsets_polygons()) geometry.buffers->depth_offsets.resize(geometry.mesh->elements);
     draw.rect = plan.rect;
     draw.sample_reach = sample_reach(samples);
     draw.transform = &plan.transform;
@@ -72,14 +73,14 @@ void BinStage::prepare_draws(int samples) {
     draws_.push_back(draw);
     rects_.push_back(draw.rect);
   }
-  polygons_.cut(draws_.size(), [&](std::size_t d) { return draws_[d].facing != nullptr || commands_->geometry[d].depth_offsets() != nullptr ? commands_->geometry[d].mesh->elements : 0; }, kTrianglesPerBatch);
+  polygons_.cut(draws_.size(), [&](std::size_t d) { return draws_[d].facing != nullptr || commands_->geometry[d].offsets_polygons() ? commands_->geometry[d].mesh->elements : 0; }, kTrianglesPerBatch);
   parallel_.for_each(polygons_.size(), [&](std::size_t i, int) {
     const DrawRange range = polygons_[i];
     const GeometryDraw& geometry = commands_->geometry[range.draw];
     const std::size_t each = geometry.mesh->polygon_triangles();
     if (geometry.facing() != nullptr) face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
     const DrawPlan& plan = *geometry.plan;
-    if (geometry.depth_offsets() != nullptr) offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
+    if (geometry.offsets_polygons()) offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
   });
 }
 

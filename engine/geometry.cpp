@@ -220,7 +220,6 @@ void prepare_geometry(const GeometryDraw& draw) {
   buffers.words[1].resize(plan.two_sided ? words : 0);
   if (draw.makes_indices()) buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
   buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
-  buffers.depth_offsets.resize(plan.has_offset() ? triangles : 0);
   const std::size_t polygon_triangles = draw.mesh->polygon_triangles();
   if (plan.outlines) buffers.boundary.resize(triangles / polygon_triangles * (polygon_triangles + 2));
   if (plan.face_normals) buffers.face_normals.resize(3 * triangles);

@@ -22,7 +22,7 @@ struct DrawBuffers {
   Scratch<std::uint32_t> indices;        ///< of elements: widened from 16 bits, or made of other primitives
   Scratch<Facing> facing;                ///< of each triangle, where several make a polygon or outlines are drawn
   Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
-  Scratch<double> depth_offsets;         ///< of each triangle's polygon, where there are offsets
+  Scratch<double> depth_offsets;         ///< of each triangle's polygon, where several make one or clipping cuts some
   PolygonModes modes;
   Scratch<float> smooth_normals;         ///< generated, for the plan or for a capture
   Scratch<float> face_normals;           ///< generated, of each triangle
@@ -46,12 +46,14 @@ struct GeometryDraw {
   const std::uint32_t* indices() const { return makes_indices() ? buffers->indices.data() : mesh->indices; }
   /// Of each triangle, or null: its own area decides. @pre face_polygons
   const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
-  /// Of each triangle's polygon, or null: each has its own, or there are none. @pre offset_polygons
-  const double* depth_offsets() const { return plan->has_offset() && (faces_polygons() || buffers->any_code) ? buffers->depth_offsets.data() : nullptr; }
+  /// Of each triangle's polygon, or null: each has its own, or there are none; NaN: that one has its own. @pre offset_polygons
+  const double* depth_offsets() const { return offsets_polygons() ? buffers->depth_offsets.data() : nullptr; }
   /// It has elements whose corners or normals are not there yet. @see assemble_elements
   bool assembles() const { return makes_indices() || plan->outlines || plan->face_normals; }
   bool wants_smooth_normals() const { return plan->smooth_normals || (plan->captured_normal >= 0 && !mesh->normals); }
   bool faces_polygons() const { return plan->outlines || mesh->polygon_triangles() > 1; }
+  /// Once the vertices are there.
+  bool offsets_polygons() const { return plan->has_offset() && (faces_polygons() || buffers->any_code); }
 };
 
 /// Takes the memory. Throws std::bad_alloc.

@@ -63,6 +63,7 @@ StridedFloats strided(const FloatArray& array, const char* what, std::size_t com
 
 void add_colors(const ColorArray& colors, MeshArrays& mesh) {
   if (colors.byte_count == 0 && colors.vertices == 0) {
+    if (colors.stride_bytes != 0) fail("has a stride of " + std::to_string(colors.stride_bytes) + " bytes for colors, but no bytes of colors; that of floats is theirs");
     mesh.colors = strided(colors.floats, "colors", 4, mesh.vertices);
     return;
   }

@@ -1,5 +1,5 @@
 // The scalar twin of interpolate-inl.h and of the weights' setup, and their specification: one pixel of one triangle, its exact
-// edges in 128-bit integers, the floats in the kernel's order.
+// edges in 128-bit integers, the floats in the kernel's order. Within a triangle the weights' sum is never 0, as a line's may be.
 #pragma once
 
 #include <algorithm>

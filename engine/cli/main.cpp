@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -80,6 +82,15 @@ CLI::Validator integer_from(int least, int most) {
 CLI::Validator not_empty(const std::string& expected) {
   const auto check = [expected](std::string& value) -> std::string { return value.empty() ? "found \"\", expected " + expected : ""; };
   return {check, ""};
+}
+
+// For CLI11 "--name=" has no value, and takes the next argument.
+std::string empty_value(std::span<char* const> arguments) {
+  for (const std::string_view argument : arguments) {
+    if (argument == "--") break;
+    if (argument.starts_with("--") && argument.ends_with('=')) return std::string(argument.substr(0, argument.size() - 1)) + ": found \"\", expected a value";
+  }
+  return "";
 }
 
 CLI::App* add_render(CLI::App& program, RenderRequest& request) {
@@ -271,6 +282,7 @@ int run(int argument_count, char** arguments) {
   completion->footer("Examples:\n  tessera completion bash > /etc/bash_completion.d/tessera\n  tessera completion zsh > /usr/share/zsh/vendor-completions/_tessera\n"
                      "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
   man->footer("Examples:\n  tessera man | man -l -");
+  if (const std::string wrong = empty_value({arguments, static_cast<std::size_t>(argument_count)}); !wrong.empty()) return usage_error(wrong, program);
   try {
     program.parse(argument_count, arguments);
   } catch (const CLI::Success& asked) {

@@ -12,12 +12,12 @@ class Reader {
  public:
   Reader(const std::string& file, Json& whole) : file_(file), whole_(whole) {}
 
-  bool null() { return take(Json()); }
-  bool boolean(bool value) { return take(Json(value)); }
-  bool number_integer(Json::number_integer_t value) { return take(Json(value)); }
-  bool number_unsigned(Json::number_unsigned_t value) { return take(Json(value)); }
-  bool number_float(Json::number_float_t value, const std::string&) { return take(Json(value)); }
-  bool string(std::string& value) { return take(Json(std::move(value))); }
+  bool null() { return put(Json()); }
+  bool boolean(bool value) { return put(Json(value)); }
+  bool number_integer(Json::number_integer_t value) { return put(Json(value)); }
+  bool number_unsigned(Json::number_unsigned_t value) { return put(Json(value)); }
+  bool number_float(Json::number_float_t value, const std::string&) { return put(Json(value)); }
+  bool string(std::string& value) { return put(Json(std::move(value))); }
   bool binary(Json::binary_t&) { return true; }  // which JSON text has none of
   bool start_object(std::size_t) { return open(false); }
   bool start_array(std::size_t) { return open(true); }
@@ -44,10 +44,11 @@ class Reader {
     throw error;
   }
 
+  /// Of the value that is being read.
   std::string pointer() const {
     std::string text;
     for (const Level& level : levels_)
-      if (level.is_array ? level.index > 0 : !level.key.empty()) text += "/" + (level.is_array ? std::to_string(level.index - 1) : level.key);
+      if (level.is_array || !level.key.empty()) text += "/" + (level.is_array ? std::to_string(level.elements.size()) : level.key);
     return text.empty() ? "(top level)" : text;
   }
 
@@ -58,29 +59,18 @@ class Reader {
   };
   struct Level {
     bool is_array = false;
-    std::size_t index = 0;  // elements seen so far
-    std::string key;        // the current one
+    std::string key;  // the current one
     std::set<std::string> keys;
     Json::array_t elements;
     std::vector<Member> members;
   };
 
-  void see() {
-    if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
-  }
-
   bool open(bool is_array) {
-    see();
     constexpr std::size_t kDeepest = 64;
     if (levels_.size() == kDeepest) throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
     levels_.emplace_back();
     levels_.back().is_array = is_array;
     return true;
-  }
-
-  bool take(Json value) {
-    see();
-    return put(std::move(value));
   }
 
   bool close(Json value) {

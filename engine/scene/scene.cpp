@@ -60,10 +60,14 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
 
   // What is overridden no longer changes within the frame.
   if (overrides.camera) {
-    const bool reversed = scene.camera.reversed;  // as the frame's depth clears and tests are
-    scene.camera = *overrides.camera;
-    scene.camera.reversed = reversed;
-    std::erase_if(scene.frame, [](const SceneCommand& command) { return std::holds_alternative<SceneCamera>(command.what); });
+    const auto override_camera = [&](SceneCamera& camera) {
+      const bool reversed = camera.reversed;  // as the depth clears and tests are
+      camera = *overrides.camera;
+      camera.reversed = reversed;
+    };
+    override_camera(scene.camera);
+    for (SceneCommand& command : scene.frame)
+      if (auto* camera = std::get_if<SceneCamera>(&command.what)) override_camera(*camera);
   }
   if (!overrides.lights.empty()) {
     scene.lights = overrides.lights;

@@ -111,7 +111,7 @@ struct SceneOverrides {
   std::optional<Shading> shading = {};          ///< of every draw
   std::optional<int> color_bits = {};
   std::optional<std::string> palette = {};      ///< by name; turns the colour buffer into an index buffer
-  std::optional<SceneCamera> camera = {};       ///< for the whole frame; reversed if the scene's is
+  std::optional<SceneCamera> camera = {};       ///< for the whole frame; reversed where the scene's is
   LightList lights = {};                        ///< for the whole frame; empty: the scene's
 };
 /// @throws Error for values out of range and for a palette that does not fit into the bits.

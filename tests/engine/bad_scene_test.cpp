@@ -59,7 +59,8 @@ const BadScene kBadScenes[] = {
     {R"("lights": [{}, {"diffuse": [1,1,1,1], "diffuse": [1,1,1,1]}])", "/lights/1/diffuse", "occurs twice"},
     {R"("frame": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]])",
      "/frame/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0", "nested deeper than 64"},
-    {R"("light_model": {"ambient": [1e999, 0, 0, 1]})", "/light_model/ambient", "1e999"},
+    {R"("light_model": {"ambient": [1e999, 0, 0, 1]})", "/light_model/ambient/0", "1e999"},
+    {R"("light_model": {"ambient": [0, 1e999, 0, 1]})", "/light_model/ambient/1", "1e999"},
 
     // Frame buffer
     {R"("framebuffer": [640, 480])", "/framebuffer", "found an array of 2, expected an object"},
@@ -296,7 +297,7 @@ const BadScene kBadScenes[] = {
     {command(R"("image": {"at": [0, 0], "file": "/dev/zero"})"), "/frame/0/image/file", "cannot read \"/dev/zero\": it is a device or a pipe, expected a file"},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": 2})"), "/frame/0/image/zoom", "found 2, expected [x, y]"},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [2, null]})"), "/frame/0/image/zoom/1", "found null, expected a number"},
-    {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [1e999, 1]})"), "/frame/0/image/zoom", "1e999"},
+    {command(R"("image": {"at": [0, 0], "file": "x.png", "zoom": [1e999, 1]})"), "/frame/0/image/zoom/0", "1e999"},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "color": [1, 1, 1, 1]})"), "/frame/0/image/color", "unknown key \"color\""},
     {command(R"("image": {"at": [0, 0], "file": "x.png", "depth": -1})"), "/frame/0/image/depth", "found -1, expected a number from 0 to 1"},
 

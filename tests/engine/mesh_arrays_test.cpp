@@ -130,6 +130,7 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
       {"packed with a stride", [](Mesh& mesh, const float*, const Meshes&) { mesh.positions.stride_bytes = 12; }, "180 packed floats of positions and also 0 vertices with a stride of 12 bytes"},
       {"packed of vertices", [](Mesh& mesh, const float*, const Meshes&) { mesh.normals.vertices = 60; }, "180 packed floats of normals and also 60 vertices"},
       {"packed bytes with a stride", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.stride_bytes = 4096; }, "240 packed bytes of colors and also 0 vertices with a stride of 4096 bytes"},
+      {"stride of no bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.colors, mesh.colors.stride_bytes = 32; }, "a stride of 32 bytes for colors, but no bytes of colors"},
       {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; }, "indices of 8 bits, must be 16 or 32"},
   };
   for (const auto& row : rows) {

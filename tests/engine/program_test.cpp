@@ -70,6 +70,7 @@ TEST_F(Program, BadUsageExitsWithTwoAndOneLine) {
       {"render -o ''", "--output: found \"\", expected FILE's name"},
       {"render --planes ''", "--planes: found \"\", expected DIR's name"},
       {"render --compare ''", "--compare: found \"\", expected FILE's name"},
+      {"render --compare= --output x.png", "--compare: found \"\", expected a value"},
       {"selftest --expect ''", "--expect: found \"\", expected FILE's name"},
       {"completion csh", "expected one of bash, zsh, fish"},
       {"inof", "did you mean \"info\"?"},
@@ -248,18 +249,22 @@ TEST_F(Program, NumbersThatBeginWithZeroAreDecimal) {
 }
 
 TEST_F(Program, ACameraIsReversedAsTheOneOfTheScene) {
-  const auto scene = [](const std::string& camera) {
+  const auto scene = [](const std::string& camera, const std::string& command) {
     return R"({"tessera": 1, "framebuffer": {"width": 32, "height": 24}, "camera": {)" + camera + R"(}, "lights": [],
       "materials": {"red": {"emission": [1, 0, 0, 1]}, "green": {"emission": [0, 1, 0, 1]}},
       "meshes": {"near": {"positions": [[-1, -1, 1], [1, -1, 1], [0, 1, 1]]}, "far": {"positions": [[-2, -2, -1], [2, -2, -1], [0, 2, -1]]}},
-      "frame": [{"clear": {"color": [0, 0, 1, 1], "depth": 0}}, {"draw": "near", "material": "red", "depth": {"test": "greater"}}, {"draw": "far", "material": "green", "depth": {"test": "greater"}}]})";
+      "frame": [)" + command + R"({"clear": {"color": [0, 0, 1, 1], "depth": 0}}, {"draw": "near", "material": "red", "depth": {"test": "greater"}}, {"draw": "far", "material": "green", "depth": {"test": "greater"}}]})";
   };
-  write("other.json", scene(R"("projection": {"reversed": true})"));
-  write("written.json", scene(R"("eye": [0, 0, 5], "projection": {"fovy": 40, "near": 0.05, "far": 500, "reversed": true})"));
-  const Result other = run("render other.json --camera 0,0,5,0,0,0,40 -o other.ppm"), written = run("render written.json -o written.ppm");
-  EXPECT_EQ(other.code, 0) << other.err;
+  write("written.json", scene(R"("eye": [0, 0, 5], "projection": {"fovy": 40, "near": 0.05, "far": 500, "reversed": true})", ""));
+  write("scene.json", scene(R"("projection": {"reversed": true})", ""));
+  write("frame.json", scene("", R"({"camera": {"projection": {"reversed": true}}}, )"));
+  const Result written = run("render written.json -o written.ppm");
   EXPECT_EQ(written.code, 0) << written.err;
-  EXPECT_TRUE(content("other.ppm") == content("written.ppm"));
+  for (const char* name : {"scene", "frame"}) {
+    const Result other = run("render " + std::string(name) + ".json --camera 0,0,5,0,0,0,40 -o other.ppm");
+    EXPECT_EQ(other.code, 0) << other.err;
+    EXPECT_TRUE(content("other.ppm") == content("written.ppm")) << name;
+  }
 }
 
 TEST_F(Program, NoPictureTakesThePlaceOfWhatIsRead) {
