@@ -136,6 +136,7 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   if (!plan.vertex_alpha) return;
   plan.source = ColorSource::interpolated;
   plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
+  plan.clamps_vertex_alpha = plan.flat || !state.lighting || state.shading != Shading::phong;
   plan.scaled_colors = false;
   plan.attribute_count = plan.colors_triangles() ? 0 : 4;
 }

@@ -43,6 +43,7 @@ struct DrawPlan {
   float offset_factor = 0, offset_units = 0;
   float alpha[2] = {1, 1};        ///< front, back
   bool vertex_alpha = false;      ///< the vertices' in place of that
+  bool clamps_vertex_alpha = true;  ///< before it is interpolated: not where pixels are lit
   bool flat = false;              ///< ColorSource::interpolated, but one colour a triangle
 
   bool lit = false;               ///< lights run: at vertices, triangles or pixels

@@ -153,7 +153,15 @@ void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel, const 
       for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t) add_corner(mesh.vertex_at(added_corner(mesh.primitive, t)), f);
     }
   });
-  parallel.for_each(cut.parts, [&](std::size_t part, int) { corners_.for_each_in(part, [&](const Corner& corner) { sums_.data()[corner.vertex] += areas[corner.face]; }); });
+  // A face counts once at each position, also where several of its corners lie there (a triangle has no area then). In each part faces follow each other.
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::uint32_t* const last_face = table_.data();  // of each vertex; the table itself has served
+  if (each > 1) cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) { std::fill(last_face + first, last_face + last, kNone); });
+  parallel.for_each(cut.parts, [&](std::size_t part, int) {
+    corners_.for_each_in(part, [&](const Corner& corner) {
+      if (each == 1 || std::exchange(last_face[corner.vertex], corner.face) != corner.face) sums_.data()[corner.vertex] += areas[corner.face];
+    });
+  });
 }
 
 void SmoothNormals::reserve(std::size_t vertices, std::size_t elements) {

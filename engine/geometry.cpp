@@ -81,7 +81,7 @@ void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch
   auto [out, stride] = float_colors(draw, points, face);
   for (std::size_t i = 0; i < points.count; ++i, out += stride) {
     for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
-    out[3] = plan.vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f) : plan.alpha[face];
+    out[3] = !plan.vertex_alpha ? plan.alpha[face] : plan.clamps_vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f) : points.alpha[i];
     if (plan.folds_texture()) out[3] = textured_color(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
   }
 }
@@ -157,7 +157,7 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
   if (needs_position(plan)) store(kPositionField);
   if (plan.uses_vertex_colors) store(kVertexField);
   if (plan.float_colors && plan.vertex_alpha)
-    for (std::size_t i = 0; i < count; ++i) out[i * stride] = std::min(std::max(draw.mesh->color(first + i, 3), 0.0f), 1.0f);
+    for (std::size_t i = 0; i < count; ++i) out[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, as the colour
 }
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {

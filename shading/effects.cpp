@@ -18,13 +18,27 @@ std::array<float, 3> normalized(double x, double y, double z) {
   return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
+double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) { return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2]; }
+
 // A cone on a directional light applies with V = -L: the same factor for every point.
 float directional_spot_factor(const EyeLight& light) {
   const auto& l = light.position;
   const auto& d = light.spot_direction;
-  const double cosine = -(double{l[0]} * d[0] + double{l[1]} * d[1] + double{l[2]} * d[2]);
-  if (cosine < sin_cos_degrees(light.spot_cutoff).cosine || cosine <= 0) return 0;
+  const double lengths = std::sqrt(dot(l, l) * dot(d, d));  // of floats, which miss 1 by more than the cosines of very narrow cones do
+  if (lengths == 0) return 0;
+  const double cosine = std::min(-dot(l, d) / lengths, 1.0);
+  if (cosine * (1 + 0x1p-50) < sin_cos_degrees(light.spot_cutoff).cosine || cosine <= 0) return 0;
   return power_of_reference(static_cast<float>(cosine), light.spot_exponent);
+}
+
+/// Bits before the binary point of what a highlight is multiplied by: its product of colours, over the attenuation.
+float bits_above_one(const LightTerm& term) {
+  constexpr float kMost = 94;
+  const bool is_attenuated = term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot;
+  const bool may_grow = is_attenuated && !(term.attenuation[0] >= 1 && term.attenuation[1] >= 0 && term.attenuation[2] >= 0);
+  if (may_grow || !is_black(term.tracked_specular)) return kMost;  // by whatever vertices have
+  const float largest = std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
+  return largest > 1 ? std::min(static_cast<float>(std::ilogb(largest) + 1), kMost) : 0.0f;
 }
 
 const char* kind_name(LightKind kind) {
@@ -134,8 +148,8 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.squared = half_varies && model.unit_normals && !term.sharp && material.shininess >= 1;
     const float exponent = term.squared ? material.shininess / 2 : material.shininess;
     term.highlight_power = power_with(exponent);
-    // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all.
-    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-32.0f / exponent, -126.0f));
+    // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all. Less where it is multiplied by more than 1.
+    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-(32.0f + bits_above_one(term)) / exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;

@@ -1,4 +1,5 @@
-// The alpha test of draws that store no colour: depth and stencil of cut-outs are those that the same draw leaves with its colour.
+// What the alpha test looks at; of draws that store no colour, too: depth and stencil of cut-outs are those that the same draw leaves
+// with its colour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,6 +67,21 @@ TEST(AlphaTestWithoutColor, LooksAtTheVerticesInEveryShading) {
           EXPECT_EQ(passed(tested), by_vertices ? 40u * 24 / 2 : 0u);
         }
       }
+}
+
+// Colours are clamped where they are lit: at the vertices, or at the pixels, whose alpha is beyond 0.5 in another place then.
+TEST(AlphaTest, LooksAtAlphaThatIsClampedWhereItIsLit) {
+  MeshData mesh = whole_window(0.25f);
+  mesh.colors = {1, 1, 1, -1, 1, 1, 1, 3, 1, 1, 1, 3, 1, 1, 1, -1};
+  DrawState state;
+  state.color_material = ColorMaterial::diffuse;
+  for (const Shading shading : {Shading::gouraud, Shading::phong})
+    for (const bool stores_color : {false, true}) {
+      state.shading = shading;
+      EXPECT_EQ(passed(drawn(mesh.view(), state, {}, stores_color)), (shading == Shading::phong ? 25u : 20u) * 24) << static_cast<int>(shading) << stores_color;
+    }
+  state.lighting = false;
+  EXPECT_EQ(passed(drawn(mesh.view(), state, {}, false)), 20u * 24) << "nothing is lit";
 }
 
 TEST(AlphaTestWithoutColor, LooksAtEachFacesMaterial) {

@@ -157,6 +157,19 @@ TEST(GeneratedNormals, BelongToPositionsNotToVertices) {
   for (const Shading shading : kShadings) EXPECT_EQ(words_of(sheet(), shaded(shading)), words_of(split_up(sheet()), shaded(shading)));
 }
 
+// Quads with two corners in one place are the triangles that are left of them.
+TEST(GeneratedNormals, CountAFaceOnceWhereSeveralOfItsCornersAre) {
+  const MeshData triangles = sheet();
+  for (std::size_t twice = 0; twice < 3; ++twice) {
+    MeshData quads = triangles;
+    quads.primitive = Primitive::quads;
+    quads.indices.clear();
+    for (std::size_t t = 0; t < triangles.indices.size(); t += 3)
+      for (std::size_t k = 0; k < 4; ++k) quads.indices.push_back(triangles.indices[t + (k > twice ? k - 1 : k)]);
+    for (const Shading shading : kShadings) EXPECT_EQ(words_of(quads, shaded(shading)), words_of(triangles, shaded(shading))) << twice;
+  }
+}
+
 TEST(GeneratedNormals, CountZeroAndMinusZeroAsOnePosition) {
   MeshData roof;  // two triangles that meet at x = 0
   roof.positions = {-1, 0, 0, 0, -1, 0.5f, 0, 1, 0.5f, 1, 0, 0, 0, 1, 0.5f, 0, -1, 0.5f};

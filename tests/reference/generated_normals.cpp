@@ -1,6 +1,7 @@
 #include "generated_normals.h"
 
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "primitives.h"
@@ -35,10 +36,9 @@ std::vector<Vec3> mean_face_normals(const Mesh& mesh) {
   for (std::size_t i = 0; i < primitive_count(mesh); ++i) {
     const Primitive polygon = any_primitive(mesh, i);
     const Vec3 normal = area_normal(mesh, polygon);
-    for (const std::uint32_t vertex : polygon.vertices) {
-      Vec3& sum = sums[key_of(mesh.positions[vertex])];
-      sum = sum + normal;
-    }
+    std::set<Key> positions;  // of which several corners may share one
+    for (const std::uint32_t vertex : polygon.vertices) positions.insert(key_of(mesh.positions[vertex]));
+    for (const Key& position : positions) sums[position] = sums[position] + normal;
   }
   std::vector<Vec3> normals;
   for (const Vec4 p : mesh.positions) normals.push_back(normalize(sums[key_of(p)]));

@@ -1,8 +1,10 @@
 // What plan_lighting() leaves out, and what it must keep.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -116,6 +118,27 @@ TEST(Effects, FoldWhatIsConstant) {
   s.light.position = {0, 0.6f, 0.8f};
   s.light.spot_cutoff = 60;
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(s.plan().terms[0].diffuse[k], 0.64 * s.light.diffuse[k] * s.material.diffuse[k], 1e-6);
+}
+
+// Whatever directions are as floats.
+TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
+  std::mt19937 random(61);
+  std::uniform_real_distribution<double> any(-1, 1);
+  Scene s;
+  s.light.directional = true;
+  for (int n = 0; n < 300; ++n) {
+    const double to[3] = {any(random), any(random), any(random)}, length = std::hypot(to[0], to[1], to[2]);
+    const double aside[3] = {to[1], -to[0], 0}, aside_length = std::hypot(aside[0], aside[1]);
+    for (const double degrees : {0.0, 0.02}) {  // between the light's direction and its cone's
+      const double angle = degrees * 3.141592653589793 / 180;
+      for (std::size_t k = 0; k < 3; ++k) {
+        s.light.position[k] = static_cast<float>(to[k] / length);
+        s.light.spot_direction[k] = static_cast<float>(-(std::cos(angle) * to[k] / length + std::sin(angle) * aside[k] / aside_length));
+      }
+      s.light.spot_cutoff = 0.01f;
+      EXPECT_EQ(s.plan().terms.size(), degrees == 0 ? 1u : 0u) << n;
+    }
+  }
 }
 
 TEST(Effects, TrackedColorsStandForTheMaterialsOwn) {
