@@ -44,7 +44,8 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
   if (e.directional) {
     e.position = unit(glm::dmat3(view) * glm::dvec3(p[0], p[1], p[2]));
   } else {
-    move_within_reach(e, view * glm::dvec4(glm::dvec3(p[0], p[1], p[2]) / double{p[3]}, 1.0));
+    const glm::dvec4 at = view * glm::dvec4(glm::dvec3(p[0], p[1], p[2]) / double{p[3]}, 1.0);
+    move_within_reach(e, glm::dvec3(at) / (at.w != 0 ? at.w : 1.0));
   }
   const auto& d = light.spot_direction;
   e.spot_direction = unit(glm::dmat3(view) * glm::dvec3(d[0], d[1], d[2]));
@@ -74,7 +75,7 @@ EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLength
   scale_by(normal, !lengths_matter ? -exponent_of(normal) : singular ? 2 * exponent : -exponent);
 
   EyeTransform eye;
-  std::copy_n(from_glm(eye_from_object).m.begin(), 12, eye.eye_from_object);
+  std::copy_n(from_glm(eye_from_object).m.begin(), 16, eye.eye_from_object);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) eye.normal_matrix[3 * row + column] = normal[column][row];
   eye.normal_lengths = lengths;

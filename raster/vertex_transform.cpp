@@ -163,16 +163,16 @@ void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int com
   gather_positions(positions, components, count, p);
   const double* m = t.eye_from_object;
   for (int i = 0; i < kVertexBatch; ++i) {
-    x[i] = static_cast<float>(row_times_point(m, p.x[i], p.y[i], p.z[i], p.w[i]));
-    y[i] = static_cast<float>(row_times_point(m + 4, p.x[i], p.y[i], p.z[i], p.w[i]));
-    z[i] = static_cast<float>(row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]));
+    const double px = p.x[i], py = p.y[i], pz = p.z[i], pw = p.w[i], w = row_times_point(m + 12, px, py, pz, pw);
+    p.x[i] = row_times_point(m, px, py, pz, pw);
+    p.y[i] = row_times_point(m + 4, px, py, pz, pw);
+    p.z[i] = row_times_point(m + 8, px, py, pz, pw);
+    p.w[i] = w != 0 ? w : 1.0;
   }
-  if (components == 4) {  // a position is xyz / w; w = 1 changes nothing
-    for (int i = 0; i < kVertexBatch; ++i) {
-      const float w = p.w[i] != 0 ? static_cast<float>(p.w[i]) : 1.0f;
-      x[i] /= w, y[i] /= w, z[i] /= w;
-    }
-  }
+  const bool keeps_w = m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
+  if (components == 4 || !keeps_w)  // else w is 1, which changes nothing
+    for (int i = 0; i < kVertexBatch; ++i) p.x[i] /= p.w[i], p.y[i] /= p.w[i], p.z[i] /= p.w[i];
+  for (int i = 0; i < kVertexBatch; ++i) x[i] = static_cast<float>(p.x[i]), y[i] = static_cast<float>(p.y[i]), z[i] = static_cast<float>(p.z[i]);
 }
 
 void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t count, float* x, float* y, float* z) {

@@ -99,13 +99,14 @@ inline constexpr NormalLengths kNormalsAsTheyAre{0, std::numeric_limits<double>:
 /// normal floats.
 inline constexpr NormalLengths kMeasurableNormals{0x1p-32, 0x1p32};
 
-/// Carries vectors into eye space: 3 rows of 4 for points (x y z [w] -> x y z) and 3 rows of 3 for normals.
+/// Carries vectors into eye space: 4 rows of 4 for points (x y z [w] -> x y z, each over w) and 3 rows of 3 for normals.
 struct EyeTransform {
-  double eye_from_object[12] = {};
+  double eye_from_object[16] = {};
   double normal_matrix[9] = {};  ///< the inverse transpose's 3x3, times a power of two where the lengths of normals do not matter
   NormalLengths normal_lengths{};
 };
-/// Eye-space positions of up to kVertexBatch vertices, as three arrays.
+/// Eye-space positions of up to kVertexBatch vertices, as three arrays; where w is 0, which has no place, by 1. Between
+/// vertices they are interpolated as attributes are: exact where w is the same at all of them.
 using EyePositions = void(const EyeTransform& transform, StridedFloats positions, int components, std::size_t count, float* x, float* y, float* z);
 /// Eye-space normals.
 using EyeNormals = void(const EyeTransform& transform, StridedFloats normals, std::size_t count, float* x, float* y, float* z);

@@ -20,6 +20,9 @@ std::array<float, 3> normalized(double x, double y, double z) {
 
 double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) { return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2]; }
 
+// Directions that their roundings to floats alone take out of a cone, by less than this angle, are within it: of 0 degrees, too.
+constexpr double kRoundingOfDirections = 0x1p-22, kDegreesOfRounding = kRoundingOfDirections * 180 / 3.14159265358979323846;
+
 // A cone on a directional light applies with V = -L: the same factor for every point.
 float directional_spot_factor(const EyeLight& light) {
   const auto& l = light.position;
@@ -27,18 +30,28 @@ float directional_spot_factor(const EyeLight& light) {
   const double lengths = std::sqrt(dot(l, l) * dot(d, d));  // of floats, which miss 1 by more than the cosines of very narrow cones do
   if (lengths == 0) return 0;
   const double cosine = std::min(-dot(l, d) / lengths, 1.0);
-  if (cosine * (1 + 0x1p-50) < sin_cos_degrees(light.spot_cutoff).cosine || cosine <= 0) return 0;
+  if (cosine < sin_cos_degrees(light.spot_cutoff + kDegreesOfRounding).cosine || cosine <= 0) return 0;
   return power_of_reference(static_cast<float>(cosine), light.spot_exponent);
 }
 
-/// Bits before the binary point of what a highlight is multiplied by: its product of colours, over the attenuation.
+/// The square of how far unit vectors within a cone are apart from its direction.
+float squared_chord(float degrees) {
+  const double chord = 2 * sin_cos_degrees(degrees / 2.0).sine + kRoundingOfDirections;
+  return static_cast<float>(chord * chord);
+}
+
+/// Bits before the binary point of what a highlight is multiplied by, its product of colours over the attenuation. No more than there are powers for, which
+/// end at 2^-126: what is multiplied by still more loses the foot of its highlight.
 float bits_above_one(const LightTerm& term) {
-  constexpr float kMost = 94;
-  const bool is_attenuated = term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot;
-  const bool may_grow = is_attenuated && !(term.attenuation[0] >= 1 && term.attenuation[1] >= 0 && term.attenuation[2] >= 0);
-  if (may_grow || !is_black(term.tracked_specular)) return kMost;  // by whatever vertices have
-  const float largest = std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
-  return largest > 1 ? std::min(static_cast<float>(std::ilogb(largest) + 1), kMost) : 0.0f;
+  constexpr double kMost = 94;
+  if (!is_black(term.tracked_specular)) return kMost;  // whatever vertices have
+  double most = std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
+  if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
+    const auto [constant, linear, quadratic] = term.attenuation;
+    if (!(constant > 0 && linear >= 0 && quadratic >= 0)) return kMost;  // with the distance it may come to any
+    most /= constant;
+  }
+  return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMost)) : 0.0f;
 }
 
 const char* kind_name(LightKind kind) {
@@ -142,14 +155,16 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.attenuation = light.attenuation;
     term.spot_power = power_with(light.spot_exponent);
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
+    if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone) term.spot_apart = squared_chord(light.spot_cutoff);
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
     const bool half_varies = term.highlight == HighlightKind::blinn_local || (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
-    // No square is below 2^-126, no cosine by squares below 2^-63: its power, 2^(-63 s), would be seen of small exponents.
-    term.squared = half_varies && model.unit_normals && !term.sharp && material.shininess >= 1;
+    const float bits_seen = 32 + bits_above_one(term);  // a power is not below 2^-bits_seen, where it is seen
+    // No square is below 2^-126, no cosine by squares below 2^-63.
+    term.squared = half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= bits_seen;
     const float exponent = term.squared ? material.shininess / 2 : material.shininess;
     term.highlight_power = power_with(exponent);
-    // x^s < 2^-32 where x < 2^(-32 / s): most of a shiny surface, which then needs no power at all. Less where it is multiplied by more than 1.
-    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-(32.0f + bits_above_one(term)) / exponent, -126.0f));
+    // x^s < 2^-b where x < 2^(-b / s): most of a shiny surface, which then needs no power at all.
+    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-bits_seen / exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;

@@ -19,8 +19,9 @@ HWY_INLINE Float dot(const Vector& a, const Vector& b) { return mul_add(a.x, b.x
 HWY_INLINE Vector times(const Vector& v, Float s) { return {hn::Mul(v.x, s), hn::Mul(v.y, s), hn::Mul(v.z, s)}; }
 /// a - b s
 HWY_INLINE Vector less_times(const Vector& a, const Vector& b, Float s) { return {neg_mul_add(b.x, s, a.x), neg_mul_add(b.y, s, a.y), neg_mul_add(b.z, s, a.z)}; }
+HWY_INLINE Float squared_length(const Vector& v) { return dot(v, v); }
 /// The cosine of two unit vectors that are that far apart: near 1 it has the error of what is missing there.
-HWY_INLINE Float cosine_of_units(const Vector& apart) { return mul_add(splat(-0.5f), dot(apart, apart), splat(1.0f)); }
+HWY_INLINE Float cosine_of_units(const Vector& apart) { return mul_add(splat(-0.5f), squared_length(apart), splat(1.0f)); }
 HWY_INLINE Vector splat_vector(const std::array<float, 3>& v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
 HWY_INLINE Vector load_vector(const ShadingBatch& batch, int first_field, int point) {
   return {hn::Load(kFloat, batch.field[first_field] + point), hn::Load(kFloat, batch.field[first_field + 1] + point),
@@ -63,7 +64,8 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
   // Read before the loop: a compiler must assume that stores change `term`.
   const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation), spot_direction = splat_vector(term.spot_direction);
-  const Float spot_cosine = splat(term.spot_cosine);
+  const Float spot_cosine = splat(term.spot_cosine), spot_apart = splat(term.spot_apart);
+  const bool narrow = term.spot_apart > 0;
   auto any = hn::Gt(zero, zero);
   for (int point = 0; point < count; point += kLanes) {
     Vector to_light = from;
@@ -75,7 +77,7 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       const Float distance = hn::Sqrt(squared);
       to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
       if constexpr (kAttenuated) {
-        const Float denominator = mul_add(attenuation.z, squared, mul_add(attenuation.y, distance, attenuation.x));
+        const Float denominator = mul_add(attenuation.z, cut(squared), mul_add(attenuation.y, cut(distance), attenuation.x));
         factor = hn::IfThenElse(hn::Gt(denominator, zero), cut(hn::Div(one, denominator)), splat(1.0e6f));
       }
     }
@@ -83,7 +85,9 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
     auto facing = hn::Gt(n_dot_l, zero);
     if constexpr (is_spot(kKind)) {
       const Float cosine = hn::Sub(zero, dot(to_light, spot_direction));
-      const auto reached = hn::And(hn::Ge(cosine, spot_cosine), hn::Gt(cosine, zero));
+      auto reached = hn::Ge(cosine, spot_cosine);
+      if (HWY_UNLIKELY(narrow)) reached = hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_apart);
+      reached = hn::And(reached, hn::Gt(cosine, zero));
       hn::Store(cosine, kFloat, light.cosine + point);
       factor = hn::IfThenElseZero(reached, factor);
       facing = hn::And(facing, reached);

@@ -77,7 +77,10 @@ struct LightingModel {
 /// Above this highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings, times the exponent, would begin to show.
 inline constexpr float kSharpShininess = 2048;
 
-/// What a light brings to a point is cut here, and what that is made of: n.L, attenuation, cone, highlight; and its colours, and vertex colours. Times black it
+/// Below this angle in degrees a point is in a spot's cone by how far vectors are apart: their cosine, near 1, is too coarse.
+inline constexpr float kNarrowCone = 1;
+
+/// What a light brings to a point is cut here, and what that is made of: n.L, distance, attenuation, cone, highlight; and its colours, and vertex colours. Times black it
 /// is nothing then, and not NaN.
 inline constexpr float kLargestFloat = std::numeric_limits<float>::max();
 
@@ -92,14 +95,15 @@ struct LightTerm {
   HighlightKind highlight = HighlightKind::none;
   // Two other ways to a highlight of unit normals than the power of S.n or R.E:
   bool sharp = false;                          ///< above kSharpShininess, by the distance of n and S, or R and E
-  bool squared = false;                        ///< ((S.n)^2)^(s/2), without a root, where S differs from point to point; from shininess 1 on
+  bool squared = false;                        ///< ((S.n)^2)^(s/2), without a root, where S differs from point to point and no power that is seen comes from a square below 2^-126
   std::array<float, 3> position{};             ///< or direction
   std::array<float, 3> half_vector{};          ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
   float spot_cosine = 0;
+  float spot_apart = 0;                        ///< of a cone below kNarrowCone: the square of how far -L and its direction may be apart; 0: spot_cosine counts
   Power spot_power, highlight_power;           ///< of the cosine to the axis; of S.n, its square or R.E
-  /// Up to here these make no highlight: their power is below 2^-32, or they are below 2^-126. NaN, which nothing is up to, where the power is 1 for everything.
+  /// Up to here these make no highlight: their power, times what it is multiplied by, is below 2^-32, or they are below 2^-126. NaN, which nothing is up to, where the power is 1 for everything.
   float highlight_floor = 0;
   Rgb ambient{}, diffuse{}, specular{};                            ///< light times material
   Rgb tracked_ambient{}, tracked_diffuse{}, tracked_specular{};    ///< the light's, for the vertex colour to multiply

@@ -22,10 +22,11 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   const auto dot = [](const Vec& a, const Vec& b) { return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2])); };
   const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
   const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
-  const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) {  // a and b s
+  const auto squared_distance = [&](const Vec& a, const Vec& b, float s) {  // of a and b s
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
-    return std::fma(-0.5f, dot(apart, apart), 1.0f);
+    return dot(apart, apart);
   };
+  const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) { return std::fma(-0.5f, squared_distance(a, b, s), 1.0f); };
   const auto cut = [](float amount) { return amount < kLargestFloat ? amount : kLargestFloat; };
   const auto finite = [](float value) { return std::isnan(value) ? -kLargestFloat : std::clamp(value, -kLargestFloat, kLargestFloat); };
   const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
@@ -48,11 +49,11 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       to_light = scaled(to_light, squared > 0 ? 1.0f / distance : 0.0f);
       if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
-        reached = cosine >= term.spot_cosine && cosine > 0;
+        reached = (term.spot_apart > 0 ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_apart : cosine >= term.spot_cosine) && cosine > 0;
         factor = reached ? power_of_reference(cosine, term.spot_power.exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
-        const float denominator = std::fma(term.attenuation[2], squared, std::fma(term.attenuation[1], distance, term.attenuation[0]));
+        const float denominator = std::fma(term.attenuation[2], cut(squared), std::fma(term.attenuation[1], cut(distance), term.attenuation[0]));
         factor = cut(factor * (denominator > 0 ? cut(1.0f / denominator) : 1.0e6f));
       }
     }

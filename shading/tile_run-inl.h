@@ -120,6 +120,7 @@ struct ScaledColor {
 
 /// Colours of 0..1 for 8 bits each of red, green and blue, which are mixed by their alpha with what is stored: the steps of FragmentTriangle, of which those
 /// are left out that change no bit. What is kept within 0..1 at the vertices is within 0..1 between them, and a sum that rounds to above 1 is the highest level, too.
+/// Alpha that is not kept there has no way here: it is of pixels that are lit, or of alpha tests.
 struct MixedColor {
   Corners c[4];                          // r g b a
   CornerLanes lanes[4];

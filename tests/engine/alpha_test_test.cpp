@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tests/engine/api_support.h"
 
@@ -82,6 +83,39 @@ TEST(AlphaTest, LooksAtAlphaThatIsClampedWhereItIsLit) {
     }
   state.lighting = false;
   EXPECT_EQ(passed(drawn(mesh.view(), state, {}, false)), 20u * 24) << "nothing is lit";
+}
+
+// So it is by every way that alpha takes to the pixels: mixed at once or one pixel after the other, of samples, under textures, of outlines.
+TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
+  MeshData mesh = rectangle(-1, -0.5f, 1, 0.5f, 0.25f);  // its lower side is between rows 17 and 18
+  mesh.primitive = Primitive::quads;
+  mesh.indices = {0, 1, 2, 3};
+  mesh.colors = {1, 1, 1, -1, 1, 1, 1, 3, 1, 1, 1, 3, 1, 1, 1, -1};
+  mesh.texcoords = {0, 0, 1, 0, 1, 1, 0, 1};
+  const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
+  const Texture texture({.pixels = white.data(), .width = 1, .height = 1, .channels = 4});
+  for (const Shading shading : {Shading::gouraud, Shading::phong})
+    for (const int samples : {1, 4})
+      for (const Texture* const under : {static_cast<const Texture*>(nullptr), &texture})
+        for (const PolygonMode mode : {PolygonMode::fill, PolygonMode::line}) {
+          DrawState state{.shading = shading, .color_material = ColorMaterial::diffuse};
+          state.material.emission = {1, 1, 1, 1};
+          state.blend = BlendState{};
+          state.texture = under;
+          state.front_mode = state.back_mode = mode;
+          state.line_width = 4;
+          state.depth.enabled = false;
+          FrameBuffer buffer({.width = 40, .height = 24, .samples = samples});
+          Frame frame(buffer);
+          frame.clear({.color = Color{0, 0, 0, 1}});
+          frame.draw(mesh.view(), state);
+          Renderer().finish(frame);
+          const std::vector<std::uint32_t> words = color_words(buffer);
+          for (std::size_t x = 3; x < 37; ++x) {  // beside what the other sides cover
+            const double along = (static_cast<double>(x) + 0.5) / 40, alpha = std::clamp(shading == Shading::phong ? -1 + 4 * along : along, 0.0, 1.0);
+            ASSERT_NEAR(words[17 * 40 + x] >> 16 & 255, 255 * alpha, 1) << x << ", " << static_cast<int>(shading) << " " << samples << " " << (under != nullptr) << " " << static_cast<int>(mode);
+          }
+        }
 }
 
 TEST(AlphaTestWithoutColor, LooksAtEachFacesMaterial) {

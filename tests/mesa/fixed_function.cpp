@@ -78,11 +78,11 @@ GLenum color_material(reference::ColorMaterial mode) {
 }  // namespace
 
 bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                         const std::vector<Vertex>& vertices) {
+                         const reference::Camera& camera, const std::vector<Vertex>& vertices) {
   if (!draw.lighting) return true;
   return draw.shading != reference::Shading::kPhong && model.specular == reference::SpecularModel::kBlinn && lights.size() <= kMaxLights &&
          std::ranges::all_of(lights, light_is_ordinary) && material_is_ordinary(draw.material, draw) && material_is_ordinary(draw.back_material, draw) &&
-         is_affine(draw.world_from_object) && std::ranges::all_of(vertices, vertex_is_ordinary);
+         is_affine(draw.world_from_object) && is_affine(camera.view_from_world) && std::ranges::all_of(vertices, vertex_is_ordinary);
 }
 
 void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,

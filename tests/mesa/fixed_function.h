@@ -10,7 +10,7 @@ namespace tessera::mesa {
 
 /// Whether fixed functions compute what the specification asks of this draw.
 bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                         const std::vector<Vertex>& vertices);
+                         const reference::Camera& camera, const std::vector<Vertex>& vertices);
 
 /// Sets lights, light model, materials and colour material. The model view matrix must hold the view alone: OpenGL takes
 /// positions and spot directions of lights through it.

@@ -145,7 +145,7 @@ class Renderer {
   }
 
   LightingBy lighting_by(const Draw& draw, const std::vector<Vertex>& vertices) const {
-    if (fixed_functions_can(draw, scene_.light_model, lights_, vertices)) return LightingBy::kFixedFunctions;
+    if (fixed_functions_can(draw, scene_.light_model, lights_, camera_, vertices)) return LightingBy::kFixedFunctions;
     return draw.shading == reference::Shading::kPhong ? LightingBy::kFragmentProgram : LightingBy::kVertexProgram;
   }
 

@@ -56,9 +56,19 @@ vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
 vec3 divided(vec4 p) { return p.xyz / p.w; }
 )";
 
+// Mesa's gl_NormalMatrix comes from the inverse of all 16 numbers, and not of the upper left 9 as GLSL has it: another one where a matrix projects.
+inline constexpr const char* kEyeNormal = R"(
+vec3 eye_normal() {
+  vec4 a = gl_ModelViewMatrix[0], b = gl_ModelViewMatrix[1], c = gl_ModelViewMatrix[2];
+  if (a.w == 0.0 && b.w == 0.0 && c.w == 0.0) return gl_NormalMatrix * gl_Normal;
+  mat3 cofactors = mat3(cross(b.xyz, c.xyz), cross(c.xyz, a.xyz), cross(a.xyz, b.xyz));
+  return cofactors * gl_Normal / dot(a.xyz, cofactors[0]);
+}
+)";
+
 inline constexpr const char* kVertexLit = R"(
 void main() {
-  vec3 p = divided(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * gl_Normal;
+  vec3 p = divided(gl_ModelViewMatrix * gl_Vertex), n = eye_normal();
   if (normalize_normals != 0) n = unit(n);
   gl_Position = ftransform();
   gl_FrontColor = lit(p, n, 0, gl_Color);
@@ -73,7 +83,7 @@ out vec4 color;
 out vec2 texcoord;
 void main() {
   position = divided(gl_ModelViewMatrix * gl_Vertex);
-  normal = gl_NormalMatrix * gl_Normal;
+  normal = eye_normal();
   if (normalize_normals != 0) normal = unit(normal);
   color = gl_Color;
   texcoord = gl_MultiTexCoord0.st;

@@ -41,7 +41,7 @@ GLuint Programs::made(LightingBy lighting, bool texturing) const {
   if (lighting == LightingBy::kFixedFunctions && !texturing) return 0;
   const GLuint name = gl.create_program();
   if (lighting != LightingBy::kFixedFunctions)
-    attach(gl, name, GL_VERTEX_SHADER, {kVersion, kLighting, at_pixels ? kPixelLitVertex : kVertexLit});
+    attach(gl, name, GL_VERTEX_SHADER, {kVersion, kLighting, kEyeNormal, at_pixels ? kPixelLitVertex : kVertexLit});
   if (at_pixels) attach(gl, name, GL_FRAGMENT_SHADER, {kVersion, kLighting, kTexturing, kPixelLitFragment});
   else if (texturing) attach(gl, name, GL_FRAGMENT_SHADER, {kVersion, kTexturing, kTexturedFragment});
   link(gl, name);

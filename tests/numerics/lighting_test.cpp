@@ -192,6 +192,32 @@ TEST(Lighting, ConesEndWhereTheyShould) {
   }
 }
 
+// Down to where cosines as floats say nothing at all: 2^-24 below 1 is 0.02 degrees. Cones are 2^-22 wider than they should be, and L and D have roundings of their own.
+TEST(Lighting, NarrowConesEndWhereTheyShould) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  Draws draws{std::mt19937(15)};
+  LitPatches scene;
+  lie_flat(scene);
+  scene.material = {.ambient = {1, 1, 1, 1}, .diffuse = {0, 0, 0, 1}};
+  for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
+    for (const float cutoff : {0.001f, 0.01f, 0.014f, 0.1f, 0.5f, 0.999f}) {
+      const double radius = 0.5, distance = radius / std::tan(cutoff * kDegree), slack = 0x1p-21;
+      const auto [x, y, z] = draws.direction();
+      const double d[3] = {x / 3, y / 3, std::abs(z) + 0.2}, length = std::hypot(d[0], d[1], d[2]);
+      Light light{.ambient = {1, 0.5f, 0.25f, 1}, .position = {0, 0, 0, 1}, .spot_cutoff = cutoff};
+      for (std::size_t c = 0; c < 3; ++c) {
+        light.position[c] = static_cast<float>(distance * d[c] / length);
+        light.spot_direction[c] = static_cast<float>(-d[c] / length);
+      }
+      scene.shading = shading;
+      scene.lights = {light};
+      scene.slack = static_cast<Real>(std::sin(cutoff * kDegree) * slack + slack * slack / 2);
+      EXPECT_LE(scene.error_in_levels(), 0.501L) << cutoff << " " << static_cast<int>(shading);
+      const auto lit = std::count_if(scene.levels.begin(), scene.levels.end(), [](const std::array<int, 3>& c) { return c[0] > 0; });
+      EXPECT_TRUE(lit > 40 && lit < 90) << lit << " of a circle that is 50 large, and foreshortened";
+    }
+}
+
 // The normals of two corners nearly cancel out in the middle: what they were rounded by (2^-24 of each, and 2 more as they are interpolated) is then that
 // much of what is left of them. Where nothing is left, there is no diffuse light.
 TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {

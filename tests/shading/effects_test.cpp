@@ -129,16 +129,43 @@ TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
   for (int n = 0; n < 300; ++n) {
     const double to[3] = {any(random), any(random), any(random)}, length = std::hypot(to[0], to[1], to[2]);
     const double aside[3] = {to[1], -to[0], 0}, aside_length = std::hypot(aside[0], aside[1]);
-    for (const double degrees : {0.0, 0.02}) {  // between the light's direction and its cone's
+    for (const double degrees : {0.0, 1e-4, 0.0099, 0.0101, 0.02}) {  // between the light's direction and its cone's
       const double angle = degrees * 3.141592653589793 / 180;
       for (std::size_t k = 0; k < 3; ++k) {
         s.light.position[k] = static_cast<float>(to[k] / length);
         s.light.spot_direction[k] = static_cast<float>(-(std::cos(angle) * to[k] / length + std::sin(angle) * aside[k] / aside_length));
       }
       s.light.spot_cutoff = 0.01f;
-      EXPECT_EQ(s.plan().terms.size(), degrees == 0 ? 1u : 0u) << n;
+      EXPECT_EQ(s.plan().terms.size(), degrees < 0.01 ? 1u : 0u) << n << " " << degrees;
+      for (float& component : s.light.position) component = std::nextafter(component, n % 2 == 0 ? 2.0f : 0.0f);  // rounded another way
+      s.light.spot_cutoff = 0;
+      EXPECT_EQ(s.plan().terms.size(), degrees == 0 ? 1u : 0u) << n << " " << degrees;
     }
   }
+}
+
+// The engine's directions are unit vectors of floats: these are at their cones' very edges before they are rounded, and do not go out.
+TEST(Effects, DirectionalLightsShineAtTheEdgesOfTheirCones) {
+  Scene s;
+  s.light.directional = true;
+  int edges = 0;
+  const auto set_unit = [](std::array<float, 3>& to, int x, int y, int z, int sign) {
+    const double length = std::sqrt(double{1} * (x * x + y * y + z * z));
+    to = {static_cast<float>(sign * x / length), static_cast<float>(sign * y / length), static_cast<float>(sign * z / length)};
+  };
+  for (int n = 0; n < 5 * 5 * 5 * 5; ++n) {
+    const int x = n % 5 + 1, y = n / 5 % 5, u = n / 25 % 5 + 1, v = n / 125 % 5;
+    const int dot = x * u + y * v, squares = (x * x + y * y) * (u * u + v * v);
+    set_unit(s.light.position, x, y, 0, 1);
+    set_unit(s.light.spot_direction, u, v, 0, -1);
+    if (dot * dot * 2 != squares) continue;  // 45 degrees
+    ++edges;
+    s.light.spot_cutoff = 45;
+    EXPECT_EQ(s.plan().terms.size(), 1u) << x << " " << y << ", " << u << " " << v;
+    s.light.spot_cutoff = 44.9999f;
+    EXPECT_EQ(s.plan().terms.size(), 0u) << x << " " << y << ", " << u << " " << v;
+  }
+  EXPECT_GT(edges, 30);
 }
 
 TEST(Effects, TrackedColorsStandForTheMaterialsOwn) {

@@ -30,6 +30,28 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
   }
 }
 
+// Squares of distances from 2^64 on are no floats: attenuation is that of the largest ones, and a million only where its denominator is not positive.
+TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
+  struct Row {
+    std::array<float, 3> attenuation;
+    double factor;
+  };
+  for (const float distance : {1e19f, 1e20f, 1e30f, std::numeric_limits<float>::max(), std::numeric_limits<float>::infinity()})
+    for (const Row& row : {Row{{2, 0, 0}, 0.5}, Row{{1, 0.1f, 0}, 0}, Row{{1, 0, 0.1f}, 0}, Row{{4, 1e-45f, 0}, 0.25}, Row{{-1, 0, 0}, 1e6}, Row{{1, -1, 0}, 1e6}, Row{{1, 0, -1}, 1e6}}) {
+      Special s;
+      s.light().ambient = s.light().diffuse = s.light().specular = {0, 0, 0};
+      s.light().ambient[1] = row.factor > 1 ? 1e-6f : 1.0f;
+      s.light().position = {0, 0, 1};
+      s.light().attenuation = row.attenuation;
+      s.c.material.ambient = {0, 0.5f, 0};
+      for (LightingPoint& p : s.points) p.position = {distance, 0, -2};
+      for (const Isa isa : available_isas())
+        EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1], 0.2 * 0.5 + 0.5 * s.light().ambient[1] * row.factor, 1e-5)
+            << name_of(isa) << ", distance " << distance << ", attenuation " << row.attenuation[0] << " " << row.attenuation[1] << " " << row.attenuation[2];
+      expect_same_bits(s.c.program(), s.points);
+    }
+}
+
 /// A light that brings more than any number, or one of whose factors is more.
 struct EndlessLight {
   const char* name;

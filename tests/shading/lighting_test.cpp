@@ -65,6 +65,34 @@ TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
     if (HasFatalFailure()) return;
   }
 }
+// On both sides of the edge of cones that are wider and narrower than kNarrowCone.
+TEST(Lighting, OfNarrowConesHasTheBitsOfItsTwin) {
+  RandomLighting random(7);
+  int inside = 0, outside = 0;
+  for (int round = 0; round < rounds(200); ++round) {
+    LightingCase c = random.next();
+    c.lights = {random.light(round % 2 == 0 ? LightKind::spot : LightKind::attenuated_spot)};
+    EyeLight& l = c.lights[0];
+    constexpr float kCutoffs[] = {0, 1e-4f, 0.01f, 0.3f, 0.99f, 1, 1.5f};
+    l.spot_cutoff = kCutoffs[static_cast<std::size_t>(round % 7)];
+    l.spot_direction = random.direction();
+    l.ambient = {0.5f, 0.5f, 0.5f}, c.material.ambient = {1, 1, 1}, c.tracked = {};
+    std::vector<LightingPoint> points(kBatchPoints);
+    for (LightingPoint& p : points) {
+      p = random.point();
+      const std::array<float, 3> aside = random.direction();
+      const float reach = random.in(0, 2.5) * std::max(l.spot_cutoff, 1e-6f) * 0.017453f, distance = random.in(0.1, 50);
+      for (std::size_t k = 0; k < 3; ++k) p.position[k] = l.position[k] + distance * (l.spot_direction[k] + reach * aside[k]);
+    }
+    expect_same_bits(c.program(), points);
+    if (HasFatalFailure()) return;
+    LightingProgram ambient_alone = c.program();
+    ambient_alone.base = {0, 0, 0};
+    ambient_alone.terms[0].diffuse = ambient_alone.terms[0].specular = {0, 0, 0};
+    for (const Rgb& color : light(ambient_alone, points, available_isas().front())) (color[0] > 0 ? inside : outside) += 1;
+  }
+  EXPECT_TRUE(inside > 2000 && outside > 2000) << inside << " " << outside;
+}
 
 // Indices: negative, wrapping, with and without highlights; programs of no, one and many lights.
 TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
