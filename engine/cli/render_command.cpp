@@ -43,13 +43,15 @@ class Input {
       files_ = file_->files();
     } else {
       const FrameBufferFormat standard;
-      scene_ = model_scene(import_model(request.input, ModelUse::display, go_on), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
-      files_ = {request.input};
+      Model model = import_model(request.input, ModelUse::display, go_on);
+      files_ = {model.files.begin(), model.files.end()};
+      files_.insert(request.input);
+      scene_ = model_scene(std::move(model), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
     }
     apply(overrides_, scene_);
   }
   const Scene& scene() const { return scene_; }
-  /// That it was read from.
+  /// That it was read from, and those that models refer to.
   const std::set<std::string>& files() const { return files_; }
   /// The scene becomes that of a time, 0 .. 1.
   void move_to(double time) {
@@ -85,17 +87,19 @@ void print_explanations(const Scene& scene, const Frame& frame) {
   }
 }
 
+std::string plane_path(const fs::path& folder, Buffer which, int k) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%s_%02d.pbm", buffer_name(which), k);
+  return (folder / name).string();
+}
+
 // Buffers that the format has but the frame never touched hold what new buffers hold.
 void write_planes(const FrameBuffer& buffer, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error("cannot make the folder \"" + folder.string() + "\": " + error.message());
   for (const Buffer which : kBuffers)
-    for (int k = 0; k < buffer.plane_count(which); ++k) {
-      char name[32];
-      std::snprintf(name, sizeof name, "%s_%02d.pbm", buffer_name(which), k);
-      write_plane(buffer.plane(which, k), (folder / name).string());
-    }
+    for (int k = 0; k < buffer.plane_count(which); ++k) write_plane(buffer.plane(which, k), plane_path(folder, which, k));
 }
 
 /// Frames of at most 8 bits a pixel are PNG files of that many bits.
@@ -170,19 +174,26 @@ std::optional<FileId> file_id(const std::string& path) {
   return FileId(status.st_dev, status.st_ino);
 }
 
-// No picture takes the place of what is read.
-void check_frames(const RenderRequest& request, const std::string& path, const std::set<std::string>& files) {
+// No picture and no plane takes the place of what is read. (An animation may change how many planes there are.)
+void check_files(const RenderRequest& request, const std::string& picture, const std::set<std::string>& files) {
+  constexpr int kMostPlanes = 128;  // of accumulation: four components of 32 bits
   std::optional<FileId> reference;
   if (!request.reference.empty()) reference = file_id(request.reference);
   std::set<FileId> inputs;
   for (const std::string& file : files)
     if (const auto id = file_id(file)) inputs.insert(*id);
-  for (int f = 0; f < request.frames; ++f) {
-    const std::string name = frame_path(path, f, request.frames);
+  const auto check = [&](const std::string& name, const char* instead) {
     const std::optional<FileId> id = file_id(name);
-    if (!id) continue;
-    if (id == reference) throw Error("\"" + name + "\" is the reference itself; name another file with -o");
-    if (inputs.contains(*id)) throw Error("\"" + name + "\" is read for the picture; name another file with -o");
+    if (!id) return;
+    if (id == reference) throw Error("\"" + name + "\" is the reference itself; name another " + instead);
+    if (inputs.contains(*id)) throw Error("\"" + name + "\" is read for the picture; name another " + instead);
+  };
+  for (int f = 0; f < request.frames; ++f) {
+    if (!picture.empty()) check(frame_path(picture, f, request.frames), "file with -o");
+    const std::string folder = frame_path(request.planes_folder, f, request.frames);
+    if (folder.empty() || !file_id(folder)) continue;
+    for (const Buffer which : kBuffers)
+      for (int k = 0; k < kMostPlanes; ++k) check(plane_path(folder, which, k), "folder with --planes");
   }
 }
 
@@ -202,7 +213,7 @@ void check_outputs(const RenderRequest& request, const std::string& path, const 
     if (!found.empty()) throw Error(found + " and " + rival + " cannot both go to the standard output");
     found = rival;
   }
-  if (!to_stdout) check_frames(request, path, files);
+  check_files(request, to_stdout ? "" : path, files);
 }
 
 }  // namespace

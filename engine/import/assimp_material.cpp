@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -92,6 +94,18 @@ Material material_of(const aiMaterial& from) {
 bool wants_texture(const aiMaterial& from) {
   constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR, aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
   return std::any_of(std::begin(kColors), std::end(kColors), [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
+}
+
+std::vector<std::string> textures_of(const aiMaterial& from) {
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < from.mNumProperties; ++i) {
+    const aiMaterialProperty& property = *from.mProperties[i];
+    std::uint32_t length = 0;  // what stands before the characters; a zero stands behind them
+    if (property.mType != aiPTI_String || property.mDataLength <= sizeof length || std::string_view(property.mKey.C_Str()) != _AI_MATKEY_TEXTURE_BASE) continue;
+    std::memcpy(&length, property.mData, sizeof length);
+    names.emplace_back(property.mData + sizeof length, std::min<std::size_t>(length, property.mDataLength - sizeof length - 1));
+  }
+  return names;
 }
 
 bool wants_transparency(const aiMaterial& from) {

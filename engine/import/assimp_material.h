@@ -7,6 +7,9 @@
 // Ambient colours that a format does not know (black, or what assimp's readers put there) are the diffuse ones.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <assimp/material.h>
 
 #include "engine/tessera/tessera.hpp"
@@ -17,6 +20,8 @@ Material material_of(const aiMaterial& from);
 
 /// Whether its colours are meant to come from a picture.
 bool wants_texture(const aiMaterial& from);
+/// The names of all its pictures, whatever they are for.
+std::vector<std::string> textures_of(const aiMaterial& from);
 /// Whether something is meant to be seen through it.
 bool wants_transparency(const aiMaterial& from);
 

@@ -48,6 +48,9 @@ class Converter {
       transparent += wants_transparency(*scene_.mMaterials[material]) ? 1 : 0;
     }
     if (model_.parts.empty()) throw Error(std::string(kHoldsNoTriangle));
+    for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
+      for (const std::string& name : textures_of(*scene_.mMaterials[m]))
+        if (scene_.GetEmbeddedTexture(name.c_str()) == nullptr) model_.files.push_back(name);
     if (textures > 0) model_.warnings.push_back("textures of models are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
     if (transparent > 0) model_.warnings.push_back("transparency is not supported: materials with it, " + std::to_string(transparent) + " here, are drawn opaque");
     return std::move(model_);

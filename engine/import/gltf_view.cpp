@@ -1,6 +1,7 @@
 #include "engine/import/gltf_view.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -150,6 +151,29 @@ class ViewReader {
   bool is_told_ = false;
 };
 
+// "%20" is a space.
+std::string decoded(const std::string& uri) {
+  std::string name;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const char* const digits = uri.data() + i + 1;
+    unsigned byte = 0;
+    const bool is_coded = uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    name += is_coded ? static_cast<char>(byte) : uri[i];
+    if (is_coded) i += 2;
+  }
+  return name;
+}
+
+void add_files(const Json& file, Model& model) {
+  for (const char* list : {"buffers", "images"}) {
+    if (!file.contains(list)) continue;
+    for (const Json& entry : file.at(list)) {
+      const auto* const uri = entry.contains("uri") ? entry.at("uri").get_ptr<const std::string*>() : nullptr;
+      if (uri != nullptr && !uri->starts_with("data:")) model.files.push_back(decoded(*uri));
+    }
+  }
+}
+
 }  // namespace
 
 bool add_gltf_view(const std::string& path, Model& model) {
@@ -163,6 +187,7 @@ bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   if (!file.contains(place)) return false;
   const Json& version = file.at(place);
   if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2")) return false;
+  add_files(file, model);
   const auto warn = [&model](const std::exception& error) { model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what())); };
   try {
     ViewReader(file, model).read();

@@ -1,4 +1,5 @@
-// Cameras and lights of glTF 2 files, read from their JSON: assimp keeps only one node of those that share one, and other angles.
+// Cameras, lights and names of other files of glTF 2 files, read from their JSON: assimp keeps only one node of those that share one, other angles, and
+// names of pictures only, of materials that are used, as URIs.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace tessera {
 
-/// Adds those of the default scene to the model. Lights (KHR_lights_punctual) are given in physical units:
+/// Adds those of the default scene, and buffers and pictures that are files, to the model. Lights (KHR_lights_punctual) are given in physical units:
 ///   diffuse = specular = color x intensity / pi       which a white surface sends back of them
 ///   attenuation 1 / d^2 of points and spots           d in metres
 ///   spot: the cutoff is the outer angle; the exponent halves the light where glTF's ramp between both angles does

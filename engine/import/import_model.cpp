@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "engine/import/child_process.h"
@@ -36,6 +37,20 @@ std::string import_by_module(const std::string& path) {
   }
 }
 
+// Where files may be that a model's file names: a backslash mostly is a slash, and Blender's "//" is the folder of the model.
+std::vector<std::string> paths_of(const std::vector<std::string>& names, const fs::path& folder) {
+  constexpr std::size_t kMostPaths = 100000, kLongestName = 4096;
+  std::set<std::string> paths;
+  for (std::string name : names) {
+    if (name.empty() || name.size() > kLongestName || paths.size() >= kMostPaths) continue;
+    paths.insert((folder / name).string());
+    std::replace(name.begin(), name.end(), '\\', '/');
+    paths.insert((folder / name).string());
+    if (name.starts_with("//")) paths.insert((folder / name.substr(2)).string());
+  }
+  return {paths.begin(), paths.end()};
+}
+
 }  // namespace
 
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& go_on) {
@@ -51,6 +66,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
       if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
       wind_by_normals(model.mesh);
     }
+    model.files = paths_of(model.files, fs::path(path).parent_path());
     return to_bytes(model);
   };
   return model_from_bytes(run_in_child("reading \"" + path + "\"", {.go_on = go_on}, read), path);

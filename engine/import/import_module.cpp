@@ -54,6 +54,7 @@ Model read(const std::string& path) {
   if (is_gltf2) {
     model.cameras = std::move(view.cameras);
     model.lights = std::move(view.lights);
+    model.files.insert(model.files.end(), view.files.begin(), view.files.end());
     model.warnings.insert(model.warnings.end(), view.warnings.begin(), view.warnings.end());
   }
   for (std::string& warning : model.warnings) warning = path + ": " + warning;
@@ -86,7 +87,7 @@ int answer(const Work& work, tessera_import_take_function* take, void* user, cha
 }  // namespace
 }  // namespace tessera
 
-extern "C" TESSERA_API int tessera_import_1(const char* path, tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
+extern "C" TESSERA_API int tessera_import_2(const char* path, tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
   return tessera::answer([&] { return tessera::to_bytes(tessera::read(path)); }, take, user, message, message_size);
 }
 

@@ -20,7 +20,7 @@ typedef int tessera_import_function(const char* path, tessera_import_take_functi
 typedef int tessera_import_formats_function(tessera_import_take_function* take, void* user, char* message, size_t message_size);
 
 /* The numbers change with the signatures, and with what the bytes are. */
-#define TESSERA_IMPORT_NAME "tessera_import_1"
+#define TESSERA_IMPORT_NAME "tessera_import_2"
 #define TESSERA_IMPORT_FORMATS_NAME "tessera_import_formats_1"
 #define TESSERA_IMPORT_FILE_NAME "libtessera_import.so." TESSERA_SOVERSION
 

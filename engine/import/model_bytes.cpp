@@ -165,6 +165,7 @@ void members(Stream& stream, Either<Model> auto& model) {
   stream(model.cameras);
   stream(model.lights);
   stream(model.ambient_light);
+  stream(model.files);
 }
 
 bool is_sound(const Model& model) {

@@ -17,11 +17,28 @@
 namespace tessera {
 namespace {
 
+// The textures that a material file names. (tinyobjloader keeps one of each kind; a cube of reflections has six.)
+std::set<std::string> textures_of(const std::string& mtl) {
+  std::set<std::string> names;
+  std::istringstream lines(mtl);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream stream(line.substr(0, line.find_last_not_of(" \t") + 1));
+    std::string keyword, rest, name;
+    std::getline(stream >> keyword >> std::ws, rest);
+    const bool is_texture = keyword.starts_with("map_") || keyword == "bump" || keyword == "disp" || keyword == "refl" || keyword == "norm" || keyword == "decal";
+    tinyobj::texture_option_t options{};
+    if (is_texture && tinyobj::ParseTextureNameAndOption(&name, &options, rest.c_str())) names.insert(name);
+  }
+  return names;
+}
+
 // Finds material files beside the model; one that is missing is a warning.
 class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
 
+  /// Those and their textures, by their names from the model's folder.
+  const std::set<std::string>& names() const { return names_; }
   MtlGiven given(const std::string& material) const {
     const auto found = given_.find(material);
     return found == given_.end() ? MtlGiven{} : found->second;
@@ -42,6 +59,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
  private:
   bool read(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning, std::string* error) {
     const std::string path = (std::filesystem::path(folder_) / name).string();
+    names_.insert(name);
     std::string text;
     try {
       refuse_endless_file(path);
@@ -53,6 +71,10 @@ class MaterialFiles : public tinyobj::MaterialReader {
     std::vector<std::string> warnings;
     text = normalized_mtl(text, path, warnings);
     given_.merge(check_mtl(text, path));
+    for (const std::string& texture : textures_of(text)) {
+      names_.insert(texture);
+      names_.insert((std::filesystem::path(name).parent_path() / texture).string());  // programs differ in where they look
+    }
     std::istringstream stream(text);
     std::string more;  // LoadMtl overwrites what stands there
     tinyobj::LoadMtl(by_name, materials, &stream, &more, error);
@@ -62,6 +84,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
   }
 
   std::string folder_;
+  std::set<std::string> names_;
   std::map<std::string, MtlGiven, std::less<>> given_;
 };
 
@@ -82,7 +105,7 @@ struct Obj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, files;
 };
 
 // One warning a line, each once.
@@ -111,6 +134,7 @@ Obj load(const std::string& path) {
   }
   for (tinyobj::material_t& material : obj.materials) fill_in(material, material_files.given(material.name), warning);
   obj.warnings = warning_lines(warning, path);
+  obj.files.assign(material_files.names().begin(), material_files.names().end());
   return obj;
 }
 
@@ -173,7 +197,7 @@ Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::str
 
 Model import_obj(const std::string& path) {
   Obj obj = load(path);
-  Model model{.warnings = std::move(obj.warnings)};
+  Model model{.warnings = std::move(obj.warnings), .files = std::move(obj.files)};
 
   std::size_t corners = 0, corners_with_normal = 0, corners_with_texcoord = 0;
   const auto texcoords = static_cast<std::int64_t>(obj.attributes.texcoords.size() / 2);

@@ -29,8 +29,10 @@ MeshData read_file(const Value& value, const std::string& base_folder, ModelCach
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
   cache.files.insert(path.string());
   auto model = cache.models.find(path.string());
-  if (model == cache.models.end())
+  if (model == cache.models.end()) {
     model = cache.models.emplace(path.string(), file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.go_on); })).first;
+    cache.files.insert(model->second.files.begin(), model->second.files.end());
+  }
   scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
   return model->second.mesh;
 }

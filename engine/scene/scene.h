@@ -88,7 +88,7 @@ class SceneFile {
   Scene at(double time);
   /// Some number changes over time.
   bool is_animated() const;
-  /// The files that scenes so far were read from: this one, images and models, without what models refer to.
+  /// The files that scenes so far were read from: this one, images, models, and what models refer to, found or not.
   const std::set<std::string>& files() const;
 
  private:

@@ -56,6 +56,7 @@ Model small_model() {
   model.cameras = {{.view = translate(1, 2, 3), .is_orthographic = true, .half_height = 30, .far = 7}};
   model.lights = {Light{.diffuse = {5, 6, 7, 8}, .position = {9, 8, 7, 6}, .spot_direction = {1, 2, 4}, .spot_cutoff = 12, .attenuation_quadratic = 2}};
   model.ambient_light = Color{4, 3, 2, 1};
+  model.files = {"a.png", "", "b c.mtl"};
   return model;
 }
 
@@ -75,6 +76,7 @@ TEST(ModelBytes, ComeBackAsTheModelTheyWere) {
   EXPECT_EQ(back.lights.at(0).position, (std::array<float, 4>{9, 8, 7, 6}));
   EXPECT_EQ(back.lights.at(0).attenuation_quadratic, 2);
   EXPECT_EQ(back.ambient_light->g, 3);
+  EXPECT_EQ(back.files, small_model().files);
 }
 
 TEST(ModelBytes, OfABrokenProcessAreRefused) {

@@ -131,6 +131,17 @@ TEST_F(GltfImport, MaterialsByTheRule) {
   EXPECT_FLOAT_EQ(unlit.diffuse.g, 0);
 }
 
+// What stands in the file itself is none. A name with a %20 may also be just that.
+TEST_F(GltfImport, TellsWhatTheModelRefersTo) {
+  const Model model = imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "images": [{"uri": "sub/base.png"}, {"uri": "a%20normal.png"}, {"uri": "data:image/png;base64,AAAA"}, {"uri": "back\\slash.png"}, {"uri": "unused.png"}, {"uri": 3}, {"uri": ""}, 4, {"uri": "%4"}],
+    "textures": [{"source": 0}, {"source": 1}, {"source": 2}, {"source": 3}, {"source": 4}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}, "emissiveTexture": {"index": 2}}, {"occlusionTexture": {"index": 3}}, {"emissiveTexture": {"index": 4}}])");
+  std::vector<std::string> expected;
+  for (const char* name : {"%4", "a normal.png", "a%20normal.png", "back/slash.png", "back\\slash.png", "sub/base.png", "t.bin", "unused.png"}) expected.push_back((folder_ / name).string());
+  EXPECT_EQ(model.files, expected);
+}
+
 TEST_F(GltfImport, PicturesThatAreLeftOutAreTold) {
   const Model model = imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "textures": [{"source": 0}], "images": [{"uri": "none.png"}],
     "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "alphaMode": "BLEND"}])");

@@ -159,6 +159,23 @@ TEST_F(ObjImport, AMissingMaterialFileIsAWarning) {
   EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.r, 0.8f);
 }
 
+// Each of them once, in order; what is not there costs nothing.
+TEST_F(ObjImport, TellsWhatTheModelRefersTo) {
+  std::filesystem::create_directories(folder_ / "more");
+  write("a.mtl", "map_Kd before.png\nnewmtl a\nmap_Kd a b.png \nbump -bm 0.5 sub\\bump.png\nrefl -type cube_top -mm 0 1 top.png\nrefl -type cube_left left.png\nmap_RMA rma.png\nmap_Kd\nKd 1 0 0\nnewmtl b\n"
+                 "\tmap_Kd a b.png\r\nnorm /n.png\nmap_d //blend.png\nmap_Ks " + std::string(5000, 'x') + "\n");
+  write("more/b.mtl", "newmtl c\ndecal c.png\n");
+  const Model model = import_model(write("m.obj", "mtllib a.mtl\nmtllib nowhere.mtl\nmtllib more/b.mtl\n" + std::string(kTriangle) + "f 1 2 3\n"));
+  std::vector<std::string> expected = {"//blend.png", "/n.png"};
+  for (const char* name : {"a b.png", "a.mtl", "before.png", "blend.png", "c.png", "left.png", "more/b.mtl", "more/c.png", "nowhere.mtl", "rma.png", "sub/bump.png", "sub\\bump.png", "top.png"}) expected.push_back((folder_ / name).string());
+  EXPECT_EQ(model.files, expected);
+
+  std::string many;
+  for (int i = 0; i < 120000; ++i) many += "map_Kd " + std::to_string(i) + "\n";
+  write("many.mtl", many);
+  EXPECT_EQ(import_model(write("many.obj", "mtllib many.mtl\n" + std::string(kTriangle) + "f 1 2 3\n")).files.size(), 100000u) << "are enough";
+}
+
 TEST_F(ObjImport, AMaterialFileWhoseNameIsTooLongIsAWarning) {
   const Model model = import_model(write("long.obj", "mtllib " + std::string(300, 'x') + " y.mtl\n" + std::string(kTriangle) + "f 1 2 3\n"));
   EXPECT_EQ(model.mesh.indices.size(), 3u);

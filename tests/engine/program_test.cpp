@@ -284,6 +284,41 @@ TEST_F(Program, NoPictureTakesThePlaceOfWhatIsRead) {
   EXPECT_EQ(run("render pot.json -o other.png").code, 0);
 }
 
+TEST_F(Program, NoPictureTakesThePlaceOfWhatAModelRefersTo) {
+  ASSERT_EQ(run("render --size 8x8 -o pot.png").code, 0);
+  const std::string texture = content("pot.png");
+  write("pot.mtl", "newmtl a\nmap_Kd pot.png\nmap_Ks nowhere.png\n");
+  write("pot.obj", "mtllib pot.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  write("pot.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"normalTexture": {"index": 0}}], "textures": [{"source": 0}], "images": [{"uri": "pot.png"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  write("pot.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}, "meshes": {"pot": {"file": "pot.obj"}}})");
+  for (const std::string input : {"pot.obj", "pot.gltf", "pot.json"}) {
+    const Result result = run("render " + input);
+    EXPECT_EQ(result.code, 1) << input;
+    EXPECT_TRUE(result.err.ends_with("tessera: error: \"pot.png\" is read for the picture; name another file with -o\n")) << input << "\n" << result.err;
+    EXPECT_TRUE(content("pot.png") == texture) << input;
+    EXPECT_EQ(run("render " + input + " -o nowhere.png").code, 0) << input << ": what is not there stops nothing";
+    fs::remove(folder_ / "nowhere.png");
+  }
+}
+
+TEST_F(Program, NoPlaneTakesThePlaceOfWhatIsRead) {
+  ASSERT_EQ(run("render --size 8x8 -o picture.ppm --planes planes").code, 0);
+  const std::string color = content("planes/color_03.pbm"), stencil = content("planes/stencil_00.pbm");
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}, "textures": {"t": {"file": "planes/color_03.pbm"}}})");
+  const Result texture = run("render s.json -o - --planes ./planes"), reference = run("render --size 8x8 -o a.ppm --planes planes --compare planes/stencil_00.pbm");
+  EXPECT_EQ(texture.code, 1);
+  EXPECT_EQ(texture.err, "tessera: error: \"./planes/color_03.pbm\" is read for the picture; name another folder with --planes\n");
+  EXPECT_EQ(reference.code, 1);
+  EXPECT_EQ(reference.err, "tessera: error: \"planes/stencil_00.pbm\" is the reference itself; name another folder with --planes\n");
+  EXPECT_TRUE(content("planes/color_03.pbm") == color && content("planes/stencil_00.pbm") == stencil) << "untouched";
+  EXPECT_FALSE(exists("a.ppm")) << "nothing is rendered";
+  EXPECT_EQ(run("render s.json -o - --planes other").code, 0);
+  EXPECT_TRUE(exists("other/color_03.pbm"));
+}
+
 TEST_F(Program, NoFrameTakesThePlaceOfTheReference) {
   ASSERT_EQ(run("render --size 8x8 -o f_0001.ppm").code, 0);
   const std::string before = content("f_0001.ppm");
