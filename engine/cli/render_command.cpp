@@ -174,26 +174,32 @@ std::optional<FileId> file_id(const std::string& path) {
   return FileId(status.st_dev, status.st_ino);
 }
 
-// No picture and no plane takes the place of what is read. (An animation may change how many planes there are.)
+// No picture and no plane takes the place of what is read or referred to, and none that got no name that of a file from elsewhere: importers do not understand
+// every reference of every format. (An animation may change how many planes there are.)
 void check_files(const RenderRequest& request, const std::string& picture, const std::set<std::string>& files) {
   constexpr int kMostPlanes = 128;  // of accumulation: four components of 32 bits
+  std::error_code error;  // what cannot be looked at is told by whoever writes it
   std::optional<FileId> reference;
   if (!request.reference.empty()) reference = file_id(request.reference);
   std::set<FileId> inputs;
   for (const std::string& file : files)
     if (const auto id = file_id(file)) inputs.insert(*id);
-  const auto check = [&](const std::string& name, const char* instead) {
-    const std::optional<FileId> id = file_id(name);
+  const auto check = [&](const std::string& name, const std::string& reached, const char* instead) {
+    const std::optional<FileId> id = file_id(reached);
     if (!id) return;
     if (id == reference) throw Error("\"" + name + "\" is the reference itself; name another " + instead);
-    if (inputs.contains(*id)) throw Error("\"" + name + "\" is read for the picture; name another " + instead);
+    if (inputs.contains(*id)) throw Error("\"" + name + "\" is one of the input's own files; name another " + instead);
   };
   for (int f = 0; f < request.frames; ++f) {
-    if (!picture.empty()) check(frame_path(picture, f, request.frames), "file with -o");
+    const std::string file = picture.empty() ? "" : frame_path(picture, f, request.frames);
+    if (!file.empty()) check(file, file, "file with -o");
+    if (request.output.path.empty() && fs::is_regular_file(file, error) && !is_own_png(file))
+      throw Error("\"" + file + "\" is there already, and is no picture of Tessera's; name it with -o to replace it");
     const std::string folder = frame_path(request.planes_folder, f, request.frames);
-    if (folder.empty() || !file_id(folder)) continue;
+    const fs::path reached = fs::weakly_canonical(folder, error);  // once it is made
+    if (folder.empty() || !file_id(reached.string())) continue;
     for (const Buffer which : kBuffers)
-      for (int k = 0; k < kMostPlanes; ++k) check(plane_path(folder, which, k), "folder with --planes");
+      for (int k = 0; k < kMostPlanes; ++k) check(plane_path(folder, which, k), plane_path(reached, which, k), "folder with --planes");
   }
 }
 

@@ -6,6 +6,8 @@
 
 #include <png.h>
 
+#include "engine/imageio/module_interface.h"
+
 namespace tessera {
 namespace {
 
@@ -37,6 +39,12 @@ void write(png_structp png, png_infop info, const unsigned char* indices, int wi
     for (int i = 0; i < entries; ++i) colors[i] = {palette[3 * i], palette[3 * i + 1], palette[3 * i + 2]};
     png_set_PLTE(png, info, colors, entries);
   }
+  char keyword[] = "Software", software[] = TESSERA_IMAGEIO_SOFTWARE;
+  png_text text{};
+  text.compression = PNG_TEXT_COMPRESSION_NONE;
+  text.key = keyword;
+  text.text = software;
+  png_set_text(png, info, &text, 1);
   png_write_info(png, info);
   const int per_byte = 8 / bits;
   for (int y = 0; y < height; ++y) {

@@ -38,6 +38,7 @@ Bytes encode(const std::string& ending, const unsigned char* rgba, int width, in
   if (!output->supports("ioproxy") || !output->set_ioproxy(&memory)) throw Failure{"OpenImageIO cannot encode " + ending + " in memory"};
   constexpr int kChannels = 3;
   OIIO::ImageSpec spec(width, height, kChannels, OIIO::TypeDesc::UINT8);
+  spec.attribute("Software", TESSERA_IMAGEIO_SOFTWARE);
   spec.attribute("png:compressionLevel", compression >= 0 ? compression : kPngCompression);
   const bool is_encoded = output->open("picture" + ending, spec) && output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) && output->close();
   if (!is_encoded) throw Failure{"OpenImageIO: " + output->geterror()};

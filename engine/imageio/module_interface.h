@@ -32,6 +32,9 @@ typedef int tessera_imageio_decode_function(const char* ending, const unsigned c
 /* The endings of the formats that can be written, with commas between. */
 typedef int tessera_imageio_formats_function(tessera_imageio_take_function* take, void* user, char* message, size_t message_size);
 
+/* Every PNG that is encoded says that this is its "Software", before its pixels. */
+#define TESSERA_IMAGEIO_SOFTWARE "Tessera"
+
 /* The numbers change with the signatures. */
 #define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_2"
 #define TESSERA_IMAGEIO_ENCODE_INDEXED_NAME "tessera_imageio_encode_indexed_1"

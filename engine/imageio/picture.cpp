@@ -4,8 +4,11 @@
 #include <bit>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
 #include "engine/imageio/atomic_file.h"
+#include "engine/imageio/module_interface.h"
 #include "engine/imageio/module_loader.h"
 #include "engine/scene/file_ending.h"
 #include "engine/scene/text_file.h"
@@ -122,6 +125,13 @@ Picture read_picture(const std::string& path) {
 
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression) {
   write_file_atomically(path, encoded_for(path, [&] { return encode_indexed_by_module(picture, compression); }));
+}
+
+bool is_own_png(const std::string& path) {
+  constexpr std::string_view kChunk("tEXtSoftware\0" TESSERA_IMAGEIO_SOFTWARE, 13 + sizeof TESSERA_IMAGEIO_SOFTWARE - 1);
+  std::string head(2048, '\0');  // has room for the longest palette and all that stands before the chunk
+  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find(kChunk) != head.npos;
 }
 
 void write_picture(const Picture& picture, const std::string& path, int compression) { write_file_atomically(path, encode_picture(picture, path, compression)); }

@@ -1,5 +1,5 @@
-// Cameras, lights and names of other files of glTF 2 files, read from their JSON: assimp keeps only one node of those that share one, other angles, and
-// names of pictures only, of materials that are used, as URIs.
+// Cameras, lights and names of other files of glTF 2 files, read from their JSON. Assimp keeps only one of the nodes that share a camera or light, and gives
+// other angles; of other files it tells only the pictures of materials that are used, as URIs.
 #pragma once
 
 #include <string>

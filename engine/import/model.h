@@ -31,7 +31,7 @@ struct Model {
   MeshData mesh;                         ///< all parts, indexed; colours and texture coordinates if the file has some
   std::vector<ModelPart> parts;          ///< in the order of first use; never empty
   std::vector<std::string> warnings;     ///< a material file that is missing, ...; one line each
-  std::vector<std::string> files;        ///< that it refers to, found or not: paths of material files and textures
+  std::vector<std::string> files;        ///< where those may be that it refers to (materials, buffers, textures), as far as the importers understand it
   std::vector<ModelCamera> cameras;
   std::vector<Light> lights;             ///< world space
   std::optional<Color> ambient_light;

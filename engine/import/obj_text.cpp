@@ -47,6 +47,14 @@ std::string named(std::string_view keyword, std::string_view name) {
   return line;
 }
 
+// Of paths of Windows. (A backslash before a space keeps it in the name, for some.)
+std::string with_slashes(std::string_view path) {
+  std::string result(path);
+  for (std::size_t i = 0; i + 1 < result.size(); ++i)
+    if (result[i] == '\\' && result[i + 1] != ' ') result[i] = '/';
+  return result;
+}
+
 // Of "2.0", too, and of what stands behind a space.
 bool begins_with_int(std::string_view text) {
   text = text.substr(0, text.find_first_of(kSpaces));
@@ -62,8 +70,9 @@ bool begins_with_int(std::string_view text) {
 std::string normalized_obj(const std::string& text) {
   return edit_lines(text, [](std::string_view keyword, std::string_view arguments) -> std::string {
     if (keyword == "vw" || keyword == "l" || keyword == "p" || keyword == "t") return "#";
-    const bool is_name = keyword == "usemtl" || keyword == "mtllib";
-    return is_name && arguments.find(' ') != arguments.npos ? named(keyword, arguments) : std::string();
+    if (keyword == "usemtl" && arguments.find(' ') != arguments.npos) return named(keyword, arguments);
+    if (keyword == "mtllib" && arguments.find_first_of(" \\") != arguments.npos) return named(keyword, with_slashes(arguments));
+    return {};
   });
 }
 

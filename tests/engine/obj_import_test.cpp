@@ -176,6 +176,16 @@ TEST_F(ObjImport, TellsWhatTheModelRefersTo) {
   EXPECT_EQ(import_model(write("many.obj", "mtllib many.mtl\n" + std::string(kTriangle) + "f 1 2 3\n")).files.size(), 100000u) << "are enough";
 }
 
+TEST_F(ObjImport, MaterialFilesOfWindows) {
+  std::filesystem::create_directories(folder_ / "sub");
+  write("sub/a b.mtl", "newmtl red\nKd 1 0 0\n");
+  for (const std::string name : {"sub\\a b.mtl", ".\\sub\\a b.mtl", "sub\\a\\ b.mtl"}) {
+    const Model model = import_model(write("w.obj", "mtllib " + name + "\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n"));
+    EXPECT_TRUE(model.warnings.empty()) << name << ": " << model.warnings.at(0);
+    EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.g, 0) << name;
+  }
+}
+
 TEST_F(ObjImport, AMaterialFileWhoseNameIsTooLongIsAWarning) {
   const Model model = import_model(write("long.obj", "mtllib " + std::string(300, 'x') + " y.mtl\n" + std::string(kTriangle) + "f 1 2 3\n"));
   EXPECT_EQ(model.mesh.indices.size(), 3u);

@@ -277,7 +277,7 @@ TEST_F(Program, NoPictureTakesThePlaceOfWhatIsRead) {
   for (const auto& [options, file] : kRefused) {
     const Result result = run("render pot.json " + std::string(options));
     EXPECT_EQ(result.code, 1) << options;
-    EXPECT_EQ(result.err, "tessera: error: \"" + std::string(file) + "\" is read for the picture; name another file with -o\n") << options;
+    EXPECT_EQ(result.err, "tessera: error: \"" + std::string(file) + "\" is one of the input's own files; name another file with -o\n") << options;
   }
   EXPECT_FALSE(exists("pot_0000.ppm")) << "nothing is rendered";
   EXPECT_TRUE(content("pot.png") == texture && content("pot_0001.ppm") == image) << "untouched";
@@ -297,11 +297,26 @@ TEST_F(Program, NoPictureTakesThePlaceOfWhatAModelRefersTo) {
   for (const std::string input : {"pot.obj", "pot.gltf", "pot.json"}) {
     const Result result = run("render " + input);
     EXPECT_EQ(result.code, 1) << input;
-    EXPECT_TRUE(result.err.ends_with("tessera: error: \"pot.png\" is read for the picture; name another file with -o\n")) << input << "\n" << result.err;
+    EXPECT_TRUE(result.err.ends_with("tessera: error: \"pot.png\" is one of the input's own files; name another file with -o\n")) << input << "\n" << result.err;
     EXPECT_TRUE(content("pot.png") == texture) << input;
     EXPECT_EQ(run("render " + input + " -o nowhere.png").code, 0) << input << ": what is not there stops nothing";
     fs::remove(folder_ / "nowhere.png");
   }
+}
+
+// Options before the name are more than importers understand.
+TEST_F(Program, APictureWithoutANameReplacesOnlyTesserasOwn) {
+  write("pot.mtl", "newmtl a\nmap_Kd -s 2 pot.png\n");
+  write("pot.obj", "mtllib pot.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  for (const char* name : {"pot.png", "pot_0001.png"}) write(name, "a texture");
+  const Result one = run("render pot.obj"), three = run("render pot.obj --frames 3");
+  EXPECT_EQ(one.code, 1);
+  EXPECT_TRUE(one.err.ends_with("tessera: error: \"pot.png\" is there already, and is no picture of Tessera's; name it with -o to replace it\n")) << one.err;
+  EXPECT_EQ(three.code, 1);
+  EXPECT_TRUE(contains(three.err, "\"pot_0001.png\" is there already")) << three.err;
+  EXPECT_FALSE(exists("pot_0000.png")) << "nothing is rendered";
+  EXPECT_TRUE(content("pot.png") == "a texture" && content("pot_0001.png") == "a texture") << "untouched";
+  for (const char* options : {"-o pot.png", "", "--palette vga256", ""}) EXPECT_EQ(run("render pot.obj " + std::string(options)).code, 0) << options;
 }
 
 TEST_F(Program, NoPlaneTakesThePlaceOfWhatIsRead) {
@@ -310,7 +325,9 @@ TEST_F(Program, NoPlaneTakesThePlaceOfWhatIsRead) {
   write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}, "textures": {"t": {"file": "planes/color_03.pbm"}}})");
   const Result texture = run("render s.json -o - --planes ./planes"), reference = run("render --size 8x8 -o a.ppm --planes planes --compare planes/stencil_00.pbm");
   EXPECT_EQ(texture.code, 1);
-  EXPECT_EQ(texture.err, "tessera: error: \"./planes/color_03.pbm\" is read for the picture; name another folder with --planes\n");
+  EXPECT_EQ(texture.err, "tessera: error: \"./planes/color_03.pbm\" is one of the input's own files; name another folder with --planes\n");
+  EXPECT_EQ(run("render s.json -o - --planes new/../planes").code, 1) << "which leads there as soon as new is made";
+  EXPECT_FALSE(exists("new"));
   EXPECT_EQ(reference.code, 1);
   EXPECT_EQ(reference.err, "tessera: error: \"planes/stencil_00.pbm\" is the reference itself; name another folder with --planes\n");
   EXPECT_TRUE(content("planes/color_03.pbm") == color && content("planes/stencil_00.pbm") == stencil) << "untouched";
