@@ -101,7 +101,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   command
       ->add_option("-o,--output", request.output.path,
                    "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO, {frame} in its name is the number; - is the "
-                   "standard output (PPM), term the terminal; default: the input's name with .png, here")
+                   "standard output (PPM), term the terminal; default: the input's name with .png, here, in place of nothing but a PNG that says that Tessera made it")
       ->option_text("FILE")
       ->check(not_empty("FILE's name"));
   command->add_option("--compression", request.output.compression, "of PNG files: 0 (none) .. 9 (smallest); default: 3")->option_text("N")->transform(integer_from(0, 9));

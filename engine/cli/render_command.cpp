@@ -10,9 +10,8 @@
 #include <set>
 #include <utility>
 
-#include <sys/stat.h>
-
 #include "engine/cli/compare.h"
+#include "engine/cli/file_guard.h"
 #include "engine/cli/printable.h"
 #include "engine/import/model.h"
 #include "engine/parallel.h"
@@ -29,6 +28,9 @@ constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Bu
 const char* buffer_name(Buffer buffer) {
   return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : buffer == Buffer::stencil ? "stencil" : "accumulation";
 }
+
+/// In any format, since an animation may change it: 24 bits of colour and 8 of alpha, or four accumulated components of 32.
+int most_planes(Buffer buffer) { return buffer == Buffer::accumulation ? 128 : buffer == Buffer::stencil ? 8 : 32; }
 
 /// What is rendered, frame by frame.
 class Input {
@@ -67,6 +69,9 @@ class Input {
   Scene scene_;
 };
 
+/// The standard output, or the terminal.
+bool is_stream(const std::string& path) { return path == "-" || path == "term"; }
+
 std::string output_path(const RenderRequest& request) {
   if (!request.output.path.empty()) return request.output.path;
   const std::string stem = request.input.empty() ? "tessera" : fs::path(request.input).stem().string();
@@ -94,12 +99,16 @@ std::string plane_path(const fs::path& folder, Buffer which, int k) {
 }
 
 // Buffers that the format has but the frame never touched hold what new buffers hold.
-void write_planes(const FrameBuffer& buffer, const fs::path& folder) {
+void write_planes(const FrameBuffer& buffer, const fs::path& folder, const FileGuard& guard) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error("cannot make the folder \"" + folder.string() + "\": " + error.message());
   for (const Buffer which : kBuffers)
-    for (int k = 0; k < buffer.plane_count(which); ++k) write_plane(buffer.plane(which, k), plane_path(folder, which, k));
+    for (int k = 0; k < buffer.plane_count(which); ++k) {
+      const std::string file = plane_path(folder, which, k);
+      guard.check_plane(file);
+      write_plane(buffer.plane(which, k), file);
+    }
 }
 
 /// Frames of at most 8 bits a pixel are PNG files of that many bits.
@@ -165,61 +174,35 @@ int report_difference(const Picture& picture, const Picture& reference, const Re
   return difference.pixels == 0 ? 0 : kDiffers;
 }
 
-/// What a file is, whichever path leads to it.
-using FileId = std::pair<dev_t, ino_t>;
-
-std::optional<FileId> file_id(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileId(status.st_dev, status.st_ino);
-}
-
-// No picture and no plane takes the place of what is read or referred to, and none that got no name that of a file from elsewhere: importers do not understand
-// every reference of every format. (An animation may change how many planes there are.)
-void check_files(const RenderRequest& request, const std::string& picture, const std::set<std::string>& files) {
-  constexpr int kMostPlanes = 128;  // of accumulation: four components of 32 bits
-  std::error_code error;  // what cannot be looked at is told by whoever writes it
-  std::optional<FileId> reference;
-  if (!request.reference.empty()) reference = file_id(request.reference);
-  std::set<FileId> inputs;
-  for (const std::string& file : files)
-    if (const auto id = file_id(file)) inputs.insert(*id);
-  const auto check = [&](const std::string& name, const std::string& reached, const char* instead) {
-    const std::optional<FileId> id = file_id(reached);
-    if (!id) return;
-    if (id == reference) throw Error("\"" + name + "\" is the reference itself; name another " + instead);
-    if (inputs.contains(*id)) throw Error("\"" + name + "\" is one of the input's own files; name another " + instead);
-  };
+// Before anything is rendered.
+void check_files(const RenderRequest& request, const std::string& path, const FileGuard& guard) {
   for (int f = 0; f < request.frames; ++f) {
-    const std::string file = picture.empty() ? "" : frame_path(picture, f, request.frames);
-    if (!file.empty()) check(file, file, "file with -o");
-    if (request.output.path.empty() && fs::is_regular_file(file, error) && !is_own_png(file))
-      throw Error("\"" + file + "\" is there already, and is no picture of Tessera's; name it with -o to replace it");
+    if (Interrupt::pressed()) throw Cancelled("the look at the files to be written was interrupted");
+    if (!is_stream(path)) guard.check_picture(frame_path(path, f, request.frames));
+    if (request.planes_folder.empty()) continue;
     const std::string folder = frame_path(request.planes_folder, f, request.frames);
-    const fs::path reached = fs::weakly_canonical(folder, error);  // once it is made
-    if (folder.empty() || !file_id(reached.string())) continue;
+    std::error_code error;
+    if (!fs::exists(fs::weakly_canonical(folder, error), error)) continue;
     for (const Buffer which : kBuffers)
-      for (int k = 0; k < kMostPlanes; ++k) check(plane_path(folder, which, k), plane_path(reached, which, k), "folder with --planes");
+      for (int k = 0; k < most_planes(which); ++k) guard.check_plane(plane_path(folder, which, k));
   }
 }
 
 // What cannot go together is said before anything is rendered.
-void check_outputs(const RenderRequest& request, const std::string& path, const std::set<std::string>& files) {
-  const bool to_stdout = path == "-" || path == "term";
+void check_outputs(const RenderRequest& request, const std::string& path) {
   const auto require_frame = [&](const std::string& name) {
     if (request.frames > 1 && name.find("{frame}") == std::string::npos)
       throw Error("--frames " + std::to_string(request.frames) + " would write \"" + name + "\" again and again; put {frame} into the name");
   };
-  if (!to_stdout) require_frame(path);
+  if (!is_stream(path)) require_frame(path);
   if (!request.planes_folder.empty()) require_frame(request.planes_folder);
-  const char* const rivals[] = {to_stdout ? "the picture" : "", request.explain ? "--explain" : "", request.stats == StatsFormat::json ? "--stats=json" : ""};
+  const char* const rivals[] = {is_stream(path) ? "the picture" : "", request.explain ? "--explain" : "", request.stats == StatsFormat::json ? "--stats=json" : ""};
   std::string found;
   for (const char* rival : rivals) {
     if (*rival == '\0') continue;
     if (!found.empty()) throw Error(found + " and " + rival + " cannot both go to the standard output");
     found = rival;
   }
-  check_files(request, to_stdout ? "" : path, files);
 }
 
 }  // namespace
@@ -233,7 +216,9 @@ int render(RenderRequest request) {
   run.load_ms = milliseconds_since(start);
 
   const std::string path = output_path(request);
-  check_outputs(request, path, input.files());
+  check_outputs(request, path);
+  const FileGuard guard(input.files(), request.reference, request.output.path.empty() ? path : "");
+  check_files(request, path, guard);
   std::optional<Picture> reference;
   if (!request.reference.empty()) reference = read_picture(request.reference);
 
@@ -278,11 +263,12 @@ int render(RenderRequest request) {
     progress.clear();
     const auto write_start = std::chrono::steady_clock::now();
     const std::string file = frame_path(path, f, request.frames);
+    if (!is_stream(path)) guard.check_picture(file);
     if (indexed)
       write_indexed_png(indexed_picture(buffer), file, request.output.compression);
     else
       write_output(picture, file, request.output.compression);
-    if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
+    if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames), guard);
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";

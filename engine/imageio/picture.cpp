@@ -128,10 +128,11 @@ void write_indexed_png(const IndexedPicture& picture, const std::string& path, i
 }
 
 bool is_own_png(const std::string& path) {
-  constexpr std::string_view kChunk("tEXtSoftware\0" TESSERA_IMAGEIO_SOFTWARE, 13 + sizeof TESSERA_IMAGEIO_SOFTWARE - 1);
-  std::string head(2048, '\0');  // has room for the longest palette and all that stands before the chunk
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n", kText("Software\0" TESSERA_IMAGEIO_SOFTWARE, sizeof "Software\0" TESSERA_IMAGEIO_SOFTWARE - 1);
+  const std::string length = {0, 0, 0, static_cast<char>(kText.size())};
+  std::string head(2048, '\0');  // has room for the longest palette and all that stands before the text
   std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head.find(kChunk) != head.npos;
+  return head.starts_with(kSignature) && head.find(length + "tEXt" + std::string(kText)) != head.npos;
 }
 
 void write_picture(const Picture& picture, const std::string& path, int compression) { write_file_atomically(path, encode_picture(picture, path, compression)); }

@@ -45,7 +45,7 @@ std::optional<std::filesystem::path> require_writable_picture(const std::string&
 /// Writes a PNG of that many bits a pixel.
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression = kDefaultCompression);
 
-/// Is it a PNG that these functions wrote? Such a file says so, before its pixels.
+/// Is it a PNG that says, before its pixels, that these functions wrote it?
 bool is_own_png(const std::string& path);
 
 /// A file's bytes as binary PPM.

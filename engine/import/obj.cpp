@@ -47,11 +47,13 @@ class MaterialFiles : public tinyobj::MaterialReader {
   /// `names` is one name with spaces, or several names.
   bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name, std::string* warning,
                   std::string* error) override {
-    const std::string whole = with_spaces(names);
-    std::error_code no_name;  // of a file: too long
-    if (names == whole || std::filesystem::exists(std::filesystem::path(folder_) / whole, no_name)) return read(whole, materials, by_name, warning, error);
+    const auto paths = possible_paths(names);
+    for (const std::string& path : paths) {
+      std::error_code no_name;  // of a file: too long
+      if (path == names || std::filesystem::exists(std::filesystem::path(folder_) / path, no_name)) return read(path, materials, by_name, warning, error);
+    }
     bool is_read = false;
-    std::istringstream several(whole);
+    std::istringstream several(paths[0]);
     for (std::string name; several >> name;) is_read |= read(name, materials, by_name, warning, error);
     return is_read;
   }

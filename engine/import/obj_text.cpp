@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -47,14 +48,6 @@ std::string named(std::string_view keyword, std::string_view name) {
   return line;
 }
 
-// Of paths of Windows. (A backslash before a space keeps it in the name, for some.)
-std::string with_slashes(std::string_view path) {
-  std::string result(path);
-  for (std::size_t i = 0; i + 1 < result.size(); ++i)
-    if (result[i] == '\\' && result[i + 1] != ' ') result[i] = '/';
-  return result;
-}
-
 // Of "2.0", too, and of what stands behind a space.
 bool begins_with_int(std::string_view text) {
   text = text.substr(0, text.find_first_of(kSpaces));
@@ -71,7 +64,11 @@ std::string normalized_obj(const std::string& text) {
   return edit_lines(text, [](std::string_view keyword, std::string_view arguments) -> std::string {
     if (keyword == "vw" || keyword == "l" || keyword == "p" || keyword == "t") return "#";
     if (keyword == "usemtl" && arguments.find(' ') != arguments.npos) return named(keyword, arguments);
-    if (keyword == "mtllib" && arguments.find_first_of(" \\") != arguments.npos) return named(keyword, with_slashes(arguments));
+    if (keyword == "mtllib" && arguments.find_first_of(" \\") != arguments.npos) {
+      std::string line = named(keyword, arguments);
+      std::replace(line.begin(), line.end(), '\\', kBackslashInName);
+      return line;
+    }
     return {};
   });
 }
@@ -101,6 +98,20 @@ std::string normalized_mtl(const std::string& text, const std::string& path, std
 std::string with_spaces(std::string name) {
   std::replace(name.begin(), name.end(), kSpaceInName, ' ');
   return name;
+}
+
+std::array<std::string, 2> possible_paths(std::string name) {
+  name = with_spaces(std::move(name));
+  std::string with_slashes, unescaped;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool before_space = name[i] == kBackslashInName && name[i + 1] == ' ';
+    if (!before_space) with_slashes += name[i] == kBackslashInName ? '/' : name[i];
+  }
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (name[i] == kBackslashInName && i + 1 < name.size()) ++i;
+    unescaped += name[i] == kBackslashInName ? '\\' : name[i];
+  }
+  return {with_slashes, unescaped};
 }
 
 }  // namespace tessera

@@ -179,8 +179,21 @@ TEST_F(ObjImport, TellsWhatTheModelRefersTo) {
 TEST_F(ObjImport, MaterialFilesOfWindows) {
   std::filesystem::create_directories(folder_ / "sub");
   write("sub/a b.mtl", "newmtl red\nKd 1 0 0\n");
-  for (const std::string name : {"sub\\a b.mtl", ".\\sub\\a b.mtl", "sub\\a\\ b.mtl"}) {
+  std::filesystem::create_directories(folder_ / "(v2)");
+  write("(v2)/a.mtl", "newmtl red\nKd 1 0 0\n");
+  write("c.mtl", "newmtl blue\nKd 0 0 1\n");
+  for (const std::string name : {"sub\\a b.mtl", ".\\sub\\a b.mtl", "sub\\a\\ b.mtl", "sub\\\\a b.mtl", ".\\(v2)\\a.mtl", ".\\(v2)\\a.mtl .\\c.mtl"}) {
     const Model model = import_model(write("w.obj", "mtllib " + name + "\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n"));
+    EXPECT_TRUE(model.warnings.empty()) << name << ": " << model.warnings.at(0);
+    EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.g, 0) << name;
+  }
+}
+
+TEST_F(ObjImport, EscapesInMaterialFilesNames) {
+  write("my file(1).mtl", "newmtl red\nKd 1 0 0\n");
+  write("a\\b.mtl", "newmtl red\nKd 1 0 0\n");
+  for (const std::string name : {"my\\ file\\(1\\).mtl", "a\\\\b.mtl"}) {
+    const Model model = import_model(write("e.obj", "mtllib " + name + "\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n"));
     EXPECT_TRUE(model.warnings.empty()) << name << ": " << model.warnings.at(0);
     EXPECT_FLOAT_EQ(model.parts.at(0).material.diffuse.g, 0) << name;
   }
