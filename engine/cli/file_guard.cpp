@@ -37,7 +37,7 @@ std::optional<FileGuard::FileId> FileGuard::id_of(const std::string& path) {
 void FileGuard::check(const std::string& file, const char* instead) const {
   std::optional<FileId> id = id_of(file);
   std::error_code error;
-  if (!id && !fs::exists(fs::path("." / fs::path(file)).parent_path(), error)) id = id_of(fs::weakly_canonical(file, error).string());  // once its folder is made
+  if (!id && !fs::exists(("." / fs::path(file)).parent_path(), error)) id = id_of(fs::weakly_canonical(file, error).string());  // once its folder is made
   if (!id) return;
   if (id == reference_) throw Error("\"" + file + "\" is the reference itself; name another " + instead);
   if (inputs_.contains(*id)) throw Error("\"" + file + "\" is one of the input's own files; name another " + instead);

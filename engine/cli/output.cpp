@@ -40,6 +40,8 @@ std::string color_code(const char* layer, const Mean& c) {
 
 }  // namespace
 
+bool is_stream(const std::string& path) { return path == "-" || path == "term"; }
+
 std::string frame_path(const std::string& path, int frame, int frames) {
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
   std::string number = std::to_string(frame);

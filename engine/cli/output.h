@@ -12,6 +12,9 @@ struct OutputRequest {
   int compression = -1;   ///< of PNG, 0 .. 9; -1: the module's default
 };
 
+/// The standard output, or the terminal.
+bool is_stream(const std::string& path);
+
 /// A file's name with {frame} replaced by the number, of as many digits as the last frame has, four at least.
 std::string frame_path(const std::string& path, int frame, int frames);
 

@@ -29,7 +29,7 @@ const char* buffer_name(Buffer buffer) {
   return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : buffer == Buffer::stencil ? "stencil" : "accumulation";
 }
 
-/// In any format, since an animation may change it: 24 bits of colour and 8 of alpha, or four accumulated components of 32.
+/// In any format, since an animation may change it: 24 bits of colour and 8 of alpha, 32 of depth, 8 of stencil, four accumulated components of 32.
 int most_planes(Buffer buffer) { return buffer == Buffer::accumulation ? 128 : buffer == Buffer::stencil ? 8 : 32; }
 
 /// What is rendered, frame by frame.
@@ -68,9 +68,6 @@ class Input {
   std::set<std::string> files_;
   Scene scene_;
 };
-
-/// The standard output, or the terminal.
-bool is_stream(const std::string& path) { return path == "-" || path == "term"; }
 
 std::string output_path(const RenderRequest& request) {
   if (!request.output.path.empty()) return request.output.path;

@@ -138,7 +138,9 @@ TEST_F(Program, PlanesThatNoFormatHasAreNobodysPlace) {
   for (const char* name : {"color_31.pbm", "depth_31.pbm", "stencil_07.pbm", "accumulation_127.pbm"}) {
     fs::remove(folder_ / "planes" / name);
     fs::create_symlink("color.ppm", folder_ / "planes" / name);
-    EXPECT_EQ(run("render s.json -o - --planes planes").code, 1) << name;
+    const Result taken = run("render s.json -o - --planes planes");
+    EXPECT_EQ(taken.code, 1) << name;
+    EXPECT_EQ(taken.out, "") << name << ": nothing is rendered";
     fs::remove(folder_ / "planes" / name);
   }
 }
