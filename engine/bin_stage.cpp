@@ -9,11 +9,13 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kTrianglesPerBatch = 1024;
-/// In the bins of a single tile a triangle takes less than this: its entry, and the pieces that clipping makes of it, in lists that double. (Of a polygon
-/// whose outline is drawn it is one of many that stay together.)
+/// In the bins of a single tile a triangle takes less than this: its entry, and the pieces that clipping
+/// makes of it, in lists that double. (Of a polygon whose outline is drawn it is one of many that stay
+/// together.)
 constexpr std::size_t kMostBytesOfATriangle = 8192;
 
-void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
+void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+                  std::uint32_t last, Isa isa) {
   switch (draw.topology) {
     case Topology::points: return bin_points(bins, grid, draw, first, last);
     case Topology::lines: return bin_lines(bins, grid, draw, first, last);
@@ -29,8 +31,10 @@ void BinStage::begin(const FrameCommands& commands, const TileGrid& grid, int sa
   commands_ = &commands;
   grid_ = grid;
   first_element_.assign(1, 0);
-  for (const GeometryDraw& draw : commands.geometry) first_element_.push_back(first_element_.back() + (draw.plan->texels ? 1 : draw.mesh->elements));
-  batch_count_ = std::clamp<std::size_t>(first_element_.back() / kTrianglesPerBatch, 1, 4 * static_cast<std::size_t>(parallel_.threads()));
+  for (const GeometryDraw& draw : commands.geometry)
+    first_element_.push_back(first_element_.back() + (draw.plan->texels ? 1 : draw.mesh->elements));
+  batch_count_ = std::clamp<std::size_t>(first_element_.back() / kTrianglesPerBatch, 1,
+                                         4 * static_cast<std::size_t>(parallel_.threads()));
   if (bins_.size() < batch_count_) bins_.resize(batch_count_);
   prepare_draws(samples);
 }
@@ -64,7 +68,10 @@ void BinStage::prepare_draws(int samples) {
     draw.attribute_count = draw.attribute_stride = plan.attribute_count;
     if (plan.outlines) {
       PolygonModes& modes = geometry.buffers->modes;
-      modes = {.style = {plan.style[0], plan.style[1]}, .line_width = plan.line_width, .point_size = plan.point_size, .triangles = geometry.mesh->polygon_triangles(),
+      modes = {.style = {plan.style[0], plan.style[1]},
+               .line_width = plan.line_width,
+               .point_size = plan.point_size,
+               .triangles = geometry.mesh->polygon_triangles(),
                .boundary = geometry.buffers->boundary.data()};
       std::uint32_t number = draw.draw;
       for (const PolygonStyle style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
@@ -73,21 +80,33 @@ void BinStage::prepare_draws(int samples) {
     draws_.push_back(draw);
     rects_.push_back(draw.rect);
   }
-  polygons_.cut(draws_.size(), [&](std::size_t d) { return draws_[d].facing != nullptr || commands_->geometry[d].offsets_polygons() ? commands_->geometry[d].mesh->elements : 0; }, kTrianglesPerBatch);
+  polygons_.cut(
+      draws_.size(),
+      [&](std::size_t d) {
+        return draws_[d].facing != nullptr || commands_->geometry[d].offsets_polygons()
+                   ? commands_->geometry[d].mesh->elements
+                   : 0;
+      },
+      kTrianglesPerBatch);
   parallel_.for_each(polygons_.size(), [&](std::size_t i, int) {
     const DrawRange range = polygons_[i];
     const GeometryDraw& geometry = commands_->geometry[range.draw];
     const std::size_t each = geometry.mesh->polygon_triangles();
-    if (geometry.facing() != nullptr) face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
+    if (geometry.facing() != nullptr)
+      face_polygons(draws_[range.draw], each, range.first, range.last, geometry.buffers->facing.data());
     const DrawPlan& plan = *geometry.plan;
-    if (geometry.offsets_polygons()) offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last, geometry.buffers->depth_offsets.data());
+    if (geometry.offsets_polygons())
+      offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first,
+                      range.last, geometry.buffers->depth_offsets.data());
   });
 }
 
 bool BinStage::fill(const TileRange& tiles, FrameWatch& watch) {
-  const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size, tiles.y1 * grid_.tile_size};
+  const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size,
+                         tiles.y1 * grid_.tile_size};
   for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(rects_[d], pixels);
-  // One core does this alone. Unless the last fill was complete and fitted, it looks at one batch after the other.
+  // One core does this alone. Unless the last fill was complete and fitted, it looks at one batch after the
+  // other.
   if (!knows_taken_) start_budget();
   knows_taken_ = false;
   worker_counts_.assign(static_cast<std::size_t>(parallel_.threads()), {});
@@ -120,12 +139,14 @@ void BinStage::start_budget() {
 }
 
 void BinStage::fill_one_by_one(const TileRange& tile) {
-  const std::size_t elements = first_element_.back(), each = std::max<std::size_t>(limit_ / kMostBytesOfATriangle, 1);
+  const std::size_t elements = first_element_.back(),
+                    each = std::max<std::size_t>(limit_ / kMostBytesOfATriangle, 1);
   const auto count = static_cast<std::uint32_t>((elements + each - 1) / each);
-  batches_.set_one_by_one(bins_.front(), count, [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
-    bins_.front().reset(1, first_tile);
-    bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
-  });
+  batches_.set_one_by_one(bins_.front(), count,
+                          [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
+                            bins_.front().reset(1, first_tile);
+                            bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
+                          });
 }
 
 /// Elements [begin, end) of the frame.
@@ -136,7 +157,8 @@ void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
     if (commands_->plans[d]->texels) {
       if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
     } else
-      bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]), static_cast<std::uint32_t>(high - first_element_[d]), isa_);
+      bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]),
+                   static_cast<std::uint32_t>(high - first_element_[d]), isa_);
   }
 }
 

@@ -7,7 +7,8 @@
 
 namespace tessera {
 
-CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture, bool count_fragments, Isa isa)
+CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture,
+                           bool count_fragments, Isa isa)
     : capture_(capture), grid_(frame.grid), render_(tessera::render_tile(isa)) {
   normal_program_.needs_normal = normal_program_.renormalize = true;
   if (!capture.primitives.empty()) {
@@ -23,7 +24,8 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
       for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
     }
   }
-  if (capture.objects.empty() && capture.primitives.empty() && capture.normals.empty() && !count_fragments) return;
+  if (capture.objects.empty() && capture.primitives.empty() && capture.normals.empty() && !count_fragments)
+    return;
   passes_.reserve(4);  // frames of passes point into them
   if (!capture.objects.empty()) add_pass(What::objects, commands, frame);
   if (!capture.primitives.empty()) add_pass(What::primitives, commands, frame);
@@ -41,7 +43,7 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       draw.uses_depth = false;
       draw.ops = nullptr;
     }
-    if (draw.ops == nullptr) draw.texture = nullptr;  // else its alpha may be tested
+    if (draw.ops == nullptr) draw.texture = nullptr;                // else its alpha may be tested
     if (draw.write_mask == 0 && what != What::fragments) continue;  // depth alone
     draw.write_mask = 0xffffffffu;
     draw.deferred = what == What::normals;
@@ -63,7 +65,8 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       draw.word = Capture::kNothing;
     } else if (what == What::primitives) {
       draw.source = ColorSource::triangle_word;
-      draw.words[0] = draw.words[1] = (polygon_numbers_[plan].empty() ? numbers_ : polygon_numbers_[plan]).data();
+      draw.words[0] = draw.words[1] =
+          (polygon_numbers_[plan].empty() ? numbers_ : polygon_numbers_[plan]).data();
     } else if (what == What::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;
@@ -86,7 +89,8 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
   pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
 }
 
-std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const {
+std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,
+                                        TileWorkspace& workspace) const {
   const int size = grid_.tile_size, x0 = column * size, y0 = row * size;
   std::fill_n(workspace.color(), size * size, Capture::kNothing);
   const TileCounts counts = render_(pass.frame, row * grid_.columns() + column, workspace);
@@ -96,18 +100,24 @@ std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column, T
   return pass.what == What::fragments ? counts.shaded_pixels : 0;
 }
 
-void CaptureStage::write_numbers(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const {
-  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0), height = std::min(size, grid_.height_px - y0);
+void CaptureStage::write_numbers(std::span<std::uint32_t> to, int x0, int y0,
+                                 TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
+            height = std::min(size, grid_.height_px - y0);
   for (int y = 0; y < height; ++y) {
-    std::uint32_t* const out = to.data() + static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + x0;
+    std::uint32_t* const out =
+        to.data() + static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + x0;
     for (int x = 0; x < width; ++x) out[x] = workspace.color()[tile_index(x, y, size)];
   }
 }
 
 void CaptureStage::write_normals(int x0, int y0, TileWorkspace& workspace) const {
-  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0), height = std::min(size, grid_.height_px - y0);
+  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
+            height = std::min(size, grid_.height_px - y0);
   for (int y = 0; y < height; ++y) {
-    float* out = capture_.normals.data() + 3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + static_cast<std::size_t>(x0));
+    float* out = capture_.normals.data() +
+                 3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) +
+                      static_cast<std::size_t>(x0));
     for (int x = 0; x < width; ++x, out += 3) {
       const int at = tile_index(x, y, size);
       const bool drawn = workspace.color()[at] != Capture::kNothing;

@@ -22,13 +22,16 @@ void require_finite(const Name& name, const Matrix& matrix);
 void require_range(const Name& name, double value, double low, double high);
 void check_rect(const Name& name, const Rect& rect);
 [[noreturn]] void refuse_enum(const Name& name, unsigned value, unsigned last);
-/// An enumerator, which count from 0 to `last`: whoever casts numbers, or calls from another language, may have others.
+/// An enumerator, which count from 0 to `last`: whoever casts numbers, or calls from another language, may
+/// have others.
 template <class Enum>
 void require_enum(const Name& name, Enum value, Enum last) {
-  if (static_cast<unsigned>(value) > static_cast<unsigned>(last)) refuse_enum(name, static_cast<unsigned>(value), static_cast<unsigned>(last));
+  if (static_cast<unsigned>(value) > static_cast<unsigned>(last))
+    refuse_enum(name, static_cast<unsigned>(value), static_cast<unsigned>(last));
 }
 
-/// What the fragments of a draw go through, in a buffer that can have it. @param function  whose it is, for messages
+/// What the fragments of a draw go through, in a buffer that can have it. @param function  whose it is, for
+/// messages
 void check_fragment_state(const char* function, const DrawState& state, const FrameBufferState& target);
 /// Components that a buffer cannot tell apart.
 void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target);

@@ -13,10 +13,12 @@ struct DrawRange {
   std::size_t draw, first, last;
 };
 
-/// The ranges that draws are cut into. Only whole draws are listed, not their ranges, which grow with the scene: each is worked out when it is asked for.
+/// The ranges that draws are cut into. Only whole draws are listed, not their ranges, which grow with the
+/// scene: each is worked out when it is asked for.
 class DrawRanges {
  public:
-  /// Cuts `count(draw)` of each of so many draws into ranges of `each`; the last one of a draw may be shorter. Throws std::bad_alloc. @pre each > 0
+  /// Cuts `count(draw)` of each of so many draws into ranges of `each`; the last one of a draw may be
+  /// shorter. Throws std::bad_alloc. @pre each > 0
   template <class Count>
   void cut(std::size_t draws, const Count& count, std::size_t each) {
     each_ = each;
@@ -32,7 +34,8 @@ class DrawRanges {
   std::size_t size() const { return size_; }
   /// @pre i < size()
   DrawRange operator[](std::size_t i) const {
-    const Cut& cut = *std::prev(std::upper_bound(cut_.begin(), cut_.end(), i, [](std::size_t range, const Cut& c) { return range < c.first_range; }));
+    const Cut& cut = *std::prev(std::upper_bound(
+        cut_.begin(), cut_.end(), i, [](std::size_t range, const Cut& c) { return range < c.first_range; }));
     const std::size_t first = (i - cut.first_range) * each_;
     return {cut.draw, first, std::min(cut.count, first + each_)};
   }

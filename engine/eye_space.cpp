@@ -21,12 +21,15 @@ std::array<float, 3> unit(const glm::dvec3& v) {
 
 double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-// Squares of distances are floats. A light from 2^62 on stands nearer, by a power of two and in the same direction, and is attenuated as where it was.
+// Squares of distances are floats. A light from 2^62 on stands nearer, by a power of two and in the same
+// direction, and is attenuated as where it was.
 void move_within_reach(EyeLight& light, const glm::dvec3& at) {
   constexpr int kFarthest = 62;
   const double distance = largest_of(at);
-  const int exponent = std::isfinite(distance) && distance > 0 ? std::max(std::ilogb(distance) - (kFarthest - 1), 0) : 0;
-  for (int c = 0; c < 3; ++c) light.position[static_cast<std::size_t>(c)] = static_cast<float>(std::scalbn(at[c], -exponent));
+  const int exponent =
+      std::isfinite(distance) && distance > 0 ? std::max(std::ilogb(distance) - (kFarthest - 1), 0) : 0;
+  for (int c = 0; c < 3; ++c)
+    light.position[static_cast<std::size_t>(c)] = static_cast<float>(std::scalbn(at[c], -exponent));
   light.attenuation[1] = std::scalbn(light.attenuation[1], exponent);
   light.attenuation[2] = std::scalbn(light.attenuation[2], 2 * exponent);
 }
@@ -54,8 +57,9 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
   return e;
 }
 
-// The inverse transpose is the matrix of cofactors over the determinant; a singular matrix keeps the cofactors. Powers of two are taken out, so that
-// nothing leaves a double's range, and put back where lengths matter: they change no bit.
+// The inverse transpose is the matrix of cofactors over the determinant; a singular matrix keeps the
+// cofactors. Powers of two are taken out, so that nothing leaves a double's range, and put back where lengths
+// matter: they change no bit.
 EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLengths& lengths) {
   const auto exponent_of = [](const glm::dmat3& m) {
     const double largest = std::max({largest_of(m[0]), largest_of(m[1]), largest_of(m[2])});

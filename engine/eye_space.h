@@ -9,8 +9,9 @@
 
 namespace tessera {
 
-/// A light however far away: its squared distance from what is within 2^62 of the eye is a float. Its position is xyz/w after the view, too, which may project (w = 0
-/// counts as 1); a directional light is one under every view.
+/// A light however far away: its squared distance from what is within 2^62 of the eye is a float. Its
+/// position is xyz/w after the view, too, which may project (w = 0 counts as 1); a directional light is one
+/// under every view.
 EyeLight eye_light(const Light& light, const glm::dmat4& view);
 
 /// For normals by the inverse transpose, of the lengths that the draw wants.

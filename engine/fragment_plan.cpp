@@ -6,14 +6,20 @@
 namespace tessera {
 namespace {
 
-static_assert(static_cast<int>(CompareOp::always) == static_cast<int>(Compare::always) && static_cast<int>(CompareOp::greater) == static_cast<int>(Compare::greater));
-static_assert(static_cast<int>(StencilAction::decr_wrap) == static_cast<int>(StencilOp::decr_wrap) && static_cast<int>(StencilAction::replace) == static_cast<int>(StencilOp::replace));
-static_assert(static_cast<int>(Factor::src_alpha_saturate) == static_cast<int>(BlendFactor::src_alpha_saturate) && static_cast<int>(Factor::dst_color) == static_cast<int>(BlendFactor::dst_color));
-static_assert(static_cast<int>(Equation::max) == static_cast<int>(BlendEquation::max) && static_cast<int>(Logic::set) == static_cast<int>(LogicOp::set));
+static_assert(static_cast<int>(CompareOp::always) == static_cast<int>(Compare::always) &&
+              static_cast<int>(CompareOp::greater) == static_cast<int>(Compare::greater));
+static_assert(static_cast<int>(StencilAction::decr_wrap) == static_cast<int>(StencilOp::decr_wrap) &&
+              static_cast<int>(StencilAction::replace) == static_cast<int>(StencilOp::replace));
+static_assert(static_cast<int>(Factor::src_alpha_saturate) ==
+                  static_cast<int>(BlendFactor::src_alpha_saturate) &&
+              static_cast<int>(Factor::dst_color) == static_cast<int>(BlendFactor::dst_color));
+static_assert(static_cast<int>(Equation::max) == static_cast<int>(BlendEquation::max) &&
+              static_cast<int>(Logic::set) == static_cast<int>(LogicOp::set));
 
 StencilSide side(const StencilFace& face, std::int32_t most) {
   return {.func = static_cast<CompareOp>(face.func),
-          .reference = static_cast<std::int32_t>(std::min<std::uint32_t>(face.ref, static_cast<std::uint32_t>(most))),
+          .reference =
+              static_cast<std::int32_t>(std::min<std::uint32_t>(face.ref, static_cast<std::uint32_t>(most))),
           .mask = static_cast<std::int32_t>(face.mask) & most,
           .fail = static_cast<StencilAction>(face.fail),
           .zfail = static_cast<StencilAction>(face.zfail),
@@ -33,7 +39,8 @@ void plan_stencil(FragmentPlan& plan, const StencilState& state, int bits) {
 
 // Takes the source as it is.
 bool is_replacing(const FragmentOps& ops) {
-  return ops.src_color == Factor::one && ops.src_alpha == Factor::one && ops.dst_color == Factor::zero && ops.dst_alpha == Factor::zero &&
+  return ops.src_color == Factor::one && ops.src_alpha == Factor::one && ops.dst_color == Factor::zero &&
+         ops.dst_alpha == Factor::zero &&
          (ops.equation == Equation::add || ops.equation == Equation::subtract);
 }
 
@@ -52,12 +59,20 @@ void plan_blend(FragmentOps& ops, const BlendState& state) {
 FragmentOps dither_of(const FrameBufferState& target) {
   FragmentOps ops;
   const Dither dither = target.format.dither;
-  set_dither(ops, dither == Dither::none ? 1 : dither == Dither::bayer2 ? 2 : dither == Dither::bayer4 ? 4 : 8, target.format.height);
-  if (target.layout.index) ops.palette_spread = static_cast<float>(1 / std::fmax(1.0, std::cbrt(static_cast<double>(target.palette.entries.size())) - 1));
+  set_dither(ops,
+             dither == Dither::none     ? 1
+             : dither == Dither::bayer2 ? 2
+             : dither == Dither::bayer4 ? 4
+                                        : 8,
+             target.format.height);
+  if (target.layout.index)
+    ops.palette_spread = static_cast<float>(
+        1 / std::fmax(1.0, std::cbrt(static_cast<double>(target.palette.entries.size())) - 1));
   return ops;
 }
 
-FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, bool only_indices, std::string* reasons) {
+FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
+                            bool only_indices, std::string* reasons) {
   FragmentPlan plan;
   FragmentOps& ops = plan.ops;
   const auto note = [&](const char* line) {
@@ -86,7 +101,8 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   }
   const bool stores_alpha = writes_color && target.layout.alpha_bits > 0;
   if (stores_alpha) note("alpha planes");
-  const bool depends_on_color = ops.alpha_test || ops.blend || ops.dither || ops.logic != Logic::copy || stores_alpha;
+  const bool depends_on_color =
+      ops.alpha_test || ops.blend || ops.dither || ops.logic != Logic::copy || stores_alpha;
   plan.needed = ops.stencil || depends_on_color;
   plan.is_stencil_test = ops.stencil && !depends_on_color;
   return plan;

@@ -10,7 +10,7 @@ namespace tessera {
 
 struct FragmentPlan {
   FragmentOps ops;
-  bool needed = false;         ///< else fragments go by the short way
+  bool needed = false;           ///< else fragments go by the short way
   bool is_stencil_test = false;  ///< and nothing else
   bool uses_stencil = false;
 };
@@ -21,6 +21,7 @@ FragmentOps dither_of(const FrameBufferState& target);
 /// @param writes_color  some colour plane may change
 /// @param only_indices  what is written are indices, which nothing dithers
 /// @param reasons  if given, receives a line for each operation
-FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color, bool only_indices, std::string* reasons);
+FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
+                            bool only_indices, std::string* reasons);
 
 }  // namespace tessera

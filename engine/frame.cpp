@@ -17,7 +17,8 @@
 namespace tessera {
 namespace {
 
-static_assert(kMaxFrameBufferSize == kMaxViewportPixels, "the limits of fixed_point.h are those of every viewport");
+static_assert(kMaxFrameBufferSize == kMaxViewportPixels,
+              "the limits of fixed_point.h are those of every viewport");
 
 void check_material(const char* what, const Material& m) {
   require_finite({what, ".ambient"}, m.ambient);
@@ -25,7 +26,9 @@ void check_material(const char* what, const Material& m) {
   require_finite({what, ".specular"}, m.specular);
   require_finite({what, ".emission"}, m.emission);
   require_range({what, ".shininess"}, m.shininess, 0, 16384);
-  if (m.color_indexes) require_finite({what, ".color_indexes"}, {(*m.color_indexes)[0], (*m.color_indexes)[1], (*m.color_indexes)[2]});
+  if (m.color_indexes)
+    require_finite({what, ".color_indexes"},
+                   {(*m.color_indexes)[0], (*m.color_indexes)[1], (*m.color_indexes)[2]});
 }
 
 void check_light(std::size_t number, const Light& l) {
@@ -35,9 +38,11 @@ void check_light(std::size_t number, const Light& l) {
     require_finite({"", "specular"}, l.specular);
     require_finite({"", "position"}, {l.position[0], l.position[1], l.position[2], l.position[3]});
     require_finite({"", "spot_direction"}, {l.spot_direction[0], l.spot_direction[1], l.spot_direction[2]});
-    require_finite({"", "attenuation"}, {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
+    require_finite({"", "attenuation"},
+                   {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
     require_range({"", "spot_exponent"}, l.spot_exponent, 0, 16384);
-    if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90)) throw Error("spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
+    if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90))
+      throw Error("spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
   };
   try {
     check();
@@ -55,21 +60,25 @@ void check_state(const DrawState& s) {
   require_enum({"Frame::draw: provoking_vertex"}, s.provoking_vertex, ProvokingVertex::first);
   require_enum({"Frame::draw: cull"}, s.cull, Cull::front);
   require_enum({"Frame::draw: front_face"}, s.front_face, FrontFace::cw);
-  for (const PolygonMode mode : {s.front_mode, s.back_mode}) require_enum({"Frame::draw: a polygon mode"}, mode, PolygonMode::point);
+  for (const PolygonMode mode : {s.front_mode, s.back_mode})
+    require_enum({"Frame::draw: a polygon mode"}, mode, PolygonMode::point);
   require_range({"Frame::draw: depth_near"}, s.depth_near, 0, 1);
   require_range({"Frame::draw: depth_far"}, s.depth_far, 0, 1);
   if (s.viewport) {
     check_rect({"Frame::draw: viewport"}, *s.viewport);
     require_range({"Frame::draw: viewport width"}, s.viewport->width, 1, kMaxFrameBufferSize);
     require_range({"Frame::draw: viewport height"}, s.viewport->height, 1, kMaxFrameBufferSize);
-    require_range({"Frame::draw: viewport x"}, s.viewport->x, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
-    require_range({"Frame::draw: viewport y"}, s.viewport->y, -kMaxViewportOffset / 2, kMaxViewportOffset / 2);
+    require_range({"Frame::draw: viewport x"}, s.viewport->x, -kMaxViewportOffset / 2,
+                  kMaxViewportOffset / 2);
+    require_range({"Frame::draw: viewport y"}, s.viewport->y, -kMaxViewportOffset / 2,
+                  kMaxViewportOffset / 2);
   }
 }
 
 void check_size(const char* name, float size) {
   if (std::isfinite(size) && size > 0) return;
-  throw Error("Frame::draw: " + std::string(name) + " is " + text(size) + ", must be a finite number above 0");
+  throw Error("Frame::draw: " + std::string(name) + " is " + text(size) +
+              ", must be a finite number above 0");
 }
 
 // Of points, lines and outlines, and where polygons lie in depth.
@@ -95,7 +104,8 @@ void change(FrameRecording& recording, const char* function, const Change& edit)
 
 }  // namespace
 
-Frame::Frame(FrameBuffer& target) : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) {
+Frame::Frame(FrameBuffer& target)
+    : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) {
   if (!target.state_) throw Error("Frame: the frame buffer was moved from");
   recording_->target = target.state_.get();
 }
@@ -118,7 +128,8 @@ void Frame::set_camera(const Camera& camera) {
 void Frame::set_lights(std::span<const Light> lights) {
   const FloatingPointMode mode;
   for (std::size_t i = 0; i < lights.size(); ++i) check_light(i, lights[i]);
-  change(*recording_, "Frame::set_lights", [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
+  change(*recording_, "Frame::set_lights",
+         [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
 }
 
 void Frame::set_light_model(const LightModel& model) {
@@ -132,26 +143,35 @@ void Frame::clear(const Clear& clear) {
   const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
   if (clear.color)
-    for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a}) require_range({"Frame::clear: a component of color"}, c, 0, 1);
+    for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a})
+      require_range({"Frame::clear: a component of color"}, c, 0, 1);
   if (clear.index) {
-    if (!target.layout.index) throw Error("Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
+    if (!target.layout.index)
+      throw Error("Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
     if (*clear.index > target.layout.word_mask())
-      throw Error("Frame::clear: the index is " + std::to_string(*clear.index) + ", must be at most " + std::to_string(target.layout.word_mask()));
+      throw Error("Frame::clear: the index is " + std::to_string(*clear.index) + ", must be at most " +
+                  std::to_string(target.layout.word_mask()));
   }
   if (clear.depth) {
-    if (target.depth_kind == DepthKind::none) throw Error("Frame::clear: a depth is given, but the frame buffer has no depth buffer");
+    if (target.depth_kind == DepthKind::none)
+      throw Error("Frame::clear: a depth is given, but the frame buffer has no depth buffer");
     require_range({"Frame::clear: depth"}, *clear.depth, 0, 1);
   }
   if (clear.stencil) {
     const int bits = target.format.stencil_bits;
-    if (bits == 0) throw Error("Frame::clear: a stencil value is given, but the frame buffer has no stencil buffer");
+    if (bits == 0)
+      throw Error("Frame::clear: a stencil value is given, but the frame buffer has no stencil buffer");
     if (*clear.stencil >= 1u << bits)
-      throw Error("Frame::clear: the stencil value is " + std::to_string(*clear.stencil) + ", must be at most " + std::to_string((1u << bits) - 1));
+      throw Error("Frame::clear: the stencil value is " + std::to_string(*clear.stencil) +
+                  ", must be at most " + std::to_string((1u << bits) - 1));
   }
   if (clear.accumulation) {
-    if (target.format.accumulation_bits == 0) throw Error("Frame::clear: an accumulation colour is given, but the frame buffer has no accumulation buffer");
+    if (target.format.accumulation_bits == 0)
+      throw Error(
+          "Frame::clear: an accumulation colour is given, but the frame buffer has no accumulation buffer");
     const Color& c = *clear.accumulation;
-    for (const float component : {c.r, c.g, c.b, c.a}) require_range({"Frame::clear: a component of accumulation"}, component, -1, 1);
+    for (const float component : {c.r, c.g, c.b, c.a})
+      require_range({"Frame::clear: a component of accumulation"}, component, -1, 1);
   }
   if (clear.scissor) check_rect({"Frame::clear: scissor"}, *clear.scissor);
   with_memory("Frame::clear", [&] { recording_->clears.push_back({clear, recording_->draws.size()}); });
@@ -160,13 +180,17 @@ void Frame::clear(const Clear& clear) {
 void Frame::accumulate(const Accum& accum) {
   const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
-  if (target.layout.index) throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
-  if (target.format.accumulation_bits == 0) throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
+  if (target.layout.index)
+    throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
+  if (target.format.accumulation_bits == 0)
+    throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
   require_enum({"Frame::accumulate: op"}, accum.op, AccumOp::return_);
   require_finite({"Frame::accumulate: value"}, {accum.value});
   if (accum.scissor) check_rect({"Frame::accumulate: scissor"}, *accum.scissor);
   check_color_mask("Frame::accumulate", accum.color_mask, target);
-  with_memory("Frame::accumulate", [&] { recording_->accums.push_back({accum, recording_->draws.size(), recording_->clears.size()}); });
+  with_memory("Frame::accumulate", [&] {
+    recording_->accums.push_back({accum, recording_->draws.size(), recording_->clears.size()});
+  });
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
@@ -195,7 +219,8 @@ void Frame::capture(const Capture& capture) {
   const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
   const auto require_size = [&](const char* what, std::size_t found, std::size_t needed) {
     if (found != 0 && found != needed)
-      throw Error(std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) + " elements, the frame buffer needs " + std::to_string(needed));
+      throw Error(std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) +
+                  " elements, the frame buffer needs " + std::to_string(needed));
   };
   require_size("objects", capture.objects.size(), pixels);
   require_size("primitives", capture.primitives.size(), pixels);
@@ -209,7 +234,8 @@ std::size_t Frame::draw_count() const noexcept { return recording_->draws.size()
 
 std::string Frame::explain(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
-    throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " + std::to_string(recording_->draws.size()) + " draws, counted from 0");
+    throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
+                std::to_string(recording_->draws.size()) + " draws, counted from 0");
   return with_memory("Frame::explain", [&] {
     const FloatingPointMode mode;
     std::string reasons;

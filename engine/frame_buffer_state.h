@@ -31,10 +31,8 @@ struct StoredBuffer {
   /// Makes the planes real. Throws std::bad_alloc; then nothing changed.
   void materialize() {
     if (content != Content::uniform) return;
-    if (planes.allocated())
-      planes.fill(word);
-    else
-      planes.allocate(word);
+    if (planes.allocated()) planes.fill(word);
+    else planes.allocate(word);
     content = Content::planes;
   }
   /// Every pixel becomes `value`.
@@ -53,10 +51,10 @@ struct FrameBufferState {
   FrameBufferFormat format;
   ColorLayout layout;
   DepthKind depth_kind = DepthKind::none;
-  Palette palette;                               ///< index mode
-  std::unique_ptr<PaletteSearch> palette_search; ///< made when a colour first needs it
+  Palette palette;                                ///< index mode
+  std::unique_ptr<PaletteSearch> palette_search;  ///< made when a colour first needs it
   StoredBuffer color, depth, stencil;
-  std::array<StoredBuffer, 4> accumulation;      ///< red, green, blue, alpha: a stack holds at most 32 planes
+  std::array<StoredBuffer, 4> accumulation;  ///< red, green, blue, alpha: a stack holds at most 32 planes
 
   /// Of accumulation the first of its four; what is lost, all of them are.
   StoredBuffer& buffer(Buffer which) {
@@ -76,7 +74,8 @@ struct FrameBufferState {
   /// The search structure, made on first use.
   const PaletteSearch* search() {
     if (!layout.index) return nullptr;
-    if (!palette_search) palette_search = std::make_unique<PaletteSearch>(palette, format.dither != Dither::none);
+    if (!palette_search)
+      palette_search = std::make_unique<PaletteSearch>(palette, format.dither != Dither::none);
     return palette_search.get();
   }
 };

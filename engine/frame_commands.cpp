@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::size_t kDrawsPerTask = 16;
 
-PixelRect whole_buffer(const FrameBufferState& target) { return {0, 0, target.format.width, target.format.height}; }
+PixelRect whole_buffer(const FrameBufferState& target) {
+  return {0, 0, target.format.width, target.format.height};
+}
 
 PixelRect rect_of(const std::optional<Rect>& scissor, const FrameBufferState& target) {
   const PixelRect whole = whole_buffer(target);
@@ -39,20 +41,26 @@ void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target
   if (!ops.dither) return;
   for (std::size_t i = 0; i < to.pattern.size(); ++i) {
     const float t = ops.threshold[i / kDitherSize][i % kDitherSize], moved = (t - 0.5f) * ops.palette_spread;
-    to.pattern[i] = target.layout.index ? target.search()->nearest_unclamped(c.r + moved, c.g + moved, c.b + moved) : stored_word(target.layout, {c.r, c.g, c.b, c.a}, t);
+    to.pattern[i] = target.layout.index
+                        ? target.search()->nearest_unclamped(c.r + moved, c.g + moved, c.b + moved)
+                        : stored_word(target.layout, {c.r, c.g, c.b, c.a}, t);
     to.dithered |= to.pattern[i] != to.color_word;
   }
 }
 
 // Calls one of the three for each command of a frame, in order.
 template <class OnClear, class OnAccumulation, class OnDraw>
-void for_each_command(const FrameCommands& commands, const OnClear& on_clear, const OnAccumulation& on_accumulation, const OnDraw& on_draw) {
+void for_each_command(const FrameCommands& commands, const OnClear& on_clear,
+                      const OnAccumulation& on_accumulation, const OnDraw& on_draw) {
   std::size_t clear = 0, accumulation = 0;
   const auto clears_before = [&](std::size_t draw, std::size_t end) {
-    for (; clear < end && commands.clears[clear].before_draw <= draw; ++clear) on_clear(commands.clears[clear]);
+    for (; clear < end && commands.clears[clear].before_draw <= draw; ++clear)
+      on_clear(commands.clears[clear]);
   };
   for (std::size_t draw = 0; draw <= commands.plans.size(); ++draw) {
-    for (; accumulation < commands.accumulations.size() && commands.accumulations[accumulation].before_draw <= draw; ++accumulation) {
+    for (; accumulation < commands.accumulations.size() &&
+           commands.accumulations[accumulation].before_draw <= draw;
+         ++accumulation) {
       clears_before(draw, commands.accumulations[accumulation].after_clears);
       on_accumulation(commands.accumulations[accumulation]);
     }
@@ -76,11 +84,12 @@ Work work_on_accumulation(const TileAccumulation& command, const PixelRect& whol
   return op == AccumulationOp::load && covers(command.rect, whole) ? Work::replaces : Work::changes;
 }
 
-// Decides what tiles load and store of one buffer. `clears_it` and `words` look at a clear; `draw_touches` at a plan;
-// `work_of` at an accumulation.
+// Decides what tiles load and store of one buffer. `clears_it` and `words` look at a clear; `draw_touches` at
+// a plan; `work_of` at an accumulation.
 template <class ClearsIt, class DrawTouches, class WorkOf, class Words>
-void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const StoredBuffer& stored, const PixelRect& whole, const ClearsIt& clears_it,
-                  const DrawTouches& draw_touches, const WorkOf& work_of, const Words& words, Buffer which) {
+void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const StoredBuffer& stored,
+                  const PixelRect& whole, const ClearsIt& clears_it, const DrawTouches& draw_touches,
+                  const WorkOf& work_of, const Words& words, Buffer which) {
   bool any = false, starts_anew = false, clears_are_whole = true, is_used = false, is_changed = false;
   const TileClear* last_clear = nullptr;
   const auto begin = [&](bool anew) {
@@ -113,9 +122,11 @@ void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const S
   traffic.load = !starts_anew;
   if (traffic.load && stored.content == StoredBuffer::Content::lost)
     throw Error("Renderer::finish: the frame starts from the " + std::string(name(which)) +
-                " buffer, which the frame before did not keep; clear the whole of it first, or name it in Frame::keep() then");
+                " buffer, which the frame before did not keep; clear the whole of it first, or name it in "
+                "Frame::keep() then");
   // Clears alone need no planes.
-  if (!is_changed && last_clear != nullptr && clears_are_whole && !(which == Buffer::color && last_clear->dithered)) {
+  if (!is_changed && last_clear != nullptr && clears_are_whole &&
+      !(which == Buffer::color && last_clear->dithered)) {
     traffic.ends_uniform = true;
     traffic.uniform_words = words(*last_clear);
   }
@@ -124,9 +135,11 @@ void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const S
 
 // nullopt: it changes nothing.
 std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const FrameBufferState& target) {
-  static_assert(static_cast<int>(AccumOp::accum) == static_cast<int>(AccumulationOp::accumulate) && static_cast<int>(AccumOp::return_) == static_cast<int>(AccumulationOp::give_back));
+  static_assert(static_cast<int>(AccumOp::accum) == static_cast<int>(AccumulationOp::accumulate) &&
+                static_cast<int>(AccumOp::return_) == static_cast<int>(AccumulationOp::give_back));
   TileAccumulation command{.rect = rect_of(accum.scissor, target),
-                           .arithmetic = Accumulation(static_cast<AccumulationOp>(accum.op), accum.value, target.format.accumulation_bits, target.layout),
+                           .arithmetic = Accumulation(static_cast<AccumulationOp>(accum.op), accum.value,
+                                                      target.format.accumulation_bits, target.layout),
                            .write_mask = write_mask(accum.color_mask, ~0u, target.layout),
                            .dither = dither_of(target)};
   if (command.rect.empty() || (accum.op == AccumOp::return_ && command.write_mask == 0)) return std::nullopt;
@@ -145,7 +158,8 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
     for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = plan.constant_color[c];
     if (plan.index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
-    if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face]) draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
+    if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face])
+      draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
   }
 }
 
@@ -153,13 +167,17 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
 void plan_draws(FrameCommands& commands, FrameRecording& recording, Parallel& parallel) {
   const std::size_t draws = recording.draws.size();
   const auto plan_range = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) plan_draw(commands.plan_memory[i], recording.draws[i], *recording.target, !recording.capture.normals.empty(), nullptr);
+    for (std::size_t i = first; i < last; ++i)
+      plan_draw(commands.plan_memory[i], recording.draws[i], *recording.target,
+                !recording.capture.normals.empty(), nullptr);
   };
   if (commands.plan_memory.size() < draws) commands.plan_memory.resize(draws);
   if (draws <= kDrawsPerTask) {
     plan_range(0, draws);
   } else {
-    parallel.for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) { plan_range(task * kDrawsPerTask, std::min(draws, (task + 1) * kDrawsPerTask)); });
+    parallel.for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) {
+      plan_range(task * kDrawsPerTask, std::min(draws, (task + 1) * kDrawsPerTask));
+    });
   }
   for (std::size_t i = 0; i < draws; ++i) {
     const DrawPlan& plan = commands.plan_memory[i];
@@ -187,7 +205,8 @@ void FrameCommands::start_anew() {
   color = depth = stencil = accumulation = {};
 }
 
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers, Parallel& parallel) {
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
+                std::deque<DrawBuffers>& buffers, Parallel& parallel) {
   FrameBufferState& target = *recording.target;
   const PixelRect whole = whole_buffer(target);
   commands.start_anew();
@@ -202,14 +221,19 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     tile_clear.depth = clear.depth.has_value();
     tile_clear.stencil = clear.stencil.has_value();
     tile_clear.accumulation = clear.accumulation.has_value();
-    if (tile_clear.rect.empty() || (!tile_clear.color && !tile_clear.depth && !tile_clear.stencil && !tile_clear.accumulation)) continue;
+    if (tile_clear.rect.empty() ||
+        (!tile_clear.color && !tile_clear.depth && !tile_clear.stencil && !tile_clear.accumulation))
+      continue;
     if (tile_clear.stencil) tile_clear.stencil_value = static_cast<std::int32_t>(*clear.stencil);
     if (tile_clear.color) set_clear_color(tile_clear, clear, target);
-    if (tile_clear.depth) tile_clear.depth_key = depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, *clear.depth));
+    if (tile_clear.depth)
+      tile_clear.depth_key =
+          depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, *clear.depth));
     if (tile_clear.accumulation) {
       const Color& c = *clear.accumulation;
       const int bits = target.format.accumulation_bits;
-      tile_clear.accumulation_levels = {accumulation_level(c.r, bits), accumulation_level(c.g, bits), accumulation_level(c.b, bits), accumulation_level(c.a, bits)};
+      tile_clear.accumulation_levels = {accumulation_level(c.r, bits), accumulation_level(c.g, bits),
+                                        accumulation_level(c.b, bits), accumulation_level(c.a, bits)};
     }
     commands.clears.push_back(tile_clear);
   }
@@ -222,10 +246,16 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     commands.accumulations.push_back(*command);
   }
 
-  const auto any_plan = [&](auto predicate) { return std::any_of(commands.plans.begin(), commands.plans.end(), [&](const DrawPlan* plan) { return predicate(*plan); }); };
-  const auto any_clear = [&](auto predicate) { return std::any_of(commands.clears.begin(), commands.clears.end(), predicate); };
+  const auto any_plan = [&](auto predicate) {
+    return std::any_of(commands.plans.begin(), commands.plans.end(),
+                       [&](const DrawPlan* plan) { return predicate(*plan); });
+  };
+  const auto any_clear = [&](auto predicate) {
+    return std::any_of(commands.clears.begin(), commands.clears.end(), predicate);
+  };
   const auto any_work = [&](auto work_of) {
-    return std::any_of(commands.accumulations.begin(), commands.accumulations.end(), [&](const TileAccumulation& a) { return work_of(a, whole) >= Work::changes; });
+    return std::any_of(commands.accumulations.begin(), commands.accumulations.end(),
+                       [&](const TileAccumulation& a) { return work_of(a, whole) >= Work::changes; });
   };
   const auto draws_color = [](const DrawPlan& plan) { return plan.write_mask != 0; };
   const auto draws_depth = [](const DrawPlan& plan) { return plan.uses_depth; };
@@ -237,18 +267,31 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
   const auto clears_accumulation = [](const TileClear& clear) { return clear.accumulation; };
   const auto no_work = [](const TileAccumulation&, const PixelRect&) { return Work::none; };
   using Words = std::array<std::uint32_t, 4>;
-  commands.color.keep = wants(recording, Buffer::color, any_plan(draws_color) || any_clear(clears_color) || any_work(work_on_color), presented);
-  commands.depth.keep = wants(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
-  commands.stencil.keep = wants(recording, Buffer::stencil, any_plan(draws_stencil) || any_clear(clears_stencil), presented);
-  commands.accumulation.keep = wants(recording, Buffer::accumulation, any_clear(clears_accumulation) || any_work(work_on_accumulation), presented);
+  commands.color.keep =
+      wants(recording, Buffer::color,
+            any_plan(draws_color) || any_clear(clears_color) || any_work(work_on_color), presented);
+  commands.depth.keep =
+      wants(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
+  commands.stencil.keep =
+      wants(recording, Buffer::stencil, any_plan(draws_stencil) || any_clear(clears_stencil), presented);
+  commands.accumulation.keep =
+      wants(recording, Buffer::accumulation, any_clear(clears_accumulation) || any_work(work_on_accumulation),
+            presented);
   commands.color.used = presented;
-  plan_traffic(commands.color, commands, target.color, whole, clears_color, draws_color, work_on_color, [](const TileClear& c) { return Words{c.color_word}; }, Buffer::color);
-  plan_traffic(commands.depth, commands, target.depth, whole, clears_depth, draws_depth, no_work,
-               [&](const TileClear& c) { return Words{depth_word_from_key(target.depth_kind, c.depth_key)}; }, Buffer::depth);
-  plan_traffic(commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, no_work,
-               [](const TileClear& c) { return Words{static_cast<std::uint32_t>(c.stencil_value)}; }, Buffer::stencil);
-  plan_traffic(commands.accumulation, commands, target.accumulation[0], whole, clears_accumulation, draws_nothing, work_on_accumulation,
-               [](const TileClear& c) { return std::bit_cast<Words>(c.accumulation_levels); }, Buffer::accumulation);
+  plan_traffic(
+      commands.color, commands, target.color, whole, clears_color, draws_color, work_on_color,
+      [](const TileClear& c) { return Words{c.color_word}; }, Buffer::color);
+  plan_traffic(
+      commands.depth, commands, target.depth, whole, clears_depth, draws_depth, no_work,
+      [&](const TileClear& c) { return Words{depth_word_from_key(target.depth_kind, c.depth_key)}; },
+      Buffer::depth);
+  plan_traffic(
+      commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, no_work,
+      [](const TileClear& c) { return Words{static_cast<std::uint32_t>(c.stencil_value)}; }, Buffer::stencil);
+  plan_traffic(
+      commands.accumulation, commands, target.accumulation[0], whole, clears_accumulation, draws_nothing,
+      work_on_accumulation, [](const TileClear& c) { return std::bit_cast<Words>(c.accumulation_levels); },
+      Buffer::accumulation);
   // Tiles have no memory for what is not used.
   for (TileClear& clear : commands.clears) {
     clear.stencil &= commands.stencil.used;
@@ -263,7 +306,8 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
   }
   commands.first_tile_draw.push_back(tile_draws);
   for (TileClear& clear : commands.clears) clear.before_draw = commands.first_tile_draw[clear.before_draw];
-  for (TileAccumulation& accumulation : commands.accumulations) accumulation.before_draw = commands.first_tile_draw[accumulation.before_draw];
+  for (TileAccumulation& accumulation : commands.accumulations)
+    accumulation.before_draw = commands.first_tile_draw[accumulation.before_draw];
 
   while (buffers.size() < commands.plans.size()) buffers.emplace_back();
   for (std::size_t i = 0; i < commands.plans.size(); ++i) {
@@ -280,9 +324,11 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
 }
 
 std::span<const PolygonStyle> styles_of(const DrawPlan& plan) {
-  static constexpr PolygonStyle kInOrder[] = {PolygonStyle::fill, PolygonStyle::line, PolygonStyle::point}, kBothEnds[] = {PolygonStyle::fill, PolygonStyle::point};
+  static constexpr PolygonStyle kInOrder[] = {PolygonStyle::fill, PolygonStyle::line, PolygonStyle::point},
+                                kBothEnds[] = {PolygonStyle::fill, PolygonStyle::point};
   if (!plan.outlines) return {};
-  const auto [first, last] = std::minmax({static_cast<std::size_t>(plan.style[0]), static_cast<std::size_t>(plan.style[1])});
+  const auto [first, last] =
+      std::minmax({static_cast<std::size_t>(plan.style[0]), static_cast<std::size_t>(plan.style[1])});
   if (last - first == 2) return kBothEnds;
   return {kInOrder + first, last - first + 1};
 }
@@ -299,7 +345,9 @@ void connect_draws(FrameCommands& commands) {
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
     draw.attribute_stride = plan.attribute_count;
-    draw.attribute_count = plan.texcoords >= 0 ? plan.texcoords : plan.captured_normal >= 0 ? plan.captured_normal : plan.attribute_count;
+    draw.attribute_count = plan.texcoords >= 0         ? plan.texcoords
+                           : plan.captured_normal >= 0 ? plan.captured_normal
+                                                       : plan.attribute_count;
     draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
@@ -323,10 +371,13 @@ void connect_draws(FrameCommands& commands) {
     draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
     if (plan.source == ColorSource::constant)
       draw.word = plan.index[0] ? index_word(*geometry.layout, plan.constant_index)
-                                : color_word(*geometry.layout, geometry.search, plan.constant_color[0], plan.constant_color[1], plan.constant_color[2]);
+                                : color_word(*geometry.layout, geometry.search, plan.constant_color[0],
+                                             plan.constant_color[1], plan.constant_color[2]);
     if (plan.textures_pixels) {
       draw.texture = &plan.texture.texture;
-      for (int face = 0; face < 2; ++face) draw.color[face] = {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2], plan.alpha[face]};
+      for (int face = 0; face < 2; ++face)
+        draw.color[face] = {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2],
+                            plan.alpha[face]};
     }
     if (plan.has_ops) connect_operations(draw, plan, buffers);
     if (plan.source == ColorSource::per_pixel) {

@@ -1,4 +1,5 @@
-// A recorded frame as the tiles will run it: draws with their memory, clears in words, accumulations, and what becomes of each buffer.
+// A recorded frame as the tiles will run it: draws with their memory, clears in words, accumulations, and
+// what becomes of each buffer.
 #pragma once
 
 #include <array>
@@ -16,10 +17,10 @@ namespace tessera {
 
 /// How a buffer goes through a frame.
 struct BufferTraffic {
-  bool used = false;          ///< tiles work on it
-  bool touched = false;       ///< a command changes it
-  bool load = false;          ///< tiles start from what the frame buffer holds
-  bool store = false;         ///< tiles end in the planes
+  bool used = false;     ///< tiles work on it
+  bool touched = false;  ///< a command changes it
+  bool load = false;     ///< tiles start from what the frame buffer holds
+  bool store = false;    ///< tiles end in the planes
   bool keep = false;
   /// The whole buffer ends as one word that no pixel of a draw can have changed: nothing is stored.
   bool ends_uniform = false;
@@ -28,9 +29,9 @@ struct BufferTraffic {
 
 /// Used for one frame after the other: its memory is kept.
 struct FrameCommands {
-  std::vector<DrawPlan> plan_memory;        ///< of each recorded draw; and, from frames before, of more
-  std::vector<const DrawPlan*> plans;       ///< of draws that can change something
-  std::vector<std::size_t> plan_draw;       ///< the recorded draw of each plan
+  std::vector<DrawPlan> plan_memory;   ///< of each recorded draw; and, from frames before, of more
+  std::vector<const DrawPlan*> plans;  ///< of draws that can change something
+  std::vector<std::size_t> plan_draw;  ///< the recorded draw of each plan
   /// The tiles' first draw of each plan, and one past the last: polygons that are not all filled are several.
   std::vector<std::uint32_t> first_tile_draw;
   std::vector<GeometryDraw> geometry;
@@ -38,8 +39,9 @@ struct FrameCommands {
   std::vector<std::size_t> tile_draw_plan;  ///< of each
   std::vector<TileClear> clears;
   std::vector<TileAccumulation> accumulations;
-  std::vector<std::uint32_t> first_plan_at;  ///< of each recorded draw, and one past the last: the first plan from there on
-  std::vector<std::uint32_t> clears_until;   ///< of each recorded clear, likewise
+  std::vector<std::uint32_t>
+      first_plan_at;  ///< of each recorded draw, and one past the last: the first plan from there on
+  std::vector<std::uint32_t> clears_until;  ///< of each recorded clear, likewise
   BufferTraffic color, depth, stencil, accumulation;
 
   void start_anew();
@@ -55,10 +57,11 @@ struct FrameCommands {
   }
 };
 
-/// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to an image too.
-/// Throws Error where a buffer that the frame needs was not kept by the frame before.
+/// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to
+/// an image too. Throws Error where a buffer that the frame needs was not kept by the frame before.
 /// @param commands  are replaced
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, std::deque<DrawBuffers>& buffers, Parallel& parallel);
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
+                std::deque<DrawBuffers>& buffers, Parallel& parallel);
 
 /// The styles in which a plan's elements are drawn, in the order of its tile draws; none: as they are.
 std::span<const PolygonStyle> styles_of(const DrawPlan& plan);

@@ -31,14 +31,17 @@ void check_pixels(const char* function, RecordedPixels& pixels, const char* memo
   if (texels.top_row == nullptr) throw Error(std::string(function) + ": " + memory + " is null");
   if (texels.stride_bytes == 0) texels.stride_bytes = static_cast<std::ptrdiff_t>(row_bytes);
   if (texels.height > 1 && texels.stride_bytes < row_bytes && texels.stride_bytes > -row_bytes)
-    throw Error(std::string(function) + ": stride_bytes is " + std::to_string(texels.stride_bytes) + ", a row takes " + std::to_string(row_bytes) + " bytes");
+    throw Error(std::string(function) + ": stride_bytes is " + std::to_string(texels.stride_bytes) +
+                ", a row takes " + std::to_string(row_bytes) + " bytes");
   require_finite({function, ": position"}, {texels.x, texels.y});
   require_range({function, ": depth"}, pixels.depth, 0, 1);
 }
 
-void record(FrameRecording& recording, const char* function, const RecordedPixels& pixels, const FragmentState& state) {
+void record(FrameRecording& recording, const char* function, const RecordedPixels& pixels,
+            const FragmentState& state) {
   with_memory(function, [&] {
-    RecordedDraw draw{.mesh = {}, .state = draw_state(state), .surroundings = &recording.surroundings(), .pixels = pixels};
+    RecordedDraw draw{
+        .mesh = {}, .state = draw_state(state), .surroundings = &recording.surroundings(), .pixels = pixels};
     check_fragment_state(function, draw.state, *recording.target);
     recording.draws.push_back(std::move(draw));
   });

@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kVerticesPerTask = 512, kElementsPerTask = 4096;
 constexpr int kTilesPerTask = 8;  // to be looked through
 // How much of a frame is done after the stages before the tiles, for a progress bar.
-constexpr double kElementsDone = 0.03, kNormalsDone = 0.08, kVerticesDone = 0.15, kFacesDone = 0.2, kBinsDone = 0.3;
+constexpr double kElementsDone = 0.03, kNormalsDone = 0.08, kVerticesDone = 0.15, kFacesDone = 0.2,
+                 kBinsDone = 0.3;
 
 /// Seconds since it was last asked.
 class StopWatch {
@@ -43,22 +44,23 @@ void count_triangles(FrameStats& stats, const BinCounts& counts) {
 }
 
 /// How much of a frame is done after so many of its tiles.
-double done_after(int tiles, const FrameStats& stats) { return std::lerp(kBinsDone, 1.0, static_cast<double>(tiles) / static_cast<double>(stats.tiles)); }
+double done_after(int tiles, const FrameStats& stats) {
+  return std::lerp(kBinsDone, 1.0, static_cast<double>(tiles) / static_cast<double>(stats.tiles));
+}
 
 /// What of the frame a strip is, from its lower left corner.
 Rect pixels_of(const TileStrip& strip, const TileGrid& grid) {
   const int size = grid.tile_size, x0 = strip.first_column * size, y0 = strip.row * size;
-  const int x1 = std::min((strip.last_column + 1) * size, grid.width_px), y1 = std::min(y0 + size, grid.height_px);
+  const int x1 = std::min((strip.last_column + 1) * size, grid.width_px),
+            y1 = std::min(y0 + size, grid.height_px);
   return {x0, grid.height_px - y1, x1 - x0, y1 - y0};
 }
 
 /// @pre several tiles
 std::array<TileRange, 2> halves(const TileRange& tiles) {
   TileRange first = tiles, second = tiles;
-  if (tiles.y1 - tiles.y0 > 1)
-    first.y1 = second.y0 = std::midpoint(tiles.y0, tiles.y1);
-  else
-    first.x1 = second.x0 = std::midpoint(tiles.x0, tiles.x1);
+  if (tiles.y1 - tiles.y0 > 1) first.y1 = second.y0 = std::midpoint(tiles.y0, tiles.y1);
+  else first.x1 = second.x0 = std::midpoint(tiles.x0, tiles.x1);
   return {first, second};
 }
 
@@ -66,12 +68,9 @@ std::array<TileRange, 2> halves(const TileRange& tiles) {
 void settle(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     StoredBuffer& stored = parts[i];
-    if (traffic.store)
-      stored.content = StoredBuffer::Content::planes;
-    else if (traffic.keep && traffic.ends_uniform)
-      stored.become_uniform(traffic.uniform_words[i]);
-    else if (!traffic.keep && traffic.touched)
-      stored.content = StoredBuffer::Content::lost;
+    if (traffic.store) stored.content = StoredBuffer::Content::planes;
+    else if (traffic.keep && traffic.ends_uniform) stored.become_uniform(traffic.uniform_words[i]);
+    else if (!traffic.keep && traffic.touched) stored.content = StoredBuffer::Content::lost;
     stored.settle_lent_memory();
   }
 }
@@ -79,17 +78,16 @@ void settle(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
 /// And after some: those of the planes that were stored are new. What was lost stays lost.
 void settle_interrupted(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
   for (StoredBuffer& stored : parts)
-    if (traffic.store && stored.content == StoredBuffer::Content::uniform) stored.content = StoredBuffer::Content::planes;
+    if (traffic.store && stored.content == StoredBuffer::Content::uniform)
+      stored.content = StoredBuffer::Content::planes;
 }
 
 /// Takes the memory for what will be stored, with what tiles that are never rendered hold.
 void prepare_planes(const BufferTraffic& traffic, std::span<StoredBuffer> parts) {
   if (!traffic.store) return;
   for (StoredBuffer& stored : parts) {
-    if (!stored.planes.allocated())
-      stored.planes.allocate(stored.word);
-    else if (stored.content == StoredBuffer::Content::uniform)
-      stored.planes.fill(stored.word);
+    if (!stored.planes.allocated()) stored.planes.allocate(stored.word);
+    else if (stored.content == StoredBuffer::Content::uniform) stored.planes.fill(stored.word);
   }
 }
 
@@ -105,7 +103,8 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
 
 void RendererState::process_geometry(FrameWatch& watch) {
   for (const GeometryDraw& draw : commands.geometry) prepare_geometry(draw);
-  cut_draws([](const GeometryDraw& draw) { return draw.assembles() ? draw.mesh->elements : 0; }, kElementsPerTask);
+  cut_draws([](const GeometryDraw& draw) { return draw.assembles() ? draw.mesh->elements : 0; },
+            kElementsPerTask);
   watch.begin_stage(FrameStage::vertices, kElementsDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
     const DrawRange range = ranges[i];
@@ -116,13 +115,16 @@ void RendererState::process_geometry(FrameWatch& watch) {
   watch.begin_stage(FrameStage::vertices, kVerticesDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
     const DrawRange range = ranges[i];
-    watch.task(worker, [&] { process_vertices(commands.geometry[range.draw], range.first, range.last, isa); });
+    watch.task(worker,
+               [&] { process_vertices(commands.geometry[range.draw], range.first, range.last, isa); });
   });
-  cut_draws([](const GeometryDraw& draw) { return draw.plan->colors_triangles() ? draw.mesh->elements : 0; }, kVerticesPerTask);
+  cut_draws([](const GeometryDraw& draw) { return draw.plan->colors_triangles() ? draw.mesh->elements : 0; },
+            kVerticesPerTask);
   watch.begin_stage(FrameStage::faces, kFacesDone, ranges.size());
   parallel.for_each(ranges.size(), [&](std::size_t i, int worker) {
     const DrawRange range = ranges[i];
-    watch.task(worker, [&] { process_triangles(commands.geometry[range.draw], range.first, range.last, isa); });
+    watch.task(worker,
+               [&] { process_triangles(commands.geometry[range.draw], range.first, range.last, isa); });
   });
 }
 
@@ -142,27 +144,35 @@ void RendererState::prepare_workspaces(const TileMemory& memory) {
 
 template <class Count>
 void RendererState::cut_draws(const Count& count, std::size_t each) {
-  ranges.cut(commands.geometry.size(), [&](std::size_t d) { return count(commands.geometry[d]); }, each);
+  ranges.cut(
+      commands.geometry.size(), [&](std::size_t d) { return count(commands.geometry[d]); }, each);
 }
 
-void RendererState::look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch) {
+void RendererState::look_through_tiles(const TileStage& stage, const TileRange& tiles,
+                                       const FrameStats& stats, FrameWatch& watch) {
   const int first = tiles.first(stage.grid()), last = first + tiles.count();
   const auto tasks = static_cast<std::size_t>((tiles.count() + kTilesPerTask - 1) / kTilesPerTask);
   watch.begin_stage(FrameStage::binning, done_after(first, stats), tasks);
   parallel.for_each(tasks, [&](std::size_t task, int worker) {
     const int begin = first + static_cast<int>(task) * kTilesPerTask;
-    watch.task(worker, [&] { bin_stage.batches().look_through(begin, std::min(kTilesPerTask, last - begin)); });
+    watch.task(worker,
+               [&] { bin_stage.batches().look_through(begin, std::min(kTilesPerTask, last - begin)); });
   });
 }
 
-void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch) {
+void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats,
+                                 FrameWatch& watch) {
   worker_counts.assign(static_cast<std::size_t>(parallel.threads()), {});
   look_through_tiles(stage, tiles, stats, watch);
   stage.cut_into_strips(tiles, parallel, strip_memory);
   const std::vector<TileStrip>& strips = strip_memory.strips;
-  watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats), strips.size());
+  watch.begin_stage(FrameStage::tiles, done_after(tiles.first(stage.grid()) + tiles.count(), stats),
+                    strips.size());
   parallel.for_each(strips.size(), [&](std::size_t i, int worker) {
-    watch.task(worker, pixels_of(strips[i], stage.grid()), [&] { stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)], worker_counts[static_cast<std::size_t>(worker)]); });
+    watch.task(worker, pixels_of(strips[i], stage.grid()), [&] {
+      stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)],
+                   worker_counts[static_cast<std::size_t>(worker)]);
+    });
   });
   for (const WorkerCounts& c : worker_counts) {
     stats.shaded_pixels += c.shaded_pixels;
@@ -171,7 +181,8 @@ void RendererState::render_tiles(const TileStage& stage, const TileRange& tiles,
   }
 }
 
-void RendererState::render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch) {
+void RendererState::render_parts(bool is_filled, const TileStage& stage, FrameStats& stats,
+                                 FrameWatch& watch) {
   StopWatch clock;
   std::vector<TileRange>& left = parts_left;
   left.clear();
@@ -185,7 +196,8 @@ void RendererState::render_parts(bool is_filled, const TileStage& stage, FrameSt
     const TileRange tiles = left.back();
     left.pop_back();
     if (!is_filled) {
-      watch.begin_stage(FrameStage::binning, done_after(tiles.first(stage.grid()), stats), bin_stage.batch_count());
+      watch.begin_stage(FrameStage::binning, done_after(tiles.first(stage.grid()), stats),
+                        bin_stage.batch_count());
       is_filled = bin_stage.fill(tiles, watch);
       ++stats.bin_passes;
     }
@@ -268,10 +280,15 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
 
 void RendererState::report(const FrameStats& stats) const {
   if (stats.dropped_non_finite > 0)
-    log(LogLevel::warning, [&] { return std::to_string(stats.dropped_non_finite) + " triangles, lines or points with a NaN or infinite vertex were dropped"; });
+    log(LogLevel::warning, [&] {
+      return std::to_string(stats.dropped_non_finite) +
+             " triangles, lines or points with a NaN or infinite vertex were dropped";
+    });
   log(LogLevel::debug, [&] {
-    return "frame: " + std::to_string(stats.triangles_in) + " triangles, lines and points, " + std::to_string(stats.tiles_touched) + " of " + std::to_string(stats.tiles) + " tiles of " +
-           std::to_string(stats.tile_size) + " pixels, " + std::to_string(stats.shaded_pixels) + " shaded pixels";
+    return "frame: " + std::to_string(stats.triangles_in) + " triangles, lines and points, " +
+           std::to_string(stats.tiles_touched) + " of " + std::to_string(stats.tiles) + " tiles of " +
+           std::to_string(stats.tile_size) + " pixels, " + std::to_string(stats.shaded_pixels) +
+           " shaded pixels";
   });
 }
 

@@ -18,7 +18,8 @@ std::vector<FrameTask> FrameTrace::tasks() const noexcept try {
     all.insert(all.end(), of_worker.list.begin(), of_worker.list.end());
   }
   const auto began_before = [](const FrameTask& a, const FrameTask& b) { return a.begin < b.begin; };
-  if (!std::is_sorted(all.begin(), all.end(), began_before)) std::stable_sort(all.begin(), all.end(), began_before);  // those of one worker are
+  if (!std::is_sorted(all.begin(), all.end(), began_before))
+    std::stable_sort(all.begin(), all.end(), began_before);  // those of one worker are
   return all;
 } catch (const std::bad_alloc&) {
   return {};

@@ -32,7 +32,8 @@ class FrameTrace {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Of one worker, in cache lines of its own. The frame is worth more than its trace: what there is no memory for is left out.
+  /// Of one worker, in cache lines of its own. The frame is worth more than its trace: what there is no
+  /// memory for is left out.
   struct alignas(64) Tasks {
     std::vector<FrameTask> list;
     bool is_whole = true;

@@ -9,8 +9,9 @@ namespace tessera {
 
 void FrameWatch::report() {
   done_.fetch_add(1);
-  // Nobody waits here: the callback may need this very thread, for another renderer's frame. Who calls already looks again
-  // afterwards, and sees what was counted by those who found it calling: all of this is sequentially consistent.
+  // Nobody waits here: the callback may need this very thread, for another renderer's frame. Who calls
+  // already looks again afterwards, and sees what was counted by those who found it calling: all of this is
+  // sequentially consistent.
   while (!calling_.exchange(true)) {
     const std::size_t done = done_;
     call_if_due(done);

@@ -1,4 +1,5 @@
-// Tells the caller how far a frame is, and hears whether to go on; and what its tasks took, if somebody wants to know.
+// Tells the caller how far a frame is, and hears whether to go on; and what its tasks took, if somebody wants
+// to know.
 #pragma once
 
 #include <atomic>
@@ -13,9 +14,11 @@ namespace tessera {
 class FrameWatch {
  public:
   /// `progress` may be empty: then it costs nothing.
-  FrameWatch(const std::function<bool(double)>& progress, FrameTrace& trace) : progress_(progress), trace_(trace) {}
+  FrameWatch(const std::function<bool(double)>& progress, FrameTrace& trace)
+      : progress_(progress), trace_(trace) {}
 
-  /// A stage of `tasks` tasks begins, at whose end `end` of the frame is done; the last one's is 1. Between stages only.
+  /// A stage of `tasks` tasks begins, at whose end `end` of the frame is done; the last one's is 1. Between
+  /// stages only.
   void begin_stage(FrameStage stage, double end, std::size_t tasks) {
     trace_.begin_stage(stage);
     begin_ = end_;
@@ -43,8 +46,9 @@ class FrameWatch {
   double begin_ = 0, end_ = 0;
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;
-  std::atomic<bool> calling_ = false;  // the callback, by one at a time; for ever once it has stopped the frame
-  std::size_t told_ = 0;               // of done_, in this stage
+  std::atomic<bool> calling_ =
+      false;              // the callback, by one at a time; for ever once it has stopped the frame
+  std::size_t told_ = 0;  // of done_, in this stage
   std::chrono::steady_clock::time_point last_call_{};
 };
 

@@ -24,7 +24,8 @@ std::array<std::size_t, 3> vertices_of(const MeshArrays& mesh, std::size_t trian
   return {mesh.vertex_at(corners[0]), mesh.vertex_at(corners[1]), mesh.vertex_at(corners[2])};
 }
 
-// Twice the area times the unit normal: the sum over the polygon's triangles, which is the same however it is split.
+// Twice the area times the unit normal: the sum over the polygon's triangles, which is the same however it is
+// split.
 glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   glm::dvec3 sum(0);
   for (std::size_t t = first; t < last; ++t) {
@@ -45,7 +46,8 @@ void store_unit(const glm::dvec3& v, float* out) {
 using Key = std::array<std::uint32_t, 4>;  // bits: a NaN is no number, not even the same as itself
 Key key_at(const MeshArrays& mesh, std::size_t vertex) {
   const float* p = mesh.positions.at(vertex);
-  return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0: -0 is 0
+  return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f,
+                                                 mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0: -0 is 0
 }
 std::uint64_t hash_of(const Key& key) {
   std::uint64_t hash = 0;
@@ -64,10 +66,12 @@ std::size_t table_slots(std::size_t vertices) { return std::bit_ceil(2 * vertice
 }  // namespace
 
 SmoothNormals::Cut::Cut(std::size_t vertices, std::size_t elements)
-    : tasks(std::clamp(std::max(vertices, elements) / kItemsOfATask, std::size_t{1}, kMostTasks)), parts(std::clamp(vertices / kVerticesOfAPart, std::size_t{1}, kMostParts)) {}
+    : tasks(std::clamp(std::max(vertices, elements) / kItemsOfATask, std::size_t{1}, kMostTasks)),
+      parts(std::clamp(vertices / kVerticesOfAPart, std::size_t{1}, kMostParts)) {}
 template <class Work>
 void SmoothNormals::Cut::for_each_range(Parallel& parallel, std::size_t count, const Work& work) const {
-  parallel.for_each(tasks, [&](std::size_t task, int) { work(count * task / tasks, count * (task + 1) / tasks); });
+  parallel.for_each(tasks,
+                    [&](std::size_t task, int) { work(count * task / tasks, count * (task + 1) / tasks); });
 }
 
 template <class Item>
@@ -76,7 +80,8 @@ void SmoothNormals::Sorted<Item>::reserve(const Cut& cut, std::size_t count) {
   ends.resize(cut.tasks * cut.parts);
 }
 
-/// @param for_each_of_task  calls its second argument with the part and each item of a task; it is called twice
+/// @param for_each_of_task  calls its second argument with the part and each item of a task; it is called
+/// twice
 template <class Item>
 template <class ForEach>
 void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, const Cut& cut, const ForEach& for_each_of_task) {
@@ -93,7 +98,8 @@ void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, const Cut& cut, const
     for (std::size_t task = 0; task < tasks; ++task) begin += std::exchange(at[task * parts + part], begin);
   Item* const sorted = items.resize(begin);
   parallel.for_each(tasks, [&](std::size_t task, int) {
-    for_each_of_task(task, [&](std::size_t part, const Item& item) { sorted[at[task * parts + part]++] = item; });
+    for_each_of_task(task,
+                     [&](std::size_t part, const Item& item) { sorted[at[task * parts + part]++] = item; });
   });
 }
 
@@ -108,10 +114,12 @@ void SmoothNormals::Sorted<Item>::for_each_in(std::size_t part, const Work& work
 void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& parallel, const Cut& cut) {
   std::uint8_t* const part = part_.resize(mesh.vertices);
   cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) part[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % cut.parts);
+    for (std::size_t v = first; v < last; ++v)
+      part[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % cut.parts);
   });
   vertices_.sort(parallel, cut, [&](std::size_t task, const auto& add) {
-    for (std::size_t v = mesh.vertices * task / cut.tasks; v < mesh.vertices * (task + 1) / cut.tasks; ++v) add(part[v], static_cast<std::uint32_t>(v));
+    for (std::size_t v = mesh.vertices * task / cut.tasks; v < mesh.vertices * (task + 1) / cut.tasks; ++v)
+      add(part[v], static_cast<std::uint32_t>(v));
   });
   std::size_t begin[kMostParts + 1] = {};
   for (std::size_t p = 0; p < cut.parts; ++p) {
@@ -145,21 +153,31 @@ void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel, const 
     for (std::size_t f = first; f < last; ++f) areas[f] = area_normal(mesh, f * each, (f + 1) * each);
   });
   corners_.sort(parallel, cut, [&](std::size_t task, const auto& add) {
-    const auto add_corner = [&](std::size_t vertex, std::size_t face) { add(part_.data()[vertex], Corner{first_.data()[vertex], static_cast<std::uint32_t>(face)}); };
+    const auto add_corner = [&](std::size_t vertex, std::size_t face) {
+      add(part_.data()[vertex], Corner{first_.data()[vertex], static_cast<std::uint32_t>(face)});
+    };
     for (std::size_t f = faces * task / cut.tasks; f < faces * (task + 1) / cut.tasks; ++f) {
-      if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z)) continue;  // this polygon will be dropped; its neighbours keep theirs
-      // A polygon's first triangle has three of its vertices, each further one another: the one that those before it have not.
+      if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z))
+        continue;  // this polygon will be dropped; its neighbours keep theirs
+      // A polygon's first triangle has three of its vertices, each further one another: the one that those
+      // before it have not.
       for (const std::size_t v : vertices_of(mesh, f * each)) add_corner(v, f);
-      for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t) add_corner(mesh.vertex_at(added_corner(mesh.primitive, t)), f);
+      for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t)
+        add_corner(mesh.vertex_at(added_corner(mesh.primitive, t)), f);
     }
   });
-  // A face counts once at each position, also where several of its corners lie there (a triangle has no area then). In each part faces follow each other.
+  // A face counts once at each position, also where several of its corners lie there (a triangle has no area
+  // then). In each part faces follow each other.
   constexpr std::uint32_t kNone = 0xffffffffu;
   std::uint32_t* const last_face = table_.data();  // of each vertex; the table itself has served
-  if (each > 1) cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) { std::fill(last_face + first, last_face + last, kNone); });
+  if (each > 1)
+    cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+      std::fill(last_face + first, last_face + last, kNone);
+    });
   parallel.for_each(cut.parts, [&](std::size_t part, int) {
     corners_.for_each_in(part, [&](const Corner& corner) {
-      if (each == 1 || std::exchange(last_face[corner.vertex], corner.face) != corner.face) sums_.data()[corner.vertex] += areas[corner.face];
+      if (each == 1 || std::exchange(last_face[corner.vertex], corner.face) != corner.face)
+        sums_.data()[corner.vertex] += areas[corner.face];
     });
   });
 }
@@ -183,7 +201,8 @@ void SmoothNormals::make(const MeshArrays& mesh, Parallel& parallel, float* norm
     sum_faces(mesh, parallel, cut);
   }
   cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) store_unit(has_faces ? sums_.data()[first_.data()[v]] : glm::dvec3(0), normals + 3 * v);
+    for (std::size_t v = first; v < last; ++v)
+      store_unit(has_faces ? sums_.data()[first_.data()[v]] : glm::dvec3(0), normals + 3 * v);
   });
 }
 

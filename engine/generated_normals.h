@@ -15,10 +15,12 @@ namespace tessera {
 /// Makes normals at vertices, in memory that one mesh after the other uses.
 class SmoothNormals {
  public:
-  /// Takes the memory for meshes of so many vertices and elements, so that make() takes none for them. Throws std::bad_alloc.
+  /// Takes the memory for meshes of so many vertices and elements, so that make() takes none for them. Throws
+  /// std::bad_alloc.
   void reserve(std::size_t vertices, std::size_t elements);
-  /// For each vertex the area-weighted mean over the faces that have a vertex at the very same position, unit length (or 0), in object space;
-  /// 3 floats each. The same bits for any number of threads: each sum is made in the faces' order. Throws std::bad_alloc.
+  /// For each vertex the area-weighted mean over the faces that have a vertex at the very same position, unit
+  /// length (or 0), in object space; 3 floats each. The same bits for any number of threads: each sum is made
+  /// in the faces' order. Throws std::bad_alloc.
   /// @param normals  of 3 floats for each vertex
   void make(const MeshArrays& mesh, Parallel& parallel, float* normals);
 
@@ -55,15 +57,15 @@ class SmoothNormals {
   void find_first_at_positions(const MeshArrays& mesh, Parallel& parallel, const Cut& cut);
   void sum_faces(const MeshArrays& mesh, Parallel& parallel, const Cut& cut);
 
-  Scratch<std::uint8_t> part_;          // of each vertex: the same at the same position
+  Scratch<std::uint8_t> part_;  // of each vertex: the same at the same position
   Sorted<std::uint32_t> vertices_;
   Scratch<std::uint32_t> table_, first_;
-  Scratch<glm::dvec3> areas_, sums_;    // of faces; at the first vertices
+  Scratch<glm::dvec3> areas_, sums_;  // of faces; at the first vertices
   Sorted<Corner> corners_;
 };
 
-/// Of the faces that begin in triangles [first, last): for each triangle its face's normal, unit length (or 0), in object space; 3 floats each.
-/// Stands from 3 first on.
+/// Of the faces that begin in triangles [first, last): for each triangle its face's normal, unit length (or
+/// 0), in object space; 3 floats each. Stands from 3 first on.
 void make_face_normals(const MeshArrays& mesh, std::size_t first, std::size_t last, float* normals);
 
 }  // namespace tessera

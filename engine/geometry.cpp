@@ -13,17 +13,20 @@ constexpr int kNormalField = kNormalX, kPositionField = kPositionX, kVertexField
 
 StridedFloats normals_of(const GeometryDraw& draw) {
   if (draw.plan->face_normals) return {draw.buffers->face_normals.data(), 3};
-  return draw.plan->smooth_normals ? StridedFloats{draw.buffers->smooth_normals.data(), 3} : draw.mesh->normals;
+  return draw.plan->smooth_normals ? StridedFloats{draw.buffers->smooth_normals.data(), 3}
+                                   : draw.mesh->normals;
 }
 
 // Vertex colours of a batch; `vertex(i)` is the vertex of point i.
 template <class VertexOf>
-void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count, const VertexOf& vertex) {
+void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count,
+                        const VertexOf& vertex) {
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.color(vertex(i), c);
 }
 
-// A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position is not.
+// A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position
+// is not.
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count, std::uint8_t* codes) {
   std::uint8_t any = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -36,26 +39,31 @@ std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t
 
 std::uint32_t word_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i, int face) {
   if (draw.plan->index[face]) return index_word(*draw.layout, batch.field[kColorR][i]);
-  return color_word(*draw.layout, draw.search, batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i]);
+  return color_word(*draw.layout, draw.search, batch.field[kColorR][i], batch.field[kColorG][i],
+                    batch.field[kColorB][i]);
 }
 
 // Unlit: the vertex colours themselves, clamped as every colour is after the vertex stage.
 void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
   for (int c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < count; ++i) batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
+    for (std::size_t i = 0; i < count; ++i)
+      batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
 }
 
 // Unlit: the vertices' indices, masked as those are that come out of lighting.
 template <class VertexOf>
-void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count, const VertexOf& vertex) {
-  for (std::size_t i = 0; i < count; ++i) batch.field[kColorR][i] = masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
+void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count,
+                        const VertexOf& vertex) {
+  for (std::size_t i = 0; i < count; ++i)
+    batch.field[kColorR][i] =
+        masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
 }
 
 // Where the colours of a batch go, and whose alpha they have.
 struct Batch {
   std::size_t first, count;
-  bool triangles;                        ///< else vertices
-  float alpha[kBatchPoints];             ///< the vertices', where the draw uses them
+  bool triangles;             ///< else vertices
+  float alpha[kBatchPoints];  ///< the vertices', where the draw uses them
 };
 
 // Where the colours of one face of a batch go as floats, and how far one is from the next.
@@ -81,15 +89,20 @@ void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch
   auto [out, stride] = float_colors(draw, points, face);
   for (std::size_t i = 0; i < points.count; ++i, out += stride) {
     for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
-    out[3] = !plan.vertex_alpha ? plan.alpha[face] : plan.clamps_vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f) : points.alpha[i];
-    if (plan.folds_texture()) out[3] = textured_color(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
+    out[3] = !plan.vertex_alpha         ? plan.alpha[face]
+             : plan.clamps_vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f)
+                                        : points.alpha[i];
+    if (plan.folds_texture())
+      out[3] = textured_color(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
   }
 }
 
 // A texture of one colour over colours that are clamped.
 void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    const auto color = textured_color(texture, {batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i], 1}, texture.texel);
+    const auto color = textured_color(
+        texture, {batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i], 1},
+        texture.texel);
     for (std::size_t c = 0; c < 3; ++c) batch.field[kColorR + c][i] = color[c];
   }
 }
@@ -107,13 +120,16 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
     for (std::size_t i = 0; i < points.count; ++i, out += stride)
       for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
   } else if (!plan.index[face] && !draw.layout->index) {
-    vertex_words(isa)(*draw.layout, batch, static_cast<int>(points.count), draw.buffers->words[face].data() + points.first);
+    vertex_words(isa)(*draw.layout, batch, static_cast<int>(points.count),
+                      draw.buffers->words[face].data() + points.first);
   } else {
-    for (std::size_t i = 0; i < points.count; ++i) draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i, face);
+    for (std::size_t i = 0; i < points.count; ++i)
+      draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i, face);
   }
 }
 
-void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
+void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch,
+                 const Batch& points, int face, Isa isa) {
   light_points(isa)(program, batch, static_cast<int>((points.count + 15) / 16 * 16));
   store_colors(draw, batch, points, face, isa);
 }
@@ -134,14 +150,20 @@ void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& poi
 }
 
 template <class VertexOf>
-Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, bool triangles, const VertexOf& vertex) {
+Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, bool triangles,
+               const VertexOf& vertex) {
   Batch points{.first = first, .count = count, .triangles = triangles, .alpha = {}};
-  for (std::size_t i = 0; i < count && draw.plan->float_colors && draw.plan->vertex_alpha; ++i) points.alpha[i] = draw.mesh->color(vertex(i), 3);
+  for (std::size_t i = 0; i < count && draw.plan->float_colors && draw.plan->vertex_alpha; ++i)
+    points.alpha[i] = draw.mesh->color(vertex(i), 3);
   return points;
 }
 
-bool needs_normal(const DrawPlan& plan) { return plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)); }
-bool needs_position(const DrawPlan& plan) { return plan.lit && (plan.front.needs_position || (plan.two_sided && plan.back.needs_position)); }
+bool needs_normal(const DrawPlan& plan) {
+  return plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
+}
+bool needs_position(const DrawPlan& plan) {
+  return plan.lit && (plan.front.needs_position || (plan.two_sided && plan.back.needs_position));
+}
 
 // Per-pixel lighting: the vertex stage only carries its inputs into eye space.
 void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first, std::size_t count) {
@@ -150,32 +172,37 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
   float* out = draw.buffers->attributes.data() + first * stride;
   const auto store = [&](int field) {
     for (int c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < count; ++i) out[i * stride + static_cast<std::size_t>(c)] = batch.field[field + c][i];
+      for (std::size_t i = 0; i < count; ++i)
+        out[i * stride + static_cast<std::size_t>(c)] = batch.field[field + c][i];
     out += 3;
   };
   if (needs_normal(plan)) store(kNormalField);
   if (needs_position(plan)) store(kPositionField);
   if (plan.uses_vertex_colors) store(kVertexField);
   if (plan.float_colors && plan.vertex_alpha)
-    for (std::size_t i = 0; i < count; ++i) out[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, as the colour
+    for (std::size_t i = 0; i < count; ++i)
+      out[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, as the colour
 }
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
   float* out = draw.buffers->attributes.data() + first * stride + draw.plan->texcoords;
-  for (std::size_t i = 0; i < count; ++i, out += stride) std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
+  for (std::size_t i = 0; i < count; ++i, out += stride)
+    std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
 }
 
 // What a capture wants: eye-space normals, whatever the shading does with them.
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count, Isa isa) {
-  const StridedFloats normals = draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
+  const StridedFloats normals =
+      draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
   float eye[3][kVertexBatch];
   eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
   float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal;
   for (std::size_t i = 0; i < count; ++i, out += stride) {
     const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
-    for (std::size_t c = 0; c < 3; ++c) out[c] = is_finite ? eye[c][i] : 0;  // a capture drops nothing of the picture
+    for (std::size_t c = 0; c < 3; ++c)
+      out[c] = is_finite ? eye[c][i] : 0;  // a capture drops nothing of the picture
   }
 }
 
@@ -190,14 +217,18 @@ void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last)
   }
 }
 
-// Around the first triangle, with what each further one adds before its end. From the same vertex on under both conventions.
+// Around the first triangle, with what each further one adds before its end. From the same vertex on under
+// both conventions.
 void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const std::size_t each = mesh.polygon_triangles(), first_polygon = (first + each - 1) / each;
   std::uint32_t* out = draw.buffers->boundary.data() + first_polygon * (each + 2);
   for (std::size_t begin = first_polygon * each; begin < last; begin += each) {
-    for (const std::size_t corner : element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, begin)) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
-    for (std::size_t t = begin + 1; t < begin + each; ++t) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
+    for (const std::size_t corner :
+         element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, begin))
+      *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+    for (std::size_t t = begin + 1; t < begin + each; ++t)
+      *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
   }
 }
 
@@ -213,12 +244,18 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->elements;
   buffers.vertices.resize(vertices);
   buffers.codes.resize(vertices);
-  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) + 2 * kAttributePadding);  // read in whole vectors
-  for (int face = 0; face < 2; ++face) buffers.face_colors[face].resize(plan.float_colors && plan.colors_triangles() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
-  const std::size_t words = plan.source == ColorSource::vertex_word ? vertices : plan.source == ColorSource::triangle_word ? triangles : 0;
+  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) +
+                            2 * kAttributePadding);  // read in whole vectors
+  for (int face = 0; face < 2; ++face)
+    buffers.face_colors[face].resize(
+        plan.float_colors && plan.colors_triangles() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
+  const std::size_t words = plan.source == ColorSource::vertex_word     ? vertices
+                            : plan.source == ColorSource::triangle_word ? triangles
+                                                                        : 0;
   buffers.words[0].resize(words);
   buffers.words[1].resize(plan.two_sided ? words : 0);
-  if (draw.makes_indices()) buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
+  if (draw.makes_indices())
+    buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
   buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
   const std::size_t polygon_triangles = draw.mesh->polygon_triangles();
   if (plan.outlines) buffers.boundary.resize(triangles / polygon_triangles * (polygon_triangles + 2));
@@ -237,7 +274,9 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
   const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
   TransformVertices* const transform = transform_vertices(isa);
-  const bool colors_matter = plan.source == ColorSource::vertex_word || plan.source == ColorSource::interpolated || plan.source == ColorSource::per_pixel;
+  const bool colors_matter = plan.source == ColorSource::vertex_word ||
+                             plan.source == ColorSource::interpolated ||
+                             plan.source == ColorSource::per_pixel;
   const StridedFloats normals = normals_of(draw);
   ShadingBatch batch;
   clear_batch(batch);
@@ -245,23 +284,31 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
     const StridedFloats positions = mesh.positions.from(at);
-    codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at, buffers.codes.data() + at);
-    if (plan.uses_vertex_colors && mesh.colors) codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
-    if (plan.uses_color_indices) codes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.codes.data() + at);
+    codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at,
+                       buffers.codes.data() + at);
+    if (plan.uses_vertex_colors && mesh.colors)
+      codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
+    if (plan.uses_color_indices)
+      codes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.codes.data() + at);
     if (plan.texcoords >= 0) {
       codes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.codes.data() + at);
       store_texcoords(draw, at, count);
     }
     if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
-    if (needs_normal(plan) && !plan.face_normals) codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
+    if (needs_normal(plan) && !plan.face_normals)
+      codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
     if (!colors_matter || plan.colors_triangles()) continue;
-    if (needs_normal(plan)) eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+    if (needs_normal(plan))
+      eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY],
+                       batch.field[kNormalZ]);
     if (needs_position(plan))
-      eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
-    if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
-    if (plan.uses_color_indices) load_color_indices(draw, batch, count, [at](std::size_t i) { return at + i; });
-    if (plan.source == ColorSource::per_pixel)
-      store_inputs(draw, batch, at, count);
+      eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX],
+                         batch.field[kPositionY], batch.field[kPositionZ]);
+    if (plan.uses_vertex_colors)
+      load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
+    if (plan.uses_color_indices)
+      load_color_indices(draw, batch, count, [at](std::size_t i) { return at + i; });
+    if (plan.source == ColorSource::per_pixel) store_inputs(draw, batch, at, count);
     else
       shade_batch(draw, batch, batch_of(draw, at, count, false, [at](std::size_t i) { return at + i; }), isa);
   }
@@ -272,24 +319,34 @@ void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t 
   const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
   const auto components = static_cast<std::size_t>(mesh.components);
-  const auto vertex_of = [&](std::size_t triangle) { return mesh.vertex_at(provoking_corner(mesh.primitive, draw.provoking_vertex, mesh.corners, triangle)); };
+  const auto vertex_of = [&](std::size_t triangle) {
+    return mesh.vertex_at(provoking_corner(mesh.primitive, draw.provoking_vertex, mesh.corners, triangle));
+  };
   ShadingBatch batch;
   clear_batch(batch);
   float positions[4 * kVertexBatch], normals[3 * kVertexBatch];
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
     if (needs_normal(plan)) {
-      for (std::size_t i = 0; i < count && !plan.face_normals; ++i) std::copy_n(mesh.normals.at(vertex_of(at + i)), 3, normals + 3 * i);
-      const StridedFloats of_triangles = plan.face_normals ? normals_of(draw).from(at) : StridedFloats{normals, 3};
-      eye_normals(isa)(plan.eye, of_triangles, count, batch.field[kNormalX], batch.field[kNormalY], batch.field[kNormalZ]);
+      for (std::size_t i = 0; i < count && !plan.face_normals; ++i)
+        std::copy_n(mesh.normals.at(vertex_of(at + i)), 3, normals + 3 * i);
+      const StridedFloats of_triangles =
+          plan.face_normals ? normals_of(draw).from(at) : StridedFloats{normals, 3};
+      eye_normals(isa)(plan.eye, of_triangles, count, batch.field[kNormalX], batch.field[kNormalY],
+                       batch.field[kNormalZ]);
     }
     if (needs_position(plan)) {
-      for (std::size_t i = 0; i < count; ++i) std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
-      eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
+      for (std::size_t i = 0; i < count; ++i)
+        std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
+      eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX],
+                         batch.field[kPositionY], batch.field[kPositionZ]);
     }
-    if (plan.uses_vertex_colors) load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
-    if (plan.uses_color_indices) load_color_indices(draw, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
-    shade_batch(draw, batch, batch_of(draw, at, count, true, [&](std::size_t i) { return vertex_of(at + i); }), isa);
+    if (plan.uses_vertex_colors)
+      load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+    if (plan.uses_color_indices)
+      load_color_indices(draw, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+    shade_batch(draw, batch,
+                batch_of(draw, at, count, true, [&](std::size_t i) { return vertex_of(at + i); }), isa);
   }
 }
 

@@ -18,15 +18,16 @@ struct DrawBuffers {
   Scratch<std::uint8_t> codes;
   Scratch<float> attributes;
   Scratch<std::uint32_t> words[2];
-  Scratch<float> face_colors[2];         ///< r g b a for each triangle, of flat draws with operations
-  Scratch<std::uint32_t> indices;        ///< of elements: widened from 16 bits, or made of other primitives
-  Scratch<Facing> facing;                ///< of each triangle, where several make a polygon or outlines are drawn
-  Scratch<std::uint32_t> boundary;       ///< of each polygon the vertices in order, where outlines are drawn
-  Scratch<double> depth_offsets;         ///< of each triangle's polygon, where several make one or clipping cuts some
+  Scratch<float> face_colors[2];    ///< r g b a for each triangle, of flat draws with operations
+  Scratch<std::uint32_t> indices;   ///< of elements: widened from 16 bits, or made of other primitives
+  Scratch<Facing> facing;           ///< of each triangle, where several make a polygon or outlines are drawn
+  Scratch<std::uint32_t> boundary;  ///< of each polygon the vertices in order, where outlines are drawn
+  Scratch<double>
+      depth_offsets;  ///< of each triangle's polygon, where several make one or clipping cuts some
   PolygonModes modes;
-  Scratch<float> smooth_normals;         ///< generated, for the plan or for a capture
-  Scratch<float> face_normals;           ///< generated, of each triangle
-  std::atomic<bool> any_code = false;    ///< some vertex has a clip code
+  Scratch<float> smooth_normals;       ///< generated, for the plan or for a capture
+  Scratch<float> face_normals;         ///< generated, of each triangle
+  std::atomic<bool> any_code = false;  ///< some vertex has a clip code
 };
 
 /// What the vertex stage works on.
@@ -40,17 +41,22 @@ struct GeometryDraw {
 
   bool makes_indices() const {
     const Primitive p = mesh->primitive;
-    return mesh->short_indices != nullptr || (p != Primitive::points && p != Primitive::lines && p != Primitive::triangles);
+    return mesh->short_indices != nullptr ||
+           (p != Primitive::points && p != Primitive::lines && p != Primitive::triangles);
   }
-  /// As many for each element as it has corners, of 32 bits, or null: vertices in order. @pre prepare_geometry
+  /// As many for each element as it has corners, of 32 bits, or null: vertices in order. @pre
+  /// prepare_geometry
   const std::uint32_t* indices() const { return makes_indices() ? buffers->indices.data() : mesh->indices; }
   /// Of each triangle, or null: its own area decides. @pre face_polygons
   const Facing* facing() const { return faces_polygons() ? buffers->facing.data() : nullptr; }
-  /// Of each triangle's polygon, or null: each has its own, or there are none; NaN: that one has its own. @pre offset_polygons
+  /// Of each triangle's polygon, or null: each has its own, or there are none; NaN: that one has its own.
+  /// @pre offset_polygons
   const double* depth_offsets() const { return offsets_polygons() ? buffers->depth_offsets.data() : nullptr; }
   /// It has elements whose corners or normals are not there yet. @see assemble_elements
   bool assembles() const { return makes_indices() || plan->outlines || plan->face_normals; }
-  bool wants_smooth_normals() const { return plan->smooth_normals || (plan->captured_normal >= 0 && !mesh->normals); }
+  bool wants_smooth_normals() const {
+    return plan->smooth_normals || (plan->captured_normal >= 0 && !mesh->normals);
+  }
   bool faces_polygons() const { return plan->outlines || mesh->polygon_triangles() > 1; }
   /// Once the vertices are there.
   bool offsets_polygons() const { return plan->has_offset() && (faces_polygons() || buffers->any_code); }
@@ -58,7 +64,8 @@ struct GeometryDraw {
 
 /// Takes the memory. Throws std::bad_alloc.
 void prepare_geometry(const GeometryDraw& draw);
-/// Corners of elements [first, last), and what belongs to polygons that begin among them; distinct ranges may run at the same time.
+/// Corners of elements [first, last), and what belongs to polygons that begin among them; distinct ranges may
+/// run at the same time.
 void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last);
 /// Vertices [first, last); distinct ranges may run at the same time.
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa);

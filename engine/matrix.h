@@ -10,7 +10,8 @@ namespace tessera {
 glm::dmat4 to_glm(const Matrix& matrix);
 Matrix from_glm(const glm::dmat4& matrix);
 
-/// The same direction, its square within a double's range: very long and very short vectors are scaled by a power of two.
+/// The same direction, its square within a double's range: very long and very short vectors are scaled by a
+/// power of two.
 glm::dvec3 measurable(const glm::dvec3& v);
 
 }  // namespace tessera

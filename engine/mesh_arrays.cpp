@@ -13,13 +13,18 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kIndicesPerTask = 4096, kManyIndices = 65536;  // fewer than many are looked through before others could have begun
+constexpr std::size_t kIndicesPerTask = 4096,
+                      kManyIndices =
+                          65536;  // fewer than many are looked through before others could have begun
 
 [[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
 
-void require_one_form(const char* what, std::size_t packed, const char* unit, std::size_t vertices, std::size_t stride_bytes) {
+void require_one_form(const char* what, std::size_t packed, const char* unit, std::size_t vertices,
+                      std::size_t stride_bytes) {
   if (packed != 0 && (vertices != 0 || stride_bytes != 0))
-    fail("has " + std::to_string(packed) + " packed " + unit + " of " + what + " and also " + std::to_string(vertices) + " vertices with a stride of " + std::to_string(stride_bytes) + " bytes, must have one or the other");
+    fail("has " + std::to_string(packed) + " packed " + unit + " of " + what + " and also " +
+         std::to_string(vertices) + " vertices with a stride of " + std::to_string(stride_bytes) +
+         " bytes, must have one or the other");
 }
 
 // Packed arrays have floats, or vertices as those with a stride do.
@@ -27,32 +32,39 @@ std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
   require_one_form("positions", positions.floats, "floats", positions.vertices, positions.stride_bytes);
   if (positions.floats == 0) return positions.vertices;
   if (positions.floats % components != 0)
-    fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " + std::to_string(components));
+    fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " +
+         std::to_string(components));
   return positions.floats / components;
 }
 
 void require_all(const char* what, std::size_t given, std::size_t vertices) {
-  if (given != vertices) fail(std::string("has ") + what + " of " + std::to_string(given) + " vertices, but " + std::to_string(vertices) + " vertices");
+  if (given != vertices)
+    fail(std::string("has ") + what + " of " + std::to_string(given) + " vertices, but " +
+         std::to_string(vertices) + " vertices");
 }
 
 void require_stride(const char* what, std::size_t stride_bytes, std::size_t multiple, std::size_t least) {
   if (stride_bytes % multiple != 0 || stride_bytes < least)
-    fail("has a stride of " + std::to_string(stride_bytes) + " bytes for " + what + ", must be " + (multiple > 1 ? "a multiple of " + std::to_string(multiple) + " and " : "") +
-         "at least " + std::to_string(least));
+    fail("has a stride of " + std::to_string(stride_bytes) + " bytes for " + what + ", must be " +
+         (multiple > 1 ? "a multiple of " + std::to_string(multiple) + " and " : "") + "at least " +
+         std::to_string(least));
 }
 
 void require_address(const char* what, const void* data, std::size_t multiple) {
   if (data == nullptr) fail(std::string("has no address for ") + what);
-  if (reinterpret_cast<std::uintptr_t>(data) % multiple != 0) fail(std::string("has ") + what + " at an address that is no multiple of " + std::to_string(multiple));
+  if (reinterpret_cast<std::uintptr_t>(data) % multiple != 0)
+    fail(std::string("has ") + what + " at an address that is no multiple of " + std::to_string(multiple));
 }
 
-StridedFloats strided(const FloatArray& array, const char* what, std::size_t components, std::size_t vertices) {
+StridedFloats strided(const FloatArray& array, const char* what, std::size_t components,
+                      std::size_t vertices) {
   if (array.empty()) return {};
   require_one_form(what, array.floats, "floats", array.vertices, array.stride_bytes);
   require_address(what, array.data, alignof(float));
   if (array.floats != 0) {
     if (array.floats != vertices * components)
-      fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " + std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
+      fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " +
+           std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
     return {array.data, components};
   }
   require_all(what, array.vertices, vertices);
@@ -63,7 +75,9 @@ StridedFloats strided(const FloatArray& array, const char* what, std::size_t com
 
 void add_colors(const ColorArray& colors, MeshArrays& mesh) {
   if (colors.byte_count == 0 && colors.vertices == 0) {
-    if (colors.stride_bytes != 0) fail("has a stride of " + std::to_string(colors.stride_bytes) + " bytes for colors, but no bytes of colors; that of floats is theirs");
+    if (colors.stride_bytes != 0)
+      fail("has a stride of " + std::to_string(colors.stride_bytes) +
+           " bytes for colors, but no bytes of colors; that of floats is theirs");
     mesh.colors = strided(colors.floats, "colors", 4, mesh.vertices);
     return;
   }
@@ -73,7 +87,8 @@ void add_colors(const ColorArray& colors, MeshArrays& mesh) {
   mesh.color_bytes = colors.bytes;
   mesh.color_stride = colors.stride_bytes == 0 ? 4 : colors.stride_bytes;
   if (colors.byte_count != 0 && colors.byte_count != 4 * mesh.vertices)
-    fail("has " + std::to_string(colors.byte_count) + " bytes of colors, its " + std::to_string(mesh.vertices) + " vertices need " + std::to_string(4 * mesh.vertices));
+    fail("has " + std::to_string(colors.byte_count) + " bytes of colors, its " +
+         std::to_string(mesh.vertices) + " vertices need " + std::to_string(4 * mesh.vertices));
   if (colors.byte_count == 0) require_all("colors", colors.vertices, mesh.vertices);
   require_stride("colors", mesh.color_stride, 1, 4);
 }
@@ -87,17 +102,15 @@ const Index* indices_of(const IndexArray& array) {
 void add_indices(const IndexArray& array, MeshArrays& mesh) {
   if (array.empty()) return;
   if (mesh.vertices == 0) fail("has " + std::to_string(array.count) + " indices, but no vertices");
-  if (array.bits == 32)
-    mesh.indices = indices_of<std::uint32_t>(array);
-  else if (array.bits == 16)
-    mesh.short_indices = indices_of<std::uint16_t>(array);
-  else
-    fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
+  if (array.bits == 32) mesh.indices = indices_of<std::uint32_t>(array);
+  else if (array.bits == 16) mesh.short_indices = indices_of<std::uint16_t>(array);
+  else fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
 }
 
 bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   const std::size_t count = last - first;
-  return (mesh.indices ? largest_index(std::span(mesh.indices + first, count)) : largest_index(std::span(mesh.short_indices + first, count))) < mesh.vertices;
+  return (mesh.indices ? largest_index(std::span(mesh.indices + first, count))
+                       : largest_index(std::span(mesh.short_indices + first, count))) < mesh.vertices;
 }
 
 bool are_in_bounds(const MeshArrays& mesh, Parallel* workers) {
@@ -114,13 +127,15 @@ bool are_in_bounds(const MeshArrays& mesh, Parallel* workers) {
 
 MeshArrays check_mesh(const Mesh& mesh) {
   if (mesh.position_components != 3 && mesh.position_components != 4)
-    throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) + ", must be 3 or 4");
+    throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) +
+                ", must be 3 or 4");
   require_enum({"Frame::draw: the mesh's primitive"}, mesh.primitive, Primitive::polygon);
   const auto components = static_cast<std::size_t>(mesh.position_components);
   MeshArrays arrays;
   arrays.components = mesh.position_components;
   arrays.vertices = vertices_of(mesh.positions, components);
-  if (arrays.vertices > 0xffffffffu) fail("has " + std::to_string(arrays.vertices) + " vertices, at most 4294967295 are possible");
+  if (arrays.vertices > 0xffffffffu)
+    fail("has " + std::to_string(arrays.vertices) + " vertices, at most 4294967295 are possible");
   arrays.positions = strided(mesh.positions, "positions", components, arrays.vertices);
   arrays.normals = strided(mesh.normals, "normals", 3, arrays.vertices);
   add_colors(mesh.colors, arrays);
@@ -129,12 +144,18 @@ MeshArrays check_mesh(const Mesh& mesh) {
   const std::size_t corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
   arrays.primitive = mesh.primitive;
   if (!makes_whole_primitives(mesh.primitive, corners))
-    fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", " + std::string(name_of_mesh(mesh.primitive)) +
-         (name_of_mesh(mesh.primitive).starts_with("a ") ? " needs " : " need ") + std::string(corners_needed(mesh.primitive)));
+    fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", " +
+         std::string(name_of_mesh(mesh.primitive)) +
+         (name_of_mesh(mesh.primitive).starts_with("a ") ? " needs " : " need ") +
+         std::string(corners_needed(mesh.primitive)));
   arrays.corners = corners;
   arrays.elements = element_count(mesh.primitive, corners);
   if (arrays.elements > kMaxTriangles)
-    fail("has " + std::to_string(arrays.elements) + (arrays.topology() == Topology::points ? " points" : arrays.topology() == Topology::lines ? " lines" : " triangles") + ", at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
+    fail("has " + std::to_string(arrays.elements) +
+         (arrays.topology() == Topology::points  ? " points"
+          : arrays.topology() == Topology::lines ? " lines"
+                                                 : " triangles") +
+         ", at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
   add_indices(mesh.indices, arrays);
   return arrays;
 }
@@ -143,7 +164,8 @@ void check_indices(const MeshArrays& mesh, Parallel* workers) {
   if (!mesh.indexed() || are_in_bounds(mesh, workers)) return;
   std::size_t wrong = 0;
   while (wrong + 1 < mesh.corners && mesh.vertex_at(wrong) < mesh.vertices) ++wrong;
-  throw Error("Frame::draw: index " + std::to_string(wrong) + " of the mesh is " + std::to_string(mesh.vertex_at(wrong)) + ", must be below the number of vertices, " +
+  throw Error("Frame::draw: index " + std::to_string(wrong) + " of the mesh is " +
+              std::to_string(mesh.vertex_at(wrong)) + ", must be below the number of vertices, " +
               std::to_string(mesh.vertices));
 }
 

@@ -15,17 +15,17 @@ class Parallel;
 struct MeshArrays {
   Primitive primitive = Primitive::triangles;
   std::size_t vertices = 0;
-  std::size_t corners = 0;                     ///< indices, or vertices where there are none
-  std::size_t elements = 0;                    ///< points, lines or triangles: what primitives are split into
+  std::size_t corners = 0;   ///< indices, or vertices where there are none
+  std::size_t elements = 0;  ///< points, lines or triangles: what primitives are split into
   StridedFloats positions;
-  int components = 3;                          ///< of a position
-  StridedFloats normals;                       ///< or none
-  StridedFloats colors;                        ///< or none
-  const std::uint8_t* color_bytes = nullptr;   ///< or none
-  std::size_t color_stride = 0;                ///< bytes
-  StridedFloats color_indices;                 ///< or none
-  StridedFloats texcoords;                     ///< or none
-  const std::uint32_t* indices = nullptr;      ///< null: 16 bits, or vertices in order
+  int components = 3;                         ///< of a position
+  StridedFloats normals;                      ///< or none
+  StridedFloats colors;                       ///< or none
+  const std::uint8_t* color_bytes = nullptr;  ///< or none
+  std::size_t color_stride = 0;               ///< bytes
+  StridedFloats color_indices;                ///< or none
+  StridedFloats texcoords;                    ///< or none
+  const std::uint32_t* indices = nullptr;     ///< null: 16 bits, or vertices in order
   const std::uint16_t* short_indices = nullptr;
 
   bool indexed() const { return indices != nullptr || short_indices != nullptr; }
@@ -33,14 +33,18 @@ struct MeshArrays {
   Topology topology() const { return topology_of(primitive); }
   bool has_colors() const { return colors || color_bytes != nullptr; }
   /// The vertex at a corner, counted along the indices.
-  std::size_t vertex_at(std::size_t corner) const { return indices ? indices[corner] : short_indices ? short_indices[corner] : corner; }
+  std::size_t vertex_at(std::size_t corner) const {
+    return indices ? indices[corner] : short_indices ? short_indices[corner] : corner;
+  }
   /// Component c of a vertex's colour.
   float color(std::size_t vertex, std::size_t c) const {
-    return color_bytes ? static_cast<float>(color_bytes[vertex * color_stride + c]) / 255.0f : colors.at(vertex)[c];
+    return color_bytes ? static_cast<float>(color_bytes[vertex * color_stride + c]) / 255.0f
+                       : colors.at(vertex)[c];
   }
 };
 
-/// Checks a mesh but for what its indices are, which are many. Throws Error for arrays that do not fit together, and strides and pointers that floats cannot have.
+/// Checks a mesh but for what its indices are, which are many. Throws Error for arrays that do not fit
+/// together, and strides and pointers that floats cannot have.
 MeshArrays check_mesh(const Mesh& mesh);
 
 /// Throws Error that names the first index that is out of bounds, if there is one.

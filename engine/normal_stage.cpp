@@ -10,7 +10,8 @@ constexpr std::size_t kMostOfASmallMesh = 4096;  // vertices or elements
 
 }  // namespace
 
-void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, FrameWatch& watch, double done) {
+void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, FrameWatch& watch,
+                      double done) {
   small_.clear();
   std::size_t most_vertices = 0, most_elements = 0;
   for (const GeometryDraw& draw : draws) {
@@ -30,12 +31,15 @@ void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, F
   if (small_.empty()) return;
   const std::size_t workers = parallel.workers_for(small_.size());
   while (makers_.size() < workers) makers_.emplace_back();
-  for (std::size_t k = 0; k < workers; ++k) makers_[k].normals.reserve(most_vertices, most_elements);  // whoever has the largest one, and in whichever frame
+  for (std::size_t k = 0; k < workers; ++k)
+    makers_[k].normals.reserve(most_vertices,
+                               most_elements);  // whoever has the largest one, and in whichever frame
   watch.begin_stage(FrameStage::vertices, done, small_.size());
   parallel.for_each(small_.size(), [&](std::size_t i, int worker) {
     const GeometryDraw& draw = *small_[i];
     Maker& maker = makers_[static_cast<std::size_t>(worker)];
-    watch.task(worker, [&] { maker.normals.make(*draw.mesh, maker.alone, draw.buffers->smooth_normals.data()); });
+    watch.task(worker,
+               [&] { maker.normals.make(*draw.mesh, maker.alone, draw.buffers->smooth_normals.data()); });
   });
 }
 

@@ -25,7 +25,8 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// oneTBB's threads, in an arena of their own, where progress callbacks may work, too. Two keep their numbers from call to call; which of more takes which is chance.
+/// oneTBB's threads, in an arena of their own, where progress callbacks may work, too. Two keep their numbers
+/// from call to call; which of more takes which is chance.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
@@ -33,7 +34,9 @@ class ArenaExecutor : public Executor {
   void run(int count, void (*work)(void*, int), void* context) override {
     arena_.execute([&] {
       tbb::parallel_for(
-          tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); }, tbb::simple_partitioner());
+          tbb::blocked_range<int>(0, count, 1),
+          [&](const tbb::blocked_range<int>& range) { work(context, range.begin()); },
+          tbb::simple_partitioner());
     });
   }
 
@@ -50,7 +53,8 @@ class SerialExecutor : public Executor {
   }
 };
 
-/// Where a task that would run as number i runs in another order: i step + order modulo count, for a step that meets them all.
+/// Where a task that would run as number i runs in another order: i step + order modulo count, for a step
+/// that meets them all.
 class TaskOrder {
  public:
   TaskOrder(std::uint32_t order, std::size_t count) : order_(order), count_(count) {
@@ -110,7 +114,8 @@ struct Parallel::Queue {
   std::size_t run_share(Share& share, int worker) noexcept {
     std::size_t ran = 0;
     // It looks before it takes: looking leaves the line in the caches of all who look.
-    while (share.next.load(std::memory_order_relaxed) < share.end && !failed.load(std::memory_order_relaxed)) {
+    while (share.next.load(std::memory_order_relaxed) < share.end &&
+           !failed.load(std::memory_order_relaxed)) {
       const std::size_t i = share.next.fetch_add(1, std::memory_order_relaxed);
       if (i >= share.end) break;
       ++ran;
@@ -126,12 +131,14 @@ struct Parallel::Queue {
 
 std::shared_ptr<Executor> serial_executor() { return std::make_shared<SerialExecutor>(); }
 
-Parallel::Parallel(int threads, std::shared_ptr<Executor> executor, std::uint32_t order) : executor_(std::move(executor)), order_(order) {
+Parallel::Parallel(int threads, std::shared_ptr<Executor> executor, std::uint32_t order)
+    : executor_(std::move(executor)), order_(order) {
   if (executor_) {
     threads_ = std::clamp(threads, 1, std::max(1, executor_->workers()));
   } else {
     // An arena above the process's limit would make oneTBB print a warning and not run more threads anyway.
-    const auto limit = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    const auto limit =
+        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     threads_ = std::clamp(threads, 1, std::max(1, limit));
     executor_ = threads_ == 1 ? serial_executor() : std::make_shared<ArenaExecutor>(threads_);
   }
@@ -145,7 +152,8 @@ void Parallel::run(std::size_t count, const AnyTask& task) {
   if (count == 0) return;
   const TaskOrder order(order_, count);
   if (runs_) {
-    // A task's call: the others are busy with the outer one. Who waited for them here might wait for one who waits for this task.
+    // A task's call: the others are busy with the outer one. Who waited for them here might wait for one who
+    // waits for this task.
     const FloatingPointMode mode;
     for (std::size_t i = 0; i < count; ++i) task.call(task.self, order(i), 0);
     return;
@@ -163,9 +171,12 @@ void Parallel::run(std::size_t count, const AnyTask& task) {
   }
   if (queue.failure) std::rethrow_exception(queue.failure);
   if (const int stray = queue.stray.load(std::memory_order_acquire); stray != 0)
-    throw Error("Renderer: the executor called work for worker " + std::to_string(stray) + ", run() must call it for 0 .. " + std::to_string(workers - 1));
+    throw Error("Renderer: the executor called work for worker " + std::to_string(stray) +
+                ", run() must call it for 0 .. " + std::to_string(workers - 1));
   if (queue.done.load(std::memory_order_acquire) != count)
-    throw Error("Renderer: the executor returned before its work was done; run() must call work for each worker and wait for all of them");
+    throw Error(
+        "Renderer: the executor returned before its work was done; run() must call work for each worker and "
+        "wait for all of them");
 }
 
 int Parallel::distinct_workers_seen() {
@@ -179,7 +190,8 @@ void isolated(const std::function<void()>& run) { tbb::this_task_arena::isolate(
 int available_cores() { return std::max(1, tbb::info::default_concurrency()); }
 
 struct ThreadLimit::Control {
-  explicit Control(int threads) : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)) {}
+  explicit Control(int threads)
+      : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)) {}
   tbb::global_control control;
 };
 ThreadLimit::ThreadLimit(int threads) : control_(std::make_unique<Control>(threads)) {}

@@ -79,10 +79,11 @@ constexpr std::size_t element_count(Primitive primitive, std::size_t corners) {
   }
 }
 
-/// Corner numbers of element t, as many as it has, those of a triangle in the order of its polygon. Its provoking vertex stands in
-/// provoking_place(), unless that says that it is elsewhere.
+/// Corner numbers of element t, as many as it has, those of a triangle in the order of its polygon. Its
+/// provoking vertex stands in provoking_place(), unless that says that it is elsewhere.
 /// @param corners  of the whole mesh
-constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, ProvokingVertex provoking, std::size_t corners, std::size_t t) {
+constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, ProvokingVertex provoking,
+                                                     std::size_t corners, std::size_t t) {
   const bool last = provoking == ProvokingVertex::last;
   switch (primitive) {
     case Primitive::points: return {t};
@@ -109,7 +110,8 @@ constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, Provok
   return {};
 }
 
-/// Which of its corners is every element's provoking one; -1: of some triangles it is another corner of their polygon.
+/// Which of its corners is every element's provoking one; -1: of some triangles it is another corner of their
+/// polygon.
 constexpr int provoking_place(Primitive primitive, ProvokingVertex provoking) {
   if (topology_of(primitive) == Topology::points) return 0;
   if (topology_of(primitive) == Topology::lines) return provoking == ProvokingVertex::first ? 0 : 1;
@@ -118,12 +120,15 @@ constexpr int provoking_place(Primitive primitive, ProvokingVertex provoking) {
   return primitive == Primitive::quads ? -1 : 2;
 }
 /// The provoking corner of element t, or of its polygon.
-constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex provoking, std::size_t corners, std::size_t t) {
+constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex provoking, std::size_t corners,
+                                       std::size_t t) {
   const int place = provoking_place(primitive, provoking);
-  return place < 0 ? t / 2 * 4 + 3 : element_corners(primitive, provoking, corners, t)[static_cast<std::size_t>(place)];
+  return place < 0 ? t / 2 * 4 + 3
+                   : element_corners(primitive, provoking, corners, t)[static_cast<std::size_t>(place)];
 }
 
-/// The corner that triangle t of a polygon has, and those of the polygon before it have not. @pre it is not the polygon's first
+/// The corner that triangle t of a polygon has, and those of the polygon before it have not. @pre it is not
+/// the polygon's first
 constexpr std::size_t added_corner(Primitive primitive, std::size_t t) {
   switch (primitive) {
     case Primitive::quads: return t / 2 * 4 + 3;
@@ -132,7 +137,8 @@ constexpr std::size_t added_corner(Primitive primitive, std::size_t t) {
   }
 }
 
-/// Triangles that each polygon was split into; 1 for strips and fans, whose triangles are polygons of their own, and for points and lines.
+/// Triangles that each polygon was split into; 1 for strips and fans, whose triangles are polygons of their
+/// own, and for points and lines.
 constexpr std::size_t triangles_of_polygon(Primitive primitive, std::size_t triangles) {
   switch (primitive) {
     case Primitive::quads:

@@ -28,15 +28,15 @@ struct Surroundings {
 struct RecordedPixels {
   PixelRectangle texels;
   double depth = 0;
-  Color color;                             ///< of a bitmap
+  Color color;  ///< of a bitmap
 };
 
 struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
   const Surroundings* surroundings = nullptr;  ///< the draws' between two changes
-  const TextureState* texture = nullptr;  ///< of the state's, wherever that moves
-  std::optional<RecordedPixels> pixels{};  ///< in place of the mesh, which is empty then
+  const TextureState* texture = nullptr;       ///< of the state's, wherever that moves
+  std::optional<RecordedPixels> pixels{};      ///< in place of the mesh, which is empty then
 };
 struct RecordedClear {
   Clear clear;
@@ -50,19 +50,20 @@ struct RecordedAccum {
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
-  Parallel* workers = nullptr;           ///< of a renderer that helps to record, if there is one
+  Parallel* workers = nullptr;  ///< of a renderer that helps to record, if there is one
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::vector<RecordedAccum> accums;
-  bool keeps_chosen = false;             ///< else by what the frame changes
-  std::array<bool, 4> kept{};            ///< if it is chosen: of each Buffer
+  bool keeps_chosen = false;   ///< else by what the frame changes
+  std::array<bool, 4> kept{};  ///< if it is chosen: of each Buffer
   Capture capture;
 
   /// Of what is drawn next.
   const Surroundings& surroundings() const { return surroundings_[last_surroundings_]; }
   /// The same, to be changed: what is recorded already keeps its own. Throws std::bad_alloc.
   Surroundings& changeable_surroundings() {
-    if (draws.empty() || draws.back().surroundings != &surroundings()) return surroundings_[last_surroundings_];
+    if (draws.empty() || draws.back().surroundings != &surroundings())
+      return surroundings_[last_surroundings_];
     if (last_surroundings_ + 1 == surroundings_.size()) surroundings_.emplace_back();
     surroundings_[last_surroundings_ + 1] = surroundings_[last_surroundings_];
     return surroundings_[++last_surroundings_];

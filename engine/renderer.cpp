@@ -15,7 +15,9 @@ namespace {
 constexpr int kMostThreads = 1024;
 
 InstructionSet public_name(Isa isa) {
-  return isa == Isa::avx512 ? InstructionSet::avx512 : isa == Isa::avx2 ? InstructionSet::avx2 : InstructionSet::scalar;
+  return isa == Isa::avx512 ? InstructionSet::avx512
+         : isa == Isa::avx2 ? InstructionSet::avx2
+                            : InstructionSet::scalar;
 }
 Isa internal_name(InstructionSet set) {
   return set == InstructionSet::avx512 ? Isa::avx512 : set == InstructionSet::avx2 ? Isa::avx2 : Isa::scalar;
@@ -42,26 +44,39 @@ std::string_view name(InstructionSet set) {
 }
 
 Renderer::Renderer(RendererOptions options) try {
-  if (options.threads < 0 || options.threads > kMostThreads) throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to " + std::to_string(kMostThreads));
-  if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 && options.tile_size != 128)
-    throw Error("Renderer: tile_size is " + std::to_string(options.tile_size) + ", must be 0 (chosen), 32, 64 or 128");
+  if (options.threads < 0 || options.threads > kMostThreads)
+    throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to " +
+                std::to_string(kMostThreads));
+  if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 &&
+      options.tile_size != 128)
+    throw Error("Renderer: tile_size is " + std::to_string(options.tile_size) +
+                ", must be 0 (chosen), 32, 64 or 128");
   if (options.bin_memory < kLeastBinMemory)
-    throw Error("Renderer: bin_memory is " + std::to_string(options.bin_memory) + " bytes, must be at least " + std::to_string(kLeastBinMemory));
+    throw Error("Renderer: bin_memory is " + std::to_string(options.bin_memory) +
+                " bytes, must be at least " + std::to_string(kLeastBinMemory));
   const std::vector<InstructionSet> sets = available_instruction_sets();
   if (options.instruction_set == InstructionSet::automatic) options.instruction_set = sets.front();
   if (std::find(sets.begin(), sets.end(), options.instruction_set) == sets.end()) {
     std::string known;
     for (const InstructionSet set : sets) known += (known.empty() ? "" : ", ") + std::string(name(set));
-    throw Error("Renderer: the instruction set " + std::string(name(options.instruction_set)) + " is not in this build or machine, which have " + known);
+    throw Error("Renderer: the instruction set " + std::string(name(options.instruction_set)) +
+                " is not in this build or machine, which have " + known);
   }
   if (options.executor && options.executor->workers() < 1)
-    throw Error("Renderer: the executor has " + std::to_string(options.executor->workers()) + " workers, must have at least 1");
-  if (options.threads == 0) options.threads = std::min(options.executor ? options.executor->workers() : available_cores(), kMostThreads);
+    throw Error("Renderer: the executor has " + std::to_string(options.executor->workers()) +
+                " workers, must have at least 1");
+  if (options.threads == 0)
+    options.threads =
+        std::min(options.executor ? options.executor->workers() : available_cores(), kMostThreads);
   const Isa isa = internal_name(options.instruction_set);
   state_ = std::make_unique<RendererState>(std::move(options), isa);
   RendererState& state = *state_;
   state.options.threads = state.parallel.threads();
-  state.log(LogLevel::info, [&] { return "tessera " TESSERA_VERSION ": " + std::to_string(state.options.threads) + (state.options.threads == 1 ? " thread, " : " threads, ") + std::string(name(state.options.instruction_set)); });
+  state.log(LogLevel::info, [&] {
+    return "tessera " TESSERA_VERSION ": " + std::to_string(state.options.threads) +
+           (state.options.threads == 1 ? " thread, " : " threads, ") +
+           std::string(name(state.options.instruction_set));
+  });
 } catch (const std::bad_alloc&) {
   throw Error("Renderer: not enough memory");
 }
@@ -79,7 +94,10 @@ FrameRecording& require_recording(const std::unique_ptr<FrameRecording>& recordi
 }
 
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
-  if (state.parallel.runs()) throw Error("Renderer::finish: called by this renderer's own progress callback; a frame must have ended before the next one");
+  if (state.parallel.runs())
+    throw Error(
+        "Renderer::finish: called by this renderer's own progress callback; a frame must have ended before "
+        "the next one");
   return with_memory("Renderer::finish", [&] {
     const FrameStats stats = state.run(recording, image);
     state.report(stats);
@@ -90,7 +108,9 @@ FrameStats finish_frame(RendererState& state, FrameRecording& recording, const I
 
 }  // namespace
 
-FrameStats Renderer::finish(Frame& frame) { return finish_frame(*state_, require_recording(frame.recording_), nullptr); }
+FrameStats Renderer::finish(Frame& frame) {
+  return finish_frame(*state_, require_recording(frame.recording_), nullptr);
+}
 
 FrameStats Renderer::finish(Frame& frame, const ImageTarget& target) {
   FrameRecording& recording = require_recording(frame.recording_);

@@ -31,17 +31,21 @@ struct RendererState {
   Parallel parallel;
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
-  DrawRanges ranges;                      // of the tasks that run
+  DrawRanges ranges;  // of the tasks that run
   NormalStage normal_stage;
   BinStage bin_stage;
-  std::vector<TileRange> parts_left;      // to be rendered, from the last one to the next
+  std::vector<TileRange> parts_left;  // to be rendered, from the last one to the next
   StripMemory strip_memory;
   ShowMemory show_memory;
   std::vector<TileWorkspace> workspaces;  // one for each worker
   std::optional<TileMemory> prepared;     // what all of them have, and maybe more
   std::vector<WorkerCounts> worker_counts;
 
-  RendererState(RendererOptions o, Isa i) : options(std::move(o)), isa(i), parallel(options.threads, options.executor, options.task_order), bin_stage(options.bin_memory, parallel, isa) {}
+  RendererState(RendererOptions o, Isa i)
+      : options(std::move(o)),
+        isa(i),
+        parallel(options.threads, options.executor, options.task_order),
+        bin_stage(options.bin_memory, parallel, isa) {}
 
   FrameStats run(FrameRecording& recording, const ImageTarget* image);
 
@@ -62,7 +66,8 @@ struct RendererState {
   void prepare_workspaces(const TileMemory& memory);
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
   void render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
-  void look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats, FrameWatch& watch);
+  void look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats,
+                          FrameWatch& watch);
   void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
   int tile_size_for(const FrameBufferFormat& format) const;
 };

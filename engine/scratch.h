@@ -18,7 +18,7 @@ class Scratch {
     if (count > capacity_) {
       memory_.reset();
       capacity_ = 0;
-      memory_.reset(static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{64})));
+      memory_.reset(static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{64})));
       capacity_ = count;
     }
     return memory_.get();
@@ -28,7 +28,7 @@ class Scratch {
 
  private:
   struct Free {
-    void operator()(T* memory) const { ::operator delete(memory, std::align_val_t{64}); }
+    void operator()(T* memory) const { ::operator delete (memory, std::align_val_t{64}); }
   };
   std::unique_ptr<T, Free> memory_;
   std::size_t capacity_ = 0;

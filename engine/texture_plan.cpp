@@ -5,8 +5,10 @@
 namespace tessera {
 namespace {
 
-static_assert(static_cast<int>(TextureFunction::modulate) == static_cast<int>(TextureEnv::modulate) && static_cast<int>(TextureFunction::replace) == static_cast<int>(TextureEnv::replace));
-static_assert(static_cast<int>(TextureFunction::decal) == static_cast<int>(TextureEnv::decal) && static_cast<int>(TextureFunction::add) == static_cast<int>(TextureEnv::add));
+static_assert(static_cast<int>(TextureFunction::modulate) == static_cast<int>(TextureEnv::modulate) &&
+              static_cast<int>(TextureFunction::replace) == static_cast<int>(TextureEnv::replace));
+static_assert(static_cast<int>(TextureFunction::decal) == static_cast<int>(TextureEnv::decal) &&
+              static_cast<int>(TextureFunction::add) == static_cast<int>(TextureEnv::add));
 
 const char* name_of(TextureEnv env) {
   switch (env) {
@@ -31,14 +33,16 @@ const char* name_of(TextureFilter filter) {
 
 std::string described(const TextureState& texture) {
   const TextureLevel& level = texture.levels.level[0];
-  return std::to_string(level.width) + "x" + std::to_string(level.height) + ", " + std::to_string(texture.channels) + (texture.channels == 1 ? " channel" : " channels");
+  return std::to_string(level.width) + "x" + std::to_string(level.height) + ", " +
+         std::to_string(texture.channels) + (texture.channels == 1 ? " channel" : " channels");
 }
 
 // One texel everywhere leaves all that is needed of every colour as it is.
 bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_matters) {
   const auto [r, g, b, a] = texture.texel;
   const bool white = r == 1 && g == 1 && b == 1, black = r == 0 && g == 0 && b == 0;
-  if (alpha_matters && texture.changes_alpha() && (texture.function == TextureFunction::replace || a != 1)) return false;
+  if (alpha_matters && texture.changes_alpha() && (texture.function == TextureFunction::replace || a != 1))
+    return false;
   if (!color_matters) return true;
   switch (texture.function) {
     case TextureFunction::modulate: return white;
@@ -63,7 +67,8 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, st
   const Color& c = draw.state.texture_env_color;
   texture.constant = {clamp_unit(c.r), clamp_unit(c.g), clamp_unit(c.b)};
   if (!needs.colors && !(needs.alpha && texture.changes_alpha())) {
-    note(draw.state.alpha_test ? " left out: no colour is stored, and alpha stays what it is" : " left out: no colour is stored, or indices are");
+    note(draw.state.alpha_test ? " left out: no colour is stored, and alpha stays what it is"
+                               : " left out: no colour is stored, or indices are");
     return plan;
   }
   if (state.one_color || !draw.mesh.texcoords) {
@@ -71,15 +76,16 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, st
     if (!state.one_color) note(": the mesh has no texture coordinates");
     if (changes_nothing(texture, needs.colors, needs.alpha))
       note(": one colour that changes nothing, left out");
-    else
-      plan.use = TexturePlan::Use::one_color;
+    else plan.use = TexturePlan::Use::one_color;
     return plan;
   }
   plan.use = TexturePlan::Use::texels;
   texture.levels = &state.levels;
   if (reasons)
-    note((" " + described(state) + ", " + name_of(draw.state.texture_env) + ", " + name_of(state.sampler.mag) + " and " + name_of(state.sampler.min) +
-          (state.levels.needs_footprint() ? ", level of detail from derivatives" : "")).c_str());
+    note((" " + described(state) + ", " + name_of(draw.state.texture_env) + ", " +
+          name_of(state.sampler.mag) + " and " + name_of(state.sampler.min) +
+          (state.levels.needs_footprint() ? ", level of detail from derivatives" : ""))
+             .c_str());
   return plan;
 }
 

@@ -13,11 +13,12 @@ namespace tessera {
 
 struct TextureState {
   std::vector<std::uint32_t> words;
-  TextureLevels levels;                           ///< points into them
+  TextureLevels levels;  ///< points into them
   TextureSampler sampler;
   int channels = 4;
   std::optional<std::array<float, 4>> one_color;  ///< where all texels are the same
-  std::array<float, 4> at_origin{};               ///< what s = t = 0 shows without slopes: draws that have no texture coordinates
+  std::array<float, 4>
+      at_origin{};  ///< what s = t = 0 shows without slopes: draws that have no texture coordinates
 
   bool has_alpha() const { return channels == 2 || channels == 4; }
 };

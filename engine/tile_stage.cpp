@@ -13,25 +13,34 @@ namespace tessera {
 namespace {
 
 bool covers_frame(const TileClear& clear, const TileGrid& grid) {
-  return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px && clear.rect.y1 == grid.height_px;
+  return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px &&
+         clear.rect.y1 == grid.height_px;
 }
 
 constexpr std::size_t kWeights = 4 * 64;
 static_assert(kWeights - 1 <= std::numeric_limits<std::uint8_t>::max());
-/// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load is never of a lower class.
+/// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load
+/// is never of a lower class.
 std::uint8_t weight_of(std::uint64_t triangles) {
   if (triangles < 8) return static_cast<std::uint8_t>(triangles);
   const int highest_bit = std::bit_width(triangles) - 1;
-  return static_cast<std::uint8_t>(4 * highest_bit - 4 + static_cast<int>(triangles >> (highest_bit - 2) & 3));
+  return static_cast<std::uint8_t>(4 * highest_bit - 4 +
+                                   static_cast<int>(triangles >> (highest_bit - 2) & 3));
 }
 
-/// Deals strips of one weight, `sorted` ones from `begin` to before `end`. Place p in the order of weights belongs to share p % shares, as its number p / shares,
-/// so that each share has as many of every weight, or one more, and weights do not rise in it. Which strips of the weight take a share's places is free: it is neighbours.
-void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares, std::vector<TileStrip>& dealt) {
-  // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among these.
-  const std::size_t served = std::min(end - begin, shares), first_share = served < shares ? begin % shares : 0;
+/// Deals strips of one weight, `sorted` ones from `begin` to before `end`. Place p in the order of weights
+/// belongs to share p % shares, as its number p / shares, so that each share has as many of every weight, or
+/// one more, and weights do not rise in it. Which strips of the weight take a share's places is free: it is
+/// neighbours.
+void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
+          std::vector<TileStrip>& dealt) {
+  // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among
+  // these.
+  const std::size_t served = std::min(end - begin, shares),
+                    first_share = served < shares ? begin % shares : 0;
   for (std::size_t k = 0, next = begin; k < served; ++k) {
-    const std::size_t share = (first_share + k) % shares, first_place = begin + (share + shares - begin % shares) % shares;
+    const std::size_t share = (first_share + k) % shares,
+                      first_place = begin + (share + shares - begin % shares) % shares;
     std::size_t at = first_of_share(sorted.size(), shares, share) + first_place / shares;
     for (std::size_t place = first_place; place < end; place += shares) dealt[at++] = sorted[next++];
   }
@@ -39,38 +48,51 @@ void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t e
 
 }  // namespace
 
-TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture,
-                     ShowMemory& show, Isa isa)
-    : commands_(commands), frame_(frame), target_(target), image_(image), capture_(capture), show_(show), render_(render_tile(isa)), store_planes_(store_planes_for(isa)),
-      load_planes_(load_planes_for(isa)), kept_tiles_(commands.color.store ? tiles_stored_together(isa, frame.grid.tile_size) : 1) {
+TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
+                     const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa)
+    : commands_(commands),
+      frame_(frame),
+      target_(target),
+      image_(image),
+      capture_(capture),
+      show_(show),
+      render_(render_tile(isa)),
+      store_planes_(store_planes_for(isa)),
+      load_planes_(load_planes_for(isa)),
+      kept_tiles_(commands.color.store ? tiles_stored_together(isa, frame.grid.tile_size) : 1) {
   if (image == nullptr) return;
   shown_ = shown_part(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
   const ByteOrder order = image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8;
-  if (show.scan_out)
-    show.scan_out->set(target.layout, palette, order);
-  else
-    show.scan_out.emplace(target.layout, palette, order, isa);
-  // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles need not go
-  // through tile memory.
-  shows_clears_ = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() && commands.accumulations.empty() &&
-                       std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
+  if (show.scan_out) show.scan_out->set(target.layout, palette, order);
+  else show.scan_out.emplace(target.layout, palette, order, isa);
+  // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles
+  // need not go through tile memory.
+  shows_clears_ = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() &&
+                  commands.accumulations.empty() &&
+                  std::all_of(commands.clears.begin(), commands.clears.end(),
+                              [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
   if (!shows_clears_) return;
   std::uint32_t word = 0;
   for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
   std::uint32_t words[kMaxTileSize];
   std::fill(std::begin(words), std::end(words), word);
   show.cleared_row.resize(4 * static_cast<std::size_t>(frame.grid.width_px));
-  for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize) show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x), show.cleared_row.data() + std::ptrdiff_t{4} * x);
+  for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize)
+    show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x),
+                       show.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
 void TileStage::cut_into_strips(const TileRange& tiles, const Parallel& workers, StripMemory& memory) const {
   const TileGrid& grid = frame_.grid;
   const BinBatches& batches = *frame_.batches;
-  const auto is_cleared = [&](int row, int column) { return shows_clears_ && batches.untouched(row * grid.columns() + column); };
+  const auto is_cleared = [&](int row, int column) {
+    return shows_clears_ && batches.untouched(row * grid.columns() + column);
+  };
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
-  std::array<std::uint32_t, kWeights> next{};  // how many strips have a weight, then where the next one of them goes
+  std::array<std::uint32_t, kWeights>
+      next{};  // how many strips have a weight, then where the next one of them goes
   memory.strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
@@ -106,7 +128,9 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
       colors[t] = workspace.select_color(t);
       render_tile_at(strip.row, first + static_cast<int>(t), workspace, counts);
     }
-    if (commands_.color.store) store_planes_({colors.data(), count}, {first * size, strip.row * size, size, 0}, target_.color.planes, ~0u);
+    if (commands_.color.store)
+      store_planes_({colors.data(), count}, {first * size, strip.row * size, size, 0}, target_.color.planes,
+                    ~0u);
   }
 }
 
@@ -115,9 +139,11 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const int size = grid.tile_size, x0 = column * size, y0 = row * size;
   const bool shown = !intersect(shown_, {x0, y0, x0 + size, y0 + size}).empty();
   if (!shown && !commands_.stores() && !capture_.any()) return;
-  const TilePlace color_place{x0, y0, size, 0}, depth_place{x0, y0, size, depth_word_from_key(target_.depth_kind, 0)};
+  const TilePlace color_place{x0, y0, size, 0},
+      depth_place{x0, y0, size, depth_word_from_key(target_.depth_kind, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
-  auto* stencil_words = commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
+  auto* stencil_words =
+      commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
   const auto load_tests = [&] {
     load(commands_.depth, target_.depth, depth_words, depth_place);
     load(commands_.stencil, target_.stencil, stencil_words, color_place);
@@ -133,12 +159,15 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   store(commands_.depth, target_.depth, depth_words, depth_place);
   store(commands_.stencil, target_.stencil, stencil_words, color_place);
   if (commands_.accumulation.store)
-    for (std::size_t c = 0; c < 4; ++c) store(commands_.accumulation, target_.accumulation[c], reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
+    for (std::size_t c = 0; c < 4; ++c)
+      store(commands_.accumulation, target_.accumulation[c],
+            reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
 }
 
 void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
   const int size = frame_.grid.tile_size;
-  const PixelRect in_frame = intersect({x0, y0, x0 + size, y0 + size}, {0, 0, frame_.grid.width_px, frame_.grid.height_px});
+  const PixelRect in_frame =
+      intersect({x0, y0, x0 + size, y0 + size}, {0, 0, frame_.grid.width_px, frame_.grid.height_px});
   const PixelRect part = intersect(in_frame, shown_);
   const int width = in_frame.x1 - x0, height = in_frame.y1 - y0;
   if (part == in_frame) {
@@ -149,18 +178,20 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
   std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
   show_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
   for (int y = part.y0; y < part.y1; ++y)
-    std::memcpy(shown_at(part.x0, y), pixels + 4 * ((y - y0) * size + part.x0 - x0), 4 * static_cast<std::size_t>(part.x1 - part.x0));
+    std::memcpy(shown_at(part.x0, y), pixels + 4 * ((y - y0) * size + part.x0 - x0),
+                4 * static_cast<std::size_t>(part.x1 - part.x0));
 }
 
-void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const {
+void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words,
+                     const TilePlace& place) const {
   if (!traffic.used || !traffic.load) return;
   if (stored.content == StoredBuffer::Content::uniform)
     std::fill_n(words, place.tile_size * place.tile_size, stored.word ^ place.flip);
-  else
-    load_planes_(words, place, stored.planes);
+  else load_planes_(words, place, stored.planes);
 }
 
-void TileStage::store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words, const TilePlace& place) const {
+void TileStage::store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words,
+                      const TilePlace& place) const {
   if (traffic.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
 }
 
@@ -176,9 +207,12 @@ void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixel
 
 void TileStage::fill_cleared(const TileStrip& strip) const {
   const int size = frame_.grid.tile_size;
-  const PixelRect part = intersect(shown_, {strip.first_column * size, strip.row * size, (strip.last_column + 1) * size, (strip.row + 1) * size});
+  const PixelRect part = intersect(shown_, {strip.first_column * size, strip.row * size,
+                                            (strip.last_column + 1) * size, (strip.row + 1) * size});
   if (part.empty()) return;
-  for (int y = part.y0; y < part.y1; ++y) std::memcpy(shown_at(part.x0, y), show_.cleared_row.data(), 4 * static_cast<std::size_t>(part.x1 - part.x0));
+  for (int y = part.y0; y < part.y1; ++y)
+    std::memcpy(shown_at(part.x0, y), show_.cleared_row.data(),
+                4 * static_cast<std::size_t>(part.x1 - part.x0));
 }
 
 std::uint8_t* TileStage::shown_at(int x, int y) const {

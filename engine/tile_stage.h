@@ -19,9 +19,10 @@ namespace tessera {
 
 /// Neighbouring tiles of a row that one worker takes.
 struct TileStrip {
-  std::int16_t row = 0, first_column = 0, last_column = 0;  // few bytes: one core sorts them while the others wait
-  bool cleared = false;                                     ///< no triangle touches them: they show the last clear
-  std::uint8_t weight = 0;                                  ///< class of how many triangles do; more of them are never of a lower class
+  std::int16_t row = 0, first_column = 0,
+               last_column = 0;  // few bytes: one core sorts them while the others wait
+  bool cleared = false;          ///< no triangle touches them: they show the last clear
+  std::uint8_t weight = 0;       ///< class of how many triangles do; more of them are never of a lower class
 };
 static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int16_t>::max());
 
@@ -46,14 +47,17 @@ class TileStage {
   /// All but the image's pixels and the target's planes is only read. `image` may be null.
   ///
   /// @param show  used as long as this lives
-  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target, const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa);
+  TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
+            const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa);
 
   const TileGrid& grid() const { return frame_.grid; }
-  /// Tiles whose colours a workspace keeps until they are stored together. Depth, stencil and accumulation are seldom stored: tile by tile.
+  /// Tiles whose colours a workspace keeps until they are stored together. Depth, stencil and accumulation
+  /// are seldom stored: tile by tile.
   int kept_tiles() const { return kept_tiles_; }
-  /// For workers.for_each(): in each share strips with most triangles come first, give or take a quarter, so that nobody waits for one that began last; and each
-  /// share has as many of every weight, or one more. Where there are many more of a weight than workers, those of a share are neighbours, much the same ones as in a like
-  /// frame before. Their order changes no bit.
+  /// For workers.for_each(): in each share strips with most triangles come first, give or take a quarter, so
+  /// that nobody waits for one that began last; and each share has as many of every weight, or one more.
+  /// Where there are many more of a weight than workers, those of a share are neighbours, much the same ones
+  /// as in a like frame before. Their order changes no bit.
   ///
   /// @param memory  whose `strips` they become; its `sorted` is used
   void cut_into_strips(const TileRange& tiles, const Parallel& workers, StripMemory& memory) const;
@@ -64,8 +68,10 @@ class TileStage {
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;
-  void load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words, const TilePlace& place) const;
-  void store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words, const TilePlace& place) const;
+  void load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words,
+            const TilePlace& place) const;
+  void store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words,
+             const TilePlace& place) const;
   void fill_cleared(const TileStrip& strip) const;
   std::uint8_t* shown_at(int x, int y) const;
 
@@ -74,13 +80,13 @@ class TileStage {
   FrameBufferState& target_;
   const ImageTarget* image_;
   const CaptureStage& capture_;
-  PixelRect shown_;                        ///< of the image
+  PixelRect shown_;  ///< of the image
   ShowMemory& show_;
   RenderTile* render_;
   StorePlanesFn* store_planes_;
   LoadPlanesFn* load_planes_;
   int kept_tiles_;
-  bool shows_clears_ = false;              ///< a tile without triangles is part of show_.cleared_row
+  bool shows_clears_ = false;  ///< a tile without triangles is part of show_.cleared_row
 };
 
 }  // namespace tessera

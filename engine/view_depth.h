@@ -12,7 +12,8 @@ class ViewDepth {
   /// @throws Error where x or y have a say in depth, or all depths are the same
   ViewDepth(const Camera& camera, float background, const char* function);
 
-  /// Distance from the eye's plane, positive before it, of what has the depth `stored`; the background where that is the far end.
+  /// Distance from the eye's plane, positive before it, of what has the depth `stored`; the background where
+  /// that is the far end.
   float at(double stored) const noexcept;
 
  private:

@@ -11,9 +11,13 @@ namespace {
 struct Range {
   std::int64_t low, high;
 };
-constexpr Range range_of(int bits) { return bits == 16 ? Range{-32768, 32767} : Range{-2147483648LL, 2147483647LL}; }
+constexpr Range range_of(int bits) {
+  return bits == 16 ? Range{-32768, 32767} : Range{-2147483648LL, 2147483647LL};
+}
 
-std::int32_t saturated(std::int64_t level, Range range) { return static_cast<std::int32_t>(std::clamp(level, range.low, range.high)); }
+std::int32_t saturated(std::int64_t level, Range range) {
+  return static_cast<std::int32_t>(std::clamp(level, range.low, range.high));
+}
 
 // The nearest integer, halves up, no further from 0 than `most`.
 std::int64_t rounded(double level, double most) {
@@ -27,13 +31,18 @@ constexpr double kFarOutside = 8589934592.0;  // 2^33: leaves the range of 32 bi
 
 }  // namespace
 
-std::int32_t accumulation_level(double value, int bits) { return saturated(rounded(value * accumulation_one(bits), kFarOutside), range_of(bits)); }
+std::int32_t accumulation_level(double value, int bits) {
+  return saturated(rounded(value * accumulation_one(bits), kFarOutside), range_of(bits));
+}
 
-Accumulation::Accumulation(AccumulationOp op, double value, int bits, const ColorLayout& layout) : op_(op), value_(value), bits_(bits), layout_(layout), terms_{} {
+Accumulation::Accumulation(AccumulationOp op, double value, int bits, const ColorLayout& layout)
+    : op_(op), value_(value), bits_(bits), layout_(layout), terms_{} {
   TESSERA_ASSERT((bits == 16 || bits == 32) && std::isfinite(value) && !layout.index);
   const Field alpha{layout.bits, layout.alpha_bits}, grey{0, layout.bits};
   fields_ = layout.luminance ? std::array<Field, 4>{grey, grey, grey, alpha}
-                             : std::array<Field, 4>{Field{layout.r_shift(), layout.r_bits}, Field{layout.g_shift(), layout.g_bits}, Field{0, layout.b_bits}, alpha};
+                             : std::array<Field, 4>{Field{layout.r_shift(), layout.r_bits},
+                                                    Field{layout.g_shift(), layout.g_bits},
+                                                    Field{0, layout.b_bits}, alpha};
   const double one = accumulation_one(bits);
   for (std::size_t c = 0; c < 4; ++c) {
     if (op == AccumulationOp::add || fields_[c].bits == 0) {
@@ -41,7 +50,9 @@ Accumulation::Accumulation(AccumulationOp op, double value, int bits, const Colo
       continue;
     }
     const int levels = (1 << fields_[c].bits) - 1;
-    for (int level = 0; level <= levels; ++level) terms_[c][static_cast<std::size_t>(level)] = rounded(value * (static_cast<double>(level) / levels) * one, kFarOutside);
+    for (int level = 0; level <= levels; ++level)
+      terms_[c][static_cast<std::size_t>(level)] =
+          rounded(value * (static_cast<double>(level) / levels) * one, kFarOutside);
   }
 }
 
@@ -70,16 +81,25 @@ void Accumulation::run(const std::uint32_t* words, const AccumulatedPixels& leve
       return;
     default:
       for (std::int32_t* component : levels)
-        for (int i = 0; i < count; ++i) component[i] = saturated(rounded(component[i] * value_, kFarOutside), range);
+        for (int i = 0; i < count; ++i)
+          component[i] = saturated(rounded(component[i] * value_, kFarOutside), range);
   }
 }
 
 std::uint32_t Accumulation::word(const AccumulatedPixel& levels, double threshold) const {
-  const auto color = [&](std::size_t c) { return std::clamp(value_ * (levels[c] / accumulation_one(bits_)), 0.0, 1.0); };
-  const auto level = [&](double c, int bits) { return static_cast<std::uint32_t>(c * ((1 << bits) - 1) + threshold); };
-  const std::uint32_t alpha = layout_.alpha_bits == 0 ? 0 : level(color(3), layout_.alpha_bits) << layout_.bits;
-  if (layout_.luminance) return alpha | level(std::min(kLumaR * color(0) + kLumaG * color(1) + kLumaB * color(2), 1.0), layout_.bits);
-  return alpha | level(color(0), layout_.r_bits) << layout_.r_shift() | level(color(1), layout_.g_bits) << layout_.g_shift() | level(color(2), layout_.b_bits);
+  const auto color = [&](std::size_t c) {
+    return std::clamp(value_ * (levels[c] / accumulation_one(bits_)), 0.0, 1.0);
+  };
+  const auto level = [&](double c, int bits) {
+    return static_cast<std::uint32_t>(c * ((1 << bits) - 1) + threshold);
+  };
+  const std::uint32_t alpha =
+      layout_.alpha_bits == 0 ? 0 : level(color(3), layout_.alpha_bits) << layout_.bits;
+  if (layout_.luminance)
+    return alpha |
+           level(std::min(kLumaR * color(0) + kLumaG * color(1) + kLumaB * color(2), 1.0), layout_.bits);
+  return alpha | level(color(0), layout_.r_bits) << layout_.r_shift() |
+         level(color(1), layout_.g_bits) << layout_.g_shift() | level(color(2), layout_.b_bits);
 }
 
 }  // namespace tessera

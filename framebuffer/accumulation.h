@@ -1,8 +1,8 @@
-// The arithmetic of the accumulation buffer [GL 2.1, 4.2.4]: signed components of 16 or 32 bits, where 1.0 is the largest
-// level, 32767 or 2^31 - 1. What leaves the range stays at its end.
+// The arithmetic of the accumulation buffer [GL 2.1, 4.2.4]: signed components of 16 or 32 bits, where 1.0 is
+// the largest level, 32767 or 2^31 - 1. What leaves the range stays at its end.
 //
-// A stored component is an integer, so acc + floor(v c S + 0.5) is acc + v c rounded once: what a command adds depends on the
-// level of the colour alone, and is worked out once for each level.
+// A stored component is an integer, so acc + floor(v c S + 0.5) is acc + v c rounded once: what a command
+// adds depends on the level of the colour alone, and is worked out once for each level.
 #pragma once
 
 #include <array>
@@ -28,16 +28,20 @@ using AccumulatedPixels = std::array<std::int32_t*, 4>;
 
 /// 1.0 as a level. @param bits  16 or 32, as in all that follows
 constexpr double accumulation_one(int bits) { return bits == 16 ? 32767.0 : 2147483647.0; }
-/// The nearest level, halves up, at the ends of the range where it lies outside. Infinities are fine, NaN is not.
+/// The nearest level, halves up, at the ends of the range where it lies outside. Infinities are fine, NaN is
+/// not.
 std::int32_t accumulation_level(double value, int bits);
 /// A stored word with its sign.
-constexpr std::int32_t accumulation_level_from_word(std::uint32_t word, int bits) { return bits == 16 ? static_cast<std::int16_t>(word) : static_cast<std::int32_t>(word); }
+constexpr std::int32_t accumulation_level_from_word(std::uint32_t word, int bits) {
+  return bits == 16 ? static_cast<std::int16_t>(word) : static_cast<std::int32_t>(word);
+}
 
 /// One command, ready to run on many pixels.
 class Accumulation {
  public:
   /// @param value   finite
-  /// @param layout  of the colour buffer: RGB or luminance, whose grey counts as red, green and blue; without alpha planes alpha is 1.
+  /// @param layout  of the colour buffer: RGB or luminance, whose grey counts as red, green and blue; without
+  /// alpha planes alpha is 1.
   Accumulation(AccumulationOp op, double value, int bits, const ColorLayout& layout);
 
   AccumulationOp op() const { return op_; }

@@ -1,6 +1,6 @@
-// Stores go by strips of a row, as long as the instruction set likes. With vectors of bytes: 32 or 64 pixels, by sign masks or
-// tests of their bytes. Elsewhere: 8 pixels, as a square of bits. Whole lines have a way of their own where there is an
-// instruction for it (plane_lines-inl.h). Loads: bit_transpose_load.cpp.
+// Stores go by strips of a row, as long as the instruction set likes. With vectors of bytes: 32 or 64 pixels,
+// by sign masks or tests of their bytes. Elsewhere: 8 pixels, as a square of bits. Whole lines have a way of
+// their own where there is an instruction for it (plane_lines-inl.h). Loads: bit_transpose_load.cpp.
 #include "framebuffer/bit_transpose.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -27,7 +27,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);  // a strip's bits are stored as one integer
 
-StripRows strip_rows(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes) noexcept {
+StripRows strip_rows(std::span<const std::uint32_t* const> tiles, const TilePlace& first,
+                     BitplaneStack& planes) noexcept {
   assert_tile_fits(first, planes);
   const int width_px = static_cast<int>(tiles.size()) * first.tile_size;
   TESSERA_ASSERT(!tiles.empty() && first.x0_px / kLinePixels == (first.x0_px + width_px - 1) / kLinePixels);
@@ -35,7 +36,8 @@ StripRows strip_rows(std::span<const std::uint32_t* const> tiles, const TilePlac
           .tile_size = first.tile_size,
           .width_px = std::min(width_px, planes.width_px() - first.x0_px),
           .height_px = std::min(first.tile_size, planes.height_px() - first.y0_px),
-          .bits = {planes.plane(0) + first.y0_px * planes.stride_bytes() + first.x0_px / 8, planes.plane_stride_bytes()},
+          .bits = {planes.plane(0) + first.y0_px * planes.stride_bytes() + first.x0_px / 8,
+                   planes.plane_stride_bytes()},
           .stride_bytes = planes.stride_bytes()};
 }
 
@@ -54,10 +56,11 @@ namespace {
 HWY_INLINE __m256i load_groups(const std::uint32_t* words, int group) noexcept {
   const std::uint32_t* const low = words + group * kBlockPixels;
   const __m128i* const high = reinterpret_cast<const __m128i*>(low + 4 * kBlockPixels);
-  return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(low))), _mm_load_si128(high), 1);
+  return _mm256_inserti128_si256(
+      _mm256_castsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(low))), _mm_load_si128(high), 1);
 }
-/// Stores those of 8 planes whose bit is set in `mask`; `bytes` has plane k's pixels in bit k. The sign mask takes bit 7 of
-/// all bytes; adding a byte to itself brings the next one up.
+/// Stores those of 8 planes whose bit is set in `mask`; `bytes` has plane k's pixels in bit k. The sign mask
+/// takes bit 7 of all bytes; adding a byte to itself brings the next one up.
 HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mask) noexcept {
   if (mask == 0) return;
   for (int k = 7; k >= 0; --k) {
@@ -74,9 +77,10 @@ HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mas
 /// @param kWholeBytes  the mask holds all of the lowest 8 kWholeBytes planes and no other; 0: any mask
 /// @param inside_px    how many of the pixels lie in the picture, from the left; 32 or more: all
 template <int kWholeBytes>
-HWY_INLINE void store_strip(const std::uint32_t* words, __m256i flips, int inside_px, StripBits to, std::uint32_t mask) noexcept {
-  // In each group of 4 words: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the leftmost pixel but
-  // byte 0 gives bit 0 of a sign mask.
+HWY_INLINE void store_strip(const std::uint32_t* words, __m256i flips, int inside_px, StripBits to,
+                            std::uint32_t mask) noexcept {
+  // In each group of 4 words: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the leftmost
+  // pixel but byte 0 gives bit 0 of a sign mask.
   const __m256i split = _mm256_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3,  //
                                          12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3);
   const __m256i a = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(words, 0), flips), split);
@@ -97,26 +101,34 @@ HWY_INLINE void store_strip(const std::uint32_t* words, __m256i flips, int insid
   constexpr int kBytes = kWholeBytes == 0 ? 4 : kWholeBytes;
 #pragma GCC unroll 4
   for (int i = 0; i < kBytes; ++i)
-    store_byte_planes(bytes[i], {to.plane(8 * i), to.plane_stride}, kWholeBytes != 0 ? 0xff : mask >> (8 * i) & 0xff);
+    store_byte_planes(bytes[i], {to.plane(8 * i), to.plane_stride},
+                      kWholeBytes != 0 ? 0xff : mask >> (8 * i) & 0xff);
 }
 
 #if HWY_TARGET == HWY_AVX3
 /// 64 pixels of a row that all lie in the picture: the steps of store_strip(), with four groups in a vector.
-HWY_INLINE void store_wide_strip(const std::uint32_t* words, std::uint32_t flip, StripBits to, std::uint32_t mask) noexcept {
-  const __m512i flips = _mm512_set1_epi32(static_cast<int>(flip)), split = _mm512_broadcast_i32x4(_mm_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3));
+HWY_INLINE void store_wide_strip(const std::uint32_t* words, std::uint32_t flip, StripBits to,
+                                 std::uint32_t mask) noexcept {
+  const __m512i flips = _mm512_set1_epi32(static_cast<int>(flip)),
+                split = _mm512_broadcast_i32x4(
+                    _mm_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3));
   const auto split_groups = [&](int group) HWY_ATTR {
-    const __m512i groups = _mm512_inserti64x4(_mm512_castsi256_si512(load_groups(words, group)), load_groups(words + 8 * kBlockPixels, group), 1);
+    const __m512i groups = _mm512_inserti64x4(_mm512_castsi256_si512(load_groups(words, group)),
+                                              load_groups(words + 8 * kBlockPixels, group), 1);
     return _mm512_shuffle_epi8(_mm512_xor_si512(groups, flips), split);
   };
   const __m512i a = split_groups(0), b = split_groups(1), c = split_groups(2), d = split_groups(3);
-  const __m512i ba01 = _mm512_unpacklo_epi32(b, a), ba23 = _mm512_unpackhi_epi32(b, a), dc01 = _mm512_unpacklo_epi32(d, c), dc23 = _mm512_unpackhi_epi32(d, c);
-  const __m512i bytes[4] = {_mm512_unpacklo_epi64(ba01, dc01), _mm512_unpackhi_epi64(ba01, dc01), _mm512_unpacklo_epi64(ba23, dc23), _mm512_unpackhi_epi64(ba23, dc23)};
+  const __m512i ba01 = _mm512_unpacklo_epi32(b, a), ba23 = _mm512_unpackhi_epi32(b, a),
+                dc01 = _mm512_unpacklo_epi32(d, c), dc23 = _mm512_unpackhi_epi32(d, c);
+  const __m512i bytes[4] = {_mm512_unpacklo_epi64(ba01, dc01), _mm512_unpackhi_epi64(ba01, dc01),
+                            _mm512_unpacklo_epi64(ba23, dc23), _mm512_unpackhi_epi64(ba23, dc23)};
 #pragma GCC unroll 4
   for (int i = 0; i < 4; ++i) {
     if ((mask >> (8 * i) & 0xff) == 0) continue;
     for (int k = 8 * i; k < 8 * i + 8; ++k)
       if ((mask >> k & 1) != 0) {
-        const __mmask64 bits = _mm512_test_epi8_mask(bytes[i], _mm512_set1_epi8(static_cast<char>(1 << k % 8)));
+        const __mmask64 bits =
+            _mm512_test_epi8_mask(bytes[i], _mm512_set1_epi8(static_cast<char>(1 << k % 8)));
         std::memcpy(to.plane(k), &bits, sizeof bits);
       }
   }
@@ -131,15 +143,19 @@ void store_rows_of(const StripRows& tile, std::uint32_t flip, std::uint32_t mask
     const std::uint32_t* const words = tile.words(0, y);
     int x = 0;
 #if HWY_TARGET == HWY_AVX3
-    for (; x + 64 <= tile.width_px; x += 64) store_wide_strip(words + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, mask);
+    for (; x + 64 <= tile.width_px; x += 64)
+      store_wide_strip(words + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, mask);
 #endif
     for (; x < tile.width_px; x += 32)
-      store_strip<kWholeBytes>(words + x * kBlockSize, flips, tile.width_px - x, {row.first + x / 8, row.plane_stride}, mask);
+      store_strip<kWholeBytes>(words + x * kBlockSize, flips, tile.width_px - x,
+                               {row.first + x / 8, row.plane_stride}, mask);
   }
 }
 
 #if HWY_TARGET == HWY_AVX3  // once: those that have lines, too, seldom come here
-void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept { store_rows_of<0>(tile, flip, mask); }
+void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept {
+  store_rows_of<0>(tile, flip, mask);
+}
 #else
 void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept {
   switch (mask) {
@@ -155,8 +171,8 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
 #else
 
 /// The 8 planes from `base` on, of 8 pixels.
-inline void store_byte_planes(const std::uint32_t* words, std::uint32_t flip, int inside_px, StripBits to, int base,
-                              std::uint32_t mask) noexcept {
+inline void store_byte_planes(const std::uint32_t* words, std::uint32_t flip, int inside_px, StripBits to,
+                              int base, std::uint32_t mask) noexcept {
   std::uint64_t bytes = 0;
   for (int i = 0; i < inside_px; ++i)
     bytes |= std::uint64_t{(words[strip_index(i)] ^ flip) >> base & 0xff} << byte_shift(i);
@@ -171,14 +187,16 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
     for (int x = 0; x < tile.width_px; x += 8)
       for (int base = 0; base < kMaxPlanes; base += 8)
         if ((mask >> base & 0xff) != 0)
-          store_byte_planes(tile.words(0, y) + x * kBlockSize, flip, std::min(8, tile.width_px - x), {row.first + x / 8, row.plane_stride}, base, mask);
+          store_byte_planes(tile.words(0, y) + x * kBlockSize, flip, std::min(8, tile.width_px - x),
+                            {row.first + x / 8, row.plane_stride}, base, mask);
 }
 
 #endif
 
 }  // namespace
 
-void store_planes(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes, std::uint32_t plane_store_mask) noexcept {
+void store_planes(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes,
+                  std::uint32_t plane_store_mask) noexcept {
   const std::uint32_t mask = plane_store_mask & planes.word_mask();
   if (mask == 0) return;
   const StripRows strip = strip_rows(tiles, first, planes);
@@ -186,9 +204,11 @@ void store_planes(std::span<const std::uint32_t* const> tiles, const TilePlace& 
 }
 
 #if HWY_TARGET == HWY_AVX3
-void store_planes_by_lines(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes, std::uint32_t plane_store_mask) noexcept {
+void store_planes_by_lines(std::span<const std::uint32_t* const> tiles, const TilePlace& first,
+                           BitplaneStack& planes, std::uint32_t plane_store_mask) noexcept {
   const StripRows strip = strip_rows(tiles, first, planes);
-  const bool are_lines = first.x0_px % kLinePixels == 0 && strip.width_px == std::min(kLinePixels, planes.width_px() - first.x0_px);
+  const bool are_lines = first.x0_px % kLinePixels == 0 &&
+                         strip.width_px == std::min(kLinePixels, planes.width_px() - first.x0_px);
   if (!are_lines) return store_planes(tiles, first, planes, plane_store_mask);
   const std::uint32_t mask = plane_store_mask & planes.word_mask();
   if (mask != 0) store_lines(strip, first.flip, mask);
@@ -202,13 +222,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera {
 static bool has_lines(Isa isa) { return isa == Isa::avx512 && machine_has_gfni(); }
-int tiles_stored_together(Isa isa, int tile_size) noexcept { return has_lines(isa) ? kLinePixels / tile_size : 1; }
+int tiles_stored_together(Isa isa, int tile_size) noexcept {
+  return has_lines(isa) ? kLinePixels / tile_size : 1;
+}
 StorePlanesFn* store_planes_for(Isa isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
   if (has_lines(isa)) return &N_AVX3::store_planes_by_lines;
 #endif
   return store_planes_tile_by_tile(isa);
 }
-StorePlanesFn* store_planes_tile_by_tile([[maybe_unused]] Isa isa) noexcept { return TESSERA_KERNEL(isa, store_planes); }
+StorePlanesFn* store_planes_tile_by_tile([[maybe_unused]] Isa isa) noexcept {
+  return TESSERA_KERNEL(isa, store_planes);
+}
 }  // namespace tessera
 #endif

@@ -1,5 +1,5 @@
-// Loads go by strips of a row: with vectors of bytes 32 or 64 pixels, as 8x8 squares of bits, elsewhere 8. AVX-512 has no
-// way of its own.
+// Loads go by strips of a row: with vectors of bytes 32 or 64 pixels, as 8x8 squares of bits, elsewhere 8.
+// AVX-512 has no way of its own.
 //
 // Based on: H. S. Warren, Hacker's Delight, 2nd edition 2012, 7-3 (8x8 bits by three rounds of exchanges).
 #include "framebuffer/bit_transpose.h"
@@ -26,8 +26,8 @@ namespace {
 struct LoadedRows {
   std::uint32_t* tile;
   int tile_size, height_px;
-  PlaneBits<const std::uint8_t> bits;          ///< of the top left pixel
-  std::ptrdiff_t stride_bytes;  ///< of the planes' rows
+  PlaneBits<const std::uint8_t> bits;  ///< of the top left pixel
+  std::ptrdiff_t stride_bytes;         ///< of the planes' rows
   /// Of pixel 0 of row y; those of pixel x, a multiple of 4, come x * kBlockSize later.
   std::uint32_t* words(int y) const noexcept { return tile + tile_index(0, y, tile_size); }
 };
@@ -50,10 +50,12 @@ HWY_INLINE void store_groups(__m256i groups, std::uint32_t* words, int group) no
   _mm_store_si128(reinterpret_cast<__m128i*>(low + 4 * kBlockPixels), _mm256_extracti128_si256(groups, 1));
 }
 
-/// Bit b of byte k goes to bit 7 - k of byte 7 - b, in each 64 bits: transposed about the other diagonal, which is what turns
-/// pixels whose first one is byte 0 into planes whose first pixel is bit 7. Its own inverse.
+/// Bit b of byte k goes to bit 7 - k of byte 7 - b, in each 64 bits: transposed about the other diagonal,
+/// which is what turns pixels whose first one is byte 0 into planes whose first pixel is bit 7. Its own
+/// inverse.
 HWY_INLINE __m256i anti_transpose_8x8(__m256i x) noexcept {
-  const auto pattern = [](std::uint64_t bits) HWY_ATTR { return _mm256_set1_epi64x(static_cast<long long>(bits)); };
+  const auto pattern = [](std::uint64_t bits)
+                           HWY_ATTR { return _mm256_set1_epi64x(static_cast<long long>(bits)); };
   __m256i t = _mm256_and_si256(_mm256_xor_si256(x, _mm256_slli_epi64(x, 9)), pattern(0xaa00aa00aa00aa00));
   x = _mm256_xor_si256(_mm256_xor_si256(x, t), _mm256_srli_epi64(t, 9));
   t = _mm256_and_si256(_mm256_xor_si256(x, _mm256_slli_epi64(x, 18)), pattern(0xcccc0000cccc0000));
@@ -74,9 +76,11 @@ HWY_INLINE __m128i load_pair(const std::uint8_t* low, const std::uint8_t* high) 
   return _mm_unpacklo_epi64(_mm_cvtsi32_si128(bits[0]), _mm_cvtsi32_si128(bits[1]));
 }
 
-/// 8 planes -> a byte for each pixel, left to right; the left 32 pixels in `left`, the others, if there are any, in `right`.
+/// 8 planes -> a byte for each pixel, left to right; the left 32 pixels in `left`, the others, if there are
+/// any, in `right`.
 template <int kPixels>
-HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* offset, __m256i& left, __m256i& right) noexcept {
+HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* offset, __m256i& left,
+                                 __m256i& right) noexcept {
   // 8x8 transposition of bytes, to 8 planes of 8 pixels in each 64 bits, plane 7 in the lowest byte.
   const __m256i pairs = _mm256_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15,  //
                                          0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
@@ -87,13 +91,16 @@ HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* o
   const __m256i a = _mm256_shuffle_epi8(planes76_32, pairs), b = _mm256_shuffle_epi8(planes54_10, pairs);
   const __m256i zip = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
   left = anti_transpose_8x8(_mm256_permutevar8x32_epi32(_mm256_unpacklo_epi16(a, b), zip));
-  if (kPixels == 64) right = anti_transpose_8x8(_mm256_permutevar8x32_epi32(_mm256_unpackhi_epi16(a, b), zip));
+  if (kPixels == 64)
+    right = anti_transpose_8x8(_mm256_permutevar8x32_epi32(_mm256_unpackhi_epi16(a, b), zip));
 }
 
 /// 32 pixels from their bytes.
 HWY_INLINE void store_words(const __m256i (&bytes)[4], __m256i flips, std::uint32_t* words) noexcept {
-  const __m256i left01 = _mm256_unpacklo_epi8(bytes[0], bytes[1]), right01 = _mm256_unpackhi_epi8(bytes[0], bytes[1]);
-  const __m256i left23 = _mm256_unpacklo_epi8(bytes[2], bytes[3]), right23 = _mm256_unpackhi_epi8(bytes[2], bytes[3]);
+  const __m256i left01 = _mm256_unpacklo_epi8(bytes[0], bytes[1]),
+                right01 = _mm256_unpackhi_epi8(bytes[0], bytes[1]);
+  const __m256i left23 = _mm256_unpacklo_epi8(bytes[2], bytes[3]),
+                right23 = _mm256_unpackhi_epi8(bytes[2], bytes[3]);
   store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(left01, left23), flips), words, 0);
   store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(left01, left23), flips), words, 1);
   store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(right01, right23), flips), words, 2);
@@ -102,9 +109,11 @@ HWY_INLINE void store_words(const __m256i (&bytes)[4], __m256i flips, std::uint3
 
 template <int kPixels, int kBytes>
 void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexcept {
-  // Planes that are absent from the last byte are read from the last plane and masked away: no branch for each plane.
+  // Planes that are absent from the last byte are read from the last plane and masked away: no branch for
+  // each plane.
   std::size_t offset[kMaxPlanes];
-  for (int k = 0; k < kMaxPlanes; ++k) offset[k] = static_cast<std::size_t>(std::min(k, plane_count - 1)) * rows.bits.plane_stride;
+  for (int k = 0; k < kMaxPlanes; ++k)
+    offset[k] = static_cast<std::size_t>(std::min(k, plane_count - 1)) * rows.bits.plane_stride;
   const __m256i present = _mm256_set1_epi8(static_cast<char>(0xff >> (8 * kBytes - plane_count)));
   const __m256i flips = _mm256_set1_epi32(static_cast<int>(flip));
   const std::uint8_t* row = rows.bits.first;
@@ -112,7 +121,8 @@ void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexc
     for (int x = 0; x < rows.tile_size; x += kPixels) {  // pad bits are 0
       __m256i left[4] = {}, right[4] = {};
 #pragma GCC unroll 4
-      for (int i = 0; i < kBytes; ++i) load_byte_planes<kPixels>(row + x / 8, offset + 8 * i, left[i], right[i]);
+      for (int i = 0; i < kBytes; ++i)
+        load_byte_planes<kPixels>(row + x / 8, offset + 8 * i, left[i], right[i]);
       left[kBytes - 1] = _mm256_and_si256(left[kBytes - 1], present);
       right[kBytes - 1] = _mm256_and_si256(right[kBytes - 1], present);
       std::uint32_t* const words = rows.words(y) + x * kBlockSize;
@@ -132,18 +142,22 @@ void load_rows_of(const LoadedRows& rows, std::uint32_t flip, int plane_count) n
 }
 
 void load_rows(const LoadedRows& rows, std::uint32_t flip, int plane_count) noexcept {
-  return rows.tile_size == 32 ? load_rows_of<32>(rows, flip, plane_count) : load_rows_of<64>(rows, flip, plane_count);
+  return rows.tile_size == 32 ? load_rows_of<32>(rows, flip, plane_count)
+                              : load_rows_of<64>(rows, flip, plane_count);
 }
 
 #else
 
-inline void load_strip(std::uint32_t* words, std::uint32_t flip, PlaneBits<const std::uint8_t> from, int plane_count) noexcept {
+inline void load_strip(std::uint32_t* words, std::uint32_t flip, PlaneBits<const std::uint8_t> from,
+                       int plane_count) noexcept {
   for (int i = 0; i < 8; ++i) words[strip_index(i)] = flip;
   for (int base = 0; base < plane_count; base += 8) {
     std::uint64_t planes = 0;
-    for (int k = 0; k < std::min(8, plane_count - base); ++k) planes |= std::uint64_t{*from.plane(base + k)} << (8 * k);
+    for (int k = 0; k < std::min(8, plane_count - base); ++k)
+      planes |= std::uint64_t{*from.plane(base + k)} << (8 * k);
     const std::uint64_t bytes = transpose_8x8(planes);
-    for (int i = 0; i < 8; ++i) words[strip_index(i)] ^= static_cast<std::uint32_t>(bytes >> byte_shift(i) & 0xff) << base;
+    for (int i = 0; i < 8; ++i)
+      words[strip_index(i)] ^= static_cast<std::uint32_t>(bytes >> byte_shift(i) & 0xff) << base;
   }
 }
 
@@ -163,7 +177,8 @@ void load_planes(std::uint32_t* tile, const TilePlace& place, const BitplaneStac
   load_rows({.tile = tile,
              .tile_size = place.tile_size,
              .height_px = std::min(place.tile_size, planes.height_px() - place.y0_px),
-             .bits = {planes.plane(0) + place.y0_px * planes.stride_bytes() + place.x0_px / 8, planes.plane_stride_bytes()},
+             .bits = {planes.plane(0) + place.y0_px * planes.stride_bytes() + place.x0_px / 8,
+                      planes.plane_stride_bytes()},
              .stride_bytes = planes.stride_bytes()},
             place.flip, planes.plane_count());
 }

@@ -8,7 +8,8 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
     : width_px_(width_px), height_px_(height_px), plane_count_(plane_count) {
   TESSERA_ASSERT(width_px >= 1 && height_px >= 1 && plane_count >= 0 && plane_count <= kMaxPlanes);
   const std::size_t row_lines = (static_cast<std::size_t>(width_px) + kLinePixels - 1) / kLinePixels;
-  // An even number of lines, a power of two above all, would map one pixel of all planes to a few sets of the cache.
+  // An even number of lines, a power of two above all, would map one pixel of all planes to a few sets of the
+  // cache.
   const std::size_t plane_lines = row_lines * static_cast<std::size_t>(height_px) | 1;
   stride_bytes_ = static_cast<std::ptrdiff_t>(row_lines * kPlaneAlignment);
   plane_stride_bytes_ = plane_lines * kPlaneAlignment;
@@ -16,7 +17,9 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
 
 void BitplaneStack::allocate(std::uint32_t word) {
   if (allocated() || plane_count_ == 0) return;
-  memory_.reset(lent_ != nullptr ? lent_ : static_cast<std::uint8_t*>(::operator new(needed_bytes(), std::align_val_t{kPlaneAlignment})));
+  memory_.reset(lent_ != nullptr ? lent_
+                                 : static_cast<std::uint8_t*>(
+                                       ::operator new (needed_bytes(), std::align_val_t{kPlaneAlignment})));
   fill(word);
 }
 

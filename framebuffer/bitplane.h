@@ -1,8 +1,9 @@
 // The frame buffer's storage: a stack of bitplanes, literally one bit for each pixel in each plane.
 //
-// A pixel's word is up to 32 bits; plane k holds bit k of every pixel. Planes are separate images: the top row first, bit 7
-// of a byte the leftmost pixel. Rows are padded to whole cache lines (512 pixels), and a plane takes an odd number of
-// them, so that the same pixel of neighbouring planes never competes for one set of a cache. Pad bits are always 0.
+// A pixel's word is up to 32 bits; plane k holds bit k of every pixel. Planes are separate images: the top
+// row first, bit 7 of a byte the leftmost pixel. Rows are padded to whole cache lines (512 pixels), and a
+// plane takes an odd number of them, so that the same pixel of neighbouring planes never competes for one set
+// of a cache. Pad bits are always 0.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +17,11 @@
 namespace tessera {
 
 inline constexpr int kMaxPlanes = 32;
-inline constexpr int kPlaneAlignment = 64;  ///< bytes; rows of a plane are padded to it
+inline constexpr int kPlaneAlignment = 64;               ///< bytes; rows of a plane are padded to it
 inline constexpr int kLinePixels = kPlaneAlignment * 8;  ///< of a plane in a cache line
 
-/// A stack of planes of one size. Memory is taken at allocate(), not before. Copying is not offered; moving leaves a stack
-/// without memory behind.
+/// A stack of planes of one size. Memory is taken at allocate(), not before. Copying is not offered; moving
+/// leaves a stack without memory behind.
 class BitplaneStack {
  public:
   BitplaneStack() = default;
@@ -46,9 +47,11 @@ class BitplaneStack {
   }
 
   /// Bytes that the planes take, allocated or not.
-  std::size_t needed_bytes() const noexcept { return plane_stride_bytes_ * static_cast<std::size_t>(plane_count_); }
-  /// From now on the planes stand in this memory, needed_bytes() at a multiple of kPlaneAlignment, which outlives the stack;
-  /// taking and giving back allocates nothing. @pre not allocated
+  std::size_t needed_bytes() const noexcept {
+    return plane_stride_bytes_ * static_cast<std::size_t>(plane_count_);
+  }
+  /// From now on the planes stand in this memory, needed_bytes() at a multiple of kPlaneAlignment, which
+  /// outlives the stack; taking and giving back allocates nothing. @pre not allocated
   void use_memory(std::uint8_t* memory) noexcept {
     TESSERA_ASSERT(!allocated() && reinterpret_cast<std::uintptr_t>(memory) % kPlaneAlignment == 0);
     lent_ = memory;
@@ -56,14 +59,16 @@ class BitplaneStack {
   bool uses_lent_memory() const noexcept { return lent_ != nullptr; }
 
   bool allocated() const noexcept { return memory_ != nullptr; }
-  /// Takes the memory, if it is not there yet, and fills every pixel with `word`. Throws std::bad_alloc; then nothing changed.
+  /// Takes the memory, if it is not there yet, and fills every pixel with `word`. Throws std::bad_alloc; then
+  /// nothing changed.
   void allocate(std::uint32_t word);
   void release() noexcept {
     if (lent_ != nullptr) static_cast<void>(memory_.release());
     memory_.reset();
   }
 
-  /// Every pixel becomes `word` (bits beyond the planes are ignored). Allocated stacks only, as for all that follows.
+  /// Every pixel becomes `word` (bits beyond the planes are ignored). Allocated stacks only, as for all that
+  /// follows.
   void fill(std::uint32_t word) noexcept { fill_rows(0, height_px_, word); }
   /// The same for the rows y0 <= y < y1; distinct rows may be filled by distinct threads.
   void fill_rows(int y0, int y1, std::uint32_t word) noexcept;
@@ -90,7 +95,9 @@ class BitplaneStack {
 
  private:
   struct Free {
-    void operator()(std::uint8_t* memory) const noexcept { ::operator delete(memory, std::align_val_t{kPlaneAlignment}); }
+    void operator()(std::uint8_t* memory) const noexcept {
+      ::operator delete (memory, std::align_val_t{kPlaneAlignment});
+    }
   };
   int width_px_ = 0, height_px_ = 0, plane_count_ = 0;
   std::ptrdiff_t stride_bytes_ = 0;

@@ -1,8 +1,8 @@
 // Colour, depth and stencil formats, and the one quantizer each way.
 //
-// In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so plane k is bit k;
-// alpha planes follow above.
-// A pixel's depth is a signed key whose order is the order of depths: see DepthKind.
+// In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so
+// plane k is bit k; alpha planes follow above. A pixel's depth is a signed key whose order is the order of
+// depths: see DepthKind.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct ColorLayout {
   bool index = false;      ///< the word is a palette index
   bool luminance = false;  ///< the word is one grey component of `bits` bits
   int r_bits = 8, g_bits = 8, b_bits = 8;
-  int alpha_bits = 0;      ///< 0 or 8
+  int alpha_bits = 0;  ///< 0 or 8
   int r_shift() const { return g_bits + b_bits; }
   int g_shift() const { return b_bits; }
   std::uint32_t word_mask() const { return (std::uint32_t{1} << bits) - 1; }  ///< of the colour
@@ -49,14 +49,17 @@ inline std::uint32_t quantize(float c, int bits) {
 /// The stored word of an RGB or luminance layout.
 inline std::uint32_t quantize_rgb(const ColorLayout& layout, float r, float g, float b) {
   if (layout.luminance) return quantize(std::fma(kLumaR, r, std::fma(kLumaG, g, kLumaB * b)), layout.bits);
-  return quantize(r, layout.r_bits) << layout.r_shift() | quantize(g, layout.g_bits) << layout.g_shift() | quantize(b, layout.b_bits);
+  return quantize(r, layout.r_bits) << layout.r_shift() | quantize(g, layout.g_bits) << layout.g_shift() |
+         quantize(b, layout.b_bits);
 }
 /// An index modulo 2^bits, with its fraction: 0 .. modulus; a NaN counts as 0.
 inline float masked_index(float index, float modulus) {
-  const float rest = index - modulus * std::floor(index * (1 / modulus));  // products by powers of two are exact
+  const float rest =
+      index - modulus * std::floor(index * (1 / modulus));  // products by powers of two are exact
   return rest >= 0 ? rest : 0.0f;
 }
-/// The stored word of a masked index: floor(index + 0.5), masked again. The sum itself is not exact above 2^23.
+/// The stored word of a masked index: floor(index + 0.5), masked again. The sum itself is not exact above
+/// 2^23.
 inline std::uint32_t index_word(const ColorLayout& layout, float index) {
   const auto whole = static_cast<std::uint32_t>(index > 0 ? index : 0.0f);
   return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.word_mask();
@@ -73,13 +76,14 @@ constexpr int depth_bits(DepthKind kind) {
   return kind == DepthKind::none ? 0 : kind == DepthKind::unorm16 ? 16 : kind == DepthKind::unorm24 ? 24 : 32;
 }
 
-// A depth key is the stored level for 16 and 24 bits, the level with its top bit flipped for 32 bits, and the bits of the
-// float (never negative) for float32: in each case a signed comparison of keys compares depths.
+// A depth key is the stored level for 16 and 24 bits, the level with its top bit flipped for 32 bits, and the
+// bits of the float (never negative) for float32: in each case a signed comparison of keys compares depths.
 constexpr std::int32_t depth_key_from_word(DepthKind kind, std::uint32_t word) {
   return static_cast<std::int32_t>(kind == DepthKind::unorm32 ? word ^ 0x80000000u : word);
 }
 constexpr std::uint32_t depth_word_from_key(DepthKind kind, std::int32_t key) {
-  return kind == DepthKind::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u : static_cast<std::uint32_t>(key);
+  return kind == DepthKind::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u
+                                    : static_cast<std::uint32_t>(key);
 }
 /// floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
 inline std::uint32_t depth_word(DepthKind kind, double z) {

@@ -5,18 +5,20 @@
 #if HWY_ONCE
 namespace tessera {
 
-// What each set needs is what Highway compiles its target with (HWY_TARGET_STR), and AVX512CD: see repeated().
+// What each set needs is what Highway compiles its target with (HWY_TARGET_STR), and AVX512CD: see
+// repeated().
 #if HWY_TARGETS & HWY_AVX2
 static bool machine_has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-         __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") && __builtin_cpu_supports("pclmul") &&
-         __builtin_cpu_supports("aes");
+         __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") &&
+         __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("aes");
 }
 #endif
 #if HWY_TARGETS & HWY_AVX3
 static bool machine_has_avx512() {
   return machine_has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd");
 }
 #endif
 

@@ -10,8 +10,8 @@
 //   namespace tessera { KernelFn* kernel_for(Isa isa) { return TESSERA_KERNEL(isa, kernel); } }
 //   #endif
 //
-// Highway's SSSE3 and SSE4 targets are disabled: they have no fused multiply-add, so their bits would differ. Older x86
-// takes the scalar path, whose multiply-adds are fused by std::fma.
+// Highway's SSSE3 and SSE4 targets are disabled: they have no fused multiply-add, so their bits would differ.
+// Older x86 takes the scalar path, whose multiply-adds are fused by std::fma.
 #ifndef TESSERA_LANES_CONFIGURED
 #define TESSERA_LANES_CONFIGURED
 #if defined(TESSERA_WITHOUT_AVX512)
@@ -20,8 +20,9 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #endif
 #define HWY_IS_DEBUG_BUILD 0  // its own asserts call its library, which is not linked
-#define HWY_BROKEN_EMU128 1  // one baseline for every compiler: a single lane
-// Vectors are for x86: the kernels take widths and layouts of its vectors for granted (raster/lane_packing-inl.h).
+#define HWY_BROKEN_EMU128 1   // one baseline for every compiler: a single lane
+// Vectors are for x86: the kernels take widths and layouts of its vectors for granted
+// (raster/lane_packing-inl.h).
 #if defined(TESSERA_SCALAR_ONLY) || !defined(__x86_64__)
 #define HWY_COMPILE_ONLY_SCALAR
 #endif
@@ -34,20 +35,23 @@
 #include "hwy/highway.h"
 
 #if HWY_TARGETS & HWY_AVX3
-#define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::Isa::avx512 ? &N_AVX3::fn :
+#define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::Isa::avx512 ? &N_AVX3::fn:
 #else
 #define TESSERA_KERNEL_AVX512(isa, fn)
 #endif
 #if HWY_TARGETS & HWY_AVX2
-#define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::Isa::avx2 ? &N_AVX2::fn :
+#define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::Isa::avx2 ? &N_AVX2::fn:
 #else
 #define TESSERA_KERNEL_AVX2(isa, fn)
 #endif
 /// The address of `fn` compiled for `isa`.
-#define TESSERA_KERNEL(isa, fn) (static_cast<void>(isa), TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) &HWY_STATIC_DISPATCH(fn))
+#define TESSERA_KERNEL(isa, fn) \
+  (static_cast<void>(isa),      \
+   TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) & HWY_STATIC_DISPATCH(fn))
 
-// Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before fast. So is what follows the kernels in
-// their files, which runs once for many vertices or pixels.
-#if HWY_TARGET == HWY_SCALAR && HWY_TARGETS != HWY_SCALAR && defined(__OPTIMIZE__) && defined(__GNUC__) && !defined(__clang__)
+// Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before
+// fast. So is what follows the kernels in their files, which runs once for many vertices or pixels.
+#if HWY_TARGET == HWY_SCALAR && HWY_TARGETS != HWY_SCALAR && defined(__OPTIMIZE__) && defined(__GNUC__) && \
+    !defined(__clang__)
 #pragma GCC optimize("Os")
 #endif

@@ -9,32 +9,47 @@ namespace tessera {
 
 namespace {
 
-constexpr std::array<Rgb8, 16> kEga16 = {{{0, 0, 0}, {0, 0, 170}, {0, 170, 0}, {0, 170, 170},
-                                          {170, 0, 0}, {170, 0, 170}, {170, 85, 0}, {170, 170, 170},
-                                          {85, 85, 85}, {85, 85, 255}, {85, 255, 85}, {85, 255, 255},
-                                          {255, 85, 85}, {255, 85, 255}, {255, 255, 85}, {255, 255, 255}}};
+constexpr std::array<Rgb8, 16> kEga16 = {{{0, 0, 0},
+                                          {0, 0, 170},
+                                          {0, 170, 0},
+                                          {0, 170, 170},
+                                          {170, 0, 0},
+                                          {170, 0, 170},
+                                          {170, 85, 0},
+                                          {170, 170, 170},
+                                          {85, 85, 85},
+                                          {85, 85, 255},
+                                          {85, 255, 85},
+                                          {85, 255, 255},
+                                          {255, 85, 85},
+                                          {255, 85, 255},
+                                          {255, 255, 85},
+                                          {255, 255, 255}}};
 
 // The default palette of VGA's mode 13h (IBM VGA BIOS), in the 6-bit levels of its converter.
 constexpr std::array<int, 16> kVgaGreys = {0, 5, 8, 11, 14, 17, 20, 24, 28, 32, 36, 40, 45, 50, 56, 63};
-/// Levels of a leg of the hue circle, [intensity][saturation][step], from the weakest component to the strongest.
+/// Levels of a leg of the hue circle, [intensity][saturation][step], from the weakest component to the
+/// strongest.
 constexpr int kVgaHueLevels[3][3][5] = {{{0, 16, 31, 47, 63}, {31, 39, 47, 55, 63}, {45, 49, 54, 58, 63}},
                                         {{0, 7, 14, 21, 28}, {14, 17, 21, 24, 28}, {20, 22, 24, 26, 28}},
                                         {{0, 4, 8, 12, 16}, {8, 10, 12, 14, 16}, {11, 12, 13, 15, 16}}};
 
 /// round(255 v / 63)
-constexpr std::uint8_t from_6_bits(int v) { return static_cast<std::uint8_t>(shown_level(static_cast<std::uint32_t>(v), 6)); }
+constexpr std::uint8_t from_6_bits(int v) {
+  return static_cast<std::uint8_t>(shown_level(static_cast<std::uint32_t>(v), 6));
+}
 
-/// Hue h of the circle, 0 .. 23: blue, magenta, red, yellow, green, cyan at multiples of 4. On each leg one component moves
-/// in four steps while the two others rest at an end.
+/// Hue h of the circle, 0 .. 23: blue, magenta, red, yellow, green, cyan at multiples of 4. On each leg one
+/// component moves in four steps while the two others rest at an end.
 Rgb8 vga_hue(int h, const int (&levels)[5]) {
   const std::uint8_t low = from_6_bits(levels[0]), high = from_6_bits(levels[4]);
   const std::uint8_t rising = from_6_bits(levels[h % 4]), falling = from_6_bits(levels[4 - h % 4]);
   switch (h / 4) {
-    case 0: return {rising, low, high};   // blue -> magenta
-    case 1: return {high, low, falling};  // magenta -> red
-    case 2: return {high, rising, low};   // red -> yellow
-    case 3: return {falling, high, low};  // yellow -> green
-    case 4: return {low, high, rising};   // green -> cyan
+    case 0: return {rising, low, high};    // blue -> magenta
+    case 1: return {high, low, falling};   // magenta -> red
+    case 2: return {high, rising, low};    // red -> yellow
+    case 3: return {falling, high, low};   // yellow -> green
+    case 4: return {low, high, rising};    // green -> cyan
     default: return {low, falling, high};  // cyan -> blue
   }
 }
@@ -66,14 +81,16 @@ std::vector<Rgb8> web216() {
   for (int r = 0; r <= 255; r += 51)
     for (int g = 0; g <= 255; g += 51)
       for (int b = 0; b <= 255; b += 51)
-        entries.push_back({static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)});
+        entries.push_back(
+            {static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)});
   return entries;
 }
 
 }  // namespace
 
 Rgb8 stored_color(float r, float g, float b) noexcept {
-  return {static_cast<std::uint8_t>(quantize(r, 8)), static_cast<std::uint8_t>(quantize(g, 8)), static_cast<std::uint8_t>(quantize(b, 8))};
+  return {static_cast<std::uint8_t>(quantize(r, 8)), static_cast<std::uint8_t>(quantize(g, 8)),
+          static_cast<std::uint8_t>(quantize(b, 8))};
 }
 
 std::optional<std::vector<Rgb8>> palette_entries(std::string_view name, int bits) {
@@ -90,6 +107,8 @@ std::string_view default_palette_name(int bits) noexcept {
   return bits == 1 ? "bw" : bits <= 3 ? "gray" : bits <= 7 ? "ega16" : "vga256";
 }
 
-Palette default_palette_of(int bits) { return {.bits = bits, .entries = *palette_entries(default_palette_name(bits), bits)}; }
+Palette default_palette_of(int bits) {
+  return {.bits = bits, .entries = *palette_entries(default_palette_name(bits), bits)};
+}
 
 }  // namespace tessera

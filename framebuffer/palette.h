@@ -32,11 +32,13 @@ struct Palette {
   }
 };
 
-/// Entries of a palette known by name: "bw" (2), "gray" (2^bits), "ega16" (16), "vga256" (256), "web216" (216). Empty for
-/// another name. They may be more than 2^bits: the caller refuses that. Throws std::bad_alloc only.
+/// Entries of a palette known by name: "bw" (2), "gray" (2^bits), "ega16" (16), "vga256" (256), "web216"
+/// (216). Empty for another name. They may be more than 2^bits: the caller refuses that. Throws
+/// std::bad_alloc only.
 /// @param bits  1 .. 24; matters to "gray" alone.
 std::optional<std::vector<Rgb8>> palette_entries(std::string_view name, int bits);
-/// Name of the default palette of a buffer with `bits` bits: bw at 1, gray at 2 and 3, ega16 at 4 to 7, vga256 at 8 and more.
+/// Name of the default palette of a buffer with `bits` bits: bw at 1, gray at 2 and 3, ega16 at 4 to 7,
+/// vga256 at 8 and more.
 std::string_view default_palette_name(int bits) noexcept;
 /// That palette.
 Palette default_palette_of(int bits);

@@ -21,13 +21,16 @@ struct DistinctColor {
 std::vector<DistinctColor> distinct_colors(const Palette& palette) {
   std::vector<DistinctColor> colors;
   colors.reserve(palette.entries.size() + 1);
-  for (std::size_t i = 0; i < palette.entries.size(); ++i) colors.push_back({palette.entries[i], static_cast<std::uint32_t>(i)});
+  for (std::size_t i = 0; i < palette.entries.size(); ++i)
+    colors.push_back({palette.entries[i], static_cast<std::uint32_t>(i)});
   if (colors.empty()) colors.push_back({});
   const auto key = [](const DistinctColor& c) {
     return (std::uint64_t{c.color.r} << 16 | std::uint64_t{c.color.g} << 8 | c.color.b) << 32 | c.index;
   };
   std::sort(colors.begin(), colors.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  colors.erase(std::unique(colors.begin(), colors.end(), [](const auto& a, const auto& b) { return a.color == b.color; }), colors.end());
+  colors.erase(std::unique(colors.begin(), colors.end(),
+                           [](const auto& a, const auto& b) { return a.color == b.color; }),
+               colors.end());
   std::sort(colors.begin(), colors.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
   return colors;
 }
@@ -42,17 +45,20 @@ AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
   AxisTable table;
   for (int level = 0; level < 256; ++level) {
     const double c = level / 255.0;
-    const double below = low + (high - low) * cell / cells - c, above = c - (low + (high - low) * (cell + 1) / cells);
+    const double below = low + (high - low) * cell / cells - c,
+                 above = c - (low + (high - low) * (cell + 1) / cells);
     table[static_cast<std::size_t>(level)] = {static_cast<float>(square(std::max({below, above, 0.0}))),
                                               static_cast<float>(square(std::min(below, above)))};
   }
   return table;
 }
 
-// A colour can be the nearest one to some point of a cell only if it is no farther from the cell than the farthest point is
-// from the colour that serves the cell best. `among`: candidates of a box that holds the cell; `distances`: scratch.
-void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among, const AxisTable& x,
-                     const AxisTable& y, const AxisTable& z, std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
+// A colour can be the nearest one to some point of a cell only if it is no farther from the cell than the
+// farthest point is from the colour that serves the cell best. `among`: candidates of a box that holds the
+// cell; `distances`: scratch.
+void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among,
+                     const AxisTable& x, const AxisTable& y, const AxisTable& z,
+                     std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
   float best_farthest = kFarthest;
   distances.resize(among.size());
   for (std::size_t i = 0; i < among.size(); ++i) {
@@ -60,30 +66,35 @@ void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector
     distances[i] = x[c.r].nearest + y[c.g].nearest + z[c.b].nearest;
     best_farthest = std::min(best_farthest, x[c.r].farthest + y[c.g].farthest + z[c.b].farthest);
   }
-  // Here and in nearest() distances are rounded, and so is the cell of a point, each by less than one part in 10^6: no colour may be
-  // lost to that.
+  // Here and in nearest() distances are rounded, and so is the cell of a point, each by less than one part in
+  // 10^6: no colour may be lost to that.
   const float limit = best_farthest * (1.0f + 1e-4f);
   for (std::size_t i = 0; i < among.size(); ++i)
     if (distances[i] <= limit) kept.push_back(among[i]);
 }
 
 /// Cells in each direction: finer for more colours, so that a cell keeps few of them.
-int cells_for(std::size_t colors) noexcept { return colors <= 4 ? 4 : colors <= 32 ? 8 : colors <= 1024 ? 16 : 32; }
+int cells_for(std::size_t colors) noexcept {
+  return colors <= 4 ? 4 : colors <= 32 ? 8 : colors <= 1024 ? 16 : 32;
+}
 
 constexpr std::size_t cell_index(int cells, int x, int y, int z) noexcept {
-  return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(cells) +
+  return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(y)) *
+             static_cast<std::size_t>(cells) +
          static_cast<std::size_t>(z);
 }
 
 }  // namespace
 
-PaletteSearch::PaletteSearch(const Palette& palette, bool dithered) : low_(dithered ? -0.5f : 0), high_(dithered ? 1.5f : 1) {
+PaletteSearch::PaletteSearch(const Palette& palette, bool dithered)
+    : low_(dithered ? -0.5f : 0), high_(dithered ? 1.5f : 1) {
   const std::vector<DistinctColor> colors = distinct_colors(palette);
   for (const DistinctColor& c : colors)
     entries_.push_back({static_cast<float>(c.color.r) / 255.0f, static_cast<float>(c.color.g) / 255.0f,
                         static_cast<float>(c.color.b) / 255.0f, c.index});
 
-  // Each level of an octree hands its candidates down to the next, so that only the root looks at all colours.
+  // Each level of an octree hands its candidates down to the next, so that only the root looks at all
+  // colours.
   std::vector<std::vector<std::uint32_t>> coarse(1), fine;
   for (std::size_t i = 0; i < colors.size(); ++i) coarse[0].push_back(static_cast<std::uint32_t>(i));
   std::vector<float> distances;
@@ -96,9 +107,9 @@ PaletteSearch::PaletteSearch(const Palette& palette, bool dithered) : low_(dithe
     for (int x = 0; x < cells_; ++x)
       for (int y = 0; y < cells_; ++y)
         for (int z = 0; z < cells_; ++z)
-          keep_candidates(colors, coarse[cell_index(cells_ / 2, x / 2, y / 2, z / 2)], axis[static_cast<std::size_t>(x)],
-                          axis[static_cast<std::size_t>(y)], axis[static_cast<std::size_t>(z)], distances,
-                          fine[cell_index(cells_, x, y, z)]);
+          keep_candidates(colors, coarse[cell_index(cells_ / 2, x / 2, y / 2, z / 2)],
+                          axis[static_cast<std::size_t>(x)], axis[static_cast<std::size_t>(y)],
+                          axis[static_cast<std::size_t>(z)], distances, fine[cell_index(cells_, x, y, z)]);
     coarse.swap(fine);
   }
   scale_ = static_cast<float>(cells_) / (high_ - low_);
@@ -111,7 +122,9 @@ PaletteSearch::PaletteSearch(const Palette& palette, bool dithered) : low_(dithe
 
 std::uint32_t PaletteSearch::search(float r, float g, float b) const noexcept {
   // The last cell holds the upper end.
-  const auto cell_of = [this](float c) { return std::min(static_cast<int>((c - low_) * scale_), cells_ - 1); };
+  const auto cell_of = [this](float c) {
+    return std::min(static_cast<int>((c - low_) * scale_), cells_ - 1);
+  };
   const std::size_t cell = cell_index(cells_, cell_of(r), cell_of(g), cell_of(b));
   const std::uint32_t* candidate = candidates_.data() + cell_begin_[cell];
   const std::uint32_t* const end = candidates_.data() + cell_begin_[cell + 1];
@@ -127,7 +140,11 @@ std::uint32_t PaletteSearch::search(float r, float g, float b) const noexcept {
   return entries_[nearest].index;
 }
 
-std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept { return search(clamp_component(r), clamp_component(g), clamp_component(b)); }
-std::uint32_t PaletteSearch::nearest_unclamped(float r, float g, float b) const noexcept { return search(r, g, b); }
+std::uint32_t PaletteSearch::nearest(float r, float g, float b) const noexcept {
+  return search(clamp_component(r), clamp_component(g), clamp_component(b));
+}
+std::uint32_t PaletteSearch::nearest_unclamped(float r, float g, float b) const noexcept {
+  return search(r, g, b);
+}
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// One rule serves every RGB layout: cut a component out of the word, scale it to 0 .. 255 in fixed point, put it in its
-// byte. Luminance is an RGB layout whose components are the same bits.
+// One rule serves every RGB layout: cut a component out of the word, scale it to 0 .. 255 in fixed point, put
+// it in its byte. Luminance is an RGB layout whose components are the same bits.
 #include "framebuffer/scan_out.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -35,7 +35,8 @@ struct ComponentPixels {
     auto pixels = hn::Set(d, 0xff000000u);
     for (const ScanOutRule::Component& c : rule.components) {
       const auto level = hn::And(hn::ShiftRightSame(words, c.shift), hn::Set(d, c.mask));
-      const auto shown = hn::ShiftRight<16>(hn::Add(hn::Mul(level, hn::Set(d, c.scale)), hn::Set(d, 1u << 15)));
+      const auto shown =
+          hn::ShiftRight<16>(hn::Add(hn::Mul(level, hn::Set(d, c.scale)), hn::Set(d, 1u << 15)));
       pixels = hn::Or(pixels, hn::ShiftLeftSame(shown, c.byte_shift));
     }
     return pixels;
@@ -48,13 +49,16 @@ struct AlphaPixels {
 
   WordsVec operator()(Words d, WordsVec words) const noexcept {
     const auto top = hn::Set(d, 0xff000000u);
-    return hn::Or(hn::AndNot(top, ComponentPixels{rule}(d, words)), hn::And(hn::ShiftLeftSame(words, rule.alpha_shift), top));
+    return hn::Or(hn::AndNot(top, ComponentPixels{rule}(d, words)),
+                  hn::And(hn::ShiftLeftSame(words, rule.alpha_shift), top));
   }
 };
 
 /// Pixels of 24 bits stored in the byte order wanted but for the alpha.
 struct BlueFirstPixels {
-  WordsVec operator()(Words d, WordsVec words) const noexcept { return hn::Or(words, hn::Set(d, 0xff000000u)); }
+  WordsVec operator()(Words d, WordsVec words) const noexcept {
+    return hn::Or(words, hn::Set(d, 0xff000000u));
+  }
 };
 /// The same with red and blue exchanged.
 struct RedFirstPixels {
@@ -66,7 +70,8 @@ struct RedFirstPixels {
     return hn::Or(hn::Or(red, blue), hn::Or(green, hn::Set(d, 0xff000000u)));
 #else
     const hn::Repartition<std::uint8_t, Words> bytes;
-    alignas(16) static constexpr std::uint8_t kRedFirst[16] = {2, 1, 0, 3, 6, 5, 4, 7, 10, 9, 8, 11, 14, 13, 12, 15};
+    alignas(16) static constexpr std::uint8_t kRedFirst[16] = {2,  1, 0, 3,  6,  5,  4,  7,
+                                                               10, 9, 8, 11, 14, 13, 12, 15};
     const auto exchanged = hn::TableLookupBytes(hn::BitCast(bytes, words), hn::LoadDup128(bytes, kRedFirst));
     return hn::Or(hn::BitCast(d, exchanged), hn::Set(d, 0xff000000u));
 #endif
@@ -98,8 +103,9 @@ HWY_INLINE WordsVec load_pixels(Words d, const std::uint32_t* words) noexcept {
       return hn::Combine(d, hn::LoadU(half, words + kStep), hn::LoadU(half, words));
     } else {
       const hn::Half<hn::Half<Words>> quarter;
-      return hn::Combine(d, hn::Combine(half, hn::LoadU(quarter, words + 3 * kStep), hn::LoadU(quarter, words + 2 * kStep)),
-                         hn::Combine(half, hn::LoadU(quarter, words + kStep), hn::LoadU(quarter, words)));
+      return hn::Combine(
+          d, hn::Combine(half, hn::LoadU(quarter, words + 3 * kStep), hn::LoadU(quarter, words + 2 * kStep)),
+          hn::Combine(half, hn::LoadU(quarter, words + kStep), hn::LoadU(quarter, words)));
     }
   }
 #endif
@@ -112,20 +118,24 @@ HWY_INLINE void store_pixels(Words d, WordsVec pixels, std::uint8_t* to) noexcep
   std::memcpy(to, &pixel, sizeof pixel);
   static_cast<void>(d);
 #else
-  hn::StoreU(hn::BitCast(hn::Repartition<std::uint8_t, Words>(), pixels), hn::Repartition<std::uint8_t, Words>(), to);
+  hn::StoreU(hn::BitCast(hn::Repartition<std::uint8_t, Words>(), pixels),
+             hn::Repartition<std::uint8_t, Words>(), to);
   static_cast<void>(d);
 #endif
 }
 
 /// One row; groups of 4 pixels stand kStep words apart: kBlockPixels in a tile, kBlockSize in a plain row.
 template <int kStep, class Pixels>
-HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px, std::uint8_t* row) noexcept {
+HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px,
+                                  std::uint8_t* row) noexcept {
   const Words d;
   constexpr int kLanes = static_cast<int>(HWY_LANES(std::uint32_t)), kUnit = std::max(kLanes, kBlockSize);
   int x = 0;
   for (; x + kUnit <= width_px; x += kUnit, words += kUnit / kBlockSize * kStep, row += 4 * kUnit)
-    for (int i = 0; i < kUnit; i += kLanes) store_pixels(d, pixels(d, load_pixels<kStep>(d, words + i)), row + 4 * i);
-  // The rest, in memory of its own: neither the words beyond the last pixel nor the bytes beyond the row are touched.
+    for (int i = 0; i < kUnit; i += kLanes)
+      store_pixels(d, pixels(d, load_pixels<kStep>(d, words + i)), row + 4 * i);
+  // The rest, in memory of its own: neither the words beyond the last pixel nor the bytes beyond the row are
+  // touched.
   const int rest_px = width_px - x;
   if (rest_px <= 0) return;
   HWY_ALIGN std::uint32_t rest[kUnit] = {};
@@ -135,18 +145,26 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* wor
 }
 
 #if HWY_TARGET == HWY_AVX3
-/// Four rows, by blocks of 16 pixels: a block's rows are the quarters of a vector, and four blocks exchange them.
+/// Four rows, by blocks of 16 pixels: a block's rows are the quarters of a vector, and four blocks exchange
+/// them.
 template <class Pixels>
-HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px, std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
+HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px,
+                                        std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
   const Words d;
   constexpr int kUnit = 4 * kBlockSize;
   int x = 0;
   for (; x + kUnit <= width_px; x += kUnit) {
-    const auto block = [&](int i) HWY_ATTR { return pixels(d, hn::Load(d, words + (x / kBlockSize + i) * kBlockPixels)).raw; };
+    const auto block = [&](int i) HWY_ATTR {
+      return pixels(d, hn::Load(d, words + (x / kBlockSize + i) * kBlockPixels)).raw;
+    };
     const __m512i b0 = block(0), b1 = block(1), b2 = block(2), b3 = block(3);
-    const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0)), upper23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(1, 0, 1, 0));  // rows 0 1 0 1
-    const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2)), lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
-    const auto store = [&](__m512i row, int y) HWY_ATTR { store_pixels(d, WordsVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x); };
+    const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0)),
+                  upper23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(1, 0, 1, 0));  // rows 0 1 0 1
+    const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2)),
+                  lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
+    const auto store = [&](__m512i row, int y) HWY_ATTR {
+      store_pixels(d, WordsVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
+    };
     store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(2, 0, 2, 0)), 0);
     store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(3, 1, 3, 1)), 1);
     store(_mm512_shuffle_i64x2(lower01, lower23, _MM_SHUFFLE(2, 0, 2, 0)), 2);
@@ -154,16 +172,21 @@ HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_
   }
   if (x == width_px) return;
   for (int y = 0; y < kBlockSize; ++y)
-    scan_out_row_with<kBlockPixels>(pixels, words + x * kBlockSize + y * kBlockSize, width_px - x, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
+    scan_out_row_with<kBlockPixels>(pixels, words + x * kBlockSize + y * kBlockSize, width_px - x,
+                                    first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
 }
 #endif
 
 template <class Pixels>
-HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
-                                   std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
-  // While four rows are written, the next four come: no rows of other tiles, which other cores may be writing.
+HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* tile, int tile_size,
+                                   int width_px, int height_px, std::uint8_t* first_row,
+                                   std::ptrdiff_t stride_bytes) noexcept {
+  // While four rows are written, the next four come: no rows of other tiles, which other cores may be
+  // writing.
   const auto fetch = [&](int y) HWY_ATTR {
-    if (y < height_px) fetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px, std::min(kBlockSize, height_px - y));
+    if (y < height_px)
+      fetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px,
+                  std::min(kBlockSize, height_px - y));
   };
   fetch(0);
   for (int y = 0; y < height_px; y += kBlockSize) {
@@ -176,7 +199,8 @@ HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* ti
       continue;
     }
 #endif
-    for (int row = 0; row < std::min(kBlockSize, height_px - y); ++row) scan_out_row_with<kBlockPixels>(pixels, words + row * kBlockSize, width_px, to + row * stride_bytes);
+    for (int row = 0; row < std::min(kBlockSize, height_px - y); ++row)
+      scan_out_row_with<kBlockPixels>(pixels, words + row * kBlockSize, width_px, to + row * stride_bytes);
   }
 }
 
@@ -194,17 +218,19 @@ HWY_INLINE void with_pixels(const ScanOutRule& rule, const Scan& scan) noexcept 
 
 }  // namespace
 
-void scan_out_tile(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
-                   std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
+void scan_out_tile(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px,
+                   int height_px, std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
   TESSERA_ASSERT(width_px >= 0 && width_px <= tile_size && height_px >= 0 && height_px <= tile_size);
   with_pixels(rule, [&](const auto& pixels) HWY_ATTR {
     scan_out_tile_with(pixels, tile, tile_size, width_px, height_px, first_row, stride_bytes);
   });
 }
 
-void scan_out_row(const ScanOutRule& rule, const std::uint32_t* words, int width_px, std::uint8_t* row) noexcept {
+void scan_out_row(const ScanOutRule& rule, const std::uint32_t* words, int width_px,
+                  std::uint8_t* row) noexcept {
   TESSERA_ASSERT(width_px >= 0);
-  with_pixels(rule, [&](const auto& pixels) HWY_ATTR { scan_out_row_with<kBlockSize>(pixels, words, width_px, row); });
+  with_pixels(rule, [&](const auto& pixels)
+                        HWY_ATTR { scan_out_row_with<kBlockSize>(pixels, words, width_px, row); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -215,8 +241,8 @@ HWY_AFTER_NAMESPACE();
 namespace tessera {
 
 static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int byte_shift) {
-  // 255 v / mask lies at least 1 / (2 mask) from the next half, mask being odd; v times the scale's rounding error is less
-  // than 1 / 512 wherever mask < 255, and 0 at 255.
+  // 255 v / mask lies at least 1 / (2 mask) from the next half, mask being odd; v times the scale's rounding
+  // error is less than 1 / 512 wherever mask < 255, and 0 at 255.
   return {.shift = shift, .mask = mask, .scale = ((255u << 16) + mask / 2) / mask, .byte_shift = byte_shift};
 }
 
@@ -231,18 +257,21 @@ void ScanOut::set(const ColorLayout& layout, const Palette* palette, ByteOrder o
   const int r_byte = order == ByteOrder::rgba8 ? 0 : 16, b_byte = 16 - r_byte;
   if (layout.alpha_bits == 8) rule_.alpha_shift = 24 - layout.bits;
   if (layout.index) {
-    TESSERA_ASSERT(palette != nullptr && palette->bits == layout.bits && palette->entries.size() <= palette->size());
+    TESSERA_ASSERT(palette != nullptr && palette->bits == layout.bits &&
+                   palette->entries.size() <= palette->size());
     const std::size_t given = palette->entries.size();
     pixels_.reserve(given + 1);
     for (Rgb8 c : palette->entries)
-      pixels_.push_back(std::uint32_t{c.r} << r_byte | std::uint32_t{c.g} << 8 | std::uint32_t{c.b} << b_byte | 0xff000000u);
+      pixels_.push_back(std::uint32_t{c.r} << r_byte | std::uint32_t{c.g} << 8 |
+                        std::uint32_t{c.b} << b_byte | 0xff000000u);
     pixels_.push_back(0xff000000u);  // black, for all that was not given
     rule_.index = true;
     rule_.index_mask = layout.word_mask();
     rule_.last_index = static_cast<std::uint32_t>(given);
     rule_.pixels = pixels_.data();
   } else if (layout.luminance) {
-    rule_.components = {component_rule(layout.word_mask(), 0, r_byte), component_rule(layout.word_mask(), 0, 8),
+    rule_.components = {component_rule(layout.word_mask(), 0, r_byte),
+                        component_rule(layout.word_mask(), 0, 8),
                         component_rule(layout.word_mask(), 0, b_byte)};
   } else {
     rule_.components = {component_rule((1u << layout.r_bits) - 1, layout.r_shift(), r_byte),

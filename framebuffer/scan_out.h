@@ -1,5 +1,5 @@
-// Scan-out: stored words -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha 255 or as stored.
-// Twin: scan_out_reference.h.
+// Scan-out: stored words -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha
+// 255 or as stored. Twin: scan_out_reference.h.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace tessera {
 /// Bytes of a pixel in memory, in this order.
 enum class ByteOrder : std::uint8_t { rgba8, bgra8 };
 
-/// How words become pixels. A component is `(word >> shift & mask) * scale`, rounded from 16 fraction bits, and goes to
-/// `byte_shift` of the pixel; an index is looked up.
+/// How words become pixels. A component is `(word >> shift & mask) * scale`, rounded from 16 fraction bits,
+/// and goes to `byte_shift` of the pixel; an index is looked up.
 struct ScanOutRule {
   struct Component {
     int shift = 0;            ///< of its lowest bit in the word
@@ -26,16 +26,17 @@ struct ScanOutRule {
     int byte_shift = 0;       ///< of its byte in the pixel: 0, 8 or 16
   };
   bool index = false;
-  std::array<Component, 3> components;        ///< red, green, blue
+  std::array<Component, 3> components;  ///< red, green, blue
   std::uint32_t index_mask = 0;
-  std::uint32_t last_index = 0;               ///< of `pixels`
-  int alpha_shift = -1;                       ///< from the stored alpha to the pixel's highest byte; -1: none is stored
-  const std::uint32_t* pixels = nullptr;      ///< pixel of each index; the last one stands for all beyond it
+  std::uint32_t last_index = 0;  ///< of `pixels`
+  int alpha_shift = -1;          ///< from the stored alpha to the pixel's highest byte; -1: none is stored
+  const std::uint32_t* pixels = nullptr;  ///< pixel of each index; the last one stands for all beyond it
 };
 
-using ScanOutTileFn = void(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px, int height_px,
-                           std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept;
-using ScanOutRowFn = void(const ScanOutRule& rule, const std::uint32_t* words, int width_px, std::uint8_t* row) noexcept;
+using ScanOutTileFn = void(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px,
+                           int height_px, std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept;
+using ScanOutRowFn = void(const ScanOutRule& rule, const std::uint32_t* words, int width_px,
+                          std::uint8_t* row) noexcept;
 
 /// Set once a frame; const use is thread-safe.
 class ScanOut {
@@ -48,13 +49,14 @@ class ScanOut {
   ScanOut(ScanOut&&) noexcept = default;
   ScanOut& operator=(ScanOut&&) noexcept = default;
 
-  /// The top left width_px x height_px pixels of a tile (tile memory, kTileAlignment aligned) go to the rows that start at
-  /// `first_row`, top row first. stride_bytes may be negative. Nothing else is written. Bits of a word beyond the layout's are
-  /// ignored. Bit-identical to shown_pixel_reference() on every instruction set. Never fails, never allocates.
+  /// The top left width_px x height_px pixels of a tile (tile memory, kTileAlignment aligned) go to the rows
+  /// that start at `first_row`, top row first. stride_bytes may be negative. Nothing else is written. Bits of
+  /// a word beyond the layout's are ignored. Bit-identical to shown_pixel_reference() on every instruction
+  /// set. Never fails, never allocates.
   /// @param width_px, height_px  what of the tile lies in the picture: 0 .. tile_size.
   /// @param first_row            any alignment.
-  void tile(const std::uint32_t* tile_words, int tile_size, int width_px, int height_px, std::uint8_t* first_row,
-            std::ptrdiff_t stride_bytes) const noexcept {
+  void tile(const std::uint32_t* tile_words, int tile_size, int width_px, int height_px,
+            std::uint8_t* first_row, std::ptrdiff_t stride_bytes) const noexcept {
     tile_fn_(rule_, tile_words, tile_size, width_px, height_px, first_row, stride_bytes);
   }
   /// The same for one row of words, left to right.

@@ -1,18 +1,22 @@
-// Tiles and the blocks inside them: constants and pixel <-> tile arithmetic. Rows are counted from the top of the picture.
+// Tiles and the blocks inside them: constants and pixel <-> tile arithmetic. Rows are counted from the top of
+// the picture.
 #pragma once
 
 #include <cstdint>
 
 namespace tessera {
 
-inline constexpr int kBlockSize = 4;       ///< pixels; a block is 4x4, stored in 16 consecutive words
+inline constexpr int kBlockSize = 4;  ///< pixels; a block is 4x4, stored in 16 consecutive words
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
-inline constexpr int kMinTileSize = 32, kMaxTileSize = 128;  ///< pixels; tiles are 32, 64 or 128 wide and high
+inline constexpr int kMinTileSize = 32,
+                     kMaxTileSize = 128;   ///< pixels; tiles are 32, 64 or 128 wide and high
 inline constexpr int kTileAlignment = 64;  ///< bytes
 
-/// Tile memory keeps blocks row by row and the pixels of a block row by row, so that one block is one or two vectors.
+/// Tile memory keeps blocks row by row and the pixels of a block row by row, so that one block is one or two
+/// vectors.
 constexpr int tile_index(int x, int y, int tile_size) {
-  return ((y / kBlockSize) * (tile_size / kBlockSize) + x / kBlockSize) * kBlockPixels + (y % kBlockSize) * kBlockSize + x % kBlockSize;
+  return ((y / kBlockSize) * (tile_size / kBlockSize) + x / kBlockSize) * kBlockPixels +
+         (y % kBlockSize) * kBlockSize + x % kBlockSize;
 }
 
 struct TileGrid {
@@ -30,7 +34,8 @@ struct PixelRect {
   friend constexpr bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 constexpr PixelRect intersect(PixelRect a, PixelRect b) {
-  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
+  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
+          a.y1 < b.y1 ? a.y1 : b.y1};
 }
 
 }  // namespace tessera

@@ -2,8 +2,9 @@
 //
 //   build/release/bin/primitives_bench
 //
-// Pictures are compared before anything is timed: which pixels are covered. What counts is the ratio of medians, printed at the end with
-// the quartiles. Both sides begin with vertices in memory and end with the picture there.
+// Pictures are compared before anything is timed: which pixels are covered. What counts is the ratio of
+// medians, printed at the end with the quartiles. Both sides begin with vertices in memory and end with the
+// picture there.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -30,10 +31,11 @@ struct Kind {
   std::size_t corners;
   float length;  // pixels
 };
-constexpr Kind kKinds[] = {{"points", Primitive::points, GL_POINTS, 1, 0}, {"lines_of_10_pixels", Primitive::lines, GL_LINES, 2, 10}};
+constexpr Kind kKinds[] = {{"points", Primitive::points, GL_POINTS, 1, 0},
+                           {"lines_of_10_pixels", Primitive::lines, GL_LINES, 2, 10}};
 
 struct Vertices {
-  std::vector<float> positions;       // normalized device coordinates
+  std::vector<float> positions;  // normalized device coordinates
   std::vector<std::uint8_t> colors;
 
   explicit Vertices(const Kind& kind) {
@@ -43,8 +45,11 @@ struct Vertices {
       const float x = unit() * kWidth, y = unit() * kHeight, turn = 6.2831853f * unit();
       for (std::size_t k = 0; k < kind.corners; ++k) {
         const float along = kind.length * static_cast<float>(k);
-        for (const float p : {2 * (x + along * std::cos(turn)) / kWidth - 1, 2 * (y + along * std::sin(turn)) / kHeight - 1, 1.8f * unit() - 0.9f}) positions.push_back(p);
-        for (int c = 0; c < 4; ++c) colors.push_back(c == 3 ? 255 : static_cast<std::uint8_t>(64 + (random() >> 8) % 192));
+        for (const float p : {2 * (x + along * std::cos(turn)) / kWidth - 1,
+                              2 * (y + along * std::sin(turn)) / kHeight - 1, 1.8f * unit() - 0.9f})
+          positions.push_back(p);
+        for (int c = 0; c < 4; ++c)
+          colors.push_back(c == 3 ? 255 : static_cast<std::uint8_t>(64 + (random() >> 8) % 192));
       }
     }
   }
@@ -54,7 +59,10 @@ struct Vertices {
 class Ours {
  public:
   Ours(const Kind& kind, const Vertices& vertices, const RendererOptions& options)
-      : buffer_({.width = kWidth, .height = kHeight}), renderer_(options), pixels_(std::size_t{kWidth} * kHeight), target_{pixels_.data(), kWidth, kHeight, 4 * kWidth, PixelOrder::rgba8} {
+      : buffer_({.width = kWidth, .height = kHeight}),
+        renderer_(options),
+        pixels_(std::size_t{kWidth} * kHeight),
+        target_{pixels_.data(), kWidth, kHeight, 4 * kWidth, PixelOrder::rgba8} {
     mesh_ = {.primitive = kind.primitive, .positions = vertices.positions, .colors = vertices.colors};
     state_.lighting = false;
   }
@@ -75,11 +83,14 @@ class Ours {
   ImageTarget target_;
 };
 
-// Share of pixels that one of the two covers alone; Mesa's rows start at the bottom, and its clear has no alpha.
+// Share of pixels that one of the two covers alone; Mesa's rows start at the bottom, and its clear has no
+// alpha.
 double share_that_differs(const std::vector<std::uint32_t>& ours, const std::vector<std::uint32_t>& mesa) {
   std::size_t differing = 0;
   for (std::size_t y = 0; y < kHeight; ++y)
-    for (std::size_t x = 0; x < kWidth; ++x) differing += ((ours[y * kWidth + x] & 0xffffff) != 0) != ((mesa[(kHeight - 1 - y) * kWidth + x] & 0xffffff) != 0);
+    for (std::size_t x = 0; x < kWidth; ++x)
+      differing += ((ours[y * kWidth + x] & 0xffffff) != 0) !=
+                   ((mesa[(kHeight - 1 - y) * kWidth + x] & 0xffffff) != 0);
   return static_cast<double>(differing) / (double{kWidth} * kHeight);
 }
 
@@ -89,7 +100,8 @@ int run(int argc, char** argv) {
   for (const Kind& kind : kKinds) {
     const Vertices& vertices = *kept.emplace_back(std::make_unique<Vertices>(kind));
     auto ours = std::make_shared<Ours>(kind, vertices, options);
-    auto mesa = std::make_shared<rivals::MesaArrays>(kind.mode, vertices.positions, vertices.colors, kWidth, kHeight, options.threads);
+    auto mesa = std::make_shared<rivals::MesaArrays>(kind.mode, vertices.positions, vertices.colors, kWidth,
+                                                     kHeight, options.threads);
     ours->draw();
     mesa->draw();
     const double differing = share_that_differs(ours->pixels(), mesa->pixels());
@@ -102,11 +114,15 @@ int run(int argc, char** argv) {
     register_row(std::string("mesa_") + kind.name, mesa);
   }
   const RatioReporter reporter = run_rows(options, "Mesa", "Tessera");
-  for (const Kind& kind : kKinds) print_ratio(reporter, std::string("1 M ") + kind.name, std::string("mesa_") + kind.name, std::string("tessera_") + kind.name);
+  for (const Kind& kind : kKinds)
+    print_ratio(reporter, std::string("1 M ") + kind.name, std::string("mesa_") + kind.name,
+                std::string("tessera_") + kind.name);
   return 0;
 }
 
 }  // namespace
 }  // namespace tessera
 
-int main(int argc, char** argv) { return tessera::run_benchmark("primitives_bench", tessera::run, argc, argv); }
+int main(int argc, char** argv) {
+  return tessera::run_benchmark("primitives_bench", tessera::run, argc, argv);
+}

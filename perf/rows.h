@@ -1,4 +1,5 @@
-// What benchmarks have in common: options, rows whose repetitions come in random order, and the ratios of their medians.
+// What benchmarks have in common: options, rows whose repetitions come in random order, and the ratios of
+// their medians.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -23,7 +24,8 @@ class RatioReporter : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs)
-      if (run.run_type == Run::RT_Iteration) times_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
+      if (run.run_type == Run::RT_Iteration)
+        times_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
   }
   struct Quartiles {
     double low, median, high;
@@ -39,10 +41,12 @@ class RatioReporter : public benchmark::ConsoleReporter {
   std::map<std::string, std::vector<double>> times_;
 };
 
-inline void print_ratio(const RatioReporter& reporter, const std::string& label, const std::string& slow, const std::string& fast) {
+inline void print_ratio(const RatioReporter& reporter, const std::string& label, const std::string& slow,
+                        const std::string& fast) {
   if (!reporter.has(slow) || !reporter.has(fast)) return;
   const auto s = reporter.quartiles(slow), f = reporter.quartiles(fast);
-  std::printf("%-34s %8.3f ms (%.3f .. %.3f)   %8.3f ms (%.3f .. %.3f)   ratio %.2f\n", label.c_str(), s.median, s.low, s.high, f.median, f.low, f.high, s.median / f.median);
+  std::printf("%-34s %8.3f ms (%.3f .. %.3f)   %8.3f ms (%.3f .. %.3f)   ratio %.2f\n", label.c_str(),
+              s.median, s.low, s.high, f.median, f.low, f.high, s.median / f.median);
 }
 
 template <class Side>
@@ -57,7 +61,8 @@ void register_row(const std::string& name, std::shared_ptr<Side> side) {
       ->MinTime(0.05);
 }
 
-/// What `--isa=NAME` asks for, which is taken out of the arguments. Throws std::invalid_argument where the machine has no such set.
+/// What `--isa=NAME` asks for, which is taken out of the arguments. Throws std::invalid_argument where the
+/// machine has no such set.
 inline InstructionSet take_instruction_set(std::vector<char*>& arguments) {
   constexpr std::string_view kOption = "--isa=";
   const auto is_option = [](const char* argument) { return std::string_view(argument).starts_with(kOption); };
@@ -73,7 +78,8 @@ inline InstructionSet take_instruction_set(std::vector<char*>& arguments) {
     }
     names.append(names.empty() ? "" : ", ").append(name(set));
   }
-  throw std::invalid_argument("--isa is one of " + names + " on this machine, not '" + std::string(wanted) + "'");
+  throw std::invalid_argument("--isa is one of " + names + " on this machine, not '" + std::string(wanted) +
+                              "'");
 }
 
 /// Takes Google Benchmark's own options and `--isa=NAME`; repetitions of all rows come in random order.
@@ -85,7 +91,8 @@ inline RendererOptions initialize_rows(int argc, char** argv) {
   arguments.insert(arguments.begin() + 1, interleave.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) throw std::invalid_argument("no such option");
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data()))
+    throw std::invalid_argument("no such option");
   return {.threads = available_cores(), .instruction_set = instruction_set};
 }
 
@@ -93,7 +100,8 @@ inline RendererOptions initialize_rows(int argc, char** argv) {
 inline RatioReporter run_rows(const RendererOptions& options, const char* slow, const char* fast) {
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
-  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", options.threads, std::string(name(options.instruction_set)).c_str());
+  std::printf("\n%d threads, %s; medians of 31 interleaved repetitions (quartiles)\n", options.threads,
+              std::string(name(options.instruction_set)).c_str());
   std::printf("%-34s %-32s %-32s\n", "", slow, fast);
   return reporter;
 }

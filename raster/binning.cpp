@@ -12,14 +12,17 @@
 namespace tessera {
 #ifndef TESSERA_BINNING_SHARED
 #define TESSERA_BINNING_SHARED
-/// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges may touch.
-void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, const BinDraw& draw, std::uint32_t id,
-                        int x0, int y0, int x1, int y1);
+/// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges
+/// may touch.
+void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
+                        const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1);
 /// Clips one triangle and bins what is left of it.
-void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes);
+void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
+                          std::uint8_t codes);
 /// Whether the side that is seen of a triangle is kept.
 inline bool keeps(const BinDraw& draw, std::uint32_t triangle, double area) {
-  const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front : is_front(area, draw.front_is_clockwise);
+  const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front
+                                            : is_front(area, draw.front_is_clockwise);
   return front ? draw.keep_front : draw.keep_back;
 }
 #endif
@@ -37,14 +40,16 @@ struct Group {
   alignas(64) std::int32_t x[3][kGroup], y[3][kGroup];
   alignas(64) double area[kGroup];
   alignas(64) std::int32_t turn[kGroup];  // the area's sign
-  alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup], py1[kGroup];  // pixels whose centres the bounds hold, inclusive
-  alignas(64) std::int32_t kept[kGroup];  // 1: the side that is seen is
-  alignas(64) std::int32_t extent[kGroup];  // the greater one of width and height
-  alignas(64) std::int32_t tile[kGroup];  // of the first pixel
+  alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup],
+      py1[kGroup];                            // pixels whose centres the bounds hold, inclusive
+  alignas(64) std::int32_t kept[kGroup];      // 1: the side that is seen is
+  alignas(64) std::int32_t extent[kGroup];    // the greater one of width and height
+  alignas(64) std::int32_t tile[kGroup];      // of the first pixel
   alignas(64) std::int32_t to_other[kGroup];  // from there to the other one, of two
   alignas(64) std::int32_t fate[kGroup];
 
-  HWY_INLINE void add(const BinDraw& draw, std::uint32_t triangle, std::uint32_t i0, std::uint32_t i1, std::uint32_t i2) {
+  HWY_INLINE void add(const BinDraw& draw, std::uint32_t triangle, std::uint32_t i0, std::uint32_t i1,
+                      std::uint32_t i2) {
     const WindowVertex &v0 = draw.vertices[i0], &v1 = draw.vertices[i1], &v2 = draw.vertices[i2];
     x[0][count] = v0.x, y[0][count] = v0.y;
     x[1][count] = v1.x, y[1][count] = v1.y;
@@ -54,14 +59,18 @@ struct Group {
   /// Sixteen in a row. @pre empty
   HWY_INLINE void fill(const BinDraw& draw, std::uint32_t first) {
 #if HWY_TARGET == HWY_SCALAR
-    for (std::uint32_t t = first; t < first + kGroup; ++t) add(draw, t, vertex_index<3>(draw, t, 0), vertex_index<3>(draw, t, 1), vertex_index<3>(draw, t, 2));
+    for (std::uint32_t t = first; t < first + kGroup; ++t)
+      add(draw, t, vertex_index<3>(draw, t, 0), vertex_index<3>(draw, t, 1), vertex_index<3>(draw, t, 2));
 #else
     for (int t = 0; t < kGroup; ++t) ids[t] = first + static_cast<std::uint32_t>(t);
-    const std::uint32_t* const indices = draw.indices != nullptr ? draw.indices + std::size_t{first} * 3 : nullptr;
+    const std::uint32_t* const indices =
+        draw.indices != nullptr ? draw.indices + std::size_t{first} * 3 : nullptr;
     for (std::uint32_t t = 0; t < kGroup; t += 4)
       for (std::uint32_t corner = 0; corner < 3; ++corner) {
         const WindowVertex* v[4];
-        for (std::uint32_t k = 0; k < 4; ++k) v[k] = draw.vertices + (indices != nullptr ? indices[3 * (t + k) + corner] : 3 * (first + t + k) + corner);
+        for (std::uint32_t k = 0; k < 4; ++k)
+          v[k] = draw.vertices +
+                 (indices != nullptr ? indices[3 * (t + k) + corner] : 3 * (first + t + k) + corner);
         store_four(v, x[corner] + t, y[corner] + t);
       }
     count = kGroup;
@@ -75,7 +84,8 @@ struct Group {
     constexpr hn::CappedTag<std::int32_t, 4> four;
     constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
     const auto row = [&](int k) HWY_ATTR { return hn::LoadU(four, &v[k]->x); };
-    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, row(0), row(1))), xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, row(2), row(3)));  // x x y y
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, row(0), row(1))),
+               xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, row(2), row(3)));  // x x y y
     hn::StoreU(hn::BitCast(four, hn::InterleaveLower(pairs, xy01, xy23)), four, x);
     hn::StoreU(hn::BitCast(four, hn::InterleaveUpper(pairs, xy01, xy23)), four, y);
   }
@@ -83,28 +93,40 @@ struct Group {
 };
 
 // What becomes of a triangle: the first of these that is true.
-enum Fate : std::int32_t { kWithoutArea = 1, kCulled = 2, kOutside = 4, kInOneTile = 8, kInTwoTiles = 16, kInSeveralTiles = 32 };
+enum Fate : std::int32_t {
+  kWithoutArea = 1,
+  kCulled = 2,
+  kOutside = 4,
+  kInOneTile = 8,
+  kInTwoTiles = 16,
+  kInSeveralTiles = 32
+};
 
 HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int columns) {
   for (int k = g.count; k < kGroup; ++k)
     for (int corner = 0; corner < 3; ++corner) g.x[corner][k] = g.y[corner][k] = 0;
   for (int k = 0; k < kGroup; ++k) {
-    const double dx1 = g.x[1][k] - g.x[0][k], dy1 = g.y[1][k] - g.y[0][k], dx2 = g.x[2][k] - g.x[0][k], dy2 = g.y[2][k] - g.y[0][k];
+    const double dx1 = g.x[1][k] - g.x[0][k], dy1 = g.y[1][k] - g.y[0][k], dx2 = g.x[2][k] - g.x[0][k],
+                 dy2 = g.y[2][k] - g.y[0][k];
     const double area = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
     g.area[k] = area;
     g.turn[k] = (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
   }
   if (draw.facing != nullptr) {
-    for (int k = 0; k < g.count; ++k) g.kept[k] = (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
+    for (int k = 0; k < g.count; ++k)
+      g.kept[k] = (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
   } else {
-    const std::int32_t of_negative = is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back, of_positive = is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
+    const std::int32_t of_negative = is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back,
+                       of_positive = is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
     for (int k = 0; k < kGroup; ++k) g.kept[k] = g.turn[k] < 0 ? of_negative : of_positive;
   }
   const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
   const std::int32_t reach = draw.sample_reach, two_tiles = 2 << (shift + kSubpixelBits);
   for (int k = 0; k < kGroup; ++k) {
-    const std::int32_t low_x = least(g.x[0][k], g.x[1][k], g.x[2][k]), high_x = greatest(g.x[0][k], g.x[1][k], g.x[2][k]);
-    const std::int32_t low_y = least(g.y[0][k], g.y[1][k], g.y[2][k]), high_y = greatest(g.y[0][k], g.y[1][k], g.y[2][k]);
+    const std::int32_t low_x = least(g.x[0][k], g.x[1][k], g.x[2][k]),
+                       high_x = greatest(g.x[0][k], g.x[1][k], g.x[2][k]);
+    const std::int32_t low_y = least(g.y[0][k], g.y[1][k], g.y[2][k]),
+                       high_y = greatest(g.y[0][k], g.y[1][k], g.y[2][k]);
     g.px0[k] = greatest(first_pixel(low_x - reach), rect.x0);
     g.py0[k] = greatest(first_pixel(low_y - reach), rect.y0);
     g.px1[k] = least(last_pixel(high_x + reach), rect.x1 - 1);
@@ -114,51 +136,66 @@ HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int colum
     const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
     g.to_other[k] = down == 0 ? 1 : columns;
     g.extent[k] = greatest(high_x - low_x, high_y - low_y);
-    const std::int32_t of_more = across + down == 1 && g.extent[k] <= two_tiles ? kInTwoTiles : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
+    const std::int32_t of_more = across + down == 1 && g.extent[k] <= two_tiles
+                                     ? kInTwoTiles
+                                     : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
     const std::int32_t of_seen = across + down == 0 ? kInOneTile : of_more;
     const std::int32_t of_kept = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : of_seen;
     g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;
   }
 }
 
-/// Of triangles of a pixel's size many lie between centres: with no more than 2x2 of those in their bounds that is found out here, and tiles need not look at them.
+/// Of triangles of a pixel's size many lie between centres: with no more than 2x2 of those in their bounds
+/// that is found out here, and tiles need not look at them.
 HWY_INLINE void drop_missed(Group& g) {
   for (int first = 0; first < kGroup; first += kLanes) {
     const auto load = [first](const std::int32_t* array) HWY_ATTR { return hn::Load(kInt, array + first); };
     const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0), fate = load(g.fate);
     const Int further = hn::Max(hn::Sub(load(g.px1), px0), hn::Sub(load(g.py1), py0));
-    const auto is_small = hn::And(hn::Lt(further, splat(2)), hn::Lt(load(g.extent), splat(3 * kSubpixelScale)));  // the rectangle may have cut larger ones
+    const auto is_small =
+        hn::And(hn::Lt(further, splat(2)),
+                hn::Lt(load(g.extent), splat(3 * kSubpixelScale)));  // the rectangle may have cut larger ones
     const auto in_question = hn::And(is_small, hn::Gt(fate, splat(std::int32_t{kOutside})));
     if (hn::AllFalse(kInt, in_question)) continue;
-    const auto from_center = [&](const std::int32_t* at, Int pixel) HWY_ATTR { return hn::Sub(load(at), hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(kHalfPixel))); };
+    const auto from_center = [&](const std::int32_t* at, Int pixel) HWY_ATTR {
+      return hn::Sub(load(at), hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(kHalfPixel)));
+    };
     const Int x0 = from_center(g.x[0], px0), x1 = from_center(g.x[1], px0), x2 = from_center(g.x[2], px0);
     const Int y0 = from_center(g.y[0], py0), y1 = from_center(g.y[1], py0), y2 = from_center(g.y[2], py0);
     const auto turns_left = hn::Lt(load(g.turn), zero);
-    const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0}, y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
+    const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0},
+              y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
     Int outside[4] = {zero, zero, zero, zero};  // whose sign is that of an edge that the centre is outside of
     for (int k = 0; k < 3; ++k) {
       const Int a = hn::Sub(y[k], y[k + 1]), b = hn::Sub(x[k + 1], x[k]);
-      // The fill rule (triangle_setup-inl.h): what lies on a left or top edge, with a > 0 or a = 0 and b > 0, is inside; what lies on another is less than 0.
+      // The fill rule (triangle_setup-inl.h): what lies on a left or top edge, with a > 0 or a = 0 and b > 0,
+      // is inside; what lies on another is less than 0.
       const auto top_left = hn::Gt(hn::Add(hn::ShiftLeft<16>(a), b), zero);
-      const Int edge = hn::Sub(hn::Not(hn::Add(hn::Mul(a, x[k]), hn::Mul(b, y[k]))), hn::VecFromMask(kInt, top_left));
-      const Int right = hn::Add(edge, hn::ShiftLeft<kSubpixelBits>(a)), down = hn::ShiftLeft<kSubpixelBits>(b);
+      const Int edge =
+          hn::Sub(hn::Not(hn::Add(hn::Mul(a, x[k]), hn::Mul(b, y[k]))), hn::VecFromMask(kInt, top_left));
+      const Int right = hn::Add(edge, hn::ShiftLeft<kSubpixelBits>(a)),
+                down = hn::ShiftLeft<kSubpixelBits>(b);
       outside[0] = hn::Or(outside[0], edge);
       outside[1] = hn::Or(outside[1], right);
       outside[2] = hn::Or(outside[2], hn::Add(edge, down));
       outside[3] = hn::Or(outside[3], hn::Add(right, down));
     }
-    const auto is_missed = hn::Lt(hn::And(hn::And(outside[0], outside[1]), hn::And(outside[2], outside[3])), zero);
-    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), fate), kInt, g.fate + first);
+    const auto is_missed =
+        hn::Lt(hn::And(hn::And(outside[0], outside[1]), hn::And(outside[2], outside[3])), zero);
+    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), fate), kInt,
+              g.fate + first);
   }
 }
 
 HWY_INLINE std::uint32_t bits_of(const Group& g, Fate fate) {
   std::uint32_t bits = 0;
-  for (int k = 0; k < kGroup; k += kLanes) bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.fate + k), splat(std::int32_t{fate}))) << k;
+  for (int k = 0; k < kGroup; k += kLanes)
+    bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.fate + k), splat(std::int32_t{fate}))) << k;
   return bits & of_first(g.count);
 }
 
-/// Entries of a group for the two tiles that came last: what follows one another is mostly in one and the same tile, or along a border in the same two.
+/// Entries of a group for the two tiles that came last: what follows one another is mostly in one and the
+/// same tile, or along a border in the same two.
 struct WaitingEntries {
   Bins& bins;
   const std::uint32_t draw;
@@ -189,7 +226,8 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
   const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7, columns = grid.columns();
   decide_fates(g, draw, shift, columns);
   if (draw.sample_reach == 0) drop_missed(g);
-  const std::uint32_t in_one = bits_of(g, kInOneTile), in_two = bits_of(g, kInTwoTiles), in_few = in_one | in_two, binned = in_few | bits_of(g, kInSeveralTiles);
+  const std::uint32_t in_one = bits_of(g, kInOneTile), in_two = bits_of(g, kInTwoTiles),
+                      in_few = in_one | in_two, binned = in_few | bits_of(g, kInSeveralTiles);
   BinCounts& counts = bins.counts;
   const auto count_of = [](std::uint32_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); };
   counts.zero_area += count_of(bits_of(g, kWithoutArea));
@@ -205,8 +243,11 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
       continue;
     }
     waiting.push();
-    const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)], &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
-    bin_large_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift, g.px1[k] >> shift, g.py1[k] >> shift);
+    const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)],
+                                      &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)],
+                                      &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
+    bin_large_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift,
+                       g.px1[k] >> shift, g.py1[k] >> shift);
   }
   waiting.push();
   g.count = 0;
@@ -214,12 +255,16 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
 
 /// What is to be done with a triangle of which some vertex has a code.
 enum class Coded { unusable, outside, clipped };
-HWY_INLINE Coded coded(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0, std::uint8_t c1, std::uint8_t c2) {
-  if (((c0 | c1 | c2) & kNonFinite) != 0 || (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped)) return Coded::unusable;
+HWY_INLINE Coded coded(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0, std::uint8_t c1,
+                       std::uint8_t c2) {
+  if (((c0 | c1 | c2) & kNonFinite) != 0 ||
+      (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped))
+    return Coded::unusable;
   return (c0 & c1 & c2) != 0 ? Coded::outside : Coded::clipped;
 }
 
-void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
+void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+                         std::uint32_t last) {
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
   Group group;
@@ -230,7 +275,8 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
       bin_group(bins, grid, draw, group);
     }
   for (; triangle < last; ++triangle) {
-    const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1), i2 = vertex_index<3>(draw, triangle, 2);
+    const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1),
+                        i2 = vertex_index<3>(draw, triangle, 2);
     if (draw.any_code) {
       const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
       const bool is_dropped = draw.facing != nullptr && draw.facing[triangle] == Facing::dropped;
@@ -260,21 +306,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera {
 
-void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
+void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+                   std::uint32_t last, Isa isa) {
   TESSERA_KERNEL(isa, bin_triangles_lanes)(bins, grid, draw, first, last);
 }
 
-void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area, const BinDraw& draw, std::uint32_t id,
-                        int x0, int y0, int x1, int y1) {
-  // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the tile is outside. Ties at 0
-  // belong to the fill rule and are left to the tile.
+void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
+                        const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
+  // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the
+  // tile is outside. Ties at 0 belong to the fill rule and are left to the tile.
   const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits, reach = side - kSubpixelScale;
   std::int64_t row_value[3], step_x[3], step_y[3];
   for (int k = 0; k < 3; ++k) {
     const WindowVertex &p = *v[k], &q = *v[(k + 1) % 3];
     std::int64_t a = p.y - q.y, b = q.x - p.x;
     if (area < 0) a = -a, b = -b;
-    row_value[k] = a * (x0 * side + kHalfPixel - p.x) + b * (y0 * side + kHalfPixel - p.y) + std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach +
+    row_value[k] = a * (x0 * side + kHalfPixel - p.x) + b * (y0 * side + kHalfPixel - p.y) +
+                   std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach +
                    (std::abs(a) + std::abs(b)) * draw.sample_reach;
     step_x[k] = a * side;
     step_y[k] = b * side;
@@ -291,7 +339,8 @@ void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* co
 
 void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect) {
   for (int ty = rect.y0 / grid.tile_size; ty <= (rect.y1 - 1) / grid.tile_size; ++ty)
-    for (int tx = rect.x0 / grid.tile_size; tx <= (rect.x1 - 1) / grid.tile_size; ++tx) bins.push_draw(ty * grid.columns() + tx, draw);
+    for (int tx = rect.x0 / grid.tile_size; tx <= (rect.x1 - 1) / grid.tile_size; ++tx)
+      bins.push_draw(ty * grid.columns() + tx, draw);
 }
 
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count) {
@@ -306,13 +355,16 @@ ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_
   return v;
 }
 
-WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes, int attribute_count) {
-  const ClipVertex corners[3] = {clip_vertex(draw, vertex_index<3>(draw, triangle, 0), attribute_count), clip_vertex(draw, vertex_index<3>(draw, triangle, 1), attribute_count),
+WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes,
+                             int attribute_count) {
+  const ClipVertex corners[3] = {clip_vertex(draw, vertex_index<3>(draw, triangle, 0), attribute_count),
+                                 clip_vertex(draw, vertex_index<3>(draw, triangle, 1), attribute_count),
                                  clip_vertex(draw, vertex_index<3>(draw, triangle, 2), attribute_count)};
   return WindowPolygon(*draw.transform, clip_triangle(*draw.transform, corners, codes, attribute_count));
 }
 
-void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes) {
+void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
+                          std::uint8_t codes) {
   const WindowPolygon polygon = clip_to_window(draw, triangle, codes, draw.attribute_count);
   if (polygon.clipped.count == 0) {
     ++bins.counts.outside;
@@ -327,20 +379,26 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     return;
   }
   for (const WindowPolygon::Corners& corner : polygon.triangles()) {
-    const WindowVertex &a = polygon.window[corner[0]], &b = polygon.window[corner[1]], &c = polygon.window[corner[2]];
+    const WindowVertex &a = polygon.window[corner[0]], &b = polygon.window[corner[1]],
+                       &c = polygon.window[corner[2]];
     const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
     const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
-    const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0), px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
-    const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0), py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
+    const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0),
+              px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
+    const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0),
+              py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
     if (px0 > px1 || py0 > py1) continue;
     Piece& piece = bins.add_piece(triangle, 3, draw.attribute_count);
     for (int k = 0; k < 3; ++k) {
       piece.vertices[k] = polygon.window[corner[k]];
-      std::copy_n(polygon.clipped.vertices[corner[k]].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
+      std::copy_n(polygon.clipped.vertices[corner[k]].attributes, draw.attribute_count,
+                  bins.attributes(piece) + k * draw.attribute_count);
     }
     ++bins.counts.binned;
     const WindowVertex* const v[3] = {&piece.vertices[0], &piece.vertices[1], &piece.vertices[2]};
-    bin_large_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.id_of_last_piece(), px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size, py1 / grid.tile_size);
+    bin_large_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.id_of_last_piece(),
+                       px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size,
+                       py1 / grid.tile_size);
   }
 }
 

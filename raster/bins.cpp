@@ -6,10 +6,13 @@
 namespace tessera {
 
 std::size_t Bins::bytes() const {
-  return tails_.capacity() * sizeof(Tail) + triangles_.capacity() * sizeof(std::uint32_t) + blocks_.capacity() * sizeof(Block) + pieces_.capacity() * sizeof(Piece) + attributes_.capacity() * sizeof(float);
+  return tails_.capacity() * sizeof(Tail) + triangles_.capacity() * sizeof(std::uint32_t) +
+         blocks_.capacity() * sizeof(Block) + pieces_.capacity() * sizeof(Piece) +
+         attributes_.capacity() * sizeof(float);
 }
 
-/// Room for `count` more, if the budget has what that takes: the old memory is given back only after the new is there.
+/// Room for `count` more, if the budget has what that takes: the old memory is given back only after the new
+/// is there.
 /// @param least  bytes of what is to grow step by step
 template <class T>
 bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t least) {
@@ -40,7 +43,8 @@ void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   attributes_.assign(kAttributePadding, 0.0f);
   if (budget_ != nullptr) budget_->charge(bytes() - before);
   overflowed_ = !reserve(tails_, tiles, 0) || !reserve(triangles_, tiles, 0);
-  tile_mask_ = overflowed_ ? 0 : ~std::size_t{0};  // without room for all they share one list, which nobody reads
+  tile_mask_ =
+      overflowed_ ? 0 : ~std::size_t{0};  // without room for all they share one list, which nobody reads
   const std::size_t lists = overflowed_ ? 1 : tiles;
   tails_.assign(lists, Tail{kNone, kNone, kNone});
   triangles_.assign(lists, 0);
@@ -65,10 +69,8 @@ void Bins::add_block(Tail& tail) {
   const auto index = static_cast<std::uint32_t>(used_++);
   blocks_[index].count = 0;
   blocks_[index].next = kNone;
-  if (tail.last == kNone)
-    tail.first = index;
-  else
-    blocks_[tail.last].next = index;
+  if (tail.last == kNone) tail.first = index;
+  else blocks_[tail.last].next = index;
   tail.last = index;
 }
 
@@ -115,7 +117,8 @@ void BinBatches::look_through(int first_tile, int count) {
   }
 }
 
-void BinBatches::set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill) {
+void BinBatches::set_one_by_one(const Bins& place, std::uint32_t count,
+                                std::function<void(std::uint32_t)> fill) {
   bins_ = &place;
   count_ = count;
   fill_ = std::move(fill);

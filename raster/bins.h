@@ -14,9 +14,11 @@
 
 namespace tessera {
 
-// A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an image is a marker alone.
+// A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an
+// image is a marker alone.
 inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
-inline constexpr std::uint32_t kPiece = 0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
+inline constexpr std::uint32_t kPiece =
+    0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
 inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
 
 /// A part of an element that has vertices of its own: what clipping left, or an edge or corner of a polygon.
@@ -27,22 +29,27 @@ struct Piece {
 };
 
 struct BinCounts {
-  std::uint64_t triangles_in = 0, non_finite = 0, outside = 0, culled = 0, zero_area = 0, clipped = 0, binned = 0, entries = 0;
+  std::uint64_t triangles_in = 0, non_finite = 0, outside = 0, culled = 0, zero_area = 0, clipped = 0,
+                binned = 0, entries = 0;
 
   BinCounts& operator+=(const BinCounts& other) {
-    for (std::uint64_t BinCounts::*const count : {&BinCounts::triangles_in, &BinCounts::non_finite, &BinCounts::outside, &BinCounts::culled, &BinCounts::zero_area, &BinCounts::clipped, &BinCounts::binned, &BinCounts::entries})
+    for (std::uint64_t BinCounts::*const count :
+         {&BinCounts::triangles_in, &BinCounts::non_finite, &BinCounts::outside, &BinCounts::culled,
+          &BinCounts::zero_area, &BinCounts::clipped, &BinCounts::binned, &BinCounts::entries})
       this->*count += other.*count;
     return *this;
   }
 };
 
-/// Bytes that the bins of several batches may take together; batches that are filled at the same time share it.
+/// Bytes that the bins of several batches may take together; batches that are filled at the same time share
+/// it.
 class BinBudget {
  public:
   explicit BinBudget(std::size_t bytes = 0) { start(bytes, 0); }
   /// Anew, when so much of it is taken, and nobody takes more at the same time.
   void start(std::size_t bytes, std::size_t taken) {
-    left_ = static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 62)) - static_cast<std::int64_t>(taken);
+    left_ =
+        static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 62)) - static_cast<std::int64_t>(taken);
     refused_ = false;
   }
   /// False, and nothing is taken, if there are not so many left.
@@ -70,8 +77,8 @@ struct ClippedBoundary {
   PolygonClipper clipper;
 };
 
-/// For each tile of a range a list of blocks of entries. Where they would take more than the budget has left, what was stored is lost and
-/// nothing more is stored; they still count.
+/// For each tile of a range a list of blocks of entries. Where they would take more than the budget has left,
+/// what was stored is lost and nothing more is stored; they still count.
 class Bins {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -83,8 +90,8 @@ class Bins {
   };
   static_assert(sizeof(Block) == (2 + kBlockEntries) * sizeof(std::uint32_t));  // full lines, no padding
 
-  /// Empty bins of tiles first_tile, first_tile + 1, ... What `bytes()` says is already taken from the budget, which may be null: no limit.
-  /// Throws std::bad_alloc.
+  /// Empty bins of tiles first_tile, first_tile + 1, ... What `bytes()` says is already taken from the
+  /// budget, which may be null: no limit. Throws std::bad_alloc.
   void reset(int tile_count, int first_tile = 0, BinBudget* budget = nullptr);
   /// Memory is kept from one reset to the next.
   std::size_t bytes() const;
@@ -113,7 +120,8 @@ class Bins {
   }
   /// The first block of a tile, or kNone. @pre !overflowed()
   std::uint32_t first(int tile) const { return tail_of(tile).first; }
-  /// How many triangles a tile's bin holds, bitmaps and images counted as one each; 0: there are no entries. @pre !overflowed()
+  /// How many triangles a tile's bin holds, bitmaps and images counted as one each; 0: there are no entries.
+  /// @pre !overflowed()
   std::uint32_t triangles(int tile) const { return *triangles_from(tile); }
   /// The same of that tile and those after it.
   const std::uint32_t* triangles_from(int tile) const { return triangles_.data() + index_of(tile); }
@@ -127,8 +135,8 @@ class Bins {
     for (std::size_t i = 0; i < sizeof(Block); i += kLineBytes) __builtin_prefetch(bytes + i);
   }
 
-  /// A new piece at the end of the list, with room for the attributes of its corners. After an overflow it is the only one.
-  /// Throws std::bad_alloc.
+  /// A new piece at the end of the list, with room for the attributes of its corners. After an overflow it is
+  /// the only one. Throws std::bad_alloc.
   Piece& add_piece(std::uint32_t source, int corners, int attribute_count);
   void drop_last_piece();
   const Piece& last_piece() const { return pieces_.back(); }
@@ -165,7 +173,8 @@ class Bins {
   std::vector<Piece> pieces_;
   std::vector<float> attributes_;  // of the pieces, and padding
   std::vector<Tail> tails_;
-  std::vector<std::uint32_t> triangles_;  // of each tile: beside each other, for those who look at some of many batches
+  std::vector<std::uint32_t>
+      triangles_;  // of each tile: beside each other, for those who look at some of many batches
   std::vector<Block> blocks_;
   std::size_t used_ = 0;
   int first_tile_ = 0;
@@ -179,11 +188,11 @@ class BinBatches {
  public:
   /// Batches of tiles first_tile, first_tile + 1, ..., which stay where they are. Throws std::bad_alloc.
   void set(std::span<const Bins> bins, int tile_count, int first_tile = 0);
-  /// Notes what the batches hold of `count` tiles, before anything else is asked of these: often few batches hold anything, and the others need not be read.
-  /// Different tiles may be looked through at the same time.
+  /// Notes what the batches hold of `count` tiles, before anything else is asked of these: often few batches
+  /// hold anything, and the others need not be read. Different tiles may be looked through at the same time.
   void look_through(int first_tile, int count);
-  /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose batches together take too much. Nothing is to be
-  /// looked through.
+  /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose
+  /// batches together take too much. Nothing is to be looked through.
   void set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
 
   std::uint32_t count() const { return count_; }
@@ -207,7 +216,8 @@ class BinBatches {
     fill_(b);
     return *bins_;
   }
-  /// Batch b, if it is there already and may be read beside the one that was read last; otherwise null, as for count().
+  /// Batch b, if it is there already and may be read beside the one that was read last; otherwise null, as
+  /// for count().
   const Bins* ahead(std::uint32_t b) const { return one_by_one() || b >= count_ ? nullptr : bins_ + b; }
 
  private:
@@ -217,7 +227,8 @@ class BinBatches {
   std::uint32_t count_ = 0, words_ = 0;
   int first_tile_ = 0;
   std::vector<std::uint64_t> triangles_;  // of each tile
-  std::vector<std::uint64_t> holding_;    // words_ for each tile: a bit for each batch that holds something of it
+  std::vector<std::uint64_t>
+      holding_;  // words_ for each tile: a bit for each batch that holds something of it
   std::function<void(std::uint32_t)> fill_;
 };
 

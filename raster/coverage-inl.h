@@ -1,7 +1,8 @@
-// Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane, all sample
-// points at once. All others go by 4x4 blocks (some of them in boxes of these, see shading/box_pixels-inl.h): as many as there
-// are lanes, of a row or of several short ones, are sorted at once into those outside, which are passed over, those inside,
-// whose pixels need no look, and those in between. Twin: coverage_reference.h.
+// Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane,
+// all sample points at once. All others go by 4x4 blocks (some of them in boxes of these, see
+// shading/box_pixels-inl.h): as many as there are lanes, of a row or of several short ones, are sorted at
+// once into those outside, which are passed over, those inside, whose pixels need no look, and those in
+// between. Twin: coverage_reference.h.
 #if defined(TESSERA_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_COVERAGE_INL_H_
 #undef TESSERA_RASTER_COVERAGE_INL_H_
@@ -29,9 +30,10 @@ HWY_INLINE TileEdges tile_edges(const TriangleGroup& g, int i) {
   return t;
 }
 
-/// The same for a wide triangle: an edge that the whole tile is inside of is dropped, any other fits 32 bits in the tile.
-/// False if the tile is outside. `wide` gets the undivided edges.
-inline HWY_NOINLINE bool tile_edges_of_wide(const TriangleGroup& g, int i, int tile_x, int tile_y, int tile_size, TileEdges& edges, WideEdges& wide) {
+/// The same for a wide triangle: an edge that the whole tile is inside of is dropped, any other fits 32 bits
+/// in the tile. False if the tile is outside. `wide` gets the undivided edges.
+inline HWY_NOINLINE bool tile_edges_of_wide(const TriangleGroup& g, int i, int tile_x, int tile_y,
+                                            int tile_size, TileEdges& edges, WideEdges& wide) {
   bool touched = true;
   for (int k = 0; k < 3; ++k) {
     const int p = (k + 1) % 3;
@@ -62,7 +64,8 @@ struct BlockOffsets {
     for (int k = 0; k < 3; ++k) {
       const Int a = splat(t.a[k]), b = splat(t.b[k]);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-        hn::Store(hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk))), kInt, edge[k] + chunk * kLanes);
+        hn::Store(hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk))), kInt,
+                  edge[k] + chunk * kLanes);
     }
   }
 };
@@ -71,9 +74,13 @@ struct BlockOffsets {
 struct BlockEdges {
   std::int32_t start[3];
   const BlockOffsets* offsets;
-  HWY_INLINE Int at(int k, int chunk) const { return hn::Add(splat(start[k]), hn::Load(kInt, offsets->edge[k] + chunk * kLanes)); }
+  HWY_INLINE Int at(int k, int chunk) const {
+    return hn::Add(splat(start[k]), hn::Load(kInt, offsets->edge[k] + chunk * kLanes));
+  }
   /// Lanes inside all three: no sign bit.
-  HWY_INLINE auto covered(int chunk) const { return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1)); }
+  HWY_INLINE auto covered(int chunk) const {
+    return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1));
+  }
   /// To the block below.
   HWY_INLINE void step_down(const TileEdges& t) {
     for (int k = 0; k < 3; ++k) start[k] += 4 * t.b[k];
@@ -96,51 +103,62 @@ struct RowEdges {
   }
 };
 
-alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                              8, 9, 10, 11, 12, 13, 14, 15};
 
 inline constexpr int kBoxRows = kLanes / 4;  ///< of four blocks: so many lanes hold
 
 /// Those of a box's blocks, a bit each, that are in the first `columns` and `rows`.
 HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
-  return ((1u << std::min(columns, 4)) - 1) * 0x1111u & ((1u << (4 * std::min(rows, kBoxRows))) - 1);  // the same four bits for each row
+  return ((1u << std::min(columns, 4)) - 1) * 0x1111u &
+         ((1u << (4 * std::min(rows, kBoxRows))) - 1);  // the same four bits for each row
 }
 
-/// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their first. Each sum is the edge's value at one of those
-/// pixels, so that it fits (fixed_point.h).
-HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns, int rows) {
+/// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their
+/// first. Each sum is the edge's value at one of those pixels, so that it fits (fixed_point.h).
+HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns,
+                                           int rows) {
   return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
 }
 
-/// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover; `full` says that all
-/// 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx, by, how many, edges of the first), where
-/// there is such a function: as many as there are lanes at most, or whole rows of the bounds where all are full. Lanes are blocks: those of a row, or of several short rows; where all blocks are full nothing is
-/// sorted. @pre the offsets are those of the edges
+/// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover;
+/// `full` says that all 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx,
+/// by, how many, edges of the first), where there is such a function: as many as there are lanes at most, or
+/// whole rows of the bounds where all are full. Lanes are blocks: those of a row, or of several short rows;
+/// where all blocks are full nothing is sorted. @pre the offsets are those of the edges
 template <class BlockFunction>
-HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1, BlockFunction& block) {
-  const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1, rows = ((y1 - first_y) >> 2) + 1;
+HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1,
+                               int y1, BlockFunction& block) {
+  const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1,
+            rows = ((y1 - first_y) >> 2) + 1;
   const bool is_box = columns <= 4 && rows <= kBoxRows;
   const int row_shift = is_box ? 2 : std::countr_zero(static_cast<unsigned>(kLanes)), in_row = 1 << row_shift;
-  // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first; to the blocks of the lanes, and to the next row.
+  // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first;
+  // to the blocks of the lanes, and to the next row.
   Int to_highest[3], to_lowest[3], to_lane[3], down[3];
   bool is_whole = true;  // there is no block but full ones
   for (int k = 0; k < 3; ++k) {
     to_highest[k] = splat(3 * (std::max(t.a[k], 0) + std::max(t.b[k], 0)));
     to_lowest[k] = splat(3 * (std::min(t.a[k], 0) + std::min(t.b[k], 0)));
-    to_lane[k] = is_box ? hn::ShiftLeft<2>(hn::Load(kInt, offsets.edge[k])) : hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
+    to_lane[k] = is_box ? hn::ShiftLeft<2>(hn::Load(kInt, offsets.edge[k]))
+                        : hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
     down[k] = splat(4 * t.b[k]);
     is_whole &= lowest_over_blocks(t.at(k, first_x, first_y), t.a[k], t.b[k], columns, rows) >= 0;
   }
   for (int column = 0; column < columns; column += in_row) {
     const int left = first_x + 4 * column;
-    const std::uint32_t in_bounds = is_box ? blocks_within(columns, rows) : (1u << std::min(columns - column, in_row)) - 1;
+    const std::uint32_t in_bounds =
+        is_box ? blocks_within(columns, rows) : (1u << std::min(columns - column, in_row)) - 1;
     Int e[3];
     for (int k = 0; k < 3; ++k) e[k] = hn::Add(splat(t.at(k, left, first_y)), to_lane[k]);
     for (int row = 0; row < rows; row += is_box ? rows : 1) {
       const int top = first_y + 4 * row;
       std::uint32_t touched = in_bounds, inside = in_bounds;
       if (!is_whole) {
-        const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])), hn::Add(e[2], to_highest[2]));
-        const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])), hn::Add(e[2], to_lowest[2]));
+        const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])),
+                                   hn::Add(e[2], to_highest[2]));
+        const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])),
+                                  hn::Add(e[2], to_lowest[2]));
         touched &= mask_bits(kInt, hn::Gt(highest, splat(-1)));
         inside = touched & mask_bits(kInt, hn::Gt(lowest, splat(-1)));
       }
@@ -150,14 +168,16 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
         e[k] = hn::Add(e[k], down[k]);
       }
       while (touched != 0) {
-        const int i = std::countr_zero(touched), in_its_row = i & (in_row - 1), bx = left + 4 * in_its_row, by = top + 4 * (i >> row_shift);
+        const int i = std::countr_zero(touched), in_its_row = i & (in_row - 1), bx = left + 4 * in_its_row,
+                  by = top + 4 * (i >> row_shift);
         BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
         touched &= touched - 1;
         if ((inside >> i & 1) == 0) {
           block.template operator()<false>(bx, by, edges);
         } else if constexpr (requires { block.full_row(bx, by, 1, edges); }) {
           const bool at_once = kLanes > 1 && is_whole;  // one lane gains nothing
-          const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row), last = at_once ? rows - 1 : 0;
+          const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row),
+                    last = at_once ? rows - 1 : 0;
           for (int below = 0;; ++below, edges.step_down(t)) {
             block.full_row(bx, by + 4 * below, count, edges);
             if (below == last) break;  // edges need not fit below the last row
@@ -172,22 +192,26 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
   }
 }
 
-/// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most. Compiled once for all ways to draw them.
+/// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most. Compiled once for all ways
+/// to draw them.
 inline HWY_NOINLINE std::uint32_t small_triangles(const TriangleGroup& g) {
   std::uint32_t bits = 0;
   for (int first = 0; first < kGroupSize; first += kLanes) {
-    const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first)), height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));
-    const auto narrow = hn::Eq(hn::Load(kInt, g.wide + first), hn::Zero(kInt)), fits = hn::And(hn::Lt(width, splat(4)), hn::Lt(height, splat(4)));
+    const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first)),
+              height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));
+    const auto narrow = hn::Eq(hn::Load(kInt, g.wide + first), hn::Zero(kInt)),
+               fits = hn::And(hn::Lt(width, splat(4)), hn::Lt(height, splat(4)));
     bits |= mask_bits(kInt, hn::And(narrow, fits)) << first;
   }
   return bits & g.mask;
 }
 
-/// Triangles whose bounds are at most 4x4 pixels: one triangle a lane, all sample points at once. hits[i] gets a bit for each
-/// covered pixel of triangle i: bit 4 dy + dx for pixel (x0 + dx, y0 + dy).
+/// Triangles whose bounds are at most 4x4 pixels: one triangle a lane, all sample points at once. hits[i]
+/// gets a bit for each covered pixel of triangle i: bit 4 dy + dx for pixel (x0 + dx, y0 + dy).
 inline HWY_NOINLINE void cover_small(const TriangleGroup& g, int first, std::uint32_t* hits) {
   const Int x0 = hn::Load(kInt, g.x0 + first), y0 = hn::Load(kInt, g.y0 + first);
-  const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), x0), height = hn::Sub(hn::Load(kInt, g.y1 + first), y0);
+  const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), x0),
+            height = hn::Sub(hn::Load(kInt, g.y1 + first), y0);
   Int a[3] = {hn::Load(kInt, g.a[0] + first), hn::Load(kInt, g.a[1] + first), hn::Load(kInt, g.a[2] + first)};
   Int b[3] = {hn::Load(kInt, g.b[0] + first), hn::Load(kInt, g.b[1] + first), hn::Load(kInt, g.b[2] + first)};
   Int row[3];
@@ -199,7 +223,8 @@ inline HWY_NOINLINE void cover_small(const TriangleGroup& g, int first, std::uin
     if (hn::AllFalse(kInt, in_rows)) break;
     Int e0 = row[0], e1 = row[1], e2 = row[2];
     for (int dx = 0; dx < 4; ++dx) {
-      const auto inside = hn::And(hn::And(hn::Gt(width, splat(dx - 1)), in_rows), hn::Gt(hn::Or(hn::Or(e0, e1), e2), splat(-1)));
+      const auto inside = hn::And(hn::And(hn::Gt(width, splat(dx - 1)), in_rows),
+                                  hn::Gt(hn::Or(hn::Or(e0, e1), e2), splat(-1)));
       hit = hn::Or(hit, hn::IfThenElseZero(inside, splat(1 << (4 * dy + dx))));
       e0 = hn::Add(e0, a[0]);
       e1 = hn::Add(e1, a[1]);

@@ -1,5 +1,5 @@
-// The scalar twin of coverage-inl.h and its specification: which pixels a triangle covers, in 128-bit integers straight from
-// its snapped vertices.
+// The scalar twin of coverage-inl.h and its specification: which pixels a triangle covers, in 128-bit
+// integers straight from its snapped vertices.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct EdgeReference {
 
 struct TriangleReference {
   EdgeReference edge[3];  ///< edge k lies opposite vertex k
-  Exact area = 0;         ///< doubled, never negative, in (1/256 pixel)^2: the sum of the three edges at every point
+  Exact area = 0;  ///< doubled, never negative, in (1/256 pixel)^2: the sum of the three edges at every point
 
   explicit TriangleReference(const WindowVertex (&v)[3]) {
     const auto cross = [](Exact ax, Exact ay, Exact bx, Exact by) { return ax * by - ay * bx; };
@@ -32,7 +32,8 @@ struct TriangleReference {
       edge[k].at_origin = cross(along_x, along_y, Exact{kHalfPixel} - p.x, Exact{kHalfPixel} - p.y);
       edge[k].dx = -along_y * kSubpixelScale;
       edge[k].dy = along_x * kSubpixelScale;
-      // The fill rule: a centre on an edge counts as if it lay a hair to the right, and a hair of a hair below.
+      // The fill rule: a centre on an edge counts as if it lay a hair to the right, and a hair of a hair
+      // below.
       edge[k].owns_border = edge[k].dx > 0 || (edge[k].dx == 0 && edge[k].dy > 0);
     }
   }
@@ -50,7 +51,8 @@ struct TriangleReference {
   template <class PixelFunction>
   void for_each_covered(int x0, int y0, int x1, int y1, const PixelFunction& pixel) const {
     if (area == 0) return;
-    // A border that does not belong to the triangle is moved inwards by the smallest difference that there is.
+    // A border that does not belong to the triangle is moved inwards by the smallest difference that there
+    // is.
     Exact row[3];
     for (int k = 0; k < 3; ++k) row[k] = edge[k].at(x0, y0) - (edge[k].owns_border ? 0 : 1);
     for (int y = y0; y < y1; ++y) {

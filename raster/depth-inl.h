@@ -1,9 +1,9 @@
 // Depth of a triangle's pixels, as keys that compare as signed integers (framebuffer/format.h).
 //
-// Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel does not depend on
-// tiles or blocks, and a gradient too steep for 64 bits comes right again inside the triangle. Gradients come from doubles,
-// those of needles, where doubles are not enough, from exact quotients. float32: a plane of doubles from the anchor, rounded once
-// and kept within the vertices' range.
+// Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel
+// does not depend on tiles or blocks, and a gradient too steep for 64 bits comes right again inside the
+// triangle. Gradients come from doubles, those of needles, where doubles are not enough, from exact
+// quotients. float32: a plane of doubles from the anchor, rounded once and kept within the vertices' range.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
 #undef TESSERA_RASTER_DEPTH_INL_H_
@@ -33,8 +33,9 @@ alignas(64) inline constexpr std::uint64_t kOddColumns[8] = {0, ~0ull, 0, ~0ull,
 alignas(64) inline constexpr std::uint64_t kRightColumns[8] = {0, 0, ~0ull, ~0ull, 0, 0, ~0ull, ~0ull};
 alignas(64) inline constexpr std::uint64_t kSecondRow[8] = {0, 0, 0, 0, ~0ull, ~0ull, ~0ull, ~0ull};
 
-/// 16 and 24 bits: 32.32 fixed point of the vertices' depth words. Those are at least 128 away from 0 and from 2^32 (the half
-/// that rounds the level), so rounding never wraps around. The key is the word's top bits.
+/// 16 and 24 bits: 32.32 fixed point of the vertices' depth words. Those are at least 128 away from 0 and
+/// from 2^32 (the half that rounds the level), so rounding never wraps around. The key is the word's top
+/// bits.
 struct UnormDepth {
   std::uint64_t base, dx, dy;
   int shift;
@@ -50,10 +51,12 @@ struct UnormDepth {
 #if HWY_TARGET == HWY_SCALAR
     for (std::uint64_t p = 0; p < 16; ++p) offset[p] = p % 4 * dx + p / 4 * dy;
 #else
-    // Half of the lanes of a block's chunk, whole rows: a column's number is its lowest two bits, and those above are the row's.
+    // Half of the lanes of a block's chunk, whole rows: a column's number is its lowest two bits, and those
+    // above are the row's.
     constexpr std::size_t kHalf = hn::MaxLanes(Uint64Tag());
     static_assert(kHalf == 4 || kHalf == 8);
-    const auto bit_of = [](const std::uint64_t (&bits)[8], std::uint64_t step) HWY_ATTR { return hn::And(hn::Load(kUint64, bits), hn::Set(kUint64, step)); };
+    const auto bit_of = [](const std::uint64_t(&bits)[8], std::uint64_t step)
+                            HWY_ATTR { return hn::And(hn::Load(kUint64, bits), hn::Set(kUint64, step)); };
     const auto in_row = hn::Add(bit_of(kOddColumns, dx), bit_of(kRightColumns, dx + dx));
     auto at = kHalf == 8 ? hn::Add(in_row, bit_of(kSecondRow, dy)) : in_row;
     for (std::size_t p = 0; p < 16; p += kHalf) {
@@ -64,16 +67,24 @@ struct UnormDepth {
   }
   /// From the tile's first pixel, or from a sample there.
   HWY_INLINE std::uint64_t step(int x, int y) const {
-    return dx * static_cast<std::uint64_t>(std::int64_t{x}) + dy * static_cast<std::uint64_t>(std::int64_t{y});
+    return dx * static_cast<std::uint64_t>(std::int64_t{x}) +
+           dy * static_cast<std::uint64_t>(std::int64_t{y});
   }
   HWY_INLINE std::uint64_t at(int x, int y) const { return base + step(x, y); }
-  HWY_INLINE std::int32_t key(int x, int y) const { return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift); }
+  HWY_INLINE std::int32_t key(int x, int y) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift);
+  }
   /// What is moved from sample to sample.
   using Anchor = std::uint64_t;
-  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup& samples, int s, int i, SamplePosition, int, int) { return samples.fixed_base[s][i]; }
+  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup& samples, int s, int i,
+                                  SamplePosition, int, int) {
+    return samples.fixed_base[s][i];
+  }
   /// No pixel or sample of triangle i has a smaller key: its vertices' smallest but for the plane's rounding.
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind kind) {
-    return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])) >> (32 - depth_bits(kind))) - 1;
+    return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])) >>
+                                     (32 - depth_bits(kind))) -
+           1;
   }
   /// A block's first pixel; keys(chunk) are those of its lanes.
   struct Block {
@@ -88,17 +99,23 @@ struct UnormDepth {
   HWY_INLINE Box box(int x, int y) const {
     Box box;
     for (std::size_t p = 0; p < kLanes; p += hn::MaxLanes(Uint64Tag()))
-      hn::Store(hn::Add(hn::ShiftLeft<2>(hn::Load(kUint64, offset + p)), hn::Set(kUint64, at(x, y))), kUint64, box.start + p);
+      hn::Store(hn::Add(hn::ShiftLeft<2>(hn::Load(kUint64, offset + p)), hn::Set(kUint64, at(x, y))), kUint64,
+                box.start + p);
     return box;
   }
   static HWY_INLINE Block block(const Box& box, int i) { return block_at(box.start[i]); }
-  HWY_INLINE void step_right(Block& block) const { block.start = hn::Add(block.start, hn::Set(kUint64, 4 * dx)); }
+  HWY_INLINE void step_right(Block& block) const {
+    block.start = hn::Add(block.start, hn::Set(kUint64, 4 * dx));
+  }
   /// The same of a sample, from the step to the block that step_to() gives.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
-  static HWY_INLINE Block block(Anchor sample, const Block& step) { return {hn::Add(block_at(sample).start, step.start)}; }
+  static HWY_INLINE Block block(Anchor sample, const Block& step) {
+    return {hn::Add(block_at(sample).start, step.start)};
+  }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
 #if HWY_TARGET == HWY_SCALAR
-    return Int(static_cast<std::int32_t>(static_cast<std::uint32_t>((block.start.raw + offset[chunk]) >> 32) >> shift));
+    return Int(static_cast<std::int32_t>(
+        static_cast<std::uint32_t>((block.start.raw + offset[chunk]) >> 32) >> shift));
 #else
     const auto low = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes));
     const auto high = hn::Add(block.start, hn::Load(kUint64, offset + chunk * kLanes + kLanes / 2));
@@ -123,7 +140,8 @@ struct Unorm32Depth : UnormDepth {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(cut) ^ 0x80000000u);
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }
-  static std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind kind) = delete;  // keys are others than above
+  static std::int32_t nearest_key(const TriangleGroup& g, int i,
+                                  DepthKind kind) = delete;  // keys are others than above
   struct Block {
     std::uint64_t start;
   };
@@ -138,9 +156,11 @@ struct Unorm32Depth : UnormDepth {
   }
 };
 
-/// A plane of doubles, rounded once: where a wide triangle is tilted against the rows, the shares of x and y are many times the depth itself.
+/// A plane of doubles, rounded once: where a wide triangle is tilted against the rows, the shares of x and y
+/// are many times the depth itself.
 struct Float32Depth {
-  double z0, dx, dy, first_x, first_y;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
+  double z0, dx, dy, first_x,
+      first_y;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
   float low, high;
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthKind) {
     float z[3], at_anchor;
@@ -159,16 +179,23 @@ struct Float32Depth {
   struct Anchor {
     double x, y;
   };
-  static HWY_INLINE Anchor from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x, int tile_y) {  // exact: 24 bits
-    return {(tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256), (tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256)};
+  static HWY_INLINE Anchor from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x,
+                                       int tile_y) {  // exact: 24 bits
+    return {(tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256),
+            (tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256)};
   }
-  static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at, int tile_x, int tile_y) { return from_anchor(g, i, at, tile_x, tile_y); }
-  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind) {  // of floats that are not negative: their bits
+  static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at,
+                                  int tile_x, int tile_y) {
+    return from_anchor(g, i, at, tile_x, tile_y);
+  }
+  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i,
+                                             DepthKind) {  // of floats that are not negative: their bits
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));
   }
   HWY_INLINE std::int32_t key(int x, int y) const {
     const auto z = static_cast<float>((dx * (first_x + x) + dy * (first_y + y)) + z0);
-    const float low_cut = z > low ? z : low, cut = (low_cut < high ? low_cut : high) + 0.0f;  // + 0: no negative zero
+    const float low_cut = z > low ? z : low,
+                cut = (low_cut < high ? low_cut : high) + 0.0f;  // + 0: no negative zero
     std::int32_t bits;
     std::memcpy(&bits, &cut, sizeof bits);
     return bits;
@@ -181,12 +208,19 @@ struct Float32Depth {
     int x, y;
   };
   HWY_INLINE Box box(int x, int y) const { return {x, y}; }
-  HWY_INLINE Block block(const Box& box, int i) const { return block(box.x + 4 * (i & 3), box.y + 4 * (i >> 2)); }
+  HWY_INLINE Block block(const Box& box, int i) const {
+    return block(box.x + 4 * (i & 3), box.y + 4 * (i >> 2));
+  }
   HWY_INLINE void step_right(Block& block) const { block.x += 4; }  // exact: 24 bits
-  HWY_INLINE Block step_to(int bx, int by) const { return {static_cast<double>(bx), static_cast<double>(by)}; }
-  static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample.x + step.x, sample.y + step.y}; }
+  HWY_INLINE Block step_to(int bx, int by) const {
+    return {static_cast<double>(bx), static_cast<double>(by)};
+  }
+  static HWY_INLINE Block block(Anchor sample, const Block& step) {
+    return {sample.x + step.x, sample.y + step.y};
+  }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
-    const Doubles x = plus(to_doubles(block_columns(chunk)), block.x), y = plus(to_doubles(block_rows(chunk)), block.y);
+    const Doubles x = plus(to_doubles(block_columns(chunk)), block.x),
+                  y = plus(to_doubles(block_rows(chunk)), block.y);
     const Float z = to_floats(plus(plus(times(x, dx), times(y, dy)), z0));
     const Float cut = lesser_of(greater_of(z, splat(low)), splat(high));
     return hn::BitCast(kInt, hn::Add(cut, hn::Zero(kFloat)));

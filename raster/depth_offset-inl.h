@@ -1,5 +1,5 @@
-// Depth with polygon offset: factor times the polygon's slope, plus units times the smallest difference of the format, cut to
-// 0..1 [GL 2.1, 3.5.5; for floats Direct3D 11]. Draws without an offset never come here.
+// Depth with polygon offset: factor times the polygon's slope, plus units times the smallest difference of
+// the format, cut to 0..1 [GL 2.1, 3.5.5; for floats Direct3D 11]. Draws without an offset never come here.
 #if defined(TESSERA_RASTER_DEPTH_OFFSET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_OFFSET_INL_H_
 #undef TESSERA_RASTER_DEPTH_OFFSET_INL_H_
@@ -17,9 +17,12 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// max(|dz/dx|, |dz/dy|), in the units of the vertices' depth words (unorm) or of depth.
-HWY_INLINE double slope_of(const TriangleGroup& g, int i) { return std::max(std::abs(g.depth_dx[i]), std::abs(g.depth_dy[i])); }
+HWY_INLINE double slope_of(const TriangleGroup& g, int i) {
+  return std::max(std::abs(g.depth_dx[i]), std::abs(g.depth_dy[i]));
+}
 
-/// Unorm of any size: on the plane of draws without an offset, so that one unit is one level for whoever draws the same triangle.
+/// Unorm of any size: on the plane of draws without an offset, so that one unit is one level for whoever
+/// draws the same triangle.
 struct OffsetUnormDepth : UnormDepth {
   int fraction = kUnormFraction;
   std::int64_t lift = 0, moved = 0;
@@ -35,7 +38,9 @@ struct OffsetUnormDepth : UnormDepth {
     dx = g.fixed_dx[i];
     dy = g.fixed_dy[i];
   }
-  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) { move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift)); }
+  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
+    move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift));
+  }
   HWY_INLINE void move_by(double words) {
     constexpr double kWhole = 0x1p32;  // nothing is further away
     moved = static_cast<std::int64_t>(std::floor(std::clamp(words, -kWhole, kWhole) + 0.5));
@@ -59,7 +64,8 @@ struct OffsetUnormDepth : UnormDepth {
 struct OffsetFloat32Depth : Float32Depth {
   float moved = 0;
   HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
-    const int exponent = std::max(high > 0 ? std::ilogb(high) : -126, -126);  // of the largest depth; the smallest normal float's
+    const int exponent = std::max(high > 0 ? std::ilogb(high) : -126,
+                                  -126);  // of the largest depth; the smallest normal float's
     move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
   }
   HWY_INLINE void move_by(double depth) { moved = static_cast<float>(depth); }

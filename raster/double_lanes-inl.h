@@ -1,4 +1,5 @@
-// Doubles for each lane of an Int, in two vectors: what is more than 32 bits wide, and exact or rounded the same on every target. No sum is fused.
+// Doubles for each lane of an Int, in two vectors: what is more than 32 bits wide, and exact or rounded the
+// same on every target. No sum is fused.
 #if defined(TESSERA_RASTER_DOUBLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DOUBLE_LANES_INL_H_
 #undef TESSERA_RASTER_DOUBLE_LANES_INL_H_
@@ -50,7 +51,9 @@ HWY_INLINE Doubles floor(const Doubles& a) {
 }
 /// Moved into low .. high; a NaN is low.
 HWY_INLINE Doubles clamped(const Doubles& a, double low, double high) {
-  return each_part([&](int p) HWY_ATTR { return hn::Min(hn::Max(a.part[p], hn::Set(kDouble, low)), hn::Set(kDouble, high)); });
+  return each_part([&](int p) HWY_ATTR {
+    return hn::Min(hn::Max(a.part[p], hn::Set(kDouble, low)), hn::Set(kDouble, high));
+  });
 }
 
 #if HWY_TARGET == HWY_SCALAR
@@ -61,9 +64,16 @@ HWY_INLINE Float to_floats(const Doubles& a) { return hn::DemoteTo(kFloat, a.par
 #else
 inline constexpr hn::Half<IntTag> kHalfInt{};
 inline constexpr hn::Half<FloatTag> kHalfFloat{};
-HWY_INLINE Doubles to_doubles(Int a) { return {{hn::PromoteTo(kDouble, hn::LowerHalf(kHalfInt, a)), hn::PromoteTo(kDouble, hn::UpperHalf(kHalfInt, a))}}; }
-HWY_INLINE Int truncate(const Doubles& a) { return hn::Combine(kInt, hn::DemoteTo(kHalfInt, a.part[1]), hn::DemoteTo(kHalfInt, a.part[0])); }
-HWY_INLINE Float to_floats(const Doubles& a) { return hn::Combine(kFloat, hn::DemoteTo(kHalfFloat, a.part[1]), hn::DemoteTo(kHalfFloat, a.part[0])); }
+HWY_INLINE Doubles to_doubles(Int a) {
+  return {{hn::PromoteTo(kDouble, hn::LowerHalf(kHalfInt, a)),
+           hn::PromoteTo(kDouble, hn::UpperHalf(kHalfInt, a))}};
+}
+HWY_INLINE Int truncate(const Doubles& a) {
+  return hn::Combine(kInt, hn::DemoteTo(kHalfInt, a.part[1]), hn::DemoteTo(kHalfInt, a.part[0]));
+}
+HWY_INLINE Float to_floats(const Doubles& a) {
+  return hn::Combine(kFloat, hn::DemoteTo(kHalfFloat, a.part[1]), hn::DemoteTo(kHalfFloat, a.part[0]));
+}
 #endif
 
 }  // namespace HWY_NAMESPACE

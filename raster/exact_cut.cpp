@@ -9,11 +9,14 @@
 namespace tessera {
 namespace {
 
-constexpr double ClipPosition::*kCoordinates[] = {&ClipPosition::x, &ClipPosition::y, &ClipPosition::z, &ClipPosition::w};
-// Sides of corners that cuts have made are those of rounded positions: what lies beyond a triangle by no more than that belongs to it.
+constexpr double ClipPosition::*kCoordinates[] = {&ClipPosition::x, &ClipPosition::y, &ClipPosition::z,
+                                                  &ClipPosition::w};
+// Sides of corners that cuts have made are those of rounded positions: what lies beyond a triangle by no more
+// than that belongs to it.
 constexpr double kBeyond = 0x1p-20;
 
-/// The ends of an edge, or the vertices of a triangle, scaled to about 1: products of some of them are well within a double's range.
+/// The ends of an edge, or the vertices of a triangle, scaled to about 1: products of some of them are well
+/// within a double's range.
 template <std::size_t kCount>
 struct ExactVertices {
   const std::array<const ClipVertex*, kCount> vertices;
@@ -24,14 +27,17 @@ struct ExactVertices {
   ExactVertices(const VertexTransform& t, const std::array<const ClipVertex*, kCount>& v) : vertices(v) {
     double largest = 0;
     for (const ClipVertex* vertex : vertices)
-      for (const auto coordinate : kCoordinates) largest = std::max(largest, std::abs(vertex->position.*coordinate));
+      for (const auto coordinate : kCoordinates)
+        largest = std::max(largest, std::abs(vertex->position.*coordinate));
     exponent = largest > 0 ? std::ilogb(largest) : 0;
     for (std::size_t k = 0; k < kCount; ++k) {
       const ClipVertex& vertex = *vertices[k];
-      exact[k] = vertex.object ? ExactVertex(t, *vertex.object, vertex.object_exponent - exponent) : ExactVertex(vertex.position, -exponent);
+      exact[k] = vertex.object ? ExactVertex(t, *vertex.object, vertex.object_exponent - exponent)
+                               : ExactVertex(vertex.position, -exponent);
     }
   }
-  /// The sum of the vertices times their shares, over the sum of the shares. Absent where that is not among them.
+  /// The sum of the vertices times their shares, over the sum of the shares. Absent where that is not among
+  /// them.
   std::optional<ClipVertex> mix(int attribute_count) const {
     ExactSum sum_of_shares;
     for (const ExactSum& share : shares) sum_of_shares.add_product(share, 1);
@@ -68,7 +74,8 @@ struct ExactVertices {
 
 }  // namespace
 
-std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a, const ClipVertex& b, int attribute_count) {
+std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a,
+                                    const ClipVertex& b, int attribute_count) {
   ExactVertices<2> edge(transform, {&a, &b});
   ExactSum distances[2];
   for (std::size_t k = 0; k < 2; ++k) distances[k] = edge.exact[k].distance(transform, plane);
@@ -77,14 +84,17 @@ std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode p
   return edge.mix(attribute_count);
 }
 
-std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other, const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, int attribute_count) {
+std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other,
+                                         const ClipVertex& a, const ClipVertex& b, const ClipVertex& c,
+                                         int attribute_count) {
   ExactVertices<3> triangle(transform, {&a, &b, &c});
   ExactSum on_plane[3], on_other[3];
   for (std::size_t k = 0; k < 3; ++k) {
     on_plane[k] = triangle.exact[k].distance(transform, plane);
     on_other[k] = triangle.exact[k].distance(transform, other);
   }
-  for (std::size_t k = 0; k < 3; ++k) {  // weights of three distances whose sums are 0 for both planes: their cross product
+  for (std::size_t k = 0; k < 3;
+       ++k) {  // weights of three distances whose sums are 0 for both planes: their cross product
     const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
     triangle.shares[k].add_product(on_plane[next], on_other[last], 1);
     triangle.shares[k].add_product(on_plane[last], on_other[next], -1);

@@ -1,4 +1,5 @@
-// Where clip planes cut what is so large, beside what is seen of it, that doubles have no digits left for that.
+// Where clip planes cut what is so large, beside what is seen of it, that doubles have no digits left for
+// that.
 #pragma once
 
 #include <optional>
@@ -8,8 +9,11 @@
 namespace tessera {
 
 /// The point of an edge on a plane. Absent if there is not just one. Attributes are within those of the ends.
-std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a, const ClipVertex& b, int attribute_count);
+std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a,
+                                    const ClipVertex& b, int attribute_count);
 /// The point of a triangle on two planes, likewise.
-std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other, const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, int attribute_count);
+std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other,
+                                         const ClipVertex& a, const ClipVertex& b, const ClipVertex& c,
+                                         int attribute_count);
 
 }  // namespace tessera

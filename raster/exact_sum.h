@@ -6,19 +6,23 @@
 
 namespace tessera {
 
-/// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while no product is below 2^-960; NaN once anything overflows.
-/// Source: J. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997: grow-expansion, compress.
+/// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while no product is
+/// below 2^-960; NaN once anything overflows. Source: J. Shewchuk, Adaptive Precision Floating-Point
+/// Arithmetic and Fast Robust Geometric Predicates, 1997: grow-expansion, compress.
 class ExactSum {
  public:
   void add(double term) {
     if (count_ == kMostParts) compress();
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
-      const double sum = term + parts_[i], of_term = sum - parts_[i], rounded_off = (parts_[i] - (sum - of_term)) + (term - of_term);
+      const double sum = term + parts_[i], of_term = sum - parts_[i],
+                   rounded_off = (parts_[i] - (sum - of_term)) + (term - of_term);
       if (rounded_off != 0) parts_[kept++] = rounded_off;
       term = sum;
     }
-    if (!std::isfinite(term)) kept = 0, term = std::numeric_limits<double>::quiet_NaN();  // what was rounded off is NaN, and does not compress
+    if (!std::isfinite(term))
+      kept = 0,
+      term = std::numeric_limits<double>::quiet_NaN();  // what was rounded off is NaN, and does not compress
     if (term != 0) parts_[kept++] = term;
     count_ = kept;
   }

@@ -6,7 +6,8 @@ namespace tessera {
 
 ExactVertex::ExactVertex(const VertexTransform& t, const std::array<float, 4>& object, int exponent) {
   for (std::size_t row = 0; row < 4; ++row)
-    for (std::size_t column = 0; column < 4; ++column) coordinates_[row].add_product(t.clip_from_object[4 * row + column], object[column], exponent);
+    for (std::size_t column = 0; column < 4; ++column)
+      coordinates_[row].add_product(t.clip_from_object[4 * row + column], object[column], exponent);
 }
 
 ExactVertex::ExactVertex(const ClipPosition& position, int exponent) {
@@ -29,11 +30,14 @@ ExactSum ExactVertex::distance(const VertexTransform& t, ClipCode plane) const {
   return sum;
 }
 
-ClipPosition ExactVertex::position() const { return {coordinates_[0].value(), coordinates_[1].value(), coordinates_[2].value(), coordinates_[3].value()}; }
+ClipPosition ExactVertex::position() const {
+  return {coordinates_[0].value(), coordinates_[1].value(), coordinates_[2].value(), coordinates_[3].value()};
+}
 
 std::uint8_t ExactVertex::code(const VertexTransform& t) const {
   std::uint8_t code = coordinates_[3].value() > 0 ? 0 : kNoPositiveW;
-  for (const ClipCode plane : {kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand, kBeforeNear, kBehindFar})
+  for (const ClipCode plane :
+       {kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand, kBeforeNear, kBehindFar})
     if (distance(t, plane).value() < 0) code |= plane;
   return code;
 }

@@ -1,5 +1,6 @@
-// Packs some lanes of a vector side by side, and brings them back: numbers of lanes for a table lookup, from tables of eight bits
-// at a time. Highway 1.0.3 packs with a table that it copies at each use, and has no way back.
+// Packs some lanes of a vector side by side, and brings them back: numbers of lanes for a table lookup, from
+// tables of eight bits at a time. Highway 1.0.3 packs with a table that it copies at each use, and has no way
+// back.
 #pragma once
 
 #include <array>
@@ -27,7 +28,8 @@ inline constexpr LaneTable kSetBits = [] {
 inline constexpr LaneTable kBitRanks = [] {
   LaneTable table{};
   for (std::uint32_t bits = 0; bits < 256; ++bits)
-    for (int l = 0; l < 8; ++l) table[bits] |= static_cast<std::uint64_t>(std::popcount(bits & ((1u << l) - 1))) << (8 * l);
+    for (int l = 0; l < 8; ++l)
+      table[bits] |= static_cast<std::uint64_t>(std::popcount(bits & ((1u << l) - 1))) << (8 * l);
   return table;
 }();
 
@@ -43,7 +45,8 @@ LaneNumbers lane_numbers(const LaneTable& table, std::uint32_t bits, int second_
   LaneNumbers numbers;
   std::memcpy(numbers.byte, &table[bits & 255], 8);
   if constexpr (kLanes > 8) {
-    const std::uint64_t second = table[bits >> 8 & 255] + 0x0101010101010101u * static_cast<std::uint64_t>(offset);
+    const std::uint64_t second =
+        table[bits >> 8 & 255] + 0x0101010101010101u * static_cast<std::uint64_t>(offset);
     std::memcpy(numbers.byte + second_at, &second, 8);
   }
   return numbers;

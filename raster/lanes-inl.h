@@ -1,5 +1,5 @@
-// The few lane operations that Highway does not give with the same bits on every target. Included by kernels, once for
-// each instruction set; see framebuffer/lanes.h.
+// The few lane operations that Highway does not give with the same bits on every target. Included by kernels,
+// once for each instruction set; see framebuffer/lanes.h.
 #if defined(TESSERA_RASTER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_LANES_INL_H_
 #undef TESSERA_RASTER_LANES_INL_H_
@@ -49,7 +49,8 @@ HWY_INLINE Float neg_mul_add(Float a, Float b, Float c) {
 #endif
 }
 
-/// a where it is above b, else b, also where either is no number: what x86 has an instruction for, whose operands Highway keeps in this order.
+/// a where it is above b, else b, also where either is no number: what x86 has an instruction for, whose
+/// operands Highway keeps in this order.
 HWY_INLINE Float greater_of(Float a, Float b) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   return hn::Max(a, b);
@@ -83,14 +84,19 @@ struct LaneIndices {
   std::uint64_t two[4];
   explicit HWY_INLINE LaneIndices(__m256i index) {
     const __m128i low = _mm256_castsi256_si128(index), high = _mm256_extracti128_si256(index, 1);
-    two[0] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low)), two[1] = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
-    two[2] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high)), two[3] = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
+    two[0] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low)),
+    two[1] = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
+    two[2] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high)),
+    two[3] = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
   }
-  HWY_INLINE std::size_t operator[](int lane) const { return lane % 2 == 0 ? two[lane / 2] & 0xffffffffu : two[lane / 2] >> 32; }
+  HWY_INLINE std::size_t operator[](int lane) const {
+    return lane % 2 == 0 ? two[lane / 2] & 0xffffffffu : two[lane / 2] >> 32;
+  }
 };
 #endif
 
-/// The words at an index of at least 0: by a gather where there are sixteen, else one by one, the faster ways.
+/// The words at an index of at least 0: by a gather where there are sixteen, else one by one, the faster
+/// ways.
 HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
 #if HWY_TARGET == HWY_AVX2
   const LaneIndices at(index.raw);
@@ -122,8 +128,9 @@ HWY_INLINE LaneMask mask_from_bits(std::uint32_t bits) {
 #if HWY_TARGET == HWY_AVX3
   return LaneMask{static_cast<__mmask16>(bits)};
 #else
-  alignas(16) static constexpr std::int32_t kBits[16] = {1,     1 << 1,  1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
-                                                         1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+  alignas(16) static constexpr std::int32_t kBits[16] = {1,       1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
+                                                         1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
+                                                         1 << 12, 1 << 13, 1 << 14, 1 << 15};
   return hn::TestBit(splat(static_cast<std::int32_t>(bits)), hn::LoadU(kInt, kBits));
 #endif
 }
@@ -132,10 +139,13 @@ HWY_INLINE LaneMask mask_from_bits(std::uint32_t bits) {
 HWY_INLINE std::uint32_t of_first(int count) { return (1u << count) - 1; }
 
 /// The bits of one chunk's lanes, of a block's 16.
-HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) { return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1); }
+HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) {
+  return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1);
+}
 
 #if HWY_TARGET == HWY_AVX3
-/// The lanes that hold what a lane before them holds. In assembly, because Highway's AVX3 does not name AVX512CD, which all processors have that have the rest.
+/// The lanes that hold what a lane before them holds. In assembly, because Highway's AVX3 does not name
+/// AVX512CD, which all processors have that have the rest.
 HWY_INLINE LaneMask repeated(Int v) {
   __m512i earlier;  // a bit for each lane that is equal
   asm("vpconflictd %1, %0" : "=v"(earlier) : "v"(v.raw));

@@ -1,9 +1,11 @@
-// The lines of a group as functions of the step along their major axis: the pixels of their twin (line_walk.h), in any order.
+// The lines of a group as functions of the step along their major axis: the pixels of their twin
+// (line_walk.h), in any order.
 //
-// With integers n and d the minor coordinate of a step is floor(n / d), d = 256 length < 2^33. As floor((n + 1/2) / d) it may be found by
-// a product: the quotient stands at least 1 / (2 d) > 2^-34 away from whole numbers; it is below 2^17 (coordinates to 2^16 pixels, half a
-// width to 2^15, a vector of steps beyond the end), so reciprocal and product are off by 2^-35 at most. n + 1/2 is below 2^51, which makes all
-// sums exact.
+// With integers n and d the minor coordinate of a step is floor(n / d), d = 256 length < 2^33. As floor((n +
+// 1/2) / d) it may be found by a product: the quotient stands at least 1 / (2 d) > 2^-34 away from whole
+// numbers; it is below 2^17 (coordinates to 2^16 pixels, half a width to 2^15, a vector of steps beyond the
+// end), so reciprocal and product are off by 2^-35 at most. n + 1/2 is below 2^51, which makes all sums
+// exact.
 #if defined(TESSERA_RASTER_LINE_STEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_LINE_STEPS_INL_H_
 #undef TESSERA_RASTER_LINE_STEPS_INL_H_
@@ -30,7 +32,8 @@ struct LinePoints {
 /// The twin of in_diamond().
 HWY_INLINE auto are_in_diamonds(const LinePoints& p) {
   const Int within = splat(kSubpixelScale - 1), half = splat(kHalfPixel), one = splat(1);
-  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within), hn::Sub(half, one)), dy = hn::Sub(hn::And(p.y, within), half);
+  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within), hn::Sub(half, one)),
+            dy = hn::Sub(hn::And(p.y, within), half);
   const Int distance = hn::Add(hn::Abs(dx), hn::Abs(dy));
   return hn::Or(hn::Gt(half, distance), hn::And(hn::Eq(distance, half), hn::Gt(dx, hn::Zero(kInt))));
 }
@@ -46,8 +49,10 @@ class LineSteps {
   template <class Pixels>
   HWY_INLINE void for_each(int i, const PixelRect& window, const Pixels& pixels) const {
     const bool x_major = x_major_[i] != 0;
-    const int from = std::max(first_[i], x_major ? window.x0 : window.y0), to = std::min(last_[i] + 1, x_major ? window.x1 : window.y1);
-    const int low = x_major ? window.y0 : window.x0, high = x_major ? window.y1 : window.x1;  // of the minor coordinate
+    const int from = std::max(first_[i], x_major ? window.x0 : window.y0),
+              to = std::min(last_[i] + 1, x_major ? window.x1 : window.y1);
+    const int low = x_major ? window.y0 : window.x0,
+              high = x_major ? window.y1 : window.x1;  // of the minor coordinate
     for (int step = from; step < to; step += kLanes) {
       const Int major = hn::Iota(kInt, step);
       const Int base = truncate(floor(times(plus(times(to_doubles(major), rise_[i]), start_[i]), per_[i])));
@@ -61,7 +66,8 @@ class LineSteps {
       }
       for (int k = k0; k <= k1; ++k) {
         const Int minor = hn::Add(base, splat(x_major ? -k : k));
-        const auto inside = hn::And(hn::Gt(splat(to), major), hn::And(hn::Gt(minor, splat(low - 1)), hn::Gt(splat(high), minor)));
+        const auto inside = hn::And(hn::Gt(splat(to), major),
+                                    hn::And(hn::Gt(minor, splat(low - 1)), hn::Gt(splat(high), minor)));
         pixels(x_major ? major : minor, x_major ? minor : major, inside);
       }
     }
@@ -70,29 +76,38 @@ class LineSteps {
  private:
   HWY_INLINE void set_up_lanes(const TriangleGroup& g, int i) {
     const Int zero = hn::Zero(kInt), one = splat(1), aside = splat(kHalfPixel * (width_ - 1));
-    LinePoints a{hn::Load(kInt, g.x[0] + i), hn::Load(kInt, g.y[0] + i)}, b{hn::Load(kInt, g.x[1] + i), hn::Load(kInt, g.y[1] + i)};
+    LinePoints a{hn::Load(kInt, g.x[0] + i), hn::Load(kInt, g.y[0] + i)},
+        b{hn::Load(kInt, g.x[1] + i), hn::Load(kInt, g.y[1] + i)};
     const Int dx = hn::Sub(b.x, a.x), dy = hn::Sub(b.y, a.y);
     const auto steep = hn::Gt(hn::Abs(dy), hn::Abs(dx));
-    for (LinePoints* p : {&a, &b}) *p = {hn::Sub(p->x, hn::IfThenElseZero(steep, aside)), hn::Add(p->y, hn::IfThenZeroElse(steep, aside))};
+    for (LinePoints* p : {&a, &b})
+      *p = {hn::Sub(p->x, hn::IfThenElseZero(steep, aside)), hn::Add(p->y, hn::IfThenZeroElse(steep, aside))};
     const Int along = hn::IfThenElse(steep, dy, dx), across = hn::IfThenElse(steep, dx, dy);
     const auto forward = hn::Gt(along, zero);
     // Along x the ends move by -e, along y by +e^2.
-    const Int moved = hn::IfThenZeroElse(steep, one), from = hn::IfThenElse(steep, a.y, a.x), to = hn::IfThenElse(steep, b.y, b.x);
-    const Int from_moved = hn::Sub(from, moved), to_moved = hn::Sub(to, moved), step = hn::IfThenElse(forward, one, splat(-1));
-    const auto is_before = [&](Int major) HWY_ATTR { return hn::Gt(splat(kHalfPixel), hn::And(major, splat(kSubpixelScale - 1))); };
+    const Int moved = hn::IfThenZeroElse(steep, one), from = hn::IfThenElse(steep, a.y, a.x),
+              to = hn::IfThenElse(steep, b.y, b.x);
+    const Int from_moved = hn::Sub(from, moved), to_moved = hn::Sub(to, moved),
+              step = hn::IfThenElse(forward, one, splat(-1));
+    const auto is_before = [&](Int major) HWY_ATTR {
+      return hn::Gt(splat(kHalfPixel), hn::And(major, splat(kSubpixelScale - 1)));
+    };
     const auto skips_first = hn::AndNot(are_in_diamonds(a), hn::Xor(forward, is_before(from_moved)));
     const auto skips_last = hn::Or(are_in_diamonds(b), hn::Not(hn::Xor(forward, is_before(to_moved))));
-    const Int begin = hn::Add(hn::ShiftRight<kSubpixelBits>(from_moved), hn::IfThenElseZero(skips_first, step));
+    const Int begin =
+        hn::Add(hn::ShiftRight<kSubpixelBits>(from_moved), hn::IfThenElseZero(skips_first, step));
     const Int end = hn::Sub(hn::ShiftRight<kSubpixelBits>(to_moved), hn::IfThenElseZero(skips_last, step));
     const auto is_point = hn::Eq(along, zero);
     hn::Store(hn::VecFromMask(kInt, hn::Not(steep)), kInt, x_major_ + i);
     hn::Store(hn::IfThenElse(is_point, one, hn::IfThenElse(forward, begin, end)), kInt, first_ + i);
     hn::Store(hn::IfThenZeroElse(is_point, hn::IfThenElse(forward, end, begin)), kInt, last_ + i);
 
-    const Int slope = hn::IfThenElse(forward, across, hn::Neg(across)), minor = hn::IfThenElse(steep, a.x, a.y);
+    const Int slope = hn::IfThenElse(forward, across, hn::Neg(across)),
+              minor = hn::IfThenElse(steep, a.x, a.y);
     const auto tie_goes_down = hn::Or(steep, hn::Gt(zero, slope));
     const Doubles length = to_doubles(hn::Max(hn::Abs(along), one)), scaled = times(length, kSubpixelScale);
-    const Doubles at_first = times(to_doubles(minor), length), to_center = times(to_doubles(slope), to_doubles(hn::Sub(splat(kHalfPixel), from)));
+    const Doubles at_first = times(to_doubles(minor), length),
+                  to_center = times(to_doubles(slope), to_doubles(hn::Sub(splat(kHalfPixel), from)));
     const Doubles tie = plus(to_doubles(hn::IfThenElseZero(tie_goes_down, splat(-1))), 0.5);
     store(plus(plus(at_first, to_center), tie), start_ + i);
     store(times(to_doubles(slope), kSubpixelScale), rise_ + i);
@@ -100,9 +115,11 @@ class LineSteps {
   }
 
   int width_ = 1;
-  alignas(64) std::int32_t x_major_[kGroupSize];                              // -1 or 0
-  alignas(64) std::int32_t first_[kGroupSize], last_[kGroupSize];             // inclusive, ascending; first > last: no pixels
-  alignas(64) double start_[kGroupSize], rise_[kGroupSize], per_[kGroupSize];  // the minor coordinate of a step: floor((start + step rise) per)
+  alignas(64) std::int32_t x_major_[kGroupSize];  // -1 or 0
+  alignas(64) std::int32_t first_[kGroupSize],
+      last_[kGroupSize];  // inclusive, ascending; first > last: no pixels
+  alignas(64) double start_[kGroupSize], rise_[kGroupSize],
+      per_[kGroupSize];  // the minor coordinate of a step: floor((start + step rise) per)
 };
 
 }  // namespace HWY_NAMESPACE

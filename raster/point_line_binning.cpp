@@ -10,7 +10,8 @@ namespace {
 
 LinePoint point_of(const WindowVertex& v) { return {v.x, v.y}; }
 
-// Window coordinates are off by half of 1/256 pixel: only within a whole one of the viewport's border are they not enough to tell.
+// Window coordinates are off by half of 1/256 pixel: only within a whole one of the viewport's border are
+// they not enough to tell.
 bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v) {
   const VertexTransform& t = *draw.transform;
   const double x = std::abs(static_cast<double>(v.x) - t.center_x) - kSubpixelScale * t.half_width;
@@ -22,7 +23,8 @@ bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v
 
 PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
   if (draw.samples == 1) return intersect(point_square(at, whole_size(draw.size)), draw.rect);
-  const std::int32_t reach = (whole_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
+  const std::int32_t reach =
+      (whole_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
   return intersect(pixels_near(at, at, reach), draw.rect);
 }
 
@@ -32,13 +34,15 @@ struct TileSpan {
   int columns;         // of the grid
   TileSpan(const TileGrid& grid, const PixelRect& pixels) {
     const int shift = std::countr_zero(static_cast<unsigned>(grid.tile_size));
-    x0 = pixels.x0 >> shift, y0 = pixels.y0 >> shift, x1 = (pixels.x1 - 1) >> shift, y1 = (pixels.y1 - 1) >> shift;
+    x0 = pixels.x0 >> shift, y0 = pixels.y0 >> shift, x1 = (pixels.x1 - 1) >> shift,
+    y1 = (pixels.y1 - 1) >> shift;
     columns = (grid.width_px + grid.tile_size - 1) >> shift;
   }
 };
 
 // Into the tiles that it may have pixels in. Returns whether there are any.
-bool bin_line(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint a, LinePoint b, std::uint32_t id) {
+bool bin_line(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint a, LinePoint b,
+              std::uint32_t id) {
   const std::int32_t reach = line_reach(draw.size, draw.samples);
   const PixelRect pixels = intersect(pixels_near(a, b, reach), draw.rect);
   if (pixels.empty()) return false;
@@ -48,7 +52,8 @@ bool bin_line(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint a
     bins.push(y0 * tiles.columns + x0, draw.draw, id);
     return true;
   }
-  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y, half = std::int64_t{size} * kHalfPixel;
+  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y,
+                     half = std::int64_t{size} * kHalfPixel;
   const std::int64_t most = (std::abs(dx) + std::abs(dy)) * (half + reach);
   for (int ty = y0; ty <= y1; ++ty)
     for (int tx = x0; tx <= x1; ++tx) {
@@ -69,7 +74,8 @@ bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint
 
 // Clips a line that has codes. False if nothing is left, else its piece stands last.
 bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t codes) {
-  ClipVertex ends[2] = {clip_vertex(draw, vertex_index<2>(draw, line, 0), draw.attribute_count), clip_vertex(draw, vertex_index<2>(draw, line, 1), draw.attribute_count)};
+  ClipVertex ends[2] = {clip_vertex(draw, vertex_index<2>(draw, line, 0), draw.attribute_count),
+                        clip_vertex(draw, vertex_index<2>(draw, line, 1), draw.attribute_count)};
   if (!clip_line(*draw.transform, ends, codes, draw.attribute_count)) return false;
   Piece& piece = bins.add_piece(line, 2, draw.attribute_count);
   for (int k = 0; k < 2; ++k) {
@@ -81,13 +87,17 @@ bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::ui
 
 }  // namespace
 
-bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) { return bin_square(bins, grid, draw, point_of(bins.last_piece().vertices[0]), bins.id_of_last_piece()); }
+bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
+  return bin_square(bins, grid, draw, point_of(bins.last_piece().vertices[0]), bins.id_of_last_piece());
+}
 bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
   const Piece& piece = bins.last_piece();
-  return bin_line(bins, grid, draw, point_of(piece.vertices[0]), point_of(piece.vertices[1]), bins.id_of_last_piece());
+  return bin_line(bins, grid, draw, point_of(piece.vertices[0]), point_of(piece.vertices[1]),
+                  bins.id_of_last_piece());
 }
 
-void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
+void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+                std::uint32_t last) {
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
   for (std::uint32_t point = first; point < last; ++point) {
@@ -98,11 +108,14 @@ void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint
       continue;
     }
     const WindowVertex& v = draw.vertices[vertex];
-    ++(codes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point) ? counts.binned : counts.outside);
+    ++(codes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point)
+           ? counts.binned
+           : counts.outside);
   }
 }
 
-void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last) {
+void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+               std::uint32_t last) {
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
   for (std::uint32_t line = first; line < last; ++line) {

@@ -1,4 +1,5 @@
-// Which pixels and samples points and lines cover, in exact integers of 1/256 pixel. Lines of one sample: line_walk.h, line_steps-inl.h.
+// Which pixels and samples points and lines cover, in exact integers of 1/256 pixel. Lines of one sample:
+// line_walk.h, line_steps-inl.h.
 #pragma once
 
 #include <algorithm>
@@ -10,30 +11,39 @@
 
 namespace tessera {
 
-/// Points and lines that are larger, in pixels, are drawn at this size, which more than covers any frame buffer.
+/// Points and lines that are larger, in pixels, are drawn at this size, which more than covers any frame
+/// buffer.
 inline constexpr float kMaxPointLineSize = 65536;
 
 /// The size in pixels where pixels have one sample: rounded, halves up, at least 1 [GL 2.1, 3.3 and 3.4].
-inline int whole_size(float size) { return std::max(1, static_cast<int>(std::floor(std::min(size, kMaxPointLineSize) + 0.5f))); }
+inline int whole_size(float size) {
+  return std::max(1, static_cast<int>(std::floor(std::min(size, kMaxPointLineSize) + 0.5f)));
+}
 /// In 1/256 pixel, where they have several: sizes are snapped as positions are.
 inline std::int32_t snapped_size(float size) {
-  return std::max(1, static_cast<std::int32_t>(std::floor(static_cast<double>(std::min(size, kMaxPointLineSize)) * kSubpixelScale + 0.5)));
+  return std::max(1, static_cast<std::int32_t>(std::floor(
+                         static_cast<double>(std::min(size, kMaxPointLineSize)) * kSubpixelScale + 0.5)));
 }
 
-/// Of what covers pixels with one sample the centre is within this of a line along each axis, in 1/256 pixel. Of others too: a sample is less than half a
-/// pixel from the centre, and by less whole sizes differ from snapped ones.
-inline std::int32_t line_reach(float width, int samples) { return samples == 1 ? whole_size(width) * kHalfPixel : (snapped_size(width) + 1) / 2 + kHalfPixel; }
+/// Of what covers pixels with one sample the centre is within this of a line along each axis, in 1/256 pixel.
+/// Of others too: a sample is less than half a pixel from the centre, and by less whole sizes differ from
+/// snapped ones.
+inline std::int32_t line_reach(float width, int samples) {
+  return samples == 1 ? whole_size(width) * kHalfPixel : (snapped_size(width) + 1) / 2 + kHalfPixel;
+}
 
 /// The pixels whose centres are within `reach` of a line along each axis.
 constexpr PixelRect pixels_near(LinePoint a, LinePoint b, std::int32_t reach) {
-  return {first_pixel(std::min(a.x, b.x) - reach), first_pixel(std::min(a.y, b.y) - reach), last_pixel(std::max(a.x, b.x) + reach) + 1, last_pixel(std::max(a.y, b.y) + reach) + 1};
+  return {first_pixel(std::min(a.x, b.x) - reach), first_pixel(std::min(a.y, b.y) - reach),
+          last_pixel(std::max(a.x, b.x) + reach) + 1, last_pixel(std::max(a.y, b.y) + reach) + 1};
 }
 
-/// The square of a point of `size` pixels: an odd size lies around the pixel that holds the point, an even one around the nearest
-/// corner of pixels. On a border, what lies to the right or above has it.
+/// The square of a point of `size` pixels: an odd size lies around the pixel that holds the point, an even
+/// one around the nearest corner of pixels. On a border, what lies to the right or above has it.
 constexpr PixelRect point_square(LinePoint at, int size) {
   const bool odd = size % 2 != 0;
-  const int x = (odd ? at.x : at.x + kHalfPixel) >> kSubpixelBits, y = (odd ? at.y - 1 : at.y + kHalfPixel - 1) >> kSubpixelBits;
+  const int x = (odd ? at.x : at.x + kHalfPixel) >> kSubpixelBits,
+            y = (odd ? at.y - 1 : at.y + kHalfPixel - 1) >> kSubpixelBits;
   return {x - size / 2, y - size / 2, x - size / 2 + size, y - size / 2 + size};
 }
 
@@ -53,12 +63,16 @@ class PointDisc {
   std::int32_t diameter_;
 };
 
-/// A line of several samples: the rectangle of its width along it. Points on its border belong to it by the rule of polygons: those
-/// on a left or top side [GL 2.1, 3.4.4].
+/// A line of several samples: the rectangle of its width along it. Points on its border belong to it by the
+/// rule of polygons: those on a left or top side [GL 2.1, 3.4.4].
 class LineRectangle {
  public:
   /// @param width  snapped
-  LineRectangle(LinePoint a, LinePoint b, std::int32_t width) : a_(a), dx_(std::int64_t{b.x} - a.x), dy_(std::int64_t{b.y} - a.y), squared_length_(dx_ * dx_ + dy_ * dy_) {
+  LineRectangle(LinePoint a, LinePoint b, std::int32_t width)
+      : a_(a),
+        dx_(std::int64_t{b.x} - a.x),
+        dy_(std::int64_t{b.y} - a.y),
+        squared_length_(dx_ * dx_ + dy_ * dy_) {
     // The largest `half` with half <= width / 2 * length: 4 half^2 <= width^2 length^2.
     __extension__ using Wide = __int128;
     const Wide bound = Wide{width} * width * squared_length_;
@@ -76,9 +90,12 @@ class LineRectangle {
 
   bool covers(LinePoint p) const {
     const std::int64_t forward = along(p), aside = across(p);
-    if (forward < 0 || forward > squared_length_ || aside < -half_ || aside > half_ || squared_length_ == 0) return false;
+    if (forward < 0 || forward > squared_length_ || aside < -half_ || aside > half_ || squared_length_ == 0)
+      return false;
     // A side is a left one if what is inside lies to the right of it, a top one if that lies below it.
-    const auto owns = [](std::int64_t inside_x, std::int64_t inside_y) { return inside_x > 0 || (inside_x == 0 && inside_y > 0); };
+    const auto owns = [](std::int64_t inside_x, std::int64_t inside_y) {
+      return inside_x > 0 || (inside_x == 0 && inside_y > 0);
+    };
     if (forward == 0 && !owns(dx_, dy_)) return false;
     if (forward == squared_length_ && !owns(-dx_, -dy_)) return false;
     if (!meets_border_) return true;

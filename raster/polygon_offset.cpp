@@ -18,7 +18,8 @@ double depth_of(DepthKind kind, std::uint32_t z) {
 }
 
 // max(|dz/dx|, |dz/dy|), for each pixel. `area` is doubled.
-double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c, double area) {
+double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c,
+                double area) {
   const double z = depth_of(kind, a.z), to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
   const double by_x = to_b * (c.y - a.y) - to_c * (b.y - a.y), by_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
   return std::max(std::abs(by_x), std::abs(by_y)) * kSubpixelScale / area;
@@ -26,20 +27,24 @@ double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, co
 
 std::uint8_t codes_of(const BinDraw& draw, std::uint32_t triangle) {
   std::uint8_t codes = 0;
-  for (std::uint32_t k = 0; draw.any_code && k < 3; ++k) codes |= draw.codes[vertex_index<3>(draw, triangle, k)];
+  for (std::uint32_t k = 0; draw.any_code && k < 3; ++k)
+    codes |= draw.codes[vertex_index<3>(draw, triangle, k)];
   return codes;
 }
 
 WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
   const std::uint8_t codes = codes_of(draw, triangle);
   if (codes != 0) return clip_to_window(draw, triangle, codes, 0);
-  return WindowPolygon(draw.vertices[vertex_index<3>(draw, triangle, 0)], draw.vertices[vertex_index<3>(draw, triangle, 1)], draw.vertices[vertex_index<3>(draw, triangle, 2)]);
+  return WindowPolygon(draw.vertices[vertex_index<3>(draw, triangle, 0)],
+                       draw.vertices[vertex_index<3>(draw, triangle, 1)],
+                       draw.vertices[vertex_index<3>(draw, triangle, 2)]);
 }
 
 double slope_of(DepthKind kind, const WindowPolygon& triangle) {
   double slope = 0, largest = 0;
   for (const WindowPolygon::Corners& corner : triangle.triangles()) {
-    const WindowVertex &a = triangle.window[corner[0]], &b = triangle.window[corner[1]], &c = triangle.window[corner[2]];
+    const WindowVertex &a = triangle.window[corner[0]], &b = triangle.window[corner[1]],
+                       &c = triangle.window[corner[2]];
     const double area = std::abs(doubled_area(a, b, c));
     if (area <= largest) continue;
     largest = area;
@@ -53,25 +58,32 @@ double offset_of(const BinDraw& draw, float factor, float units, std::size_t fir
   double slope = 0, largest_area = 0, largest_depth = 0;
   for (std::size_t t = first; t < last; ++t) {
     const WindowPolygon triangle = in_window(draw, static_cast<std::uint32_t>(t));
-    for (int i = 0; i < triangle.clipped.count; ++i) largest_depth = std::max(largest_depth, depth_of(kind, triangle.window[i].z));
+    for (int i = 0; i < triangle.clipped.count; ++i)
+      largest_depth = std::max(largest_depth, depth_of(kind, triangle.window[i].z));
     if (std::abs(triangle.area) <= largest_area) continue;
     largest_area = std::abs(triangle.area);
     slope = slope_of(kind, triangle);
   }
-  const int exponent = kind != DepthKind::float32 ? 32 - depth_bits(kind) : std::max(largest_depth > 0 ? std::ilogb(largest_depth) : -126, -126) - 23;
+  const int exponent = kind != DepthKind::float32
+                           ? 32 - depth_bits(kind)
+                           : std::max(largest_depth > 0 ? std::ilogb(largest_depth) : -126, -126) - 23;
   return double{factor} * slope + std::ldexp(double{units}, exponent);
 }
 
 }  // namespace
 
-void offset_polygons(const BinDraw& draw, std::size_t each, float factor, float units, std::size_t first, std::size_t last, double* offsets) {
+void offset_polygons(const BinDraw& draw, std::size_t each, float factor, float units, std::size_t first,
+                     std::size_t last, double* offsets) {
   for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
     if (draw.facing == nullptr) {
       const std::uint8_t codes = codes_of(draw, static_cast<std::uint32_t>(begin));
       const bool is_cut = codes != 0 && (codes & kNonFinite) == 0;
-      offsets[begin] = is_cut ? offset_of(draw, factor, units, begin, begin + 1) : std::numeric_limits<double>::quiet_NaN();
+      offsets[begin] = is_cut ? offset_of(draw, factor, units, begin, begin + 1)
+                              : std::numeric_limits<double>::quiet_NaN();
     } else {
-      std::fill_n(offsets + begin, each, draw.facing[begin] != Facing::dropped ? offset_of(draw, factor, units, begin, begin + each) : 0.0);
+      std::fill_n(
+          offsets + begin, each,
+          draw.facing[begin] != Facing::dropped ? offset_of(draw, factor, units, begin, begin + each) : 0.0);
     }
   }
 }

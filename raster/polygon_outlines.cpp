@@ -11,7 +11,8 @@ namespace {
 bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
   auto& [vertices, window, clipper] = boundary;
   const std::size_t corners = draw.modes->triangles + 2;
-  const std::uint32_t* const polygon = draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
+  const std::uint32_t* const polygon =
+      draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
   vertices.clear();
   window.clear();
   std::uint8_t codes = 0, shared = draw.any_code ? 0xff : 0;
@@ -30,13 +31,16 @@ bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_
   return shared == 0;
 }
 
-void add_corner(Bins& bins, const BinDraw& draw, Piece& piece, int k, const ClippedBoundary& boundary, std::size_t corner) {
+void add_corner(Bins& bins, const BinDraw& draw, Piece& piece, int k, const ClippedBoundary& boundary,
+                std::size_t corner) {
   piece.vertices[k] = boundary.window[corner];
-  std::copy_n(boundary.vertices[corner].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
+  std::copy_n(boundary.vertices[corner].attributes, draw.attribute_count,
+              bins.attributes(piece) + k * draw.attribute_count);
 }
 
 // Of triangle `source`'s polygon. Returns whether any of it is seen.
-bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary, std::uint32_t source) {
+bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary,
+               std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
     Piece& piece = bins.add_piece(source, 2, draw.attribute_count);
@@ -48,7 +52,8 @@ bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Clip
   }
   return any;
 }
-bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary, std::uint32_t source) {
+bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary,
+                 std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
     if (!is_between_sides(boundary.vertices[i].position)) continue;
@@ -62,7 +67,8 @@ bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Cl
 
 }  // namespace
 
-void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first, std::uint32_t last, Isa isa) {
+void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+                  std::uint32_t last, Isa isa) {
   const PolygonModes& modes = *draw.modes;
   const auto each = static_cast<std::uint32_t>(modes.triangles);
   BinDraw filled = draw, lines = draw, corners = draw;
@@ -85,7 +91,8 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
       continue;
     } else {
       if (set_up(bins.boundary, draw, t)) counts.clipped += each;
-      const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, bins.boundary, t) : bin_corners(bins, grid, corners, bins.boundary, t);
+      const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, bins.boundary, t)
+                                                       : bin_corners(bins, grid, corners, bins.boundary, t);
       (is_seen ? counts.binned : counts.outside) += each;
     }
     counts.triangles_in += each;

@@ -1,6 +1,7 @@
-// Sets up the triangles of a tile's bin, a group at a time: edge functions with the fill rule, bounds, depth gradients.
-// Plain loops over the arrays of a group, which become lanes. Based on: J. Pineda, A Parallel Algorithm for Polygon
-// Rasterization, SIGGRAPH 1988; differs in that edges are exact integers, scaled down by 256 without losing their sign.
+// Sets up the triangles of a tile's bin, a group at a time: edge functions with the fill rule, bounds, depth
+// gradients. Plain loops over the arrays of a group, which become lanes. Based on: J. Pineda, A Parallel
+// Algorithm for Polygon Rasterization, SIGGRAPH 1988; differs in that edges are exact integers, scaled down
+// by 256 without losing their sign.
 #if defined(TESSERA_RASTER_TRIANGLE_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
 #undef TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
@@ -28,16 +29,19 @@ namespace HWY_NAMESPACE {
 /// A bit for each triangle of a group whose number is not 0.
 HWY_INLINE std::uint32_t bits_of(const std::int32_t (&numbers)[kGroupSize]) {
   std::uint32_t bits = 0;
-  for (int first = 0; first < kGroupSize; first += kLanes) bits |= mask_bits(kInt, hn::Ne(hn::Load(kInt, numbers + first), hn::Zero(kInt))) << first;
+  for (int first = 0; first < kGroupSize; first += kLanes)
+    bits |= mask_bits(kInt, hn::Ne(hn::Load(kInt, numbers + first), hn::Zero(kInt))) << first;
   return bits;
 }
 
-/// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0) is the tile's
-/// top left. Triangles without a pixel in `rect` get no bit in group.mask.
+/// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0)
+/// is the tile's top left. Triangles without a pixel in `rect` get no bit in group.mask.
 /// @param reach  how far from its centre a pixel is looked at, 1/256 pixel; bounds are those of such pixels
-inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, const PixelRect& rect, std::int32_t reach = 0) {
+inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, const PixelRect& rect,
+                                      std::int32_t reach = 0) {
   for (int i = 0; i < kGroupSize; ++i) {
-    const double dx1 = g.x[1][i] - g.x[0][i], dy1 = g.y[1][i] - g.y[0][i], dx2 = g.x[2][i] - g.x[0][i], dy2 = g.y[2][i] - g.y[0][i];
+    const double dx1 = g.x[1][i] - g.x[0][i], dy1 = g.y[1][i] - g.y[0][i], dx2 = g.x[2][i] - g.x[0][i],
+                 dy2 = g.y[2][i] - g.y[0][i];
     const double area = dx1 * dy2 - dx2 * dy1;  // exact
     g.signed_area[i] = area;
     g.area[i] = area < 0 ? -area : area;
@@ -45,49 +49,59 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   }
   for (int k = 0; k < 3; ++k) {
     // The edge opposite vertex k, from vertex p to vertex q.
-    const std::int32_t *px = g.x[(k + 1) % 3], *py = g.y[(k + 1) % 3], *qx = g.x[(k + 2) % 3], *qy = g.y[(k + 2) % 3];
+    const std::int32_t *px = g.x[(k + 1) % 3], *py = g.y[(k + 1) % 3], *qx = g.x[(k + 2) % 3],
+                       *qy = g.y[(k + 2) % 3];
     for (int i = 0; i < kGroupSize; ++i) {
       const std::int32_t flip = g.flip[i];
       const std::int32_t a = ((py[i] - qy[i]) ^ flip) - flip, b = ((qx[i] - px[i]) ^ flip) - flip;
-      // A pixel centre on a left edge (the inside is to its right) or a top edge (the inside is below it) belongs to the triangle.
+      // A pixel centre on a left edge (the inside is to its right) or a top edge (the inside is below it)
+      // belongs to the triangle.
       const bool top_left = a > 0 || (a == 0 && b > 0);
       const std::uint32_t ua = static_cast<std::uint32_t>(a), ub = static_cast<std::uint32_t>(b);
-      const std::int32_t at_anchor = static_cast<std::int32_t>(ua * static_cast<std::uint32_t>(kHalfPixel - (px[i] & 255)) +
-                                                               ub * static_cast<std::uint32_t>(kHalfPixel - (py[i] & 255)));
+      const std::int32_t at_anchor =
+          static_cast<std::int32_t>(ua * static_cast<std::uint32_t>(kHalfPixel - (px[i] & 255)) +
+                                    ub * static_cast<std::uint32_t>(kHalfPixel - (py[i] & 255)));
       const std::int32_t e = (at_anchor + (top_left ? 0 : -1)) >> kSubpixelBits;
       g.rest[k][i] = static_cast<float>(at_anchor - e * kSubpixelScale);
       g.a[k][i] = a;
       g.b[k][i] = b;
-      // Steps from the anchor's pixel to the tile's first one; wraps where that is far away, and comes right again at the
-      // pixels that count (kNarrowExtent).
-      g.e[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(e) + ua * static_cast<std::uint32_t>(tile_x - (px[i] >> 8)) +
+      // Steps from the anchor's pixel to the tile's first one; wraps where that is far away, and comes right
+      // again at the pixels that count (kNarrowExtent).
+      g.e[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(e) +
+                                            ua * static_cast<std::uint32_t>(tile_x - (px[i] >> 8)) +
                                             ub * static_cast<std::uint32_t>(tile_y - (py[i] >> 8)));
     }
   }
   alignas(64) std::int32_t visible[kGroupSize];
   const PixelRect bounds = rect;
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::int32_t low_x = least(g.x[0][i], g.x[1][i], g.x[2][i]), high_x = greatest(g.x[0][i], g.x[1][i], g.x[2][i]);
-    const std::int32_t low_y = least(g.y[0][i], g.y[1][i], g.y[2][i]), high_y = greatest(g.y[0][i], g.y[1][i], g.y[2][i]);
+    const std::int32_t low_x = least(g.x[0][i], g.x[1][i], g.x[2][i]),
+                       high_x = greatest(g.x[0][i], g.x[1][i], g.x[2][i]);
+    const std::int32_t low_y = least(g.y[0][i], g.y[1][i], g.y[2][i]),
+                       high_y = greatest(g.y[0][i], g.y[1][i], g.y[2][i]);
     g.x0[i] = greatest(first_pixel(low_x - reach) - tile_x, bounds.x0);
     g.y0[i] = greatest(first_pixel(low_y - reach) - tile_y, bounds.y0);
     g.x1[i] = least(last_pixel(high_x + reach) - tile_x, bounds.x1 - 1);
     g.y1[i] = least(last_pixel(high_y + reach) - tile_y, bounds.y1 - 1);
-    g.wide[i] = greatest(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale ? 1 : 0;
+    g.wide[i] =
+        greatest(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale
+            ? 1
+            : 0;
     visible[i] = ((g.x0[i] <= g.x1[i]) & (g.y0[i] <= g.y1[i])) ? 1 : 0;
   }
   g.mask = bits_of(visible) & of_first(g.count);
 }
 
-/// `value` * 2^kFraction modulo 2^64, to the nearest: whole and broken part each by the bits of a double, which is how lanes
-/// convert. Only the lowest 64 - kFraction bits of the whole part count.
+/// `value` * 2^kFraction modulo 2^64, to the nearest: whole and broken part each by the bits of a double,
+/// which is how lanes convert. Only the lowest 64 - kFraction bits of the whole part count.
 template <int kFraction>
 HWY_INLINE std::uint64_t fixed_modulo(double value) {
-  constexpr double kPeriod = kFraction == 32 ? 0x1p32 : 0x1p34, kScale = kFraction == 32 ? 0x1p32 : 0x1p30, kBias = 0x1.8p52;
+  constexpr double kPeriod = kFraction == 32 ? 0x1p32 : 0x1p34, kScale = kFraction == 32 ? 0x1p32 : 0x1p30,
+                   kBias = 0x1.8p52;
   const double turns = (value * (1 / kPeriod) + kBias) - kBias;  // to the nearest whole number
   const double rest = value - turns * kPeriod;                   // exact: |rest| <= kPeriod / 2
   const double whole_bits = rest + kBias, whole = whole_bits - kBias;
-  const double broken_bits = (rest - whole) * kScale + kBias;    // the difference is exact
+  const double broken_bits = (rest - whole) * kScale + kBias;  // the difference is exact
   std::uint64_t w, b;
   std::memcpy(&w, &whole_bits, sizeof w);
   std::memcpy(&b, &broken_bits, sizeof b);
@@ -97,14 +111,21 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
 
 /// What depth 0 is in a plane.
 template <int kFraction>
-inline constexpr std::uint64_t kPlaneZero = kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32Lift} << kUnorm32Fraction) + kUnorm32FractionLift : std::uint64_t{kUnormLift};
+inline constexpr std::uint64_t kPlaneZero =
+    kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32Lift} << kUnorm32Fraction) + kUnorm32FractionLift
+                                  : std::uint64_t{kUnormLift};
 
-/// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the anchor's pixel.
+/// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the
+/// anchor's pixel.
 template <int kFraction>
-HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy, SamplePosition from, int tile_x, int tile_y) {
+HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy,
+                                    SamplePosition from, int tile_x, int tile_y) {
   const std::int32_t x = g.anchor_x[i] - from.x, y = g.anchor_y[i] - from.y;
-  const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) + g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
-  return kPlaneZero<kFraction> + (std::uint64_t{g.anchor_z[i]} << kFraction) + fixed_modulo<kFraction>(to_center) + dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
+  const double to_center = g.depth_dx[i] * ((kHalfPixel - (x & 255)) * (1.0 / 256)) +
+                           g.depth_dy[i] * ((kHalfPixel - (y & 255)) * (1.0 / 256));
+  return kPlaneZero<kFraction> + (std::uint64_t{g.anchor_z[i]} << kFraction) +
+         fixed_modulo<kFraction>(to_center) +
+         dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
          dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
 }
 
@@ -112,7 +133,8 @@ HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t
 template <int kFraction>
 HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y) {
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]), dy = fixed_modulo<kFraction>(g.depth_dy[i]);
+    const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]),
+                        dy = fixed_modulo<kFraction>(g.depth_dy[i]);
     g.fixed_dx[i] = dx;
     g.fixed_dy[i] = dy;
     g.fixed_base[i] = fixed_base<kFraction>(g, i, dx, dy, {0, 0}, tile_x, tile_y);
@@ -141,27 +163,35 @@ ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int t
   const std::int32_t x = g.anchor_x[i] - from.x, y = g.anchor_y[i] - from.y;
   const std::uint64_t dx = fixed(Wide{nx} * kSubpixelScale), dy = fixed(Wide{ny} * kSubpixelScale);
   return {dx, dy,
-          kPlaneZero<kFraction> + (std::uint64_t{g.anchor_z[i]} << kFraction) + fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
-              dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) + dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)})};
+          kPlaneZero<kFraction> + (std::uint64_t{g.anchor_z[i]} << kFraction) +
+              fixed(Wide{nx} * (kHalfPixel - (x & 255)) + Wide{ny} * (kHalfPixel - (y & 255))) +
+              dx * static_cast<std::uint64_t>(std::int64_t{tile_x - (x >> 8)}) +
+              dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)})};
 }
 
 /// Depth planes of a group: in doubles where those are good for 2^-8 of a depth word, else exactly.
 template <int kFraction>
-HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGroupSize], int tile_x, int tile_y) {
+HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGroupSize], int tile_x,
+                                   int tile_y) {
   set_up_fixed_depth<kFraction>(g, tile_x, tile_y);
-  // A gradient is off by four roundings, 2^-51 of its terms, and counts once for each pixel from the anchor on, whose pixel's centre is less than
-  // two away. Fixed point rounds by half of its last place for each pixel. In places of fixed point, and times the area:
-  constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21, kSteps = 1.0 / (2 * kSubpixelScale), kLift = kFraction == 32 ? kUnormLift : kUnorm32FractionLift;
+  // A gradient is off by four roundings, 2^-51 of its terms, and counts once for each pixel from the anchor
+  // on, whose pixel's centre is less than two away. Fixed point rounds by half of its last place for each
+  // pixel. In places of fixed point, and times the area:
+  constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21, kSteps = 1.0 / (2 * kSubpixelScale),
+                   kLift = kFraction == 32 ? kUnormLift : kUnorm32FractionLift;
   alignas(64) double off[kGroupSize];
   alignas(64) std::int32_t rough[kGroupSize];
   for (int i = 0; i < kGroupSize; ++i) {
     double terms = 0, extents = 0;
     for (int k = 0; k < 3; ++k) {
-      const double steps = __builtin_fabs(static_cast<double>(g.a[k][i])) + __builtin_fabs(static_cast<double>(g.b[k][i]));
+      const double steps =
+          __builtin_fabs(static_cast<double>(g.a[k][i])) + __builtin_fabs(static_cast<double>(g.b[k][i]));
       terms += steps * __builtin_fabs(dz[k][i]);
       extents += steps;
     }
-    const double reach = 0.5 * extents + 4 * kSubpixelScale;  // in 1/256 pixel; the three edges go once there and once back, in x and in y
+    const double reach =
+        0.5 * extents +
+        4 * kSubpixelScale;  // in 1/256 pixel; the three edges go once there and once back, in x and in y
     off[i] = (terms * kGradients + g.area[i] * kSteps) * reach;
     rough[i] = off[i] > kLift * g.area[i] ? 1 : 0;
   }
@@ -205,16 +235,18 @@ HWY_INLINE double depth_number(std::uint32_t word) {
     std::memcpy(&f, &word, sizeof f);
     return f;
   } else {
-    return static_cast<double>(static_cast<std::int32_t>(word ^ 0x80000000u)) + 2147483648.0;  // the offset makes the word signed, which is what converts in lanes
+    return static_cast<double>(static_cast<std::int32_t>(word ^ 0x80000000u)) +
+           2147483648.0;  // the offset makes the word signed, which is what converts in lanes
   }
 }
 
-/// Gradients per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32). `dz` gets the differences from the anchor, of which
-/// one is 0: the sum of the two others is the same in any order.
+/// Gradients per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32). `dz` gets
+/// the differences from the anchor, of which one is 0: the sum of the two others is the same in any order.
 template <bool kFloat>
 HWY_INLINE void set_up_gradients(TriangleGroup& g, double (&dz)[3][kGroupSize]) {
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < kGroupSize; ++i) dz[k][i] = depth_number<kFloat>(g.z[k][i]) - depth_number<kFloat>(g.anchor_z[i]);
+    for (int i = 0; i < kGroupSize; ++i)
+      dz[k][i] = depth_number<kFloat>(g.z[k][i]) - depth_number<kFloat>(g.anchor_z[i]);
   for (int i = 0; i < kGroupSize; ++i) {
     const double scale = 256.0 / g.area[i];
     g.depth_dx[i] = (g.a[0][i] * dz[0][i] + g.a[1][i] * dz[1][i] + g.a[2][i] * dz[2][i]) * scale;
@@ -227,14 +259,14 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile
   set_up_anchors(g);
   if (kind == DepthKind::float32) return set_up_gradients<true>(g, dz);
   set_up_gradients<false>(g, dz);
-  if (kind == DepthKind::unorm32)
-    set_up_unorm_depth<kUnorm32Fraction>(g, dz, tile_x, tile_y);
-  else
-    set_up_unorm_depth<kUnormFraction>(g, dz, tile_x, tile_y);
+  if (kind == DepthKind::unorm32) set_up_unorm_depth<kUnorm32Fraction>(g, dz, tile_x, tile_y);
+  else set_up_unorm_depth<kUnormFraction>(g, dz, tile_x, tile_y);
 }
 
-/// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has unorm depth, set_up_depth
-inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples, DepthKind kind, int tile_x, int tile_y) {
+/// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has
+/// unorm depth, set_up_depth
+inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples, DepthKind kind,
+                                        int tile_x, int tile_y) {
   const SamplePosition* const positions = sample_positions(samples);
   for (int k = 0; k < 3; ++k) {
     alignas(64) std::int32_t highest[kGroupSize], at_center[kGroupSize];
@@ -245,34 +277,43 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
     }
     for (int s = 0; s < samples; ++s)
       for (int i = 0; i < kGroupSize; ++i) {
-        const std::int32_t moved = (at_center[i] + g.a[k][i] * positions[s].x + g.b[k][i] * positions[s].y) >> kSubpixelBits;
+        const std::int32_t moved =
+            (at_center[i] + g.a[k][i] * positions[s].x + g.b[k][i] * positions[s].y) >> kSubpixelBits;
         to.below[s][k][i] = moved;
         highest[i] = std::max(highest[i], moved);
       }
     for (int s = 0; s < samples; ++s)
       for (int i = 0; i < kGroupSize; ++i) to.below[s][k][i] -= highest[i];
-    for (int i = 0; i < kGroupSize; ++i) to.highest[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(g.e[k][i]) + static_cast<std::uint32_t>(highest[i]));
+    for (int i = 0; i < kGroupSize; ++i)
+      to.highest[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(g.e[k][i]) +
+                                                   static_cast<std::uint32_t>(highest[i]));
   }
   for (int s = 0; s < samples; ++s) {
     const SamplePosition at = positions[s];
     if (kind == DepthKind::unorm32) {
       for (int i = 0; i < kGroupSize; ++i)
-        to.fixed_base[s][i] = fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
+        to.fixed_base[s][i] =
+            fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
     } else if (kind != DepthKind::none && kind != DepthKind::float32) {
-      for (int i = 0; i < kGroupSize; ++i) to.fixed_base[s][i] = fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
+      for (int i = 0; i < kGroupSize; ++i)
+        to.fixed_base[s][i] =
+            fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
     }
     if (kind == DepthKind::none || kind == DepthKind::float32) continue;
     for (std::uint32_t left = g.rough; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
       if ((g.steep >> i & 1) != 0)
-        to.fixed_base[s][i] = (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y) : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y)).base;
+        to.fixed_base[s][i] =
+            (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y)
+                                        : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y))
+                .base;
       to.fixed_base[s][i] += g.further[i];
     }
   }
 }
 
-/// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k + shift_k, which is
-/// the barycentric coordinate times the vertex's 1/w, over the triangle's largest 1/w.
+/// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k +
+/// shift_k, which is the barycentric coordinate times the vertex's 1/w, over the triangle's largest 1/w.
 inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
   for (int i = 0; i < kGroupSize; ++i) {
     const float r0 = g.rw[0][i], r1 = g.rw[1][i], r2 = g.rw[2][i];
@@ -282,7 +323,8 @@ inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
     const float divisor = affine ? 1.0f : largest;
     const float inverse = static_cast<float>(1.0 / g.area[i]);
     for (int k = 0; k < 3; ++k) {
-      const float share = (affine ? 1.0f : g.rw[k][i]) / divisor, relative = share > kLeastWeight ? share : kLeastWeight;
+      const float share = (affine ? 1.0f : g.rw[k][i]) / divisor,
+                  relative = share > kLeastWeight ? share : kLeastWeight;
       g.unit_scale[k][i] = inverse * relative;
       g.scale[k][i] = 256.0f * (inverse * relative);
       g.shift[k][i] = g.rest[k][i] * (inverse * relative);

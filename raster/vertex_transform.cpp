@@ -1,5 +1,6 @@
-// Plain loops over arrays of a batch: the compiler turns them into lanes for each instruction set. Every step is one exact
-// IEEE operation, so all sets give the same bits. Where rows become columns and columns rows, Highway does it.
+// Plain loops over arrays of a batch: the compiler turns them into lanes for each instruction set. Every step
+// is one exact IEEE operation, so all sets give the same bits. Where rows become columns and columns rows,
+// Highway does it.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/vertex_transform.cpp"
 #include "framebuffer/lanes.h"
@@ -54,13 +55,15 @@ HWY_NOINLINE void gather_rows(StridedFloats rows, std::size_t count, double* x, 
 }
 
 // Positions as four arrays.
-HWY_INLINE void gather_positions(StridedFloats positions, int components, std::size_t count, PositionBatch& batch) {
+HWY_INLINE void gather_positions(StridedFloats positions, int components, std::size_t count,
+                                 PositionBatch& batch) {
   gather_rows(positions, count, batch.x, batch.y, batch.z);
-  for (std::size_t i = 0; i < kVertexBatch; ++i) batch.w[i] = i >= count ? 0.0f : components == 4 ? positions.at(i)[3] : 1.0f;
+  for (std::size_t i = 0; i < kVertexBatch; ++i)
+    batch.w[i] = i >= count ? 0.0f : components == 4 ? positions.at(i)[3] : 1.0f;
 }
 
-std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components, std::size_t count, WindowVertex* vertices,
-                                      std::uint8_t* codes) {
+std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
+                                      std::size_t count, WindowVertex* vertices, std::uint8_t* codes) {
   PositionBatch p;
   gather_positions(positions, components, count, p);
   alignas(64) double cx[kVertexBatch], cy[kVertexBatch], cz[kVertexBatch], cw[kVertexBatch];
@@ -78,7 +81,8 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   const double near_of_z = t.reversed ? -1 : 1, far_of_z = -near_of_z, far_of_w = t.reversed ? 0 : 1;
   for (int i = 0; i < kVertexBatch; ++i) {
     const double gx = t.guard_x * cw[i], gy = t.guard_y * cw[i];
-    const double near_z = __builtin_fma(near_of_z, cz[i], cw[i]), far_z = __builtin_fma(far_of_z, cz[i], far_of_w * cw[i]);
+    const double near_z = __builtin_fma(near_of_z, cz[i], cw[i]),
+                 far_z = __builtin_fma(far_of_z, cz[i], far_of_w * cw[i]);
     const double probe = cx[i] * 0 + cy[i] * 0 + cz[i] * 0 + cw[i] * 0;  // NaN where any is not finite
     double c = cx[i] < -gx ? bit(kLeftOfGuardBand) : 0.0;
     c += cx[i] > gx ? bit(kRightOfGuardBand) : 0.0;
@@ -102,7 +106,9 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   for (int i = 0; i < kVertexBatch; ++i) any_rough |= static_cast<std::int32_t>(rough[i]);
   for (std::size_t i = 0; any_rough != 0 && i < count; ++i) {
     if (rough[i] == 0) continue;
-    const TransformedVertex exact = transform_vertex(t, {static_cast<float>(p.x[i]), static_cast<float>(p.y[i]), static_cast<float>(p.z[i]), static_cast<float>(p.w[i])});
+    const TransformedVertex exact =
+        transform_vertex(t, {static_cast<float>(p.x[i]), static_cast<float>(p.y[i]),
+                             static_cast<float>(p.z[i]), static_cast<float>(p.w[i])});
     cx[i] = exact.position.x, cy[i] = exact.position.y, cz[i] = exact.position.z, cw[i] = exact.position.w;
     code[i] = exact.code;
   }
@@ -111,12 +117,14 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   alignas(64) double depth[kVertexBatch];
   const double unit_of_z = t.reversed ? 1 : 0.5, first_unit = t.reversed ? 0 : 0.5;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double w = code[i] == 0 ? cw[i] : 1.0, x = code[i] == 0 ? cx[i] : 0.0, y = code[i] == 0 ? cy[i] : 0.0, z = code[i] == 0 ? cz[i] : 0.0;
+    const double w = code[i] == 0 ? cw[i] : 1.0, x = code[i] == 0 ? cx[i] : 0.0,
+                 y = code[i] == 0 ? cy[i] : 0.0, z = code[i] == 0 ? cz[i] : 0.0;
     const double inverse_w = 1.0 / w;
     sx[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
     sy[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
     rw[i] = static_cast<float>(inverse_w);
-    const double ranged = __builtin_fma(__builtin_fma(z / w, unit_of_z, first_unit), t.depth_far - t.depth_near, t.depth_near);
+    const double ranged =
+        __builtin_fma(__builtin_fma(z / w, unit_of_z, first_unit), t.depth_far - t.depth_near, t.depth_near);
     const double low = ranged > 0 ? ranged : 0;
     depth[i] = low < 1 ? low : 1;
   }
@@ -128,10 +136,13 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     }
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
-    const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1), fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
-    // To the nearest fraction, but never to another level: so a depth in the middle of one, which roundings have moved a little, is that middle again.
+    const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1),
+                 fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
+    // To the nearest fraction, but never to another level: so a depth in the middle of one, which roundings
+    // have moved a little, is that middle again.
     for (int i = 0; i < kVertexBatch; ++i) {
-      const double level = depth[i] * levels + 0.5, nearest = __builtin_floor(level * fraction + 0.5), highest = __builtin_floor(level) * fraction + (fraction - 1);
+      const double level = depth[i] * levels + 0.5, nearest = __builtin_floor(level * fraction + 0.5),
+                   highest = __builtin_floor(level) * fraction + (fraction - 1);
       const double value = nearest < highest ? nearest : highest;
       sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
     }
@@ -139,14 +150,17 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
   }
   // Columns become rows, in memory of their own where there are fewer of them.
-  static_assert(offsetof(WindowVertex, x) == 0 && offsetof(WindowVertex, y) == 4 && offsetof(WindowVertex, z) == 8 && offsetof(WindowVertex, rw) == 12);
+  static_assert(offsetof(WindowVertex, x) == 0 && offsetof(WindowVertex, y) == 4 &&
+                offsetof(WindowVertex, z) == 8 && offsetof(WindowVertex, rw) == 12);
   alignas(64) std::int32_t rest[4 * kVertexBatch];
   auto* const rows = count == kVertexBatch ? reinterpret_cast<std::int32_t*>(vertices) : rest;
   constexpr hn::ScalableTag<std::int32_t> ints;
   const auto center_x = hn::Set(ints, t.center_x), center_y = hn::Set(ints, t.center_y);
   for (std::size_t i = 0; i < kVertexBatch; i += hn::Lanes(ints))
-    hn::StoreInterleaved4(hn::Add(center_x, hn::Load(ints, sx + i)), hn::Sub(center_y, hn::Load(ints, sy + i)), hn::Load(ints, reinterpret_cast<const std::int32_t*>(sz) + i),
-                          hn::BitCast(ints, hn::Load(hn::RebindToFloat<decltype(ints)>(), rw + i)), ints, rows + 4 * i);
+    hn::StoreInterleaved4(
+        hn::Add(center_x, hn::Load(ints, sx + i)), hn::Sub(center_y, hn::Load(ints, sy + i)),
+        hn::Load(ints, reinterpret_cast<const std::int32_t*>(sz) + i),
+        hn::BitCast(ints, hn::Load(hn::RebindToFloat<decltype(ints)>(), rw + i)), ints, rows + 4 * i);
   if (rows == rest) std::memcpy(vertices, rest, count * sizeof *vertices);
   int all_codes = 0;
   alignas(64) std::int32_t bits[kVertexBatch];
@@ -158,12 +172,14 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   return static_cast<std::uint8_t>(all_codes);
 }
 
-void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int components, std::size_t count, float* x, float* y, float* z) {
+void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int components, std::size_t count,
+                         float* x, float* y, float* z) {
   PositionBatch p;
   gather_positions(positions, components, count, p);
   const double* m = t.eye_from_object;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double px = p.x[i], py = p.y[i], pz = p.z[i], pw = p.w[i], w = row_times_point(m + 12, px, py, pz, pw);
+    const double px = p.x[i], py = p.y[i], pz = p.z[i], pw = p.w[i],
+                 w = row_times_point(m + 12, px, py, pz, pw);
     p.x[i] = row_times_point(m, px, py, pz, pw);
     p.y[i] = row_times_point(m + 4, px, py, pz, pw);
     p.z[i] = row_times_point(m + 8, px, py, pz, pw);
@@ -172,10 +188,12 @@ void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int com
   const bool keeps_w = m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
   if (components == 4 || !keeps_w)  // else w is 1, which changes nothing
     for (int i = 0; i < kVertexBatch; ++i) p.x[i] /= p.w[i], p.y[i] /= p.w[i], p.z[i] /= p.w[i];
-  for (int i = 0; i < kVertexBatch; ++i) x[i] = static_cast<float>(p.x[i]), y[i] = static_cast<float>(p.y[i]), z[i] = static_cast<float>(p.z[i]);
+  for (int i = 0; i < kVertexBatch; ++i)
+    x[i] = static_cast<float>(p.x[i]), y[i] = static_cast<float>(p.y[i]), z[i] = static_cast<float>(p.z[i]);
 }
 
-void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t count, float* x, float* y, float* z) {
+void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t count, float* x, float* y,
+                       float* z) {
   alignas(64) double nx[kVertexBatch], ny[kVertexBatch], nz[kVertexBatch];
   gather_rows(normals, count, nx, ny, nz);
   const double* m = t.normal_matrix;
@@ -189,14 +207,18 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
   };
   const auto [shortest, longest] = t.normal_lengths;
   if (shortest == 0) {
-    carry([&](int i, double ex, double ey, double ez) HWY_ATTR { x[i] = static_cast<float>(ex), y[i] = static_cast<float>(ey), z[i] = static_cast<float>(ez); });
+    carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
+      x[i] = static_cast<float>(ex), y[i] = static_cast<float>(ey), z[i] = static_cast<float>(ez);
+    });
     return;
   }
-  const double least = shortest * shortest, most = longest * longest, per_shortest = 1 / shortest, per_longest = 1 / longest;
+  const double least = shortest * shortest, most = longest * longest, per_shortest = 1 / shortest,
+               per_longest = 1 / longest;
   carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
     const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
-    const bool is_short = squared > 0 && squared < least, is_long = squared > most;
-    const double length = is_short || is_long ? __builtin_sqrt(squared) * (is_short ? per_shortest : per_longest) : 1.0;
+    const bool is_short = squared > 0 && squared<least, is_long = squared> most;
+    const double length =
+        is_short || is_long ? __builtin_sqrt(squared) * (is_short ? per_shortest : per_longest) : 1.0;
     x[i] = static_cast<float>(ex / length);
     y[i] = static_cast<float>(ey / length);
     z[i] = static_cast<float>(ez / length);
@@ -223,7 +245,8 @@ ClipPosition clip_position(const VertexTransform& t, double x, double y, double 
 }
 
 std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
-  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w)) return kNonFinite;
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w))
+    return kNonFinite;
   std::uint8_t code = 0;
   if (p.x < -(t.guard_x * p.w)) code |= kLeftOfGuardBand;
   if (p.x > t.guard_x * p.w) code |= kRightOfGuardBand;
@@ -235,21 +258,25 @@ std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
   return code;
 }
 
-// Whether all of a row's products with floats, and their sum, are exact: one product, of no more than 29 digits and far from what doubles end with.
+// Whether all of a row's products with floats, and their sum, are exact: one product, of no more than 29
+// digits and far from what doubles end with.
 static bool is_exact(const double* row) {
   int terms = 0;
   for (int column = 0; column < 4; ++column) {
     const double size = std::abs(row[column]);
     if (size == 0) continue;
     ++terms;
-    if (size < 0x1p-800 || size > 0x1p800 || std::bit_cast<std::uint64_t>(size) % (1 << 24) != 0) return false;
+    if (size < 0x1p-800 || size > 0x1p800 || std::bit_cast<std::uint64_t>(size) % (1 << 24) != 0)
+      return false;
   }
   return terms <= 1;
 }
 
-// With u = 2^-53 and S the sum of a coordinate's sizes, it is off by 4 u S (its four roundings), a distance z + w by twice that and by its own rounding, one from the
-// guard band by 1 + guard times it: 2^-49 of S is twice as much. A distance of two exact coordinates has the right sign; that of equal rows is 0 as it should be.
-// A w that is off by 2^-20 of itself moves what is seen by no more than that share of a guard band's width.
+// With u = 2^-53 and S the sum of a coordinate's sizes, it is off by 4 u S (its four roundings), a distance z
+// + w by twice that and by its own rounding, one from the guard band by 1 + guard times it: 2^-49 of S is
+// twice as much. A distance of two exact coordinates has the right sign; that of equal rows is 0 as it should
+// be. A w that is off by 2^-20 of itself moves what is seen by no more than that share of a guard band's
+// width.
 void VertexTransform::set_roughness() {
   const double* const m = clip_from_object;
   largest_linear = largest_offset = 0;
@@ -259,7 +286,10 @@ void VertexTransform::set_roughness() {
   }
   constexpr double kOfDepth = 0x1p-48, kNever = -1;
   const bool has_exact_z = is_exact(m + 8), has_exact_both = has_exact_z && is_exact(m + 12);
-  const auto alike = [&](double sign) { return std::equal(m + 8, m + 12, m + 12, [sign](double of_z, double of_w) { return of_z == sign * of_w; }); };
+  const auto alike = [&](double sign) {
+    return std::equal(m + 8, m + 12, m + 12,
+                      [sign](double of_z, double of_w) { return of_z == sign * of_w; });
+  };
   rough_near = has_exact_both || alike(reversed ? 1 : -1) ? kNever : kOfDepth;
   rough_far = has_exact_both || (reversed ? has_exact_z : alike(1)) ? kNever : kOfDepth;
   rough_x = (1 + guard_x) * 0x1p-49;
@@ -269,50 +299,63 @@ void VertexTransform::set_roughness() {
 
 static bool is_rough(const VertexTransform& t, const ClipPosition& p, double size) {
   const double near_z = t.reversed ? p.w - p.z : p.z + p.w, far_z = t.reversed ? p.z : p.w - p.z;
-  return std::abs(near_z) <= t.rough_near * size || std::abs(far_z) <= t.rough_far * size || std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.rough_x * size ||
-         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.rough_y * size || std::abs(p.w) <= t.rough_w * size;
+  return std::abs(near_z) <= t.rough_near * size || std::abs(far_z) <= t.rough_far * size ||
+         std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.rough_x * size ||
+         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.rough_y * size ||
+         std::abs(p.w) <= t.rough_w * size;
 }
 
 // Whether doubles hold a position: with all digits of what others are divided by.
 static bool is_held(const ClipPosition& p, bool has_w) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) && (!has_w || std::abs(p.w) >= std::numeric_limits<double>::min());
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) &&
+         (!has_w || std::abs(p.w) >= std::numeric_limits<double>::min());
 }
 
 TransformedVertex transform_vertex(const VertexTransform& t, const std::array<float, 4>& object) {
   TransformedVertex v{.position = clip_position(t, object[0], object[1], object[2], object[3])};
   v.code = clip_code(t, v.position);
-  if (v.code == kNonFinite || !is_rough(t, v.position, t.size_of_terms(object[0], object[1], object[2], object[3]))) return v;
-  const double size = std::max({std::abs(v.position.x), std::abs(v.position.y), std::abs(v.position.z), std::abs(v.position.w)});
-  const int exponent = size > 0 ? std::ilogb(size) : 0;  // of what is about 1 no distance overflows, unless its terms are 2^1000 times as large
+  if (v.code == kNonFinite ||
+      !is_rough(t, v.position, t.size_of_terms(object[0], object[1], object[2], object[3])))
+    return v;
+  const double size = std::max(
+      {std::abs(v.position.x), std::abs(v.position.y), std::abs(v.position.z), std::abs(v.position.w)});
+  const int exponent =
+      size > 0 ? std::ilogb(size)
+               : 0;  // of what is about 1 no distance overflows, unless its terms are 2^1000 times as large
   const ExactVertex exact(t, object, -exponent);
-  const ClipPosition p = exact.position(), scaled{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
+  const ClipPosition p = exact.position(), scaled{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
+                                                  std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
   if (!is_held(scaled, p.w != 0)) return v;
   return {.position = scaled, .code = exact.code(t), .is_rough = true};
 }
 
-// 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what was cut at the guard band
-// may lie beyond it, by any factor, and is put back.
+// 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what
+// was cut at the guard band may lie beyond it, by any factor, and is put back.
 static std::int32_t snapped(double pixels) {
   constexpr double kFarthest = kGuardBandPixels * kSubpixelScale;
-  return static_cast<std::int32_t>(std::clamp(std::floor(std::fma(pixels, kSubpixelScale, 0.5)), -kFarthest, kFarthest));
+  return static_cast<std::int32_t>(
+      std::clamp(std::floor(std::fma(pixels, kSubpixelScale, 0.5)), -kFarthest, kFarthest));
 }
 
 WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   WindowVertex v;
-  // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex exactly.
+  // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex
+  // exactly.
   v.x = t.center_x + snapped(p.x / p.w * t.half_width);
   v.y = t.center_y - snapped(p.y / p.w * t.half_height);
   v.rw = static_cast<float>(1.0 / p.w);
   const double unit = t.reversed ? p.z / p.w : std::fma(p.z / p.w, 0.5, 0.5);
   const double ranged = std::fma(unit, t.depth_far - t.depth_near, t.depth_near);
-  const double z = ranged > 0 ? std::min(ranged, 1.0) : 0;  // also where an infinite quotient met a range of no depth
+  const double z =
+      ranged > 0 ? std::min(ranged, 1.0) : 0;  // also where an infinite quotient met a range of no depth
   if (t.depth == DepthKind::float32) {
     v.z = depth_word(DepthKind::float32, z);
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
     const double levels = std::ldexp(1.0, bits) - 1;
     const double fraction = std::ldexp(1.0, 32 - bits), level = z * levels + 0.5;
-    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::min(std::floor(level * fraction + 0.5), std::floor(level) * fraction + (fraction - 1))));
+    v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(
+        std::min(std::floor(level * fraction + 0.5), std::floor(level) * fraction + (fraction - 1))));
   }
   return v;
 }

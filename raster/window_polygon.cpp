@@ -5,13 +5,15 @@
 
 namespace tessera {
 
-WindowPolygon::WindowPolygon(const VertexTransform& transform, const ClippedPolygon& polygon) : clipped(polygon) {
+WindowPolygon::WindowPolygon(const VertexTransform& transform, const ClippedPolygon& polygon)
+    : clipped(polygon) {
   for (int i = 0; i < clipped.count; ++i) window[i] = project(transform, clipped.vertices[i].position);
   for (int i = 2; i < clipped.count; ++i) area += doubled_area(window[0], window[i - 1], window[i]);
   if (!add_fan()) add_ears();
 }
 
-WindowPolygon::WindowPolygon(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) : window{a, b, c}, area(doubled_area(a, b, c)) {
+WindowPolygon::WindowPolygon(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c)
+    : window{a, b, c}, area(doubled_area(a, b, c)) {
   clipped.count = 3;
   add({0, 1, 2});
 }
@@ -22,14 +24,18 @@ double WindowPolygon::turn_of(const Corners& c) const {
   return area < 0 ? -turn : turn;
 }
 
-// What decides between corners is their place, so that the order of the triangle's vertices does not change what is drawn.
-bool WindowPolygon::is_before(int a, int b) const { return std::tie(window[a].y, window[a].x, window[a].z) < std::tie(window[b].y, window[b].x, window[b].z); }
+// What decides between corners is their place, so that the order of the triangle's vertices does not change
+// what is drawn.
+bool WindowPolygon::is_before(int a, int b) const {
+  return std::tie(window[a].y, window[a].x, window[a].z) < std::tie(window[b].y, window[b].x, window[b].z);
+}
 
 void WindowPolygon::add(const Corners& corners) {
   if (turn_of(corners) != 0) triangles_[static_cast<std::size_t>(count_++)] = corners;
 }
 
-// Around the topmost corner. False if a triangle is turned over: snapping has dented the polygon, and the others would cover the dent, which is a neighbour's.
+// Around the topmost corner. False if a triangle is turned over: snapping has dented the polygon, and the
+// others would cover the dent, which is a neighbour's.
 bool WindowPolygon::add_fan() {
   int first = 0;
   for (int i = 1; i < clipped.count; ++i)
@@ -44,18 +50,26 @@ bool WindowPolygon::add_fan() {
   return !turned;
 }
 
-// Cuts off one corner after the other, none together with which others would go. There is always one, unless edges cross.
+// Cuts off one corner after the other, none together with which others would go. There is always one, unless
+// edges cross.
 void WindowPolygon::add_ears() {
   std::array<int, kMaxClippedVertices> left{};
   for (int i = 0; i < clipped.count; ++i) left[static_cast<std::size_t>(i)] = i;
   for (int count = clipped.count; count > 2; --count) {
-    const auto ear_at = [&](int i) { return Corners{left[static_cast<std::size_t>((i + count - 1) % count)], left[static_cast<std::size_t>(i)], left[static_cast<std::size_t>((i + 1) % count)]}; };
+    const auto ear_at = [&](int i) {
+      return Corners{left[static_cast<std::size_t>((i + count - 1) % count)],
+                     left[static_cast<std::size_t>(i)], left[static_cast<std::size_t>((i + 1) % count)]};
+    };
     const auto is_ear = [&](const Corners& ear) {
       const auto holds = [&](int other) {
-        const bool is_corner = std::any_of(ear.begin(), ear.end(), [&](int c) { return window[c].x == window[other].x && window[c].y == window[other].y; });
-        return !is_corner && turn_of({ear[0], ear[1], other}) >= 0 && turn_of({ear[1], ear[2], other}) >= 0 && turn_of({ear[2], ear[0], other}) >= 0;
+        const bool is_corner = std::any_of(ear.begin(), ear.end(), [&](int c) {
+          return window[c].x == window[other].x && window[c].y == window[other].y;
+        });
+        return !is_corner && turn_of({ear[0], ear[1], other}) >= 0 && turn_of({ear[1], ear[2], other}) >= 0 &&
+               turn_of({ear[2], ear[0], other}) >= 0;
       };
-      return turn_of(ear) == 0 || (turn_of(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
+      return turn_of(ear) == 0 ||
+             (turn_of(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
     };
     int best = 0;
     bool found = false;

@@ -25,8 +25,10 @@ struct WindowPolygon {
   /// A triangle that is not clipped.
   WindowPolygon(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c);
 
-  /// Triangles that cover it exactly, the same ones wherever its corners begin and whichever way round; none without an area. They turn as it does, unless snapping made its edges cross: that happens to polygons
-  /// thinner than a step of the grid, which then overlap their neighbours, and all of it is drawn rather than holes left.
+  /// Triangles that cover it exactly, the same ones wherever its corners begin and whichever way round; none
+  /// without an area. They turn as it does, unless snapping made its edges cross: that happens to polygons
+  /// thinner than a step of the grid, which then overlap their neighbours, and all of it is drawn rather than
+  /// holes left.
   std::span<const Corners> triangles() const { return {triangles_.data(), static_cast<std::size_t>(count_)}; }
 
  private:

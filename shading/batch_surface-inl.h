@@ -22,23 +22,31 @@ struct BatchSurface {
   // Which attributes of its triangles' vertices go into which arrays of the batch.
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
-  bool adjacent = false;     // the arrays follow each other
-  bool keeps_range = false;  // of the triangles' vertices
+  bool adjacent = false;                 // the arrays follow each other
+  bool keeps_range = false;              // of the triangles' vertices
   const DrawTexture* texture = nullptr;  // or none
   TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
 
-  HWY_INLINE bool is_of(const ShadedTriangle& triangle) const { return draw == triangle.draw && back == triangle.back; }
+  HWY_INLINE bool is_of(const ShadedTriangle& triangle) const {
+    return draw == triangle.draw && back == triangle.back;
+  }
   /// No other surface has it: draws' numbers have 31 bits (kDrawMarker).
-  HWY_INLINE std::int32_t surface_number() const { return static_cast<std::int32_t>(2 * draw + (back ? 1 : 0)); }
+  HWY_INLINE std::int32_t surface_number() const {
+    return static_cast<std::int32_t>(2 * draw + (back ? 1 : 0));
+  }
 };
 
 /// The texture of a draw's faces: where indices are drawn, none has a say.
-HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) { return draw.index[back ? 1 : 0] ? nullptr : draw.texture; }
+HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) {
+  return draw.index[back ? 1 : 0] ? nullptr : draw.texture;
+}
 
-/// Whether a draw's attributes stay within those of a triangle's vertices: where pixels' centres may be outside; and colours, unless they keep away from the
-/// borders of levels already (scaled_colors). What lies beyond a line's end is as equation 3.6 has it.
+/// Whether a draw's attributes stay within those of a triangle's vertices: where pixels' centres may be
+/// outside; and colours, unless they keep away from the borders of levels already (scaled_colors). What lies
+/// beyond a line's end is as equation 3.6 has it.
 HWY_INLINE bool attributes_keep_range(const TileRun& run, const TileDraw& draw) {
-  return draw.topology != Topology::lines && (run.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
+  return draw.topology != Topology::lines &&
+         (run.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
 }
 
 /// Makes the batch one of another surface. @pre it is empty
@@ -48,7 +56,10 @@ HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const S
   surface.draw = triangle.draw;
   surface.back = back;
   surface.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
-  surface.attribute_count = per_pixel ? draw.attribute_count : draw.source == ColorSource::constant ? 0 : draw.index[back ? 1 : 0] ? 1 : 3;
+  surface.attribute_count = per_pixel                              ? draw.attribute_count
+                            : draw.source == ColorSource::constant ? 0
+                            : draw.index[back ? 1 : 0]             ? 1
+                                                                   : 3;
   surface.adjacent = true;
   for (int j = 0; j < surface.attribute_count; ++j) {
     surface.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
@@ -60,23 +71,36 @@ HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const S
 }
 
 /// Of a texture with levels: what its coordinates in a triangle are made of.
-HWY_INLINE const TextureCoordinates& coordinates_in(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
-  if (surface.coordinates.triangle != &triangle) surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture, run.frame.draws[surface.draw].topology == Topology::lines, run.samples);
+HWY_INLINE const TextureCoordinates& coordinates_in(const TileRun& run, BatchSurface& surface,
+                                                    const ShadedTriangle& triangle) {
+  if (surface.coordinates.triangle != &triangle)
+    surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture,
+                               run.frame.draws[surface.draw].topology == Topology::lines, run.samples);
   return surface.coordinates;
 }
-HWY_INLINE bool has_coordinates(const BatchSurface& surface) { return surface.texture != nullptr && surface.texture->levels != nullptr; }
-
-/// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
-inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, const Barycentric& at, LaneMask mask, int point) {
-  const auto lanes = hn::RebindMask(kFloat, mask);
-  coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR { store_where(lanes, value, kFloat, run.memory.batch.field[field] + point); });
+HWY_INLINE bool has_coordinates(const BatchSurface& surface) {
+  return surface.texture != nullptr && surface.texture->levels != nullptr;
 }
 
-/// How many attributes a surface has, where they stand in adjacent arrays and are not kept within a range, where there are no texture coordinates, and where the
-/// number is one that gather_piece() is made for; else 0.
+/// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
+inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& surface,
+                                            const ShadedTriangle& triangle, const Barycentric& at,
+                                            LaneMask mask, int point) {
+  const auto lanes = hn::RebindMask(kFloat, mask);
+  coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR {
+    store_where(lanes, value, kFloat, run.memory.batch.field[field] + point);
+  });
+}
+
+/// How many attributes a surface has, where they stand in adjacent arrays and are not kept within a range,
+/// where there are no texture coordinates, and where the number is one that gather_piece() is made for; else
+/// 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
-  return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.keeps_range && !has_coordinates(surface) ? count : 0;
+  return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.keeps_range &&
+                 !has_coordinates(surface)
+             ? count
+             : 0;
 }
 /// Calls run(known_count()) with a constant.
 template <class Run>
@@ -94,7 +118,8 @@ HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& run) {
 /// @param values  TriangleCorners or CornerArrays of the surface's attributes
 /// @param at      Barycentric of a chunk
 template <int kCount, class Values, class At>
-HWY_INLINE void gather_values(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, const Values& values, const At& at, std::uint32_t covered, int first) {
+HWY_INLINE void gather_values(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle,
+                              const Values& values, const At& at, std::uint32_t covered, int first) {
   const int count = kCount > 0 ? kCount : surface.attribute_count;
   float* const adjacent = kCount > 0 ? surface.target[0] : nullptr;
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
@@ -104,24 +129,36 @@ HWY_INLINE void gather_values(const TileRun& run, BatchSurface& surface, const S
     const Barycentric weights = at(chunk);
     const int point = first + chunk * kLanes;
     for (int j = 0; j < count; ++j) {
-      const Float value = kCount == 0 && surface.keeps_range ? interpolate_within(weights, corners(triangle, surface.first_attribute + j, true)) : interpolate(weights, values, j);
-      store_where(hn::RebindMask(kFloat, mask), value, kFloat, (kCount > 0 ? adjacent + j * kBatchPoints : surface.target[j]) + point);
+      const Float value =
+          kCount == 0 && surface.keeps_range
+              ? interpolate_within(weights, corners(triangle, surface.first_attribute + j, true))
+              : interpolate(weights, values, j);
+      store_where(hn::RebindMask(kFloat, mask), value, kFloat,
+                  (kCount > 0 ? adjacent + j * kBatchPoints : surface.target[j]) + point);
     }
-    if (kCount == 0 && has_coordinates(surface)) gather_coordinates(run, surface, triangle, weights, mask, point);
+    if (kCount == 0 && has_coordinates(surface))
+      gather_coordinates(run, surface, triangle, weights, mask, point);
   }
 }
 /// Compiled once: few triangles are wide, but points and lines all are.
-inline HWY_NOINLINE void gather_wide(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered, int first) {
+inline HWY_NOINLINE void gather_wide(const TileRun& run, BatchSurface& surface,
+                                     const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
+                                     int first) {
   const WideEdges& edges = run.memory.wide[static_cast<std::size_t>(triangle.wide)];
   const CornerArrays values(triangle, surface.first_attribute, surface.attribute_count);
-  gather_values<0>(run, surface, triangle, values, [&](int chunk) HWY_ATTR { return barycentric_wide(triangle, edges, bx, by, chunk); }, covered, first);
+  gather_values<0>(
+      run, surface, triangle, values,
+      [&](int chunk) HWY_ATTR { return barycentric_wide(triangle, edges, bx, by, chunk); }, covered, first);
 }
 /// gather_values() in the block at (bx, by).
 template <int kCount, class Values>
-HWY_INLINE void gather_piece(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle, const Values& values, int bx, int by, std::uint32_t covered, int first) {
+HWY_INLINE void gather_piece(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle,
+                             const Values& values, int bx, int by, std::uint32_t covered, int first) {
   if (HWY_UNLIKELY(triangle.wide >= 0)) return gather_wide(run, surface, triangle, bx, by, covered, first);
   const NarrowEdges edges(triangle, bx, by);
-  gather_values<kCount>(run, surface, triangle, values, [&](int chunk) HWY_ATTR { return edges.barycentric(chunk); }, covered, first);
+  gather_values<kCount>(
+      run, surface, triangle, values, [&](int chunk) HWY_ATTR { return edges.barycentric(chunk); }, covered,
+      first);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,6 +1,7 @@
-// Triangles whose blocks are a few boxes: as many blocks as there are lanes, four beside each other. What each block of a box needs comes about side by
-// side, and all that the triangle is made of stays in registers while its blocks are drawn. Twin: TrianglePixels, which draws the same pixels by any test
-// and of any size, with one lane or more.
+// Triangles whose blocks are a few boxes: as many blocks as there are lanes, four beside each other. What
+// each block of a box needs comes about side by side, and all that the triangle is made of stays in registers
+// while its blocks are drawn. Twin: TrianglePixels, which draws the same pixels by any test and of any size,
+// with one lane or more.
 #if defined(TESSERA_SHADING_BOX_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_BOX_PIXELS_INL_H_
 #undef TESSERA_SHADING_BOX_PIXELS_INL_H_
@@ -26,18 +27,22 @@ namespace HWY_NAMESPACE {
 template <Test kTest>
 inline constexpr bool kHasBoxes = kLanes > 1 && kTest == Test::less;
 
-/// What is known of a group's triangles before one of them is drawn: so early that the ways that drawing them takes are foretold in time.
+/// What is known of a group's triangles before one of them is drawn: so early that the ways that drawing them
+/// takes are foretold in time.
 struct BoxGroup {
-  /// So many beside, and so many below each other: beyond that most blocks are full, and rows of those are faster. With few registers more than one is no gain.
+  /// So many beside, and so many below each other: beyond that most blocks are full, and rows of those are
+  /// faster. With few registers more than one is no gain.
   static constexpr int kMostBoxes = kLanes == 16 ? 3 : 1;
-  std::uint32_t triangles = 0;                                     // those in boxes, a bit each
-  std::uint32_t singles = 0;                                       // and those of them in one
-  alignas(64) std::int32_t to_block[kLanes];                       // from the index of a box's first pixel to that of each block's
+  std::uint32_t triangles = 0;                // those in boxes, a bit each
+  std::uint32_t singles = 0;                  // and those of them in one
+  alignas(64) std::int32_t to_block[kLanes];  // from the index of a box's first pixel to that of each block's
   alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];           // the first box's first pixel
   alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];  // of blocks
   alignas(64) std::int32_t e[3][kGroupSize];                       // the edges there
-  alignas(64) std::int32_t to_highest[3][kGroupSize];              // and from a block's first pixel to where an edge is highest
-  // Of triangles in one box: the edges at a block's pixels, from its first; those at the blocks' first pixels; which blocks the triangle may cover.
+  alignas(64) std::int32_t
+      to_highest[3][kGroupSize];  // and from a block's first pixel to where an edge is highest
+  // Of triangles in one box: the edges at a block's pixels, from its first; those at the blocks' first
+  // pixels; which blocks the triangle may cover.
   alignas(64) std::int32_t offset[kGroupSize][3][kBlockPixels];
   alignas(64) std::int32_t start[kGroupSize][3][kLanes];
   std::uint32_t touched[kGroupSize];
@@ -45,11 +50,15 @@ struct BoxGroup {
   /// Compiled once for all depths and colours.
   /// @param among  triangles that are drawn by blocks
   HWY_NOINLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
-    const auto at = [](const std::int32_t* array, int first) HWY_ATTR { return hn::Load(kInt, array + first); };
-    hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt, to_block);
+    const auto at = [](const std::int32_t* array, int first)
+                        HWY_ATTR { return hn::Load(kInt, array + first); };
+    hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt,
+              to_block);
     for (int first = 0; first < kGroupSize; first += kLanes) {
-      const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)), one = splat(1), zero = hn::Zero(kInt);
-      const Int across = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.x1, first), first_x)), one), down = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.y1, first), first_y)), one);
+      const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)),
+                one = splat(1), zero = hn::Zero(kInt);
+      const Int across = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.x1, first), first_x)), one),
+                down = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.y1, first), first_y)), one);
       hn::Store(across, kInt, columns + first);
       hn::Store(down, kInt, rows + first);
       hn::Store(first_x, kInt, x + first);
@@ -59,13 +68,19 @@ struct BoxGroup {
         const Int a = at(g.a[k], first), b = at(g.b[k], first);
         const Int at_first = hn::Add(at(g.e[k], first), hn::Add(hn::Mul(a, first_x), hn::Mul(b, first_y)));
         hn::Store(at_first, kInt, e[k] + first);
-        hn::Store(hn::Mul(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), splat(3)), kInt, to_highest[k] + first);
+        hn::Store(hn::Mul(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), splat(3)), kInt,
+                  to_highest[k] + first);
         // As lowest_over_blocks() has it.
         const auto to_last = [&](Int blocks) HWY_ATTR { return hn::Sub(hn::ShiftLeft<2>(blocks), one); };
-        lowest = hn::Or(lowest, hn::Add(at_first, hn::Add(hn::Mul(to_last(across), hn::Min(a, zero)), hn::Mul(to_last(down), hn::Min(b, zero)))));
+        lowest = hn::Or(lowest, hn::Add(at_first, hn::Add(hn::Mul(to_last(across), hn::Min(a, zero)),
+                                                          hn::Mul(to_last(down), hn::Min(b, zero)))));
       }
-      const auto fit_in = [&](int boxes) HWY_ATTR { return mask_bits(kInt, hn::And(hn::Lt(across, splat(4 * boxes + 1)), hn::Lt(down, splat(kBoxRows * boxes + 1)))); };
-      const std::uint32_t narrow = mask_bits(kInt, hn::Eq(at(g.wide, first), zero)), has_borders = mask_bits(kInt, hn::Lt(lowest, zero));
+      const auto fit_in = [&](int boxes) HWY_ATTR {
+        return mask_bits(
+            kInt, hn::And(hn::Lt(across, splat(4 * boxes + 1)), hn::Lt(down, splat(kBoxRows * boxes + 1))));
+      };
+      const std::uint32_t narrow = mask_bits(kInt, hn::Eq(at(g.wide, first), zero)),
+                          has_borders = mask_bits(kInt, hn::Lt(lowest, zero));
       triangles |= (fit_in(kMostBoxes) & narrow & has_borders) << first;
       singles |= fit_in(1) << first;
     }
@@ -81,10 +96,12 @@ struct BoxGroup {
     return mask_bits(kInt, hn::Gt(highest, splat(-1))) & blocks_within(across, down);
   }
 
-  /// The edges at the first pixels of the first box's blocks; `to_pixels` gets what they are from there at a block's pixels.
+  /// The edges at the first pixels of the first box's blocks; `to_pixels` gets what they are from there at a
+  /// block's pixels.
   HWY_INLINE Int at_blocks(const TriangleGroup& g, int i, int k, Int (&to_pixels)[kChunksPerBlock]) const {
     const Int a = splat(g.a[k][i]), b = splat(g.b[k][i]);
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) to_pixels[chunk] = hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk)));
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      to_pixels[chunk] = hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk)));
     return hn::Add(splat(e[k][i]), hn::ShiftLeft<2>(to_pixels[0]));
   }
 
@@ -95,32 +112,41 @@ struct BoxGroup {
       Int to_pixels[kChunksPerBlock];
       at[k] = at_blocks(g, i, k, to_pixels);
       hn::Store(at[k], kInt, start[i][k]);
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) hn::Store(to_pixels[chunk], kInt, offset[i][k] + chunk * kLanes);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+        hn::Store(to_pixels[chunk], kInt, offset[i][k] + chunk * kLanes);
     }
     touched[i] = touched_blocks(i, at, columns[i], rows[i]);
   }
 };
 
-/// A triangle in boxes, of a draw that nothing but the test `less` stops, and that its rectangle does not cut.
+/// A triangle in boxes, of a draw that nothing but the test `less` stops, and that its rectangle does not
+/// cut.
 template <class Depth, Seen kSeen>
 struct BoxPixels {
   TileRun& run;
   const BoxGroup& boxes;
-  const int i;                // which of the group
+  const int i;  // which of the group
   Depth depth;
   WeightLanes weights;
   ScaledColor color;
-  std::int32_t value;         // the colour's word, or the number of a triangle that is collected
+  std::int32_t value;  // the colour's word, or the number of a triangle that is collected
   Int writable;
   Int offset[3][kChunksPerBlock];  // of the edges at a block's pixels
-  std::uint32_t seen = 0;     // how many pixels, or whether any that wait for their colour
+  std::uint32_t seen = 0;          // how many pixels, or whether any that wait for their colour
 
-  HWY_INLINE BoxPixels(TileRun& tile_run, const TileDraw& draw, const BoxGroup& group_boxes, int triangle, std::int32_t word_or_number, bool back)
-      : run(tile_run), boxes(group_boxes), i(triangle), value(word_or_number), writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
+  HWY_INLINE BoxPixels(TileRun& tile_run, const TileDraw& draw, const BoxGroup& group_boxes, int triangle,
+                       std::int32_t word_or_number, bool back)
+      : run(tile_run),
+        boxes(group_boxes),
+        i(triangle),
+        value(word_or_number),
+        writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
     const TriangleGroup& g = run.memory.group;
     if constexpr (kSeen == Seen::interpolate) {
       weights.set_up(g, i);
-      const auto from = [&](int corner) { return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0]; };
+      const auto from = [&](int corner) {
+        return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0];
+      };
       color.set_up(from(0), from(1), from(2), run.frame.layout);
     }
     depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
@@ -130,7 +156,8 @@ struct BoxPixels {
   HWY_INLINE void draw_single_box() {
     TESSERA_ASSERT(boxes.is_single(i));
     for (int k = 0; k < 3; ++k)
-      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) offset[k][chunk] = hn::Load(kInt, boxes.offset[i][k] + chunk * kLanes);
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+        offset[k][chunk] = hn::Load(kInt, boxes.offset[i][k] + chunk * kLanes);
     draw_blocks(boxes.touched[i], boxes.x[i], boxes.y[i], boxes.start[i]);
   }
   HWY_INLINE void draw_boxes() {
@@ -142,7 +169,8 @@ struct BoxPixels {
       for (int column = 0; column < boxes.columns[i]; column += 4) {
         alignas(64) std::int32_t start[3][kLanes];
         for (int k = 0; k < 3; ++k) hn::Store(at_blocks[k], kInt, start[k]);
-        draw_blocks(boxes.touched_blocks(i, at_blocks, boxes.columns[i] - column, boxes.rows[i] - row), boxes.x[i] + 4 * column, boxes.y[i] + 4 * row, start);
+        draw_blocks(boxes.touched_blocks(i, at_blocks, boxes.columns[i] - column, boxes.rows[i] - row),
+                    boxes.x[i] + 4 * column, boxes.y[i] + 4 * row, start);
         for (int k = 0; k < 3; ++k) at_blocks[k] = hn::Add(at_blocks[k], splat(16 * g.a[k][i]));
       }
       for (int k = 0; k < 3; ++k) in_row[k] = hn::Add(in_row[k], splat(4 * kBoxRows * g.b[k][i]));
@@ -156,13 +184,16 @@ struct BoxPixels {
     for (const int index = run.block_index(x, y); touched != 0; touched &= touched - 1) {
       const int block = std::countr_zero(touched);
       TESSERA_ASSERT(index + boxes.to_block[block] <= run.tile_size * run.tile_size - kBlockPixels);
-      draw_block(index + boxes.to_block[block], depth.block(box_depth, block), start[0][block], start[1][block], start[2][block]);
+      draw_block(index + boxes.to_block[block], depth.block(box_depth, block), start[0][block],
+                 start[1][block], start[2][block]);
     }
   }
   /// @param start  the edges at the block's first pixel
-  HWY_INLINE void draw_block(int index, const typename Depth::Block& block_depth, std::int32_t start0, std::int32_t start1, std::int32_t start2) {
+  HWY_INLINE void draw_block(int index, const typename Depth::Block& block_depth, std::int32_t start0,
+                             std::int32_t start1, std::int32_t start2) {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
-      const Int edge[3] = {hn::Add(offset[0][chunk], splat(start0)), hn::Add(offset[1][chunk], splat(start1)), hn::Add(offset[2][chunk], splat(start2))};
+      const Int edge[3] = {hn::Add(offset[0][chunk], splat(start0)), hn::Add(offset[1][chunk], splat(start1)),
+                           hn::Add(offset[2][chunk], splat(start2))};
       const auto covered = hn::Gt(hn::Or(hn::Or(edge[0], edge[1]), edge[2]), splat(-1));
       std::int32_t* const depth_at = run.memory.depth + index;
       const Int stored = hn::Load(kInt, depth_at), key = depth.keys(block_depth, chunk);
@@ -179,7 +210,8 @@ struct BoxPixels {
       hn::Store(hn::IfThenElse(mask, splat(value), hn::Load(kInt, id_at)), kInt, id_at);
       seen |= bits;
     } else {
-      if (kSeen == Seen::interpolate && bits == 0) return;  // words are stored without a look at the mask: a branch on it could not be foretold
+      if (kSeen == Seen::interpolate && bits == 0)
+        return;  // words are stored without a look at the mask: a branch on it could not be foretold
       seen += static_cast<std::uint32_t>(std::popcount(bits));
       Int words = splat(value);
       if constexpr (kSeen == Seen::interpolate) words = color.words(weights.at(edge[0], edge[1], edge[2]));
@@ -189,7 +221,8 @@ struct BoxPixels {
 };
 
 template <class Depth, Seen kSeen, bool kSingle>
-HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i, std::int32_t value, bool back) {
+HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i,
+                                            std::int32_t value, bool back) {
   BoxPixels<Depth, kSeen> pixels(run, draw, boxes, i, value, back);
   if constexpr (kSingle) pixels.draw_single_box();
   else pixels.draw_boxes();
@@ -199,7 +232,8 @@ HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileRun& run, const TileDraw& draw, 
 /// @param value  the colour's word, or the number of a triangle that is collected
 /// @return how many pixels were seen; if they wait for their colour, whether any was
 template <class Depth, Seen kSeen>
-HWY_INLINE std::uint32_t draw_in_boxes(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i, std::int32_t value, bool back) {
+HWY_INLINE std::uint32_t draw_in_boxes(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i,
+                                       std::int32_t value, bool back) {
   if constexpr (BoxGroup::kMostBoxes > 1) {
     if (!boxes.is_single(i)) return draw_in_boxes_of<Depth, kSeen, false>(run, draw, boxes, i, value, back);
   }

@@ -1,6 +1,6 @@
-// Shading once for each visible pixel: tiles collect which triangle is seen where; then the colours of whole batches of
-// pixels come about with full lanes. Attributes come about piece by piece, which is what one block shows of one triangle, with
-// masks: no attribute is gathered by pixel.
+// Shading once for each visible pixel: tiles collect which triangle is seen where; then the colours of whole
+// batches of pixels come about with full lanes. Attributes come about piece by piece, which is what one block
+// shows of one triangle, with masks: no attribute is gathered by pixel.
 #if defined(TESSERA_SHADING_DEFERRED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_DEFERRED_INL_H_
 #undef TESSERA_SHADING_DEFERRED_INL_H_
@@ -20,22 +20,24 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count);  // lighting.cpp, same instruction set
+void light_points_lanes(const LightingProgram& program, ShadingBatch& batch,
+                        int count);  // lighting.cpp, same instruction set
 
 inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
 static_assert(kBatchBlocks * kBlockPixels == kBatchPoints);
 
-/// Pixels of blocks that share a surface. Points of the batch that no triangle covers hold what was there before, any bits: nothing that is stored depends on them.
+/// Pixels of blocks that share a surface. Points of the batch that no triangle covers hold what was there
+/// before, any bits: nothing that is stored depends on them.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
-  int index[kBatchBlocks];              // of each block's first pixel in tile memory
+  int index[kBatchBlocks];  // of each block's first pixel in tile memory
   int bx[kBatchBlocks], by[kBatchBlocks];
   std::uint32_t covered[kBatchBlocks];  // 16 bits
   bool one_surface = false;             // all triangles that were collected are of one
 #if HWY_TARGET == HWY_AVX3
   // What is seen of one triangle in one block is a piece.
   alignas(64) std::int32_t ids[kBatchPoints];  // of the triangles seen at the blocks' pixels
-  int pieces = 0;                       // block by block; each has a pixel at least, so that there is room for a whole block's
+  int pieces = 0;  // block by block; each has a pixel at least, so that there is room for a whole block's
   std::int32_t triangle[kBatchPoints], slot[kBatchPoints];
 #endif
 };
@@ -45,37 +47,45 @@ HWY_INLINE Int pack_scaled(const ColorLayout& layout, const ShadingBatch& batch,
   const Int red = truncate(hn::Load(kFloat, batch.field[kColorR] + first));
   const Int green = truncate(hn::Load(kFloat, batch.field[kColorG] + first));
   const Int blue = truncate(hn::Load(kFloat, batch.field[kColorB] + first));
-  return hn::Or(hn::Or(hn::ShiftLeftSame(red, layout.r_shift()), hn::ShiftLeftSame(green, layout.g_shift())), blue);
+  return hn::Or(hn::Or(hn::ShiftLeftSame(red, layout.r_shift()), hn::ShiftLeftSame(green, layout.g_shift())),
+                blue);
 }
 
-/// Words of one chunk of pixels from colours in 0..1: each component floor(c (2^b - 1) + 0.5), or a grey, or the nearest entry.
-HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch, int first, std::uint32_t covered) {
+/// Words of one chunk of pixels from colours in 0..1: each component floor(c (2^b - 1) + 0.5), or a grey, or
+/// the nearest entry.
+HWY_INLINE Int quantize_chunk(const TileFrame& frame, const ShadingBatch& batch, int first,
+                              std::uint32_t covered) {
   const ColorLayout& layout = frame.layout;
-  const float *r = batch.field[kColorR] + first, *g = batch.field[kColorG] + first, *b = batch.field[kColorB] + first;
+  const float *r = batch.field[kColorR] + first, *g = batch.field[kColorG] + first,
+              *b = batch.field[kColorB] + first;
   if (layout.index || layout.luminance) {
     alignas(64) std::int32_t words[kLanes] = {};
     for (int l = 0; l < kLanes; ++l)
       if ((covered >> l & 1) != 0)
-        words[l] = static_cast<std::int32_t>(layout.index ? frame.palette_search->nearest(r[l], g[l], b[l]) : quantize_rgb(layout, r[l], g[l], b[l]));
+        words[l] = static_cast<std::int32_t>(layout.index ? frame.palette_search->nearest(r[l], g[l], b[l])
+                                                          : quantize_rgb(layout, r[l], g[l], b[l]));
     return hn::Load(kInt, words);
   }
   const auto level = [](const float* c, int bits) HWY_ATTR {
     return truncate(mul_add(hn::Load(kFloat, c), splat(static_cast<float>((1 << bits) - 1)), splat(0.5f)));
   };
-  return hn::Or(hn::Or(hn::ShiftLeftSame(level(r, layout.r_bits), layout.r_shift()), hn::ShiftLeftSame(level(g, layout.g_bits), layout.g_shift())),
+  return hn::Or(hn::Or(hn::ShiftLeftSame(level(r, layout.r_bits), layout.r_shift()),
+                       hn::ShiftLeftSame(level(g, layout.g_bits), layout.g_shift())),
                 level(b, layout.b_bits));
 }
 
-/// Words of masked indices, step by step index_word(). Beyond the ends of a line, and where a sample alone is covered, an index may have
-/// left its range: it comes back at the other end.
+/// Words of masked indices, step by step index_word(). Beyond the ends of a line, and where a sample alone is
+/// covered, an index may have left its range: it comes back at the other end.
 HWY_INLINE Int index_words(const ColorLayout& layout, Float interpolated) {
   const float modulus = layout.index_modulus();
   const Float turns = hn::Floor(hn::Mul(interpolated, splat(1 / modulus)));
-  const Float within = neg_mul_add(turns, splat(modulus), interpolated);  // exact, but for what is rounded up to the modulus
+  const Float within =
+      neg_mul_add(turns, splat(modulus), interpolated);  // exact, but for what is rounded up to the modulus
   const Float index = hn::IfThenElseZero(hn::Eq(within, within), within);  // a NaN is 0
   const Int whole = truncate(hn::Max(index, hn::Zero(kFloat)));
   const auto up = hn::RebindMask(kInt, hn::Ge(hn::Sub(index, hn::ConvertTo(kFloat, whole)), splat(0.5f)));
-  return hn::And(hn::Sub(whole, hn::VecFromMask(kInt, up)), splat(static_cast<std::int32_t>(layout.word_mask())));
+  return hn::And(hn::Sub(whole, hn::VecFromMask(kInt, up)),
+                 splat(static_cast<std::int32_t>(layout.word_mask())));
 }
 
 /// Lit points have normals of length 1 in the batch.
@@ -85,14 +95,17 @@ inline HWY_NOINLINE void store_normals(TileRun& run, int index, std::uint32_t co
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const auto mask = hn::RebindMask(kFloat, mask_from_bits(chunk_bits(covered, chunk)));
     for (int c = 0; c < 3; ++c)
-      store_where(mask, hn::Load(kFloat, run.memory.batch.field[kNormalX + c] + first + chunk * kLanes), kFloat, run.memory.normals->component[c] + index + chunk * kLanes);
+      store_where(mask, hn::Load(kFloat, run.memory.batch.field[kNormalX + c] + first + chunk * kLanes),
+                  kFloat, run.memory.normals->component[c] + index + chunk * kLanes);
   }
 }
 
 /// The colours of a draw that has one, for a texture to work on.
 HWY_INLINE void fill_colors(const TileDraw& draw, bool back, ShadingBatch& batch) {
   for (int c = 0; c < 3; ++c)
-    for (int point = 0; point < kBatchPoints; point += kLanes) hn::Store(splat(draw.color[back ? 1 : 0][static_cast<std::size_t>(c)]), kFloat, batch.field[kColorR + c] + point);
+    for (int point = 0; point < kBatchPoints; point += kLanes)
+      hn::Store(splat(draw.color[back ? 1 : 0][static_cast<std::size_t>(c)]), kFloat,
+                batch.field[kColorR + c] + point);
 }
 
 /// The colours of the first `count` points, and of the rest of their vector. What was extrapolated is cut.
@@ -104,7 +117,8 @@ HWY_INLINE void clamp_colors(ShadingBatch& batch, int count) {
     }
 }
 
-/// The colours of the first `count` points, whole vectors of lanes, under the texture. What follows them in the batch may be anything.
+/// The colours of the first `count` points, whole vectors of lanes, under the texture. What follows them in
+/// the batch may be anything.
 inline HWY_NOINLINE void texture_points(const DrawTexture& texture, ShadingBatch& batch, int count) {
   if (texture.levels != nullptr) sample_texture_lanes(*texture.levels, batch, count);
   for (int point = 0; point < count; point += kLanes) {
@@ -119,7 +133,8 @@ inline HWY_NOINLINE void texture_points(const DrawTexture& texture, ShadingBatch
 template <class Compare>
 HWY_INLINE std::uint32_t pixels_where(const std::int32_t* ids, Compare compare) {
   std::uint32_t bits = 0;
-  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) bits |= mask_bits(kInt, compare(hn::Load(kInt, ids + chunk * kLanes))) << (chunk * kLanes);
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+    bits |= mask_bits(kInt, compare(hn::Load(kInt, ids + chunk * kLanes))) << (chunk * kLanes);
   return bits;
 }
 HWY_INLINE std::uint32_t pixels_of(const std::int32_t* ids, std::int32_t id) {
@@ -129,27 +144,34 @@ HWY_INLINE std::uint32_t pixels_of(const std::int32_t* ids, std::int32_t id) {
 
 /// Gathers the pixels of one triangle in the block of a slot.
 template <int kCount>
-HWY_INLINE void gather_seen(const TileRun& run, PixelBatch& pixels, int slot, const ShadedTriangle& triangle, const TriangleCorners& corners, std::uint32_t covered) {
+HWY_INLINE void gather_seen(const TileRun& run, PixelBatch& pixels, int slot, const ShadedTriangle& triangle,
+                            const TriangleCorners& corners, std::uint32_t covered) {
   static_assert(kCount <= TriangleCorners::kMost);
   const int bx = pixels.bx[slot], by = pixels.by[slot], first = slot * kBlockPixels;
   if constexpr (kCount > 0) gather_piece<kCount>(run, pixels, triangle, corners, bx, by, covered, first);
-  else gather_piece<0>(run, pixels, triangle, CornerArrays(triangle, pixels.first_attribute, pixels.attribute_count), bx, by, covered, first);
+  else
+    gather_piece<0>(run, pixels, triangle,
+                    CornerArrays(triangle, pixels.first_attribute, pixels.attribute_count), bx, by, covered,
+                    first);
 }
 
-// Two ways of taking the pixels of the batch's surface into its next slot, both of which return which pixels they are.
+// Two ways of taking the pixels of the batch's surface into its next slot, both of which return which pixels
+// they are.
 //
 //   ids      of the block's pixels
 //   waiting  pixels whose triangles have not been taken
 #if HWY_TARGET == HWY_AVX3
-// The first pixels of a block's triangles are found side by side, and all that the batch shows of one triangle in one block is gathered afterwards, one after
-// the other: what cannot be foretold, how many triangles a block has, does not hold up the long sums.
+// The first pixels of a block's triangles are found side by side, and all that the batch shows of one
+// triangle in one block is gathered afterwards, one after the other: what cannot be foretold, how many
+// triangles a block has, does not hold up the long sums.
 
 template <int kCount>
 HWY_NOINLINE void gather_pieces(const TileRun& run, PixelBatch& pixels) {
   for (int i = 0; i < pixels.pieces; ++i) {
     const int slot = pixels.slot[i];
     const std::int32_t id = pixels.triangle[i];
-    gather_seen<kCount>(run, pixels, slot, run.memory.triangles[static_cast<std::size_t>(id)], run.memory.corners[id], pixels_of(pixels.ids + slot * kBlockPixels, id));
+    gather_seen<kCount>(run, pixels, slot, run.memory.triangles[static_cast<std::size_t>(id)],
+                        run.memory.corners[id], pixels_of(pixels.ids + slot * kBlockPixels, id));
   }
 }
 HWY_INLINE void gather_found(const TileRun& run, PixelBatch& pixels) {
@@ -157,11 +179,14 @@ HWY_INLINE void gather_found(const TileRun& run, PixelBatch& pixels) {
   pixels.pieces = 0;
 }
 
-HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting) {
+HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids,
+                                        std::uint32_t waiting) {
   TESSERA_ASSERT(pixels.pieces <= pixels.blocks * kBlockPixels);
   const Int at = hn::Load(kInt, ids);
   std::uint32_t covered = waiting;
-  if (!pixels.one_surface) covered &= mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, run.memory.surfaces, hn::Max(at, hn::Zero(kInt))), splat(pixels.surface_number())));
+  if (!pixels.one_surface)
+    covered &= mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, run.memory.surfaces, hn::Max(at, hn::Zero(kInt))),
+                                      splat(pixels.surface_number())));
   const std::uint32_t first = covered & ~mask_bits(kInt, repeated(at));
   hn::StoreU(hn::Compress(at, mask_from_bits(first)), kInt, pixels.triangle + pixels.pieces);
   hn::StoreU(splat(pixels.blocks), kInt, pixels.slot + pixels.pieces);
@@ -172,7 +197,8 @@ HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, 
 #else
 HWY_INLINE void gather_found(const TileRun&, PixelBatch&) {}
 
-HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids, std::uint32_t waiting) {
+HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, const std::int32_t* ids,
+                                        std::uint32_t waiting) {
   std::uint32_t taken = 0;
   for (std::uint32_t left = waiting; left != 0;) {
     const std::int32_t id = ids[std::countr_zero(left)];
@@ -180,7 +206,9 @@ HWY_INLINE std::uint32_t take_triangles(const TileRun& run, PixelBatch& pixels, 
     left &= ~covered;
     if (run.memory.surfaces[id] != pixels.surface_number()) continue;
     const ShadedTriangle& triangle = run.memory.triangles[static_cast<std::size_t>(id)];
-    with_known_count(pixels, [&](auto count) HWY_ATTR { gather_seen<count.value>(run, pixels, pixels.blocks, triangle, run.memory.corners[id], covered); });
+    with_known_count(pixels, [&](auto count) HWY_ATTR {
+      gather_seen<count.value>(run, pixels, pixels.blocks, triangle, run.memory.corners[id], covered);
+    });
     taken |= covered;
   }
   return taken;
@@ -196,9 +224,12 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
   const bool per_pixel = draw.source == ColorSource::per_pixel;
   if (per_pixel) light_points_lanes(*draw.programs[pixels.back ? 1 : 0], batch, pixels.blocks * kBlockPixels);
   if (draw.captures_normals)
-    for (int slot = 0; slot < pixels.blocks; ++slot) store_normals(run, pixels.index[slot], pixels.covered[slot], slot * kBlockPixels);
+    for (int slot = 0; slot < pixels.blocks; ++slot)
+      store_normals(run, pixels.index[slot], pixels.covered[slot], slot * kBlockPixels);
   // Pixels of a line may lie beyond its ends.
-  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated && !draw.index[pixels.back ? 1 : 0]) clamp_colors(batch, pixels.blocks * kBlockPixels);
+  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated &&
+      !draw.index[pixels.back ? 1 : 0])
+    clamp_colors(batch, pixels.blocks * kBlockPixels);
   if (pixels.texture != nullptr) {
     if (draw.source == ColorSource::constant) fill_colors(draw, pixels.back, batch);
     texture_points(*pixels.texture, batch, pixels.blocks * kBlockPixels);
@@ -209,16 +240,20 @@ inline HWY_NOINLINE void shade_batch(TileRun& run, PixelBatch& pixels) {
       const std::uint32_t covered_lanes = chunk_bits(pixels.covered[slot], chunk);
       if (covered_lanes == 0) continue;
       const int first = slot * kBlockPixels + chunk * kLanes;
-      const Int words = draw.index[pixels.back ? 1 : 0]      ? index_words(run.frame.layout, hn::Load(kFloat, batch.field[kColorR] + first))
-                        : !per_pixel && draw.scaled_colors ? pack_scaled(run.frame.layout, batch, first)
-                                                           : quantize_chunk(run.frame, batch, first, covered_lanes);
-      store_words(run.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
+      const Int words = draw.index[pixels.back ? 1 : 0]
+                            ? index_words(run.frame.layout, hn::Load(kFloat, batch.field[kColorR] + first))
+                        : !per_pixel && draw.scaled_colors
+                            ? pack_scaled(run.frame.layout, batch, first)
+                            : quantize_chunk(run.frame, batch, first, covered_lanes);
+      store_words(run.color + pixels.index[slot] + chunk * kLanes, words, mask_from_bits(covered_lanes),
+                  splat(static_cast<std::int32_t>(draw.write_mask)));
     }
   }
   pixels.blocks = 0;
 }
 
-/// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one surface.
+/// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one
+/// surface.
 HWY_INLINE bool prepare_triangles(const TileRun& run) {
   TileWorkspace::Memory& memory = run.memory;
   TESSERA_ASSERT(memory.triangles.size() <= kCollectedRoom);
@@ -251,7 +286,8 @@ inline HWY_NOINLINE void shade_collected(TileRun& run, int x0, int y0, int x1, i
       if (waiting == 0) continue;
       while (waiting != 0) {
         // All pixels of the block that belong to the surface of the first one still waiting.
-        const ShadedTriangle& leader = memory.triangles[static_cast<std::size_t>(ids[std::countr_zero(waiting)])];
+        const ShadedTriangle& leader =
+            memory.triangles[static_cast<std::size_t>(ids[std::countr_zero(waiting)])];
         const bool other_surface = !pixels.is_of(leader);
         if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(run, pixels);
         if (other_surface) begin_surface(run, pixels, leader);

@@ -1,5 +1,6 @@
-// Draws a group of set-up triangles into a tile: coverage by size, depth, and colour at once or later. One function for each
-// combination of depth format, depth test and way of colouring that can occur; a draw picks one and knows no other.
+// Draws a group of set-up triangles into a tile: coverage by size, depth, and colour at once or later. One
+// function for each combination of depth format, depth test and way of colouring that can occur; a draw picks
+// one and knows no other.
 #if defined(TESSERA_SHADING_DRAW_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_DRAW_GROUP_INL_H_
 #undef TESSERA_SHADING_DRAW_GROUP_INL_H_
@@ -23,7 +24,8 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t element) {
-  const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.element_corners) + static_cast<std::size_t>(draw.provoking);
+  const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.element_corners) +
+                             static_cast<std::size_t>(draw.provoking);
   return draw.indices ? draw.indices[corner] : corner;
 }
 
@@ -38,22 +40,29 @@ HWY_INLINE std::uint32_t triangle_word(const TileRun& run, const TileDraw& draw,
 HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
   const int face = back ? 1 : 0;
   if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;
-  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) + draw.color_attribute[face];
+  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) +
+         draw.color_attribute[face];
 }
 
 /// Everything but pixels of triangle i of the group.
 template <class Depth, Test kTest, Seen kSeen>
-HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw, int i, bool back) {
+HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw,
+                              int i, bool back) {
   const TriangleGroup& g = run.memory.group;
   pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-  if constexpr (kSeen == Seen::interpolate) pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
-  if constexpr (kSeen == Seen::mix) pixels.color.set_up(pixels.triangle, draw, draw.flat ? flat_color(draw, run.memory.source[i], back) : nullptr);
+  if constexpr (kSeen == Seen::interpolate)
+    pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
+  if constexpr (kSeen == Seen::mix)
+    pixels.color.set_up(pixels.triangle, draw,
+                        draw.flat ? flat_color(draw, run.memory.source[i], back) : nullptr);
   if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
-  if constexpr (kSeen == Seen::word) pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
+  if constexpr (kSeen == Seen::word)
+    pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
 }
 
 /// The triangle as shading sees it.
-inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& run, std::uint32_t draw, int i, bool back) {
+inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& run, std::uint32_t draw,
+                                              int i, bool back) {
   const TriangleGroup& g = run.memory.group;
   set_tile_edges(t.edges, g, i);  // in place: a copy would have to wait for each of its parts
   for (int k = 0; k < 3; ++k) {
@@ -67,7 +76,8 @@ inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& 
   t.wide = -1;
 }
 
-HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory& memory, const WideEdges& edges) {
+HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory& memory,
+                                const WideEdges& edges) {
   triangle.wide = static_cast<std::int32_t>(memory.wide.size());
   memory.wide.push_back(edges);
 }
@@ -94,7 +104,9 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
       if constexpr (!kHasKeys) depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-      const std::int32_t key = kHasKeys ? pixels.key[p] : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255), stored = stored_depth[index];
+      const std::int32_t key = kHasKeys ? pixels.key[p]
+                                        : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255),
+                         stored = stored_depth[index];
       const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
       if (tests_stencil) stencil[face].store_after_depth(index, passes);
       if (!passes) continue;
@@ -113,7 +125,8 @@ HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPix
 
 /// Keeps triangle i of the group, some of whose pixels were seen, until these are shaded.
 /// @param wide_edges  of a wide triangle; else null
-inline HWY_NOINLINE void collect_triangle(TileRun& run, std::uint32_t draw_number, int i, bool back, const WideEdges* wide_edges) {
+inline HWY_NOINLINE void collect_triangle(TileRun& run, std::uint32_t draw_number, int i, bool back,
+                                          const WideEdges* wide_edges) {
   TileWorkspace::Memory& memory = run.memory;
   ShadedTriangle& triangle = memory.triangles.emplace_back();
   fill_shaded_triangle(triangle, run, draw_number, i, back);
@@ -141,7 +154,10 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
   if (small_ones != 0)
     for (int first = 0; first < kGroupSize; first += kLanes) {
       cover_small(g, first, hits + first);
-      without_pixel |= mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first), hn::Zero(kInt))) << first;
+      without_pixel |=
+          mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first),
+                                 hn::Zero(kInt)))
+          << first;
     }
   [[maybe_unused]] BoxGroup boxes;
   if constexpr (kHasBoxes<kTest>) {
@@ -157,13 +173,15 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
         small_pixels.add(g, i, hits[i]);
         continue;
       }
-      if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
+      if (small_pixels.count != 0)
+        draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
     }
     const bool back = is_back(run, draw, i);
     if constexpr (kHasBoxes<kTest>) {
       if ((boxes.triangles >> i & 1) != 0) {
         std::int32_t value = 0;
-        if constexpr (kSeen == Seen::word) value = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
+        if constexpr (kSeen == Seen::word)
+          value = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
         if constexpr (kSeen == Seen::collect) value = static_cast<std::int32_t>(memory.triangles.size());
         const std::uint32_t seen = draw_in_boxes<Depth, kSeen>(run, draw, boxes, i, value, back);
         if constexpr (kSeen != Seen::collect) run.counts.shaded_pixels += seen;
@@ -193,10 +211,12 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
       for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kSeen == Seen::collect) {
-      if (!hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)))) collect_triangle(run, draw_number, i, back, wide ? &wide_edges : nullptr);
+      if (!hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt))))
+        collect_triangle(run, draw_number, i, back, wide ? &wide_edges : nullptr);
     }
     if constexpr (is_interpolated(kSeen)) memory.wide.clear();
-    if constexpr (is_interpolated(kSeen) || kSeen == Seen::word) run.counts.shaded_pixels += pixels.seen_pixels;
+    if constexpr (is_interpolated(kSeen) || kSeen == Seen::word)
+      run.counts.shaded_pixels += pixels.seen_pixels;
   }
   if constexpr (kSeen == Seen::interpolate) {
     if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);

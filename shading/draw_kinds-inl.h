@@ -15,7 +15,8 @@ namespace HWY_NAMESPACE {
 /// What happens to a pixel that is seen.
 enum class Seen { nothing, word, interpolate, mix, collect };
 inline constexpr bool is_interpolated(Seen seen) { return seen == Seen::interpolate || seen == Seen::mix; }
-/// `less`, by draws that write depth and have no operations, has code of its own, since nearly everybody uses it.
+/// `less`, by draws that write depth and have no operations, has code of its own, since nearly everybody uses
+/// it.
 enum class Test { less, any };
 struct NoDepth {
   struct Block {};
@@ -24,7 +25,10 @@ struct NoDepth {
   HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthKind) {}
   HWY_INLINE void prepare_blocks() {}
   struct Anchor {};
-  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int, int) { return {}; }
+  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int,
+                                  int) {
+    return {};
+  }
   HWY_INLINE Block step_to(int, int) const { return {}; }
 };
 template <class Depth>

@@ -18,16 +18,21 @@ std::array<float, 3> normalized(double x, double y, double z) {
   return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
-double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) { return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2]; }
+double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
+}
 
-// Directions that their roundings to floats alone take out of a cone, by less than this angle, are within it: of 0 degrees, too.
-constexpr double kRoundingOfDirections = 0x1p-22, kDegreesOfRounding = kRoundingOfDirections * 180 / 3.14159265358979323846;
+// Directions that their roundings to floats alone take out of a cone, by less than this angle, are within it:
+// of 0 degrees, too.
+constexpr double kRoundingOfDirections = 0x1p-22,
+                 kDegreesOfRounding = kRoundingOfDirections * 180 / 3.14159265358979323846;
 
 // A cone on a directional light applies with V = -L: the same factor for every point.
 float directional_spot_factor(const EyeLight& light) {
   const auto& l = light.position;
   const auto& d = light.spot_direction;
-  const double lengths = std::sqrt(dot(l, l) * dot(d, d));  // of floats, which miss 1 by more than the cosines of very narrow cones do
+  const double lengths = std::sqrt(
+      dot(l, l) * dot(d, d));  // of floats, which miss 1 by more than the cosines of very narrow cones do
   if (lengths == 0) return 0;
   const double cosine = std::min(-dot(l, d) / lengths, 1.0);
   if (cosine < sin_cos_degrees(light.spot_cutoff + kDegreesOfRounding).cosine || cosine <= 0) return 0;
@@ -40,15 +45,18 @@ float squared_chord(float degrees) {
   return static_cast<float>(chord * chord);
 }
 
-/// Bits before the binary point of what a highlight is multiplied by, its product of colours over the attenuation. No more than there are powers for, which
-/// end at 2^-126: what is multiplied by still more loses the foot of its highlight.
+/// Bits before the binary point of what a highlight is multiplied by, its product of colours over the
+/// attenuation. No more than there are powers for, which end at 2^-126: what is multiplied by still more
+/// loses the foot of its highlight.
 float bits_above_one(const LightTerm& term) {
   constexpr double kMost = 94;
   if (!is_black(term.tracked_specular)) return kMost;  // whatever vertices have
-  double most = std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
+  double most =
+      std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
   if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
     const auto [constant, linear, quadratic] = term.attenuation;
-    if (!(constant > 0 && linear >= 0 && quadratic >= 0)) return kMost;  // with the distance it may come to any
+    if (!(constant > 0 && linear >= 0 && quadratic >= 0))
+      return kMost;  // with the distance it may come to any
     most /= constant;
   }
   return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMost)) : 0.0f;
@@ -78,7 +86,8 @@ const char* highlight_name(HighlightKind kind) {
 
 LightKind kind_of(const EyeLight& light) {
   if (light.directional) return LightKind::directional;
-  const bool attenuated = !(light.attenuation[0] == 1 && light.attenuation[1] == 0 && light.attenuation[2] == 0);
+  const bool attenuated =
+      !(light.attenuation[0] == 1 && light.attenuation[1] == 0 && light.attenuation[2] == 0);
   if (light.spot_cutoff == 180) return attenuated ? LightKind::attenuated_point : LightKind::point;
   return attenuated ? LightKind::attenuated_spot : LightKind::spot;
 }
@@ -103,8 +112,9 @@ EyeLight as_grey(const EyeLight& light) {
 }
 
 /// @param seen  what counts of each light
-LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights, EyeLight (&seen)(const EyeLight&), const LightingModel& model,
-                           std::string* reasons, std::vector<LightTerm> room) {
+LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked,
+                           const std::vector<EyeLight>& lights, EyeLight (&seen)(const EyeLight&),
+                           const LightingModel& model, std::string* reasons, std::vector<LightTerm> room) {
   LightingProgram program;
   program.terms = std::move(room);
   program.terms.clear();
@@ -123,10 +133,14 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
       (*reasons += ... += parts) += "\n";
     };
     LightTerm term;
-    const float factor = light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
-    (tracked.ambient ? term.tracked_ambient : term.ambient) = finite((tracked.ambient ? light.ambient : finite(light.ambient * material.ambient)) * factor);
-    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) = finite((tracked.diffuse ? light.diffuse : finite(light.diffuse * material.diffuse)) * factor);
-    (tracked.specular ? term.tracked_specular : term.specular) = finite((tracked.specular ? light.specular : finite(light.specular * material.specular)) * factor);
+    const float factor =
+        light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
+    (tracked.ambient ? term.tracked_ambient : term.ambient) =
+        finite((tracked.ambient ? light.ambient : finite(light.ambient * material.ambient)) * factor);
+    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) =
+        finite((tracked.diffuse ? light.diffuse : finite(light.diffuse * material.diffuse)) * factor);
+    (tracked.specular ? term.tracked_specular : term.specular) =
+        finite((tracked.specular ? light.specular : finite(light.specular * material.specular)) * factor);
     const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
     const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
     const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
@@ -146,8 +160,10 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
       }
     }
     if (has_specular) {
-      term.highlight = model.phong_highlight ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
-                                             : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
+      term.highlight =
+          model.phong_highlight
+              ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
+              : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
     }
     term.position = light.position;
     term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
@@ -155,21 +171,28 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.attenuation = light.attenuation;
     term.spot_power = power_with(light.spot_exponent);
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
-    if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone) term.spot_apart = squared_chord(light.spot_cutoff);
+    if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone)
+      term.spot_apart = squared_chord(light.spot_cutoff);
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
-    const bool half_varies = term.highlight == HighlightKind::blinn_local || (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
+    const bool half_varies =
+        term.highlight == HighlightKind::blinn_local ||
+        (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
     const float bits_seen = 32 + bits_above_one(term);  // a power is not below 2^-bits_seen, where it is seen
     // No square is below 2^-126, no cosine by squares below 2^-63.
     term.squared = half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= bits_seen;
     const float exponent = term.squared ? material.shininess / 2 : material.shininess;
     term.highlight_power = power_with(exponent);
     // x^s < 2^-b where x < 2^(-b / s): most of a shiny surface, which then needs no power at all.
-    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN() : exp2_reference(std::max(-bits_seen / exponent, -126.0f));
+    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                         : exp2_reference(std::max(-bits_seen / exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
-    program.needs_view |= term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-    const bool has_more = !is_black(term.ambient) || !is_black(term.tracked_ambient) || !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
-    note(kind_name(term.kind), "; ", highlight_name(term.highlight), has_more ? "; ambient part or vertex colours" : "");
+    program.needs_view |=
+        term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
+    const bool has_more = !is_black(term.ambient) || !is_black(term.tracked_ambient) ||
+                          !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
+    note(kind_name(term.kind), "; ", highlight_name(term.highlight),
+         has_more ? "; ambient part or vertex colours" : "");
     program.terms.push_back(term);
   }
   program.needs_position |= program.needs_view;
@@ -178,15 +201,20 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
 
 }  // namespace
 
-LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons,
-                              std::vector<LightTerm> room) {
+LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
+                              const std::vector<EyeLight>& lights, const LightingModel& model,
+                              std::string* reasons, std::vector<LightTerm> room) {
   return plan_terms(material, tracked, lights, as_it_is, model, reasons, std::move(room));
 }
 
-LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights, const LightingModel& model, std::string* reasons, std::vector<LightTerm> room) {
+LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
+                                    const LightingModel& model, std::string* reasons,
+                                    std::vector<LightTerm> room) {
   const auto [ambient, diffuse, specular] = material.indexes;
-  // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not matter.
-  SurfaceMaterial surface{.ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
+  // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not
+  // matter.
+  SurfaceMaterial surface{
+      .ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
   if (diffuse != ambient) surface.diffuse = {1, 0, 0};
   if (diffuse != ambient || specular != ambient) surface.specular = {0, 1, 0};
   LightingModel dark = model;

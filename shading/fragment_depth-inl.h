@@ -1,5 +1,5 @@
-// Depth keys for draws with operations: of any format, with an offset or without. What they are is asked once a block, so that the long
-// code of fragments is there once for all of them.
+// Depth keys for draws with operations: of any format, with an offset or without. What they are is asked once
+// a block, so that the long code of fragments is there once for all of them.
 #if defined(TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
 #undef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
@@ -16,19 +16,21 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE bool has_depth(const TileFrame& frame, const TileDraw& draw) { return draw.uses_depth && frame.depth_kind != DepthKind::none; }
+HWY_INLINE bool has_depth(const TileFrame& frame, const TileDraw& draw) {
+  return draw.uses_depth && frame.depth_kind != DepthKind::none;
+}
 
 class FragmentDepth {
  public:
   /// Of triangle i of a group whose depth is set up.
-  HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i, std::uint32_t source, int tile_x, int tile_y) {
+  HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i,
+                           std::uint32_t source, int tile_x, int tile_y) {
     if (!has_depth(frame, draw)) return;
     const bool moved = draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
     const auto move = [&](auto& depth) HWY_ATTR {
       if (draw.depth_offsets != nullptr && !std::isnan(draw.depth_offsets[source]))
         depth.move_by(draw.depth_offsets[source]);
-      else if (moved)
-        depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+      else if (moved) depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
     };
     if (frame.depth_kind == DepthKind::float32) {
       format_ = moved ? Format::moved_float32 : Format::float32;

@@ -34,8 +34,10 @@ HWY_INLINE auto comparing(Vector a, CompareOp op, Vector b) {
 
 /// What passes the stencil test.
 HWY_INLINE LaneMask stencil_passes(const StencilSteps& stencil, Int stored) {
-  const auto first = splat(static_cast<std::int32_t>(stencil.passing.first)), count = splat(static_cast<std::int32_t>(stencil.passing.count));
-  return hn::RebindMask(kInt, hn::Lt(hn::BitCast(kUint, hn::Sub(hn::And(stored, splat(stencil.mask)), first)), hn::BitCast(kUint, count)));
+  const auto first = splat(static_cast<std::int32_t>(stencil.passing.first)),
+             count = splat(static_cast<std::int32_t>(stencil.passing.count));
+  return hn::RebindMask(kInt, hn::Lt(hn::BitCast(kUint, hn::Sub(hn::And(stored, splat(stencil.mask)), first)),
+                                     hn::BitCast(kUint, count)));
 }
 
 HWY_INLINE Int stencil_after(const StencilStep& step, Int stored) {
@@ -43,8 +45,10 @@ HWY_INLINE Int stencil_after(const StencilStep& step, Int stored) {
   return hn::Min(hn::Max(value, splat(step.least)), splat(step.most));
 }
 
-/// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what passed both.
-HWY_INLINE Int stencil_result(const StencilSteps& stencil, Int stored, LaneMask failed, LaneMask zfailed, LaneMask zpassed) {
+/// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what
+/// passed both.
+HWY_INLINE Int stencil_result(const StencilSteps& stencil, Int stored, LaneMask failed, LaneMask zfailed,
+                              LaneMask zpassed) {
   Int value = stored;
   if (stencil.fail_writes) value = hn::IfThenElse(failed, stencil_after(stencil.fail, stored), value);
   if (stencil.zfail_writes) value = hn::IfThenElse(zfailed, stencil_after(stencil.zfail, stored), value);
@@ -67,7 +71,8 @@ HWY_INLINE Float clamped_below(Float c) { return hn::Max(c, hn::Zero(kFloat)); }
 
 HWY_INLINE Float component_from(Int words, int shift, int bits) {
   if (bits == 0) return splat(1.0f);
-  const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, words), shift)), splat((1 << bits) - 1));
+  const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, words), shift)),
+                            splat((1 << bits) - 1));
   return hn::Mul(hn::ConvertTo(kFloat, level), splat(1.0f / static_cast<float>((1 << bits) - 1)));
 }
 
@@ -77,10 +82,13 @@ HWY_INLINE Colors stored_colors(const ColorLayout& layout, Int words) {
     const Float l = component_from(words, 0, layout.bits);
     return {{l, l, l, a}};
   }
-  return {{component_from(words, layout.r_shift(), layout.r_bits), component_from(words, layout.g_shift(), layout.g_bits), component_from(words, 0, layout.b_bits), a}};
+  return {{component_from(words, layout.r_shift(), layout.r_bits),
+           component_from(words, layout.g_shift(), layout.g_bits), component_from(words, 0, layout.b_bits),
+           a}};
 }
 
-HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& d, const std::array<float, 4>& constant) {
+HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& d,
+                           const std::array<float, 4>& constant) {
   const Float one = splat(1.0f);
   switch (factor) {
     case Factor::zero: return hn::Zero(kFloat);
@@ -107,7 +115,8 @@ HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& 
 HWY_INLINE Colors blended_colors(const FragmentOps& ops, const Colors& s, const Colors& d) {
   Colors out;
   for (int c = 0; c < 4; ++c) {
-    const Float sf = factor_of(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant), df = factor_of(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    const Float sf = factor_of(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
+                df = factor_of(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
     Float sum;
     switch (ops.equation) {
       case Equation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
@@ -123,11 +132,14 @@ HWY_INLINE Colors blended_colors(const FragmentOps& ops, const Colors& s, const 
 
 /// Clamped colours to words of an RGB or luminance layout.
 HWY_INLINE Int words_of(const ColorLayout& layout, const Colors& colors, Float threshold) {
-  const auto level = [&](Float x, int bits) HWY_ATTR { return truncate(mul_add(x, splat(static_cast<float>((1 << bits) - 1)), threshold)); };
+  const auto level = [&](Float x, int bits) HWY_ATTR {
+    return truncate(mul_add(x, splat(static_cast<float>((1 << bits) - 1)), threshold));
+  };
   Int words = hn::Zero(kInt);
   if (layout.alpha_bits != 0) words = hn::ShiftLeftSame(level(colors.c[3], layout.alpha_bits), layout.bits);
   if (layout.luminance) {
-    const Float l = mul_add(splat(kLumaR), colors.c[0], mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
+    const Float l = mul_add(splat(kLumaR), colors.c[0],
+                            mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
     return hn::Or(words, level(clamped_unit(l), layout.bits));
   }
   words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
@@ -137,7 +149,8 @@ HWY_INLINE Int words_of(const ColorLayout& layout, const Colors& colors, Float t
 
 /// The same for 8 bits each and halves that are rounded up.
 HWY_INLINE Int words_of_rgb8(const Colors& colors) {
-  const auto level = [&](int c) HWY_ATTR { return truncate(mul_add(colors.c[c], splat(255.0f), splat(0.5f))); };
+  const auto level = [&](int c)
+                         HWY_ATTR { return truncate(mul_add(colors.c[c], splat(255.0f), splat(0.5f))); };
   return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
 }
 

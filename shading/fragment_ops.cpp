@@ -20,7 +20,8 @@ void set_dither(FragmentOps& ops, int n, int frame_height) {
   for (int y = 0; y < kDitherSize; ++y)
     for (int x = 0; x < kDitherSize; ++x) {
       const int from_below = ((frame_height - 1 - y) % kDitherSize + kDitherSize) % kDitherSize;
-      ops.threshold[y][x] = (static_cast<float>(pattern[from_below % n][x % n]) + 0.5f) / static_cast<float>(n * n);
+      ops.threshold[y][x] =
+          (static_cast<float>(pattern[from_below % n][x % n]) + 0.5f) / static_cast<float>(n * n);
     }
 }
 

@@ -8,7 +8,8 @@
 
 namespace tessera {
 
-constexpr std::int32_t stencil_after(StencilAction action, std::int32_t stored, const StencilSide& face, std::int32_t most) {
+constexpr std::int32_t stencil_after(StencilAction action, std::int32_t stored, const StencilSide& face,
+                                     std::int32_t most) {
   const auto value = [&] {
     switch (action) {
       case StencilAction::zero: return 0;
@@ -47,17 +48,24 @@ constexpr std::uint32_t logic_word(Logic logic, std::uint32_t s, std::uint32_t d
 }
 
 /// A level of b bits as a component; of no bits: 1.
-inline float component_of(std::uint32_t level, int bits) { return bits == 0 ? 1.0f : static_cast<float>(static_cast<std::int32_t>(level)) * (1.0f / static_cast<float>((1 << bits) - 1)); }
+inline float component_of(std::uint32_t level, int bits) {
+  return bits == 0 ? 1.0f
+                   : static_cast<float>(static_cast<std::int32_t>(level)) *
+                         (1.0f / static_cast<float>((1 << bits) - 1));
+}
 
 /// The colour that a stored word stands for.
 inline Rgba stored_components(const ColorLayout& layout, std::uint32_t word) {
-  const auto field = [&](int shift, int bits) { return component_of(word >> shift & ((1u << bits) - 1), bits); };
+  const auto field = [&](int shift, int bits) {
+    return component_of(word >> shift & ((1u << bits) - 1), bits);
+  };
   const float a = layout.alpha_bits == 0 ? 1.0f : field(layout.bits, layout.alpha_bits);
   if (layout.luminance) {
     const float l = field(0, layout.bits);
     return {l, l, l, a};
   }
-  return {field(layout.r_shift(), layout.r_bits), field(layout.g_shift(), layout.g_bits), field(0, layout.b_bits), a};
+  return {field(layout.r_shift(), layout.r_bits), field(layout.g_shift(), layout.g_bits),
+          field(0, layout.b_bits), a};
 }
 
 inline float blend_factor(Factor factor, std::size_t c, const Rgba& s, const Rgba& d, const Rgba& constant) {
@@ -84,7 +92,8 @@ inline float blend_factor(Factor factor, std::size_t c, const Rgba& s, const Rgb
 inline Rgba blended(const FragmentOps& ops, const Rgba& s, const Rgba& d) {
   Rgba out;
   for (std::size_t c = 0; c < 4; ++c) {
-    const float sf = blend_factor(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant), df = blend_factor(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    const float sf = blend_factor(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
+                df = blend_factor(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
     const float sum = ops.equation == Equation::add                ? std::fma(s[c], sf, d[c] * df)
                       : ops.equation == Equation::subtract         ? std::fma(s[c], sf, -(d[c] * df))
                       : ops.equation == Equation::reverse_subtract ? std::fma(-s[c], sf, d[c] * df)

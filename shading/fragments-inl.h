@@ -24,20 +24,22 @@ struct BlockFragments {
   Int covered[kChunksPerBlock], keys[kChunksPerBlock];
 };
 
-/// One triangle of a draw with operations, and what its fragments need to know of it. The same code for every depth format.
+/// One triangle of a draw with operations, and what its fragments need to know of it. The same code for every
+/// depth format.
 struct FragmentTriangle {
   TileRun& run;
   const TileDraw& draw;
   const FragmentOps& ops;
   const ShadedTriangle& triangle;
   bool has_depth;
-  StencilSteps stencil{};         // of this face, where there is a test
-  std::int32_t id = 0;            // for draws that are shaded later
-  bool has_word = false;          // there is no colour to be made: it is a word already
+  StencilSteps stencil{};  // of this face, where there is a test
+  std::int32_t id = 0;     // for draws that are shaded later
+  bool has_word = false;   // there is no colour to be made: it is a word already
   std::uint32_t word = 0;
-  const float* flat = nullptr;    // r g b a, or an index
-  const float* colors_given = nullptr;  // of a block's pixels, in place of the triangle's: r of all of them, then g, b and a
-  BatchSurface surface;           // for lighting
+  const float* flat = nullptr;  // r g b a, or an index
+  const float* colors_given =
+      nullptr;           // of a block's pixels, in place of the triangle's: r of all of them, then g, b and a
+  BatchSurface surface;  // for lighting
   bool seen = false;
   const DrawTexture* texture = nullptr;  // or none
   TextureCoordinates coordinates{};      // of a texture with levels
@@ -45,27 +47,36 @@ struct FragmentTriangle {
   HWY_INLINE int face() const { return triangle.back ? 1 : 0; }
   HWY_INLINE bool keeps_range() const { return attributes_keep_range(run, draw); }
 
-  HWY_INLINE Barycentric at(int bx, int by, int chunk) const { return barycentric(triangle, run.memory.wide.data(), bx, by, chunk); }
+  HWY_INLINE Barycentric at(int bx, int by, int chunk) const {
+    return barycentric(triangle, run.memory.wide.data(), bx, by, chunk);
+  }
 
   HWY_INLINE Float alpha(int bx, int by, int chunk) const {
     if (colors_given != nullptr) return hn::Load(kFloat, colors_given + 3 * kBlockPixels + chunk * kLanes);
     if (flat != nullptr) return splat(flat[3]);
     const int attribute = draw.alpha_attribute[face()];
-    return attribute < 0 ? splat(draw.alpha[face()]) : clamped_unit(interpolate_within(at(bx, by, chunk), corners(triangle, attribute, keeps_range())));
+    return attribute < 0 ? splat(draw.alpha[face()])
+                         : clamped_unit(interpolate_within(at(bx, by, chunk),
+                                                           corners(triangle, attribute, keeps_range())));
   }
 
   /// Alpha under the texture.
   HWY_INLINE Float textured_alpha(int bx, int by, int chunk) const {
     const Float own = alpha(bx, by, chunk);
     if (texture == nullptr || !texture->changes_alpha()) return own;
-    return textured_lanes(*texture, {{own, own, own, own}}, texels_at(*texture, run.memory.batch, chunk * kLanes)).c[3];
+    return textured_lanes(*texture, {{own, own, own, own}},
+                          texels_at(*texture, run.memory.batch, chunk * kLanes))
+        .c[3];
   }
-  HWY_INLINE bool tests_texels() const { return ops.alpha_test && texture != nullptr && texture->changes_alpha(); }
+  HWY_INLINE bool tests_texels() const {
+    return ops.alpha_test && texture != nullptr && texture->changes_alpha();
+  }
 
   /// Attributes of the block's pixels into the batch.
   HWY_INLINE void gather_block(int bx, int by, std::uint32_t bits) {
     with_known_count(surface, [&](auto count) HWY_ATTR {
-      const CornerArrays values(triangle, surface.first_attribute, count.value > 0 ? count.value : surface.attribute_count);
+      const CornerArrays values(triangle, surface.first_attribute,
+                                count.value > 0 ? count.value : surface.attribute_count);
       gather_piece<count.value>(run, surface, triangle, values, bx, by, bits, 0);
     });
   }
@@ -74,7 +85,10 @@ struct FragmentTriangle {
     if (texture->levels == nullptr) return;
     ShadingBatch& batch = run.memory.batch;
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      if (chunk_bits(bits, chunk) != 0) coordinates.at(at(bx, by, chunk), [&](int field, Float value) HWY_ATTR { hn::Store(value, kFloat, batch.field[field] + chunk * kLanes); });
+      if (chunk_bits(bits, chunk) != 0)
+        coordinates.at(at(bx, by, chunk), [&](int field, Float value) HWY_ATTR {
+          hn::Store(value, kFloat, batch.field[field] + chunk * kLanes);
+        });
     sample_texture_lanes(*texture->levels, batch, kBlockPixels);
   }
 
@@ -85,7 +99,9 @@ struct FragmentTriangle {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       LaneMask mask = hn::MaskFromVec(block.covered[chunk]);
       if (hn::AllFalse(kInt, mask)) continue;
-      if (ops.alpha_test) mask = hn::And(mask, hn::RebindMask(kInt, comparing(textured_alpha(bx, by, chunk), ops.alpha_func, splat(ops.alpha_reference))));
+      if (ops.alpha_test)
+        mask = hn::And(mask, hn::RebindMask(kInt, comparing(textured_alpha(bx, by, chunk), ops.alpha_func,
+                                                            splat(ops.alpha_reference))));
       LaneMask failed = no_lanes(), passed = mask;
       Int stored = hn::Zero(kInt);
       if (ops.stencil) {
@@ -101,7 +117,8 @@ struct FragmentTriangle {
         if (draw.depth_write) hn::Store(hn::IfThenElse(zpassed, block.keys[chunk], before), kInt, depth);
       }
       if (stencil.writes())
-        hn::Store(stencil_result(stencil, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt, sample.stencil + index + chunk * kLanes);
+        hn::Store(stencil_result(stencil, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt,
+                  sample.stencil + index + chunk * kLanes);
       bits |= mask_bits(kInt, zpassed) << (chunk * kLanes);
     }
     return bits;
@@ -110,21 +127,29 @@ struct FragmentTriangle {
   /// Colours 0..1 of a chunk, under the texture whose texels stand in the batch.
   HWY_INLINE Colors colors(int bx, int by, int chunk) const {
     const Colors own = own_colors(bx, by, chunk);
-    return texture == nullptr ? own : textured_lanes(*texture, own, texels_at(*texture, run.memory.batch, chunk * kLanes));
+    return texture == nullptr
+               ? own
+               : textured_lanes(*texture, own, texels_at(*texture, run.memory.batch, chunk * kLanes));
   }
   /// Without the texture; of lit pixels they stand in the batch.
   HWY_INLINE Colors own_colors(int bx, int by, int chunk) const {
-    const auto splats = [](const float* c) HWY_ATTR { return Colors{{splat(c[0]), splat(c[1]), splat(c[2]), splat(c[3])}}; };
+    const auto splats = [](const float* c) HWY_ATTR {
+      return Colors{{splat(c[0]), splat(c[1]), splat(c[2]), splat(c[3])}};
+    };
     if (draw.source == ColorSource::constant) return splats(draw.color[face()].data());
     if (flat != nullptr) return splats(flat);
     Colors out;
     if (colors_given != nullptr) {
-      for (int c = 0; c < 3; ++c) out.c[c] = hn::Load(kFloat, colors_given + c * kBlockPixels + chunk * kLanes);
+      for (int c = 0; c < 3; ++c)
+        out.c[c] = hn::Load(kFloat, colors_given + c * kBlockPixels + chunk * kLanes);
     } else if (draw.source == ColorSource::per_pixel) {
-      for (int c = 0; c < 3; ++c) out.c[c] = hn::Load(kFloat, run.memory.batch.field[kColorR + c] + chunk * kLanes);
+      for (int c = 0; c < 3; ++c)
+        out.c[c] = hn::Load(kFloat, run.memory.batch.field[kColorR + c] + chunk * kLanes);
     } else {
       const Barycentric weights = at(bx, by, chunk);
-      for (int c = 0; c < 3; ++c) out.c[c] = clamped_unit(interpolate_within(weights, corners(triangle, draw.color_attribute[face()] + c, keeps_range())));
+      for (int c = 0; c < 3; ++c)
+        out.c[c] = clamped_unit(
+            interpolate_within(weights, corners(triangle, draw.color_attribute[face()] + c, keeps_range())));
     }
     out.c[3] = alpha(bx, by, chunk);
     return out;
@@ -134,8 +159,10 @@ struct FragmentTriangle {
   HWY_INLINE Float indices(int bx, int by, int chunk) const {
     if (draw.source == ColorSource::constant) return splat(draw.color[face()][0]);
     if (flat != nullptr) return splat(flat[0]);
-    if (draw.source == ColorSource::per_pixel) return hn::Load(kFloat, run.memory.batch.field[kColorR] + chunk * kLanes);
-    return interpolate_within(at(bx, by, chunk), corners(triangle, draw.color_attribute[face()], keeps_range()));
+    if (draw.source == ColorSource::per_pixel)
+      return hn::Load(kFloat, run.memory.batch.field[kColorR] + chunk * kLanes);
+    return interpolate_within(at(bx, by, chunk),
+                              corners(triangle, draw.color_attribute[face()], keeps_range()));
   }
 
   HWY_INLINE Float thresholds(int bx, int by, int chunk) const {
@@ -156,7 +183,8 @@ struct FragmentTriangle {
     for (int l = 0; l < kLanes; ++l) {
       if ((lanes >> l & 1) == 0) continue;
       const float moved = (t[l] - 0.5f) * ops.palette_spread;
-      words[l] = static_cast<std::int32_t>(run.frame.palette_search->nearest_unclamped(c[0][l] + moved, c[1][l] + moved, c[2][l] + moved));
+      words[l] = static_cast<std::int32_t>(
+          run.frame.palette_search->nearest_unclamped(c[0][l] + moved, c[1][l] + moved, c[2][l] + moved));
     }
     return hn::Load(kInt, words);
   }
@@ -170,7 +198,8 @@ struct FragmentTriangle {
       return ops.logic == Logic::copy ? result : logic_words(ops.logic, result, stored);
     }
     if (ops.blend) source = blended_colors(ops, source, stored_colors(layout, stored));
-    const Int result = layout.index ? nearest_entries(source, threshold, lanes) : words_of(layout, source, threshold);
+    const Int result =
+        layout.index ? nearest_entries(source, threshold, lanes) : words_of(layout, source, threshold);
     return ops.logic == Logic::copy ? result : logic_words(ops.logic, result, stored);
   }
 
@@ -179,7 +208,8 @@ struct FragmentTriangle {
     std::uint32_t passed[kMaxSamples], bits = 0;
     if (tests_texels()) {
       for (int s = 0; s < run.samples; ++s)
-        for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) bits |= mask_bits(kInt, hn::MaskFromVec(blocks[s].covered[chunk])) << (chunk * kLanes);
+        for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+          bits |= mask_bits(kInt, hn::MaskFromVec(blocks[s].covered[chunk])) << (chunk * kLanes);
       if (bits == 0) return;
       sample_block(bx, by, bits);
       bits = 0;
@@ -192,7 +222,9 @@ struct FragmentTriangle {
       for (int s = 0; s < run.samples; ++s)
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
           auto* const ids = reinterpret_cast<std::int32_t*>(run.sample[s].ids) + index + chunk * kLanes;
-          hn::Store(hn::IfThenElse(mask_from_bits(passed[s] >> (chunk * kLanes)), splat(id), hn::Load(kInt, ids)), kInt, ids);
+          hn::Store(
+              hn::IfThenElse(mask_from_bits(passed[s] >> (chunk * kLanes)), splat(id), hn::Load(kInt, ids)),
+              kInt, ids);
         }
       return;
     }
@@ -205,14 +237,17 @@ struct FragmentTriangle {
     if (texture != nullptr && !has_word && !tests_texels()) sample_block(bx, by, bits);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       if (chunk_bits(bits, chunk) == 0) continue;
-      const Colors source = has_word ? Colors{} : draw.index[face()] ? Colors{{indices(bx, by, chunk)}} : colors(bx, by, chunk);
+      const Colors source = has_word             ? Colors{}
+                            : draw.index[face()] ? Colors{{indices(bx, by, chunk)}}
+                                                 : colors(bx, by, chunk);
       const Float threshold = thresholds(bx, by, chunk);
       for (int s = 0; s < run.samples; ++s) {
         const std::uint32_t lanes = chunk_bits(passed[s], chunk);
         if (lanes == 0) continue;
         std::uint32_t* const color = run.sample[s].color + index + chunk * kLanes;
         const Int stored = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(color));
-        store_words(color, words(source, threshold, lanes, stored), mask_from_bits(lanes), splat(static_cast<std::int32_t>(draw.write_mask)));
+        store_words(color, words(source, threshold, lanes, stored), mask_from_bits(lanes),
+                    splat(static_cast<std::int32_t>(draw.write_mask)));
       }
     }
   }
@@ -269,25 +304,37 @@ struct SampledBlocks {
 inline constexpr FragmentOps kNoOperations{};
 HWY_INLINE bool has_words(const TileDraw& draw) {
   if (draw.texture != nullptr) return false;
-  return draw.source == ColorSource::constant || draw.source == ColorSource::vertex_word || draw.source == ColorSource::triangle_word;
+  return draw.source == ColorSource::constant || draw.source == ColorSource::vertex_word ||
+         draw.source == ColorSource::triangle_word;
 }
 
 /// Runs blocks(fragments) for one triangle of the group, whose pixels' centres stand in `triangle`.
 template <class Blocks>
-HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i, const ShadedTriangle& triangle, const Blocks& blocks) {
+HWY_INLINE void draw_fragments_of(TileRun& run, std::uint32_t draw_number, int i,
+                                  const ShadedTriangle& triangle, const Blocks& blocks) {
   TileWorkspace::Memory& memory = run.memory;
   const TileDraw& draw = run.frame.draws[draw_number];
-  FragmentTriangle fragments{.run = run, .draw = draw, .ops = draw.ops != nullptr ? *draw.ops : kNoOperations, .triangle = triangle, .has_depth = has_depth(run.frame, draw), .surface = {}};
-  if (fragments.ops.stencil) fragments.stencil = stencil_steps(fragments.ops.faces[fragments.face()], fragments.ops.stencil_most);
+  FragmentTriangle fragments{.run = run,
+                             .draw = draw,
+                             .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
+                             .triangle = triangle,
+                             .has_depth = has_depth(run.frame, draw),
+                             .surface = {}};
+  if (fragments.ops.stencil)
+    fragments.stencil = stencil_steps(fragments.ops.faces[fragments.face()], fragments.ops.stencil_most);
   fragments.id = static_cast<std::int32_t>(memory.triangles.size());
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
-  if (fragments.has_word) fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles : triangle_word(run, draw, i, triangle.back);
+  if (fragments.has_word)
+    fragments.word = draw.number == TileDraw::Number::primitive ? memory.source[i] / draw.primitive_triangles
+                                                                : triangle_word(run, draw, i, triangle.back);
   if (draw.flat) fragments.flat = flat_color(draw, memory.source[i], triangle.back);
   if (draw.source == ColorSource::per_pixel) begin_surface(run, fragments.surface, triangle);
   fragments.surface.texture = nullptr;  // its texels come about block by block
   fragments.texture = texture_of(draw, triangle.back);
-  if (fragments.texture != nullptr && fragments.texture->levels != nullptr && (!draw.deferred || fragments.tests_texels()))
-    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture, draw.topology == Topology::lines, run.samples);
+  if (fragments.texture != nullptr && fragments.texture->levels != nullptr &&
+      (!draw.deferred || fragments.tests_texels()))
+    fragments.coordinates.set_up(triangle, memory.wide.data(), *fragments.texture,
+                                 draw.topology == Topology::lines, run.samples);
   blocks(fragments);
   if (draw.deferred && fragments.seen) {
     memory.triangles.push_back(triangle);
@@ -308,7 +355,8 @@ inline void draw_fragments(TileRun& run, std::uint32_t draw_number) {
     const int i = std::countr_zero(left);
     TileEdges edges = tile_edges(g, i);
     WideEdges wide_edges;
-    if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
+    if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges))
+      continue;
     ShadedTriangle triangle;
     fill_shaded_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
     if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
@@ -329,8 +377,10 @@ HWY_INLINE void move_group(TriangleGroup& g, std::int32_t x, std::int32_t y) {
     }
 }
 
-/// Triangle i of a group that stands where its vertices are: what its pixels' centres see, inside of it or not.
-inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileRun& run, std::uint32_t draw_number, int i, bool back) {
+/// Triangle i of a group that stands where its vertices are: what its pixels' centres see, inside of it or
+/// not.
+inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileRun& run,
+                                                std::uint32_t draw_number, int i, bool back) {
   const TriangleGroup& g = run.memory.group;
   fill_shaded_triangle(triangle, run, draw_number, i, back);
   if (g.wide[i] == 0) return;
@@ -351,8 +401,7 @@ struct SampledBounds {
       const bool dropped = of_sample.a[k] == 0 && of_sample.b[k] == 0;
       if (first || dropped)
         edges.a[k] = of_sample.a[k], edges.b[k] = of_sample.b[k], edges.e[k] = of_sample.e[k];
-      else if (edges.a[k] != 0 || edges.b[k] != 0)
-        edges.e[k] = std::max(edges.e[k], of_sample.e[k]);
+      else if (edges.a[k] != 0 || edges.b[k] != 0) edges.e[k] = std::max(edges.e[k], of_sample.e[k]);
     }
     x0 = first ? g.x0[i] : std::min(x0, g.x0[i]);
     y0 = first ? g.y0[i] : std::min(y0, g.y0[i]);
@@ -388,10 +437,12 @@ inline void draw_fragments_samples(TileRun& run, std::uint32_t draw_number) {
         blocks.edges[s] = tile_edges(g, i);
         WideEdges wide;
         blocks.depth[s].set_up(run.frame, draw, g, i, run.memory.source[i], run.tile_x, run.tile_y);
-        if (g.wide[i] == 0 || tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, blocks.edges[s], wide))
+        if (g.wide[i] == 0 ||
+            tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, blocks.edges[s], wide))
           bounds.include(blocks.edges[s], g, i);
         else
-          blocks.edges[s] = {{0, 0, 0}, {0, 0, 0}, {-1, -1, -1}};  // outside of the tile; its edges do not fit 32 bits
+          blocks.edges[s] = {
+              {0, 0, 0}, {0, 0, 0}, {-1, -1, -1}};  // outside of the tile; its edges do not fit 32 bits
       }
       if (bounds.first) return;
       const BlockOffsets offsets(bounds.edges);

@@ -1,4 +1,5 @@
-// The way from the entries of a tile's bin to groups of points, lines or triangles, and those to the function that draws them.
+// The way from the entries of a tile's bin to groups of points, lines or triangles, and those to the function
+// that draws them.
 #if defined(TESSERA_SHADING_GROUP_BUILDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_GROUP_BUILDER_INL_H_
 #undef TESSERA_SHADING_GROUP_BUILDER_INL_H_
@@ -17,7 +18,8 @@ namespace HWY_NAMESPACE {
 
 /// What passes the test may be farther than what was stored.
 constexpr bool may_raise_depth(CompareOp test) {
-  return test == CompareOp::greater || test == CompareOp::notequal || test == CompareOp::gequal || test == CompareOp::always;
+  return test == CompareOp::greater || test == CompareOp::notequal || test == CompareOp::gequal ||
+         test == CompareOp::always;
 }
 
 /// Collects elements of one draw until a group is full.
@@ -26,7 +28,8 @@ struct GroupBuilder {
   std::uint32_t draw_number = 0;
   const TileDraw* draw = nullptr;
   DrawGroup draw_group_function = nullptr;
-  // Points and lines are so small that waiting for their vertices would be most of the work: while a group is drawn, those of the next come.
+  // Points and lines are so small that waiting for their vertices would be most of the work: while a group is
+  // drawn, those of the next come.
   std::uint32_t fetched[2 * kGroupSize];
   int fetched_count = 0;
   std::uint32_t waiting[kGroupSize];  // triangles
@@ -37,13 +40,17 @@ struct GroupBuilder {
     const TileFrame& frame = run.frame;
     const TileDraw& next = frame.draws[number];
     // Pixels that wait for their colour keep it only from draws that write the same planes.
-    if (draw != nullptr && !run.memory.triangles.empty() && (next.write_mask != draw->write_mask || !next.deferred)) shade_whole_tile(run);
+    if (draw != nullptr && !run.memory.triangles.empty() &&
+        (next.write_mask != draw->write_mask || !next.deferred))
+      shade_whole_tile(run);
     draw_number = number;
     draw = &next;
     if (next.texels == nullptr) draw_group_function = pick_draw_group(frame, next);
-    if (run.samples > 1 && next.depth_write && may_raise_depth(next.depth_test)) set_farthest(run, kFarthestKey);
+    if (run.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
+      set_farthest(run, kFarthestKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
-    run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x, next.rect.y1 - run.tile_y},
+    run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x,
+                          next.rect.y1 - run.tile_y},
                          {0, 0, run.tile_size, run.tile_size});
     run.cut = ((run.rect.x0 | run.rect.y0 | run.rect.x1 | run.rect.y1) & 3) != 0;
     if (next.texels != nullptr) draw_pixel_rectangle(run, number);
@@ -60,12 +67,15 @@ struct GroupBuilder {
     load_waiting();
     draw_all();
   }
-  /// Those of the entries that stand before the first one that is no triangle of the mesh's own, but no more than fill a group: how many were added.
+  /// Those of the entries that stand before the first one that is no triangle of the mesh's own, but no more
+  /// than fill a group: how many were added.
   HWY_INLINE std::uint32_t add_own(const std::uint32_t* entries, std::uint32_t count) {
     if (draw == nullptr || draw->topology != Topology::triangles) return 0;
-    const auto room = static_cast<std::uint32_t>(kGroupSize - run.memory.group.count - waiting_count), most = std::min(count, room);
+    const auto room = static_cast<std::uint32_t>(kGroupSize - run.memory.group.count - waiting_count),
+               most = std::min(count, room);
     std::uint32_t added = 0;
-    while (added < most && (entries[added] & (kDrawMarker | kPiece)) == 0) waiting[waiting_count + static_cast<int>(added)] = entries[added], ++added;
+    while (added < most && (entries[added] & (kDrawMarker | kPiece)) == 0)
+      waiting[waiting_count + static_cast<int>(added)] = entries[added], ++added;
     waiting_count += static_cast<int>(added);
     if (added == room) {
       load_waiting();
@@ -87,7 +97,9 @@ struct GroupBuilder {
   }
 
  private:
-  HWY_INLINE std::size_t vertex_of(std::size_t corner) const { return draw->indices ? draw->indices[corner] : corner; }
+  HWY_INLINE std::size_t vertex_of(std::size_t corner) const {
+    return draw->indices ? draw->indices[corner] : corner;
+  }
 
   HWY_NOINLINE void add_small(const Bins& bins, std::uint32_t id) {
     if ((id & kPiece) == 0) {
@@ -99,10 +111,8 @@ struct GroupBuilder {
   }
   HWY_INLINE void fetch(std::size_t vertex) const {
     __builtin_prefetch(draw->vertices + vertex);
-    if (draw->source == ColorSource::vertex_word)
-      __builtin_prefetch(draw->words[0] + vertex);
-    else
-      __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
+    if (draw->source == ColorSource::vertex_word) __builtin_prefetch(draw->words[0] + vertex);
+    else __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
   }
   /// All but the last `kept` of them.
   HWY_NOINLINE void draw_fetched(const Bins& bins, int kept) {
@@ -120,7 +130,8 @@ struct GroupBuilder {
     if (g.count == 0) return;
     // Lanes without a triangle repeat the first one and have no bit in the mask.
     for (int i = g.count; i < kGroupSize; ++i)
-      for (int k = 0; k < 3; ++k) g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
+      for (int k = 0; k < 3; ++k)
+        g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
     draw_group_function(run, draw_number);
     g.count = 0;
     if (run.memory.triangles.size() >= kMaxCollected) shade_whole_tile(run);
@@ -128,7 +139,10 @@ struct GroupBuilder {
   HWY_NOINLINE void load_waiting() {
     if (waiting_count == 0) return;  // there may be no draw yet
     int loaded = 0;
-    const DrawArrays arrays{.indices = draw->indices, .vertices = draw->vertices, .attributes = draw->attributes, .stride = static_cast<std::size_t>(draw->attribute_stride)};
+    const DrawArrays arrays{.indices = draw->indices,
+                            .vertices = draw->vertices,
+                            .attributes = draw->attributes,
+                            .stride = static_cast<std::size_t>(draw->attribute_stride)};
     for (; loaded + 4 <= waiting_count; loaded += 4) load_four(arrays, waiting + loaded);
     for (; loaded < waiting_count; ++loaded) load_own<3>(waiting[loaded]);
     waiting_count = 0;
@@ -171,11 +185,16 @@ struct GroupBuilder {
     constexpr hn::CappedTag<std::int32_t, 4> four;
     constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
     TriangleGroup& g = run.memory.group;
-    const auto row = [&](int t) HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const std::int32_t*>(v[t])); };
+    const auto row = [&](int t)
+                         HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const std::int32_t*>(v[t])); };
     const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
-    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)), xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // x x y y
-    const auto zw01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)), zw23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
-    const auto store = [&](auto column, void* to) HWY_ATTR { hn::StoreU(hn::BitCast(four, column), four, static_cast<std::int32_t*>(to)); };
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)),
+               xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // x x y y
+    const auto zw01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)),
+               zw23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
+    const auto store = [&](auto column, void* to) HWY_ATTR {
+      hn::StoreU(hn::BitCast(four, column), four, static_cast<std::int32_t*>(to));
+    };
     store(hn::InterleaveLower(pairs, xy01, xy23), g.x[k] + i);
     store(hn::InterleaveUpper(pairs, xy01, xy23), g.y[k] + i);
     store(hn::InterleaveLower(pairs, zw01, zw23), g.z[k] + i);
@@ -201,7 +220,8 @@ struct GroupBuilder {
     for (int k = 0; k < kCorners; ++k) {
       const std::size_t vertex = vertex_of(std::size_t{id} * kCorners + static_cast<std::size_t>(k));
       load_vertex(i, k, draw->vertices[vertex]);
-      run.memory.attributes[k][i] = draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
+      run.memory.attributes[k][i] =
+          draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
     }
     run.memory.source[i] = id;
   }

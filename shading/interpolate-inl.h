@@ -10,16 +10,16 @@
 #include <algorithm>
 #include <limits>
 
-#include "raster/lanes-inl.h"
 #include "raster/clip.h"
+#include "raster/lanes-inl.h"
 #include "shading/interpolate.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Coordinates of vertices 1 and 2; vertex 0 has the rest, so that an attribute is a0 + b1 (a1 - a0) + b2 (a2 - a0), and one
-/// that is the same at all three stays exactly that.
+/// Coordinates of vertices 1 and 2; vertex 0 has the rest, so that an attribute is a0 + b1 (a1 - a0) + b2 (a2
+/// - a0), and one that is the same at all three stays exactly that.
 struct Barycentric {
   Float b1, b2;
   Float inverse;  // of the weights' sum
@@ -47,7 +47,8 @@ struct WeightLanes {
   }
   /// From the edges' values at the pixels.
   HWY_INLINE Barycentric at(Int e0, Int e1, Int e2) const {
-    const auto weight = [&](int k, Int e) HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), scale[k], shift[k]); };
+    const auto weight = [&](int k, Int e)
+                            HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), scale[k], shift[k]); };
     const Float w1 = weight(1, e1), w2 = weight(2, e2);
     return from_weights(affine ? w1 : weight(0, e0), w1, w2, affine);
   }
@@ -71,31 +72,43 @@ struct NarrowEdges {
 
   HWY_INLINE NarrowEdges(const ShadedTriangle& t, int bx, int by) : triangle(t) {
     const Int x = hn::Add(splat(bx), block_columns(0)), y = hn::Add(splat(by), block_rows(0));
-    for (int k = 0; k < 3; ++k) first[k] = hn::Add(splat(t.edges.e[k]), hn::Add(hn::Mul(splat(t.edges.a[k]), x), hn::Mul(splat(t.edges.b[k]), y)));
+    for (int k = 0; k < 3; ++k)
+      first[k] = hn::Add(splat(t.edges.e[k]),
+                         hn::Add(hn::Mul(splat(t.edges.a[k]), x), hn::Mul(splat(t.edges.b[k]), y)));
   }
   HWY_INLINE Int at(int k, int chunk) const {
-    return hn::Add(first[k], splat(triangle.edges.a[k] * kBlockColumn[chunk * kLanes] + triangle.edges.b[k] * kBlockRow[chunk * kLanes]));
+    return hn::Add(first[k], splat(triangle.edges.a[k] * kBlockColumn[chunk * kLanes] +
+                                   triangle.edges.b[k] * kBlockRow[chunk * kLanes]));
   }
-  HWY_INLINE Barycentric barycentric(int chunk) const { return barycentric_from_edges(triangle, at(0, chunk), at(1, chunk), at(2, chunk)); }
+  HWY_INLINE Barycentric barycentric(int chunk) const {
+    return barycentric_from_edges(triangle, at(0, chunk), at(1, chunk), at(2, chunk));
+  }
 };
 
-inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const WideEdges& wide, int bx, int by, int chunk) {
+inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const WideEdges& wide, int bx,
+                                                 int by, int chunk) {
   alignas(64) float w[3][kLanes];
   for (int k = 0; k < 3; ++k) {
     const double start = wide.e[k] + wide.a[k] * bx + wide.b[k] * by;  // exact, as all of it
     for (int l = 0; l < kLanes; ++l) {
       const int p = chunk * kLanes + l;
-      w[k][l] = static_cast<float>(start + wide.a[k] * kBlockColumn[p] + wide.b[k] * kBlockRow[p]) * t.scale[k];
+      w[k][l] =
+          static_cast<float>(start + wide.a[k] * kBlockColumn[p] + wide.b[k] * kBlockRow[p]) * t.scale[k];
     }
   }
-  const Barycentric found = from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
-  // Beyond a line's end the weights' sum may be 0: no value is the right one there, so the first vertex's, which is the one of constants.
+  const Barycentric found =
+      from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
+  // Beyond a line's end the weights' sum may be 0: no value is the right one there, so the first vertex's,
+  // which is the one of constants.
   const auto known = hn::And(hn::IsFinite(found.b1), hn::IsFinite(found.b2));
-  return {hn::IfThenElseZero(known, found.b1), hn::IfThenElseZero(known, found.b2), hn::IfThenElseZero(known, found.inverse)};
+  return {hn::IfThenElseZero(known, found.b1), hn::IfThenElseZero(known, found.b2),
+          hn::IfThenElseZero(known, found.inverse)};
 }
 
-HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by, int chunk) {
-  return HWY_LIKELY(t.wide < 0) ? NarrowEdges(t, bx, by).barycentric(chunk) : barycentric_wide(t, wide[t.wide], bx, by, chunk);
+HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by,
+                                   int chunk) {
+  return HWY_LIKELY(t.wide < 0) ? NarrowEdges(t, bx, by).barycentric(chunk)
+                                : barycentric_wide(t, wide[t.wide], bx, by, chunk);
 }
 
 /// One attribute at the three vertices, and what it is kept within.
@@ -134,16 +147,22 @@ struct RangeLanes {
     high = splat(c.high);
   }
 };
-HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) { return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first)); }
-/// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of the triangle.
-HWY_INLINE Float interpolate_within(const Barycentric& b, const RangeLanes& c) { return lesser_of(greater_of(interpolate(b, c.corner), c.low), c.high); }
+HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) {
+  return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first));
+}
+/// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of
+/// the triangle.
+HWY_INLINE Float interpolate_within(const Barycentric& b, const RangeLanes& c) {
+  return lesser_of(greater_of(interpolate(b, c.corner), c.low), c.high);
+}
 HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
   RangeLanes lanes;
   lanes.set(c);
   return interpolate_within(b, lanes);
 }
 
-/// Keeps attributes from `attribute` on: as many as there is room for; what is read beyond the surface's own means nothing.
+/// Keeps attributes from `attribute` on: as many as there is room for; what is read beyond the surface's own
+/// means nothing.
 HWY_INLINE void keep_corners(const ShadedTriangle& t, int attribute, TriangleCorners& corners) {
   static_assert(TriangleCorners::kMost <= kAttributePadding);
   constexpr hn::CappedTag<float, TriangleCorners::kMost> some;
@@ -154,9 +173,12 @@ HWY_INLINE void keep_corners(const ShadedTriangle& t, int attribute, TriangleCor
     hn::Store(hn::Sub(hn::LoadU(some, t.attributes[2] + attribute + j), a0), some, corners.to_third + j);
   }
 }
-HWY_INLINE Float interpolate(const Barycentric& b, const TriangleCorners& c, int j) { return interpolate(b, Corners{c.first[j], c.to_second[j], c.to_third[j]}); }
+HWY_INLINE Float interpolate(const Barycentric& b, const TriangleCorners& c, int j) {
+  return interpolate(b, Corners{c.first[j], c.to_second[j], c.to_third[j]});
+}
 
-/// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` means nothing.
+/// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` means
+/// nothing.
 struct CornerArrays {
   alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
   HWY_INLINE CornerArrays(const ShadedTriangle& t, int attribute, int count) {
@@ -169,7 +191,9 @@ struct CornerArrays {
   }
   HWY_INLINE Corners operator[](int j) const { return {first[j], to_second[j], to_third[j]}; }
 };
-HWY_INLINE Float interpolate(const Barycentric& b, const CornerArrays& c, int j) { return interpolate(b, c[j]); }
+HWY_INLINE Float interpolate(const Barycentric& b, const CornerArrays& c, int j) {
+  return interpolate(b, c[j]);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera

@@ -1,5 +1,6 @@
-// The scalar twin of interpolate-inl.h and of the weights' setup, and their specification: one pixel of one triangle, its exact
-// edges in 128-bit integers, the floats in the kernel's order. Within a triangle the weights' sum is never 0, as a line's may be.
+// The scalar twin of interpolate-inl.h and of the weights' setup, and their specification: one pixel of one
+// triangle, its exact edges in 128-bit integers, the floats in the kernel's order. Within a triangle the
+// weights' sum is never 0, as a line's may be.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,8 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
   const auto [low_y, high_y] = std::minmax({v[0].y, v[1].y, v[2].y});
   const bool wide = std::max(high_x - low_x, high_y - low_y) > kNarrowExtent * kSubpixelScale;
   const float largest = std::max({v[0].rw, v[1].rw, v[2].rw});
-  const bool affine = (v[0].rw == v[1].rw && v[1].rw == v[2].rw) || !(largest > 0x1p-120f && largest < 0x1p120f);
+  const bool affine =
+      (v[0].rw == v[1].rw && v[1].rw == v[2].rw) || !(largest > 0x1p-120f && largest < 0x1p120f);
   const auto inverse_area = static_cast<float>(1.0 / static_cast<double>(exact.area));
 
   float weight[3];
@@ -36,7 +38,8 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
       weight[k] = static_cast<float>(static_cast<double>(edge)) * unit;
     } else {
       // Narrow edges are kept in units of 256, rounded down; what is lost is the same at every pixel.
-      const auto whole = static_cast<std::int64_t>((edge - (exact.edge[k].owns_border ? 0 : 1)) >> kSubpixelBits);
+      const auto whole =
+          static_cast<std::int64_t>((edge - (exact.edge[k].owns_border ? 0 : 1)) >> kSubpixelBits);
       const auto rest = static_cast<std::int64_t>(edge - (static_cast<Exact>(whole) << kSubpixelBits));
       weight[k] = std::fma(static_cast<float>(whole), 256.0f * unit, static_cast<float>(rest) * unit);
     }

@@ -1,4 +1,5 @@
-// Kernels of the lighting equation: stages over a batch of points, one of each for every kind of light and of highlight.
+// Kernels of the lighting equation: stages over a batch of points, one of each for every kind of light and of
+// highlight.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lighting.cpp"
 #include "framebuffer/lanes.h"
@@ -15,16 +16,27 @@ namespace HWY_NAMESPACE {
 struct Vector {
   Float x, y, z;
 };
-HWY_INLINE Float dot(const Vector& a, const Vector& b) { return mul_add(a.x, b.x, mul_add(a.y, b.y, hn::Mul(a.z, b.z))); }
-HWY_INLINE Vector times(const Vector& v, Float s) { return {hn::Mul(v.x, s), hn::Mul(v.y, s), hn::Mul(v.z, s)}; }
+HWY_INLINE Float dot(const Vector& a, const Vector& b) {
+  return mul_add(a.x, b.x, mul_add(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE Vector times(const Vector& v, Float s) {
+  return {hn::Mul(v.x, s), hn::Mul(v.y, s), hn::Mul(v.z, s)};
+}
 /// a - b s
-HWY_INLINE Vector less_times(const Vector& a, const Vector& b, Float s) { return {neg_mul_add(b.x, s, a.x), neg_mul_add(b.y, s, a.y), neg_mul_add(b.z, s, a.z)}; }
+HWY_INLINE Vector less_times(const Vector& a, const Vector& b, Float s) {
+  return {neg_mul_add(b.x, s, a.x), neg_mul_add(b.y, s, a.y), neg_mul_add(b.z, s, a.z)};
+}
 HWY_INLINE Float squared_length(const Vector& v) { return dot(v, v); }
 /// The cosine of two unit vectors that are that far apart: near 1 it has the error of what is missing there.
-HWY_INLINE Float cosine_of_units(const Vector& apart) { return mul_add(splat(-0.5f), squared_length(apart), splat(1.0f)); }
-HWY_INLINE Vector splat_vector(const std::array<float, 3>& v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
+HWY_INLINE Float cosine_of_units(const Vector& apart) {
+  return mul_add(splat(-0.5f), squared_length(apart), splat(1.0f));
+}
+HWY_INLINE Vector splat_vector(const std::array<float, 3>& v) {
+  return {splat(v[0]), splat(v[1]), splat(v[2])};
+}
 HWY_INLINE Vector load_vector(const ShadingBatch& batch, int first_field, int point) {
-  return {hn::Load(kFloat, batch.field[first_field] + point), hn::Load(kFloat, batch.field[first_field + 1] + point),
+  return {hn::Load(kFloat, batch.field[first_field] + point),
+          hn::Load(kFloat, batch.field[first_field + 1] + point),
           hn::Load(kFloat, batch.field[first_field + 2] + point)};
 }
 HWY_INLINE void store_vector(ShadingBatch& batch, int first_field, int point, const Vector& v) {
@@ -43,8 +55,9 @@ HWY_INLINE void accumulate(Vector& sum, Float intensity, const Vector& color) {
   sum.z = mul_add(intensity, color.z, sum.z);
 }
 
-/// What the stages of one light hand on. Each stage goes over all points before the next begins: the roots and divisions of several chunks then run beside each
-/// other, and whether there is anything left to do is asked once for all of them.
+/// What the stages of one light hand on. Each stage goes over all points before the next begins: the roots
+/// and divisions of several chunks then run beside each other, and whether there is anything left to do is
+/// asked once for all of them.
 struct alignas(64) Incidence {
   float to_light[3][kBatchPoints];  // unit
   float n_dot_l[kBatchPoints];      // 0 where the light comes from behind or does not reach
@@ -52,18 +65,24 @@ struct alignas(64) Incidence {
   float cosine[kBatchPoints];       // of a spot, to its axis
   float highlight[kBatchPoints];    // S.n, its square or R.E
 
-  HWY_INLINE Vector direction(int point) const { return {hn::Load(kFloat, to_light[0] + point), hn::Load(kFloat, to_light[1] + point), hn::Load(kFloat, to_light[2] + point)}; }
+  HWY_INLINE Vector direction(int point) const {
+    return {hn::Load(kFloat, to_light[0] + point), hn::Load(kFloat, to_light[1] + point),
+            hn::Load(kFloat, to_light[2] + point)};
+  }
 };
 
 HWY_INLINE Float cut(Float amount) { return lesser_of(amount, splat(kLargestFloat)); }
 
-/// Where the light comes from, and how much of it; of a spot without the power that its cone has. Returns whether any point faces it.
+/// Where the light comes from, and how much of it; of a spot without the power that its cone has. Returns
+/// whether any point faces it.
 template <LightKind kKind>
-HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
+HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
+                                 Incidence& light) {
   constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
   // Read before the loop: a compiler must assume that stores change `term`.
-  const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation), spot_direction = splat_vector(term.spot_direction);
+  const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation),
+               spot_direction = splat_vector(term.spot_direction);
   const Float spot_cosine = splat(term.spot_cosine), spot_apart = splat(term.spot_apart);
   const bool narrow = term.spot_apart > 0;
   auto any = hn::Gt(zero, zero);
@@ -77,7 +96,8 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       const Float distance = hn::Sqrt(squared);
       to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
       if constexpr (kAttenuated) {
-        const Float denominator = mul_add(attenuation.z, cut(squared), mul_add(attenuation.y, cut(distance), attenuation.x));
+        const Float denominator =
+            mul_add(attenuation.z, cut(squared), mul_add(attenuation.y, cut(distance), attenuation.x));
         factor = hn::IfThenElse(hn::Gt(denominator, zero), cut(hn::Div(one, denominator)), splat(1.0e6f));
       }
     }
@@ -86,7 +106,8 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
     if constexpr (is_spot(kKind)) {
       const Float cosine = hn::Sub(zero, dot(to_light, spot_direction));
       auto reached = hn::Ge(cosine, spot_cosine);
-      if (HWY_UNLIKELY(narrow)) reached = hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_apart);
+      if (HWY_UNLIKELY(narrow))
+        reached = hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_apart);
       reached = hn::And(reached, hn::Gt(cosine, zero));
       hn::Store(cosine, kFloat, light.cosine + point);
       factor = hn::IfThenElseZero(reached, factor);
@@ -105,20 +126,23 @@ bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
   switch (term.kind) {
     case LightKind::directional: return find_incidence<LightKind::directional>(term, batch, count, light);
     case LightKind::point: return find_incidence<LightKind::point>(term, batch, count, light);
-    case LightKind::attenuated_point: return find_incidence<LightKind::attenuated_point>(term, batch, count, light);
+    case LightKind::attenuated_point:
+      return find_incidence<LightKind::attenuated_point>(term, batch, count, light);
     case LightKind::spot: return find_incidence<LightKind::spot>(term, batch, count, light);
     default: return find_incidence<LightKind::attenuated_spot>(term, batch, count, light);
   }
 }
 
-/// Calls visit(point, its x to that power) for one chunk of points after the other; powers are taken of several chunks at once.
+/// Calls visit(point, its x to that power) for one chunk of points after the other; powers are taken of
+/// several chunks at once.
 template <class Visit>
 HWY_INLINE void for_each_power(const Power& power, const float* x, int count, const Visit& visit) {
   constexpr int kTogether = 4;
   with_power(power, [&](const auto& raise) HWY_ATTR {
     for (int first = 0; first < count; first += kTogether * kLanes) {
       Float powers[kTogether];
-      for (int k = 0; k < kTogether; ++k) powers[k] = first + k * kLanes < count ? hn::Load(kFloat, x + first + k * kLanes) : hn::Zero(kFloat);
+      for (int k = 0; k < kTogether; ++k)
+        powers[k] = first + k * kLanes < count ? hn::Load(kFloat, x + first + k * kLanes) : hn::Zero(kFloat);
       raise(powers);
       for (int k = 0; k < kTogether && first + k * kLanes < count; ++k) visit(first + k * kLanes, powers[k]);
     }
@@ -134,16 +158,20 @@ void apply_cone(const LightTerm& term, int count, Incidence& light) {
 
 /// Where a highlight can be: on what faces the light, with a power that is seen.
 HWY_INLINE auto is_shiny(Float floor, const Incidence& light, int point) {
-  return hn::AndNot(hn::Le(hn::Load(kFloat, light.highlight + point), floor), hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)));
+  return hn::AndNot(hn::Le(hn::Load(kFloat, light.highlight + point), floor),
+                    hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)));
 }
 
 /// S.n, its square or R.E. Returns whether there is a highlight anywhere.
 /// kFixedHalf: S is the same for all points, of a directional light and an infinite viewer.
 template <HighlightKind kHighlight, bool kFixedHalf>
-HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count, Incidence& light) {
+HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count,
+                                  Incidence& light) {
   static_assert(!kFixedHalf || kHighlight == HighlightKind::blinn_infinite);
-  constexpr bool kBlinn = kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
-  constexpr bool kLocal = kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
+  constexpr bool kBlinn =
+      kHighlight == HighlightKind::blinn_infinite || kHighlight == HighlightKind::blinn_local;
+  constexpr bool kLocal =
+      kHighlight == HighlightKind::blinn_local || kHighlight == HighlightKind::phong_local;
   const Float zero = hn::Zero(kFloat), floor = splat(term.highlight_floor);
   const Vector fixed_half = splat_vector(term.half_vector);
   const bool sharp = term.sharp, squared_power = term.squared;
@@ -157,8 +185,10 @@ HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& bat
     } else {
       const Vector to_light = light.direction(point);
       const Vector view = kLocal ? load_vector(batch, kViewX, point) : Vector{zero, zero, splat(1.0f)};
-      const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y), hn::Add(to_light.z, view.z)};
-      const Float n_dot_l = hn::Load(kFloat, light.n_dot_l + point), n_dot_v = kLocal ? hn::Load(kFloat, batch.field[kNormalDotView] + point) : normal.z;
+      const Vector half{hn::Add(to_light.x, view.x), hn::Add(to_light.y, view.y),
+                        hn::Add(to_light.z, view.z)};
+      const Float n_dot_l = hn::Load(kFloat, light.n_dot_l + point),
+                  n_dot_v = kLocal ? hn::Load(kFloat, batch.field[kNormalDotView] + point) : normal.z;
       if constexpr (kBlinn) {  // S = normalize(L + E)
         const Float squared = dot(half, half), sum = hn::Add(n_dot_l, n_dot_v);
         if (HWY_LIKELY(squared_power)) {
@@ -183,10 +213,13 @@ bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count
   switch (term.highlight) {
     case HighlightKind::none: return false;
     case HighlightKind::blinn_infinite:
-      return term.kind == LightKind::directional ? find_highlights<HighlightKind::blinn_infinite, true>(term, batch, count, light)
-                                                 : find_highlights<HighlightKind::blinn_infinite, false>(term, batch, count, light);
-    case HighlightKind::blinn_local: return find_highlights<HighlightKind::blinn_local, false>(term, batch, count, light);
-    case HighlightKind::phong_infinite: return find_highlights<HighlightKind::phong_infinite, false>(term, batch, count, light);
+      return term.kind == LightKind::directional
+                 ? find_highlights<HighlightKind::blinn_infinite, true>(term, batch, count, light)
+                 : find_highlights<HighlightKind::blinn_infinite, false>(term, batch, count, light);
+    case HighlightKind::blinn_local:
+      return find_highlights<HighlightKind::blinn_local, false>(term, batch, count, light);
+    case HighlightKind::phong_infinite:
+      return find_highlights<HighlightKind::phong_infinite, false>(term, batch, count, light);
     default: return find_highlights<HighlightKind::phong_local, false>(term, batch, count, light);
   }
 }
@@ -197,39 +230,51 @@ struct Sums {
   Rgb start;
   bool begun = false;
 
-  HWY_INLINE Vector load(const ShadingBatch& batch, int point) const { return begun ? load_vector(batch, first_field, point) : splat_vector(start); }
+  HWY_INLINE Vector load(const ShadingBatch& batch, int point) const {
+    return begun ? load_vector(batch, first_field, point) : splat_vector(start);
+  }
 };
 
 /// Adds the diffuse part of a light to a chunk of points, and highlights, if there are any.
 template <class... Highlight>
-HWY_INLINE void add_products(const Incidence& light, int point, const Vector& diffuse_color, const Vector& specular_color, const Sums& sums, ShadingBatch& batch, Highlight... highlight) {
-  const Float diffuse = cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
+HWY_INLINE void add_products(const Incidence& light, int point, const Vector& diffuse_color,
+                             const Vector& specular_color, const Sums& sums, ShadingBatch& batch,
+                             Highlight... highlight) {
+  const Float diffuse =
+      cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
   Vector sum = sums.load(batch, point);
   accumulate(sum, diffuse, diffuse_color);
   (accumulate(sum, highlight, specular_color), ...);
   store_vector(batch, sums.first_field, point, sum);
 }
-/// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E, if there is a highlight anywhere.
-void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light, Sums& color, Sums& tracked, ShadingBatch& batch) {
+/// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E, if there is a
+/// highlight anywhere.
+void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light,
+                Sums& color, Sums& tracked, ShadingBatch& batch) {
   // Read before the loops, as in find_incidence().
   const Vector diffuse = splat_vector(term.diffuse), specular = splat_vector(term.specular);
   const Float floor = splat(term.highlight_floor);
-  const auto add = [&, color, tracked, has_tracked, diffuse, specular](int point, auto... highlight) HWY_ATTR {
-    add_products(light, point, diffuse, specular, color, batch, highlight...);
-    if (has_tracked) add_products(light, point, splat_vector(term.tracked_diffuse), splat_vector(term.tracked_specular), tracked, batch, highlight...);
-  };
+  const auto add = [&, color, tracked, has_tracked, diffuse, specular](int point, auto... highlight)
+                       HWY_ATTR {
+                         add_products(light, point, diffuse, specular, color, batch, highlight...);
+                         if (has_tracked)
+                           add_products(light, point, splat_vector(term.tracked_diffuse),
+                                        splat_vector(term.tracked_specular), tracked, batch, highlight...);
+                       };
   if (highlights) {
-    for_each_power(term.highlight_power, light.highlight, count, [&, add, floor](int point, Float power) HWY_ATTR {
-      const Float highlight = cut(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
-      add(point, hn::IfThenElseZero(is_shiny(floor, light, point), highlight));
-    });
+    for_each_power(term.highlight_power, light.highlight, count,
+                   [&, add, floor](int point, Float power) HWY_ATTR {
+                     const Float highlight = cut(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
+                     add(point, hn::IfThenElseZero(is_shiny(floor, light, point), highlight));
+                   });
   } else {
     for (int point = 0; point < count; point += kLanes) add(point);
   }
   color.begun = true;
   tracked.begun = has_tracked;
 }
-HWY_NOINLINE void add_ambient(const Incidence& light, int count, const Rgb& color, Sums& sums, ShadingBatch& batch) {
+HWY_NOINLINE void add_ambient(const Incidence& light, int count, const Rgb& color, Sums& sums,
+                              ShadingBatch& batch) {
   for (int point = 0; point < count; point += kLanes) {
     Vector sum = sums.load(batch, point);
     accumulate(sum, hn::Load(kFloat, light.factor + point), splat_vector(color));
@@ -239,7 +284,8 @@ HWY_NOINLINE void add_ambient(const Incidence& light, int count, const Rgb& colo
 }
 
 /// Adds one light to the sums.
-void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, Sums& tracked, ShadingBatch& batch) {
+void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, Sums& tracked,
+               ShadingBatch& batch) {
   const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
   Incidence light;
   const bool faces = find_incidence(term, batch, count, light);
@@ -254,7 +300,8 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   add_colors(term, has_tracked, shines, count, light, color, tracked, batch);
 }
 
-/// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out as the lowest.
+/// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out
+/// as the lowest.
 HWY_INLINE Float finite(Float c) {
   return lesser_of(greater_of(c, splat(-kLargestFloat)), splat(kLargestFloat));
 }
@@ -287,12 +334,14 @@ HWY_INLINE Float index_of(const LightingProgram& program, const Vector& sums) {
   const Float d = finite(sums.x), s = finite(sums.y);
   const Float matt = mul_add(hn::Mul(d, hn::Sub(splat(1.0f), s)), splat(diffuse - ambient), splat(ambient));
   const Float index = lesser_of(mul_add(s, splat(specular - ambient), matt), splat(specular));
-  const Float rest = hn::Sub(index, hn::Mul(splat(program.index_modulus), hn::Floor(hn::Mul(index, splat(1 / program.index_modulus)))));
+  const Float rest = hn::Sub(index, hn::Mul(splat(program.index_modulus),
+                                            hn::Floor(hn::Mul(index, splat(1 / program.index_modulus)))));
   return hn::IfThenElseZero(hn::Ge(rest, hn::Zero(kFloat)), rest);
 }
 
 void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int count) {
-  if (program.needs_normal && (program.renormalize || program.negate_normal || program.needs_view)) prepare_surfaces(program, batch, count);
+  if (program.needs_normal && (program.renormalize || program.negate_normal || program.needs_view))
+    prepare_surfaces(program, batch, count);
   Sums color{kColorR, program.base}, tracked{kTrackedR, program.tracked_base};
   for (const LightTerm& term : program.terms) add_light(term, program.tracked, count, color, tracked, batch);
   for (int point = 0; point < count; point += kLanes) {
@@ -303,7 +352,9 @@ void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int
     }
     if (program.tracked) {
       const Vector part = tracked.load(batch, point), vertex = load_vector(batch, kVertexR, point);
-      sum = {mul_add(finite(part.x), finite(vertex.x), sum.x), mul_add(finite(part.y), finite(vertex.y), sum.y), mul_add(finite(part.z), finite(vertex.z), sum.z)};
+      sum = {mul_add(finite(part.x), finite(vertex.x), sum.x),
+             mul_add(finite(part.y), finite(vertex.y), sum.y),
+             mul_add(finite(part.z), finite(vertex.z), sum.z)};
     }
     store_vector(batch, kColorR, point, {clamped(sum.x), clamped(sum.y), clamped(sum.z)});
   }

@@ -1,4 +1,5 @@
-// The scalar twin of lighting.cpp and its specification: one point at a time, the same steps in the same order.
+// The scalar twin of lighting.cpp and its specification: one point at a time, the same steps in the same
+// order.
 #pragma once
 
 #include <algorithm>
@@ -19,16 +20,22 @@ struct PointReference {
 /// The index of a program of indices comes in red; the rest means nothing.
 inline Rgb light_point_reference(const LightingProgram& program, const PointReference& point) {
   using Vec = std::array<float, 3>;
-  const auto dot = [](const Vec& a, const Vec& b) { return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2])); };
+  const auto dot = [](const Vec& a, const Vec& b) {
+    return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2]));
+  };
   const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
   const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
   const auto squared_distance = [&](const Vec& a, const Vec& b, float s) {  // of a and b s
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
     return dot(apart, apart);
   };
-  const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) { return std::fma(-0.5f, squared_distance(a, b, s), 1.0f); };
+  const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) {
+    return std::fma(-0.5f, squared_distance(a, b, s), 1.0f);
+  };
   const auto cut = [](float amount) { return amount < kLargestFloat ? amount : kLargestFloat; };
-  const auto finite = [](float value) { return std::isnan(value) ? -kLargestFloat : std::clamp(value, -kLargestFloat, kLargestFloat); };
+  const auto finite = [](float value) {
+    return std::isnan(value) ? -kLargestFloat : std::clamp(value, -kLargestFloat, kLargestFloat);
+  };
   const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] = std::fma(intensity, color[c], sum[c]);
   };
@@ -49,11 +56,15 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       to_light = scaled(to_light, squared > 0 ? 1.0f / distance : 0.0f);
       if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
-        reached = (term.spot_apart > 0 ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_apart : cosine >= term.spot_cosine) && cosine > 0;
+        reached =
+            (term.spot_apart > 0 ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_apart
+                                 : cosine >= term.spot_cosine) &&
+            cosine > 0;
         factor = reached ? power_of_reference(cosine, term.spot_power.exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
-        const float denominator = std::fma(term.attenuation[2], cut(squared), std::fma(term.attenuation[1], cut(distance), term.attenuation[0]));
+        const float denominator = std::fma(term.attenuation[2], cut(squared),
+                                           std::fma(term.attenuation[1], cut(distance), term.attenuation[0]));
         factor = cut(factor * (denominator > 0 ? cut(1.0f / denominator) : 1.0e6f));
       }
     }
@@ -62,21 +73,28 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
     const float n_dot_l = facing ? cut(incidence) : 0.0f, diffuse = cut(n_dot_l * factor);
     float highlight = 0;
     if (facing && term.highlight != HighlightKind::none) {
-      const bool local = term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
+      const bool local =
+          term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
       const Vec eye = local ? view : Vec{0, 0, 1};
       const float n_dot_v = local ? dot(normal, view) : normal[2];
       const Vec half{to_light[0] + eye[0], to_light[1] + eye[1], to_light[2] + eye[2]};
       float base;
       if (term.highlight == HighlightKind::phong_infinite || term.highlight == HighlightKind::phong_local) {
         const float twice = n_dot_l + n_dot_l;  // R = 2 (L.n) n - L
-        base = term.sharp ? cosine_of_units(half, normal, twice) : twice * n_dot_v - (local ? dot(to_light, view) : to_light[2]);
+        base = term.sharp ? cosine_of_units(half, normal, twice)
+                          : twice * n_dot_v - (local ? dot(to_light, view) : to_light[2]);
       } else if (term.kind == LightKind::directional && !local) {
         base = term.sharp ? cosine_of_units(normal, term.half_vector, 1.0f) : dot(normal, term.half_vector);
       } else {  // S = normalize(L + E)
-        const float squared = dot(half, half), inverse = inverse_length(squared), sum = n_dot_l + n_dot_v, kept = sum > 0 ? sum : 0.0f;
-        base = term.squared ? (squared > 0 ? kept * kept / squared : 0.0f) : term.sharp ? cosine_of_units(normal, half, inverse) : sum * inverse;
+        const float squared = dot(half, half), inverse = inverse_length(squared), sum = n_dot_l + n_dot_v,
+                    kept = sum > 0 ? sum : 0.0f;
+        base = term.squared ? (squared > 0 ? kept * kept / squared : 0.0f)
+               : term.sharp ? cosine_of_units(normal, half, inverse)
+                            : sum * inverse;
       }
-      highlight = base <= term.highlight_floor ? 0.0f : cut(power_of_reference(base, term.highlight_power.exponent) * factor);
+      highlight = base <= term.highlight_floor
+                      ? 0.0f
+                      : cut(power_of_reference(base, term.highlight_power.exponent) * factor);
     }
     accumulate(color, factor, term.ambient);
     accumulate(tracked, factor, term.tracked_ambient);
@@ -93,7 +111,8 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   }
   Rgb result{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const float sum = program.tracked ? std::fma(finite(tracked[c]), finite(point.vertex[c]), color[c]) : color[c];
+    const float sum =
+        program.tracked ? std::fma(finite(tracked[c]), finite(point.vertex[c]), color[c]) : color[c];
     const float low = sum > 0 ? sum : 0.0f;
     result[c] = low < 1 ? low : 1.0f;
   }

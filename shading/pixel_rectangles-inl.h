@@ -1,5 +1,5 @@
-// Bitmaps and images in a tile: blocks of fragments, one depth for all. What happens to the fragments is what happens
-// to those of triangles.
+// Bitmaps and images in a tile: blocks of fragments, one depth for all. What happens to the fragments is what
+// happens to those of triangles.
 #if defined(TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
 #undef TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
@@ -26,17 +26,22 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileRun& run, std::uint32_t draw_n
                              .triangle = face,
                              .has_depth = draw.uses_depth && run.frame.depth_kind != DepthKind::none,
                              .surface = {}};
-  if (fragments.ops.stencil) fragments.stencil = stencil_steps(fragments.ops.faces[0], fragments.ops.stencil_most);
+  if (fragments.ops.stencil)
+    fragments.stencil = stencil_steps(fragments.ops.faces[0], fragments.ops.stencil_most);
   fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
-  const bool is_first_primitive = draw.number == TileDraw::Number::primitive || draw.source == ColorSource::triangle_word;
+  const bool is_first_primitive =
+      draw.number == TileDraw::Number::primitive || draw.source == ColorSource::triangle_word;
   fragments.word = is_first_primitive ? 0 : draw.word;
   alignas(64) float colors[4 * kBlockPixels];
-  const bool has_colors = texels.channels != 0 && ((!fragments.has_word && draw.source == ColorSource::texels) || fragments.ops.alpha_test);
+  const bool has_colors =
+      texels.channels != 0 &&
+      ((!fragments.has_word && draw.source == ColorSource::texels) || fragments.ops.alpha_test);
   if (has_colors) fragments.colors_given = colors;
 
   TexelPlaces places[kMaxSamples];
   const int apart = texels.channels != 0 ? run.samples : 1;  // bits cover whole pixels
-  for (int s = 0; s < apart; ++s) places[s].set_up({texels, run.frame.grid, run.tile_x, run.tile_y, rect}, run.samples, s);
+  for (int s = 0; s < apart; ++s)
+    places[s].set_up({texels, run.frame.grid, run.tile_x, run.tile_y, rect}, run.samples, s);
   BlockFragments blocks[kMaxSamples];
   const auto cover = [&](int s, std::uint32_t bits) HWY_ATTR {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {

@@ -1,4 +1,5 @@
-// What is linear along a line: depth keys and colours of the pixels it covers. Beyond the ends, where pixels of wide lines are, too [GL 2.1, 3.4.1].
+// What is linear along a line: depth keys and colours of the pixels it covers. Beyond the ends, where pixels
+// of wide lines are, too [GL 2.1, 3.4.1].
 #if defined(TESSERA_SHADING_POINT_LINE_VALUES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POINT_LINE_VALUES_INL_H_
 #undef TESSERA_SHADING_POINT_LINE_VALUES_INL_H_
@@ -22,7 +23,9 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// An offset in whole units of depth words; at most far outside.
-HWY_INLINE double whole_offset(double offset) { return offset != 0 ? std::floor(std::clamp(offset, -0x1p32, 0x1p32) + 0.5) : 0; }
+HWY_INLINE double whole_offset(double offset) {
+  return offset != 0 ? std::floor(std::clamp(offset, -0x1p32, 0x1p32) + 0.5) : 0;
+}
 
 /// Depth in units of what is stored: levels, or floats.
 class LineDepth {
@@ -59,12 +62,16 @@ class LineDepth {
 /// @pre there is depth, and the offset is a number
 HWY_INLINE std::int32_t point_key(DepthKind kind, std::uint32_t z, double offset) {
   TESSERA_ASSERT(kind != DepthKind::none && !std::isnan(offset));
-  if (kind == DepthKind::float32) return std::bit_cast<std::int32_t>(static_cast<float>(std::clamp(std::bit_cast<float>(z) + offset, 0.0, 1.0)) + 0.0f);
-  const auto word = static_cast<std::uint32_t>(std::clamp<std::int64_t>(z + static_cast<std::int64_t>(whole_offset(offset)), 0, 0xffffffff));
+  if (kind == DepthKind::float32)
+    return std::bit_cast<std::int32_t>(
+        static_cast<float>(std::clamp(std::bit_cast<float>(z) + offset, 0.0, 1.0)) + 0.0f);
+  const auto word = static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(z + static_cast<std::int64_t>(whole_offset(offset)), 0, 0xffffffff));
   return depth_key_from_word(kind, word >> (32 - depth_bits(kind)));
 }
 
-/// Where pixels stand along a line. What lies aside has the values of where it is projected onto the line; a point is the same everywhere.
+/// Where pixels stand along a line. What lies aside has the values of where it is projected onto the line; a
+/// point is the same everywhere.
 struct LineValues {
   std::int32_t first_x, first_y;  // from the first vertex to the tile's first pixel centre, 1/256 pixel
   double dx, dy, per_squared_length;
@@ -83,12 +90,16 @@ struct LineValues {
   }
   /// Equation 3.5, of pixels of the tile whose centres are moved by `by`.
   HWY_INLINE Doubles parameters(Int x, Int y, SamplePosition by = {}) const {
-    const auto from_first = [](Int pixel, std::int32_t first) HWY_ATTR { return to_doubles(hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(first))); };
-    return times(plus(times(from_first(x, first_x + by.x), dx), times(from_first(y, first_y + by.y), dy)), per_squared_length);
+    const auto from_first = [](Int pixel, std::int32_t first) HWY_ATTR {
+      return to_doubles(hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(first)));
+    };
+    return times(plus(times(from_first(x, first_x + by.x), dx), times(from_first(y, first_y + by.y), dy)),
+                 per_squared_length);
   }
 };
 
-/// The ends' 1/w as parts of the larger one; equal where that leaves the numbers' range (as of triangles: raster/triangle_setup-inl.h).
+/// The ends' 1/w as parts of the larger one; equal where that leaves the numbers' range (as of triangles:
+/// raster/triangle_setup-inl.h).
 struct RelativeRw {
   float of[2] = {1, 1};
 
@@ -108,7 +119,8 @@ struct LineColors {
 
   HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw, int i, bool back) {
     const ColorLayout& layout = run.frame.layout;
-    const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits}, shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
+    const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits},
+              shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
     for (int c = 0; c < 3; ++c) {
       const int attribute = draw.color_attribute[back ? 1 : 0] + c;
       first[c] = run.memory.attributes[0][i][attribute];
@@ -123,7 +135,8 @@ struct LineColors {
   HWY_INLINE Int words(const Doubles& parameters) const {
     Float t = to_floats(parameters);
     if (rw[0] != rw[1]) {
-      const Float far = hn::Mul(t, splat(rw[1])), sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
+      const Float far = hn::Mul(t, splat(rw[1])),
+                  sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
       t = hn::Div(far, sum);
       t = hn::IfThenElseZero(hn::IsFinite(t), t);  // as barycentric_wide
     }

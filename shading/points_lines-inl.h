@@ -1,5 +1,6 @@
-// Points and lines in a tile. Few of their pixels lie in one block: each is covered, and has its depth, by itself. Plain colours are
-// stored as they come; all others go block by block through what fragments of triangles go through.
+// Points and lines in a tile. Few of their pixels lie in one block: each is covered, and has its depth, by
+// itself. Plain colours are stored as they come; all others go block by block through what fragments of
+// triangles go through.
 #if defined(TESSERA_SHADING_POINTS_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POINTS_LINES_INL_H_
 #undef TESSERA_SHADING_POINTS_LINES_INL_H_
@@ -27,7 +28,8 @@ HWY_INLINE LinePoint center_of(const TileRun& run, int x, int y) {
 HWY_INLINE LinePoint moved(LinePoint p, SamplePosition by) { return {p.x + by.x, p.y + by.y}; }
 HWY_INLINE LinePoint vertex_of(const TriangleGroup& g, int i, int k) { return {g.x[k][i], g.y[k][i]}; }
 HWY_INLINE PixelRect in_tile(const TileRun& run, const PixelRect& rect) {
-  return intersect({rect.x0 - run.tile_x, rect.y0 - run.tile_y, rect.x1 - run.tile_x, rect.y1 - run.tile_y}, run.rect);
+  return intersect({rect.x0 - run.tile_x, rect.y0 - run.tile_y, rect.x1 - run.tile_x, rect.y1 - run.tile_y},
+                   run.rect);
 }
 
 /// Of edges and corners of polygons.
@@ -36,11 +38,13 @@ HWY_INLINE double depth_offset_of(const TileRun& run, const TileDraw& draw, int 
 }
 
 /// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
-HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i, bool back) {
+HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i,
+                                          bool back) {
   const TriangleGroup& g = run.memory.group;
   const bool is_line = run.frame.draws[draw].topology == Topology::lines;
   const int second = is_line ? 1 : 0;
-  const double dx = g.x[second][i] - g.x[0][i], dy = g.y[second][i] - g.y[0][i], squared_length = dx * dx + dy * dy;
+  const double dx = g.x[second][i] - g.x[0][i], dy = g.y[second][i] - g.y[0][i],
+               squared_length = dx * dx + dy * dy;
   const LinePoint first = center_of(run, 0, 0);
   WideEdges wide{};
   wide.a[1] = kSubpixelScale * dx;
@@ -74,7 +78,8 @@ struct BlockBits {
     if (blocks.samples[block] == 0) blocks.list[blocks.count++] = static_cast<std::uint16_t>(block);
     blocks.samples[block] |= samples;
     const std::uint32_t bit = 1u << ((y & 3) * 4 + (x & 3));
-    for (std::uint32_t left = samples; left != 0; left &= left - 1) blocks.bits[std::countr_zero(left)][block] |= static_cast<std::uint16_t>(bit);
+    for (std::uint32_t left = samples; left != 0; left &= left - 1)
+      blocks.bits[std::countr_zero(left)][block] |= static_cast<std::uint16_t>(bit);
   }
 
   /// Runs them through `fragments`, and forgets them.
@@ -89,7 +94,9 @@ struct BlockBits {
           covered[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
           covered[s].keys[chunk] = hn::Zero(kInt);
         }
-        if (fragments.has_depth) block_keys(bx, by, run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{}, values, covered[s].keys);
+        if (fragments.has_depth)
+          block_keys(bx, by, run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{}, values,
+                     covered[s].keys);
         blocks.bits[s][block] = 0;
       }
       blocks.samples[block] = 0;
@@ -99,9 +106,11 @@ struct BlockBits {
   }
 
  private:
-  HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values, Int (&keys)[kChunksPerBlock]) const {
+  HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values,
+                             Int (&keys)[kChunksPerBlock]) const {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      keys[chunk] = values.depth.keys(values.parameters(hn::Add(splat(bx), block_columns(chunk)), hn::Add(splat(by), block_rows(chunk)), position));
+      keys[chunk] = values.depth.keys(values.parameters(hn::Add(splat(bx), block_columns(chunk)),
+                                                        hn::Add(splat(by), block_rows(chunk)), position));
   }
 };
 
@@ -113,7 +122,8 @@ HWY_INLINE void cover_samples(BlockBits& bits, const Shape& shape, const PixelRe
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const LinePoint center = center_of(run, x, y);
       std::uint32_t samples = 0;
-      for (int s = 0; s < run.samples; ++s) samples |= shape.covers(moved(center, sample_positions(run.samples)[s])) ? 1u << s : 0u;
+      for (int s = 0; s < run.samples; ++s)
+        samples |= shape.covers(moved(center, sample_positions(run.samples)[s])) ? 1u << s : 0u;
       if (samples != 0) bits.add(x, y, samples);
     }
 }
@@ -148,7 +158,9 @@ struct LineShape {
   HWY_INLINE void for_each_vector(const Pixels& pixels) const {
     const PixelRect& r = run.rect;
     steps.for_each(i, {r.x0 + run.tile_x, r.y0 + run.tile_y, r.x1 + run.tile_x, r.y1 + run.tile_y},
-                   [&](Int x, Int y, LaneMask inside) HWY_ATTR { pixels(hn::Sub(x, splat(run.tile_x)), hn::Sub(y, splat(run.tile_y)), inside); });
+                   [&](Int x, Int y, LaneMask inside) HWY_ATTR {
+                     pixels(hn::Sub(x, splat(run.tile_x)), hn::Sub(y, splat(run.tile_y)), inside);
+                   });
   }
   template <class Pixel>
   HWY_INLINE void for_each(const Pixel& pixel) const {
@@ -156,7 +168,8 @@ struct LineShape {
       alignas(64) std::int32_t columns[kLanes], rows[kLanes];
       hn::Store(x, kInt, columns);
       hn::Store(y, kInt, rows);
-      for (std::uint32_t left = mask_bits(kInt, inside); left != 0; left &= left - 1) pixel(columns[std::countr_zero(left)], rows[std::countr_zero(left)]);
+      for (std::uint32_t left = mask_bits(kInt, inside); left != 0; left &= left - 1)
+        pixel(columns[std::countr_zero(left)], rows[std::countr_zero(left)]);
     });
   }
   HWY_INLINE void cover(BlockBits& bits) const {
@@ -165,8 +178,10 @@ struct LineShape {
     const PixelRect pixels = in_tile(run, pixels_near(a, b, line_reach(width, run.samples)));
     for (int by = pixels.y0 & ~3; by < pixels.y1; by += 4)
       for (int bx = pixels.x0 & ~3; bx < pixels.x1; bx += 4) {
-        const LinePoint center{(run.tile_x + bx + 2) * kSubpixelScale, (run.tile_y + by + 2) * kSubpixelScale};
-        if (rectangle.may_touch(center, 2 * kSubpixelScale)) cover_samples(bits, rectangle, intersect(pixels, {bx, by, bx + 4, by + 4}));
+        const LinePoint center{(run.tile_x + bx + 2) * kSubpixelScale,
+                               (run.tile_y + by + 2) * kSubpixelScale};
+        if (rectangle.may_touch(center, 2 * kSubpixelScale))
+          cover_samples(bits, rectangle, intersect(pixels, {bx, by, bx + 4, by + 4}));
       }
   }
 };
@@ -189,16 +204,22 @@ class PlainPixels {
     color ^= (color ^ word) & draw_.write_mask;
     ++run_.counts.shaded_pixels;
   }
-  /// Pixels none of which is there twice; of those that are not `inside` nothing is seen. Neither that nor whether a depth passes could
-  /// be foretold: nothing branches on it.
+  /// Pixels none of which is there twice; of those that are not `inside` nothing is seen. Neither that nor
+  /// whether a depth passes could be foretold: nothing branches on it.
   HWY_INLINE void store(Int x, Int y, LaneMask inside, Int keys, Int words) const {
     const Int index = hn::IfThenElse(inside, run_.pixel_indices(x, y), splat(kNoPixel));
     Int passed = hn::VecFromMask(kInt, inside);
-    if (uses_depth_) passed = hn::And(passed, hn::VecFromMask(kInt, comparing(keys, draw_.depth_test, load_words(reinterpret_cast<const std::uint32_t*>(run_.memory.depth), index))));
+    if (uses_depth_)
+      passed = hn::And(
+          passed,
+          hn::VecFromMask(
+              kInt, comparing(keys, draw_.depth_test,
+                              load_words(reinterpret_cast<const std::uint32_t*>(run_.memory.depth), index))));
     const auto stays = hn::MaskFromVec(passed);
     if (draw_.write_mask != 0xffffffffu) {
       const Int stored = load_words(run_.color, index);
-      words = hn::Xor(stored, hn::And(hn::Xor(stored, words), splat(static_cast<std::int32_t>(draw_.write_mask))));
+      words = hn::Xor(stored,
+                      hn::And(hn::Xor(stored, words), splat(static_cast<std::int32_t>(draw_.write_mask))));
     }
     alignas(64) std::int32_t at[kLanes], key[kLanes], word[kLanes];
     hn::Store(hn::IfThenElse(stays, index, splat(kNoPixel)), kInt, at);
@@ -217,14 +238,18 @@ class PlainPixels {
 };
 
 /// Element i of a plain draw of points, each of one word.
-HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i, const PointShape& point, bool back) {
-  const std::int32_t key = pixels.uses_depth() ? point_key(run.frame.depth_kind, run.memory.group.z[0][i], depth_offset_of(run, draw, i)) : 0;
+HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i,
+                            const PointShape& point, bool back) {
+  const std::int32_t key = pixels.uses_depth() ? point_key(run.frame.depth_kind, run.memory.group.z[0][i],
+                                                           depth_offset_of(run, draw, i))
+                                               : 0;
   const std::uint32_t word = triangle_word(run, draw, i, back);
   point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, word); });
 }
 
 /// And of lines, of one word or with colours along them.
-HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i, const LineShape& line, bool back) {
+HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i,
+                            const LineShape& line, bool back) {
   const LineValues values(run, i, 1, depth_offset_of(run, draw, i));
   const bool one_word = has_words(draw);
   LineColors colors;
@@ -233,27 +258,34 @@ HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const
   line.for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
     Doubles t{};
     if (pixels.uses_depth() || !one_word) t = values.parameters(x, y);
-    pixels.store(x, y, inside, pixels.uses_depth() ? values.depth.keys(t) : hn::Zero(kInt), one_word ? word : colors.words(t));
+    pixels.store(x, y, inside, pixels.uses_depth() ? values.depth.keys(t) : hn::Zero(kInt),
+                 one_word ? word : colors.words(t));
   });
 }
 
-/// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles go through.
-inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw_number, int i, const LineValues& values, bool back) {
+/// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles
+/// go through.
+inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw_number, int i,
+                                             const LineValues& values, bool back) {
   TileRun& run = bits.run;
   if (bits.blocks.count == 0) return;
   ShadedTriangle shaded;
   fill_shaded_point_or_line(shaded, run, draw_number, i, back);
-  draw_fragments_of(run, draw_number, i, shaded, [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
+  draw_fragments_of(run, draw_number, i, shaded,
+                    [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
 /// All of a group. Points need no set-up; what lines need is made by `shape_of`.
 /// @param second  see LineValues
 template <class Shape>
-HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second, const Shape& shape_of) {
+HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second,
+                                     const Shape& shape_of) {
   const TriangleGroup& g = run.memory.group;
   const TileDraw& draw = run.frame.draws[draw_number];
-  const bool interpolated = draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
-  const bool plain = draw.ops == nullptr && run.samples == 1 && (interpolated || has_words(draw));  // nothing is to be done but storing
+  const bool interpolated =
+      draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
+  const bool plain = draw.ops == nullptr && run.samples == 1 &&
+                     (interpolated || has_words(draw));  // nothing is to be done but storing
   const PlainPixels pixels(run, draw);
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
@@ -263,17 +295,18 @@ HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, in
       continue;
     }
     BlockBits bits{run, run.memory.touched};
-    if (run.samples == 1)
-      shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
-    else
-      shape.cover(bits);
-    draw_covered_blocks(bits, draw_number, i, LineValues(run, i, second, depth_offset_of(run, draw, i)), back);
+    if (run.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
+    else shape.cover(bits);
+    draw_covered_blocks(bits, draw_number, i, LineValues(run, i, second, depth_offset_of(run, draw, i)),
+                        back);
   }
 }
 
 inline void draw_points(TileRun& run, std::uint32_t draw_number) {
   const float size = run.frame.draws[draw_number].size;
-  draw_points_or_lines(run, draw_number, 0, [&](int i) { return PointShape{run, vertex_of(run.memory.group, i, 0), size}; });
+  draw_points_or_lines(run, draw_number, 0, [&](int i) {
+    return PointShape{run, vertex_of(run.memory.group, i, 0), size};
+  });
 }
 inline void draw_lines(TileRun& run, std::uint32_t draw_number) {
   const float width = run.frame.draws[draw_number].size;

@@ -1,6 +1,7 @@
-// x^y in lanes for highlights and cones: products where y is a small whole number, which is most of what materials have, else own polynomials in a
-// fixed order, the same bits on every target. Twin: power_reference.h. Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1] (relative error 7.8e-9)
-// and of 2^t on [-1/2, 1/2] (2.0e-9); what is lost beyond them is rounding.
+// x^y in lanes for highlights and cones: products where y is a small whole number, which is most of what
+// materials have, else own polynomials in a fixed order, the same bits on every target. Twin:
+// power_reference.h. Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1]
+// (relative error 7.8e-9) and of 2^t on [-1/2, 1/2] (2.0e-9); what is lost beyond them is rounding.
 #if defined(TESSERA_SHADING_POWER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POWER_INL_H_
 #undef TESSERA_SHADING_POWER_INL_H_
@@ -30,7 +31,8 @@ HWY_INLINE Float log2_lanes(Float x) {
 
 /// 2^x for x in [-126, 127].
 HWY_INLINE Float exp2_lanes(Float x) {
-  // Adding and taking away 1.5 * 2^23 rounds to the nearest integer, ties to even, by the same exact steps everywhere.
+  // Adding and taking away 1.5 * 2^23 rounds to the nearest integer, ties to even, by the same exact steps
+  // everywhere.
   const Float rounded = hn::Sub(hn::Add(x, splat(kRoundingBias)), splat(kRoundingBias));
   const Int whole = truncate(rounded);
   const Float t = hn::Sub(x, rounded);
@@ -48,13 +50,15 @@ HWY_INLINE Float power_lanes(Float x, float y) {
   return hn::IfThenElseZero(positive, exp2_lanes(product));
 }
 
-/// x^n for n = 1 .. kLargestWholePower, by products of squares: off by what n - 1 roundings come to. 0 for x <= 0 or NaN; x below `least` counts as that,
-/// and what is above 2^96 comes out as that. The x in place, beside each other: the way through n is the same for all.
+/// x^n for n = 1 .. kLargestWholePower, by products of squares: off by what n - 1 roundings come to. 0 for x
+/// <= 0 or NaN; x below `least` counts as that, and what is above 2^96 comes out as that. The x in place,
+/// beside each other: the way through n is the same for all.
 /// @param least  2^least_log2(n)
 template <std::size_t kCount>
 HWY_INLINE void raise_to_whole(Float (&x)[kCount], int n, float least) {
   Float square[kCount], product[kCount];
-  for (std::size_t i = 0; i < kCount; ++i) square[i] = greater_of(x[i], splat(least)), product[i] = splat(1.0f);
+  for (std::size_t i = 0; i < kCount; ++i)
+    square[i] = greater_of(x[i], splat(least)), product[i] = splat(1.0f);
   for (int rest = n;;) {
     if ((rest & 1) != 0)
       for (std::size_t i = 0; i < kCount; ++i) product[i] = hn::Mul(product[i], square[i]);
@@ -62,15 +66,25 @@ HWY_INLINE void raise_to_whole(Float (&x)[kCount], int n, float least) {
     if (rest == 0) break;
     for (std::size_t i = 0; i < kCount; ++i) square[i] = hn::Mul(square[i], square[i]);
   }
-  for (std::size_t i = 0; i < kCount; ++i) x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kLargestPower)));
+  for (std::size_t i = 0; i < kCount; ++i)
+    x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kLargestPower)));
 }
 
-/// Calls run(raise), where raise(x), of an array, takes its x to that power in place: how is chosen once for many x. x^0 is 1 whatever x is.
+/// Calls run(raise), where raise(x), of an array, takes its x to that power in place: how is chosen once for
+/// many x. x^0 is 1 whatever x is.
 template <class Run>
 HWY_INLINE void with_power(const Power& power, const Run& run) {
-  if (power.whole != 0) run([power]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { raise_to_whole(x, power.whole, power.least); });
-  else if (power.exponent == 0) run([]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { for (Float& one : x) one = splat(1.0f); });
-  else run([power]<std::size_t kCount>(Float (&x)[kCount]) HWY_ATTR { for (Float& one : x) one = power_lanes(one, power.exponent); });
+  if (power.whole != 0)
+    run([power]<std::size_t kCount>(Float(&x)[kCount])
+            HWY_ATTR { raise_to_whole(x, power.whole, power.least); });
+  else if (power.exponent == 0)
+    run([]<std::size_t kCount>(Float(&x)[kCount]) HWY_ATTR {
+      for (Float& one : x) one = splat(1.0f);
+    });
+  else
+    run([power]<std::size_t kCount>(Float(&x)[kCount]) HWY_ATTR {
+      for (Float& one : x) one = power_lanes(one, power.exponent);
+    });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,7 +5,7 @@
 
 namespace tessera {
 
-inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;      ///< of sqrt(1/2) as a float
+inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< of sqrt(1/2) as a float
 inline constexpr float kRoundingBias = 0x1.8p23f;
 inline constexpr float kSmallestNormal = 0x1p-126f;
 /// Powers are cut at 2^96.
@@ -18,7 +18,8 @@ constexpr int whole_power(float exponent) {
   const int whole = exponent >= 1 && exponent <= kLargestWholePower ? static_cast<int>(exponent) : 0;
   return static_cast<float>(whole) == exponent ? whole : 0;
 }
-/// The logarithm of what smaller numbers count as under a whole exponent: a hair above 2^(-126 / n), so that no product is subnormal.
+/// The logarithm of what smaller numbers count as under a whole exponent: a hair above 2^(-126 / n), so that
+/// no product is subnormal.
 constexpr float least_log2(int whole) { return -125.99f / static_cast<float>(whole); }
 
 /// How a power of many numbers is worked out. By default: x^0.
@@ -29,10 +30,16 @@ struct Power {
 };
 
 inline constexpr int kLog2Terms = 10;
-inline constexpr float kLog2Coefficients[kLog2Terms] = {-0.107497894181f, 0.184760333652f,  -0.191388376567f, 0.204857647786f,  -0.23960812191f,
-                                                        0.288552561437f,  -0.360696541808f, 0.480898520324f,  -0.721347354479f, 1.44269504f};
+inline constexpr float kLog2Coefficients[kLog2Terms] = {
+    -0.107497894181f, 0.184760333652f,  -0.191388376567f, 0.204857647786f,  -0.23960812191f,
+    0.288552561437f,  -0.360696541808f, 0.480898520324f,  -0.721347354479f, 1.44269504f};
 inline constexpr int kExp2Terms = 7;
-inline constexpr float kExp2Coefficients[kExp2Terms] = {0.000154614446986f, 0.00134004281776f, 0.00961805667852f, 0.0555032722667f,
-                                                        0.240226509223f,    0.693147206703f,   1.0f};
+inline constexpr float kExp2Coefficients[kExp2Terms] = {0.000154614446986f,
+                                                        0.00134004281776f,
+                                                        0.00961805667852f,
+                                                        0.0555032722667f,
+                                                        0.240226509223f,
+                                                        0.693147206703f,
+                                                        1.0f};
 
 }  // namespace tessera

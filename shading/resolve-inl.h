@@ -1,4 +1,5 @@
-// Colours of a tile's pixels from those of their samples: the mean of the stored levels. Twin: resolve_reference.h.
+// Colours of a tile's pixels from those of their samples: the mean of the stored levels. Twin:
+// resolve_reference.h.
 #if defined(TESSERA_SHADING_RESOLVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_RESOLVE_INL_H_
 #undef TESSERA_SHADING_RESOLVE_INL_H_
@@ -33,7 +34,9 @@ inline HWY_NOINLINE void resolve_samples(TileRun& run) {
   const WordFields fields(run.frame.layout);
   const int shift = run.samples == 8 ? 3 : 2;
   for (int i = 0; i < run.tile_size * run.tile_size; i += kLanes) {
-    const auto word = [&](int s) HWY_ATTR { return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].color) + i); };
+    const auto word = [&](int s) HWY_ATTR {
+      return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].color) + i);
+    };
     Int mean = word(0), differing = hn::Zero(kInt);
     for (int s = 1; s < run.samples; ++s) differing = hn::Or(differing, hn::Xor(word(s), mean));
     if (!hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)))) {
@@ -42,7 +45,10 @@ inline HWY_NOINLINE void resolve_samples(TileRun& run) {
         const Int mask = splat((1 << fields.bits[f]) - 1);
         Int sum = splat(run.samples / 2);
         for (int s = 0; s < run.samples; ++s)
-          sum = hn::Add(sum, hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, word(s)), fields.shift[f])), mask));
+          sum = hn::Add(
+              sum,
+              hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, word(s)), fields.shift[f])),
+                      mask));
         mean = hn::Or(mean, hn::ShiftLeftSame(hn::ShiftRightSame(sum, shift), fields.shift[f]));
       }
     }

@@ -14,7 +14,8 @@ inline std::uint32_t resolved_word(const ColorLayout& layout, const std::uint32_
   };
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : mean(layout.bits, layout.alpha_bits);
   if (layout.luminance) return alpha | mean(0, layout.bits);
-  return alpha | mean(layout.r_shift(), layout.r_bits) | mean(layout.g_shift(), layout.g_bits) | mean(0, layout.b_bits);
+  return alpha | mean(layout.r_shift(), layout.r_bits) | mean(layout.g_shift(), layout.g_bits) |
+         mean(0, layout.b_bits);
 }
 
 }  // namespace tessera

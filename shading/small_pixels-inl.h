@@ -1,4 +1,5 @@
-// Pixels of triangles so small that each has but a few: those of a whole group stand side by side in lanes, and are stored one after the other.
+// Pixels of triangles so small that each has but a few: those of a whole group stand side by side in lanes,
+// and are stored one after the other.
 #if defined(TESSERA_SHADING_SMALL_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_SMALL_PIXELS_INL_H_
 #undef TESSERA_SHADING_SMALL_PIXELS_INL_H_
@@ -29,12 +30,20 @@ struct PickByTriangle {
   using Indices = decltype(hn::IndicesFromVec(kInt, Int()));
   Indices place;
   hn::Mask<IntTag> is_second;  // with 8 lanes half of the array is another vector
-  HWY_INLINE explicit PickByTriangle(Int triangle) : place(hn::IndicesFromVec(kInt, hn::And(triangle, splat(kLanes - 1)))), is_second(hn::Gt(triangle, splat(kLanes - 1))) {}
+  HWY_INLINE explicit PickByTriangle(Int triangle)
+      : place(hn::IndicesFromVec(kInt, hn::And(triangle, splat(kLanes - 1)))),
+        is_second(hn::Gt(triangle, splat(kLanes - 1))) {}
   HWY_INLINE Int operator()(const std::int32_t* array) const {
     const Int first = hn::TableLookupLanes(hn::Load(kInt, array), place);
-    return kLanes == kGroupSize ? first : hn::IfThenElse(is_second, hn::TableLookupLanes(hn::Load(kInt, array + kGroupSize - kLanes), place), first);
+    return kLanes == kGroupSize
+               ? first
+               : hn::IfThenElse(is_second,
+                                hn::TableLookupLanes(hn::Load(kInt, array + kGroupSize - kLanes), place),
+                                first);
   }
-  HWY_INLINE Float operator()(const float* array) const { return hn::BitCast(kFloat, (*this)(reinterpret_cast<const std::int32_t*>(array))); }
+  HWY_INLINE Float operator()(const float* array) const {
+    return hn::BitCast(kFloat, (*this)(reinterpret_cast<const std::int32_t*>(array)));
+  }
 #endif
 };
 
@@ -65,25 +74,33 @@ struct SmallColors {
   HWY_INLINE Int words(const PickByTriangle& pick, Float b1, Float b2) const {
     const auto level = [&](int c) HWY_ATTR {
       const Float at_first = pick(component[0][c]);
-      const Float to_second = hn::Sub(pick(component[1][c]), at_first), to_third = hn::Sub(pick(component[2][c]), at_first);
+      const Float to_second = hn::Sub(pick(component[1][c]), at_first),
+                  to_third = hn::Sub(pick(component[2][c]), at_first);
       return truncate(mul_add(b1, to_second, mul_add(b2, to_third, at_first)));
     };
-    return hn::Or(hn::Or(hn::ShiftLeftSame(level(0), r_shift), hn::ShiftLeftSame(level(1), g_shift)), level(2));
+    return hn::Or(hn::Or(hn::ShiftLeftSame(level(0), r_shift), hn::ShiftLeftSame(level(1), g_shift)),
+                  level(2));
   }
 
  private:
 #if HWY_TARGET == HWY_SCALAR
-  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3, float (&to)[3][kGroupSize], int first) {
-    for (int c = 0; c < 3; ++c) to[c][first] = c0[c], to[c][first + 1] = c1[c], to[c][first + 2] = c2[c], to[c][first + 3] = c3[c];
+  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3,
+                                     float (&to)[3][kGroupSize], int first) {
+    for (int c = 0; c < 3; ++c)
+      to[c][first] = c0[c], to[c][first + 1] = c1[c], to[c][first + 2] = c2[c], to[c][first + 3] = c3[c];
   }
 #else
   // Four rows of r g b and what follows: three columns. Four floats can be read from each.
-  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3, float (&to)[3][kGroupSize], int first) {
+  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3,
+                                     float (&to)[3][kGroupSize], int first) {
     constexpr hn::CappedTag<float, 4> four;
     constexpr hn::Repartition<double, decltype(four)> pairs;
-    const auto r0 = hn::LoadU(four, c0), r1 = hn::LoadU(four, c1), r2 = hn::LoadU(four, c2), r3 = hn::LoadU(four, c3);
-    const auto rg01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)), rg23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // r r g g
-    const auto b01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)), b23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
+    const auto r0 = hn::LoadU(four, c0), r1 = hn::LoadU(four, c1), r2 = hn::LoadU(four, c2),
+               r3 = hn::LoadU(four, c3);
+    const auto rg01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)),
+               rg23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // r r g g
+    const auto b01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)),
+               b23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
     hn::Store(hn::BitCast(four, hn::InterleaveLower(pairs, rg01, rg23)), four, to[0] + first);
     hn::Store(hn::BitCast(four, hn::InterleaveUpper(pairs, rg01, rg23)), four, to[1] + first);
     hn::Store(hn::BitCast(four, hn::InterleaveLower(pairs, b01, b23)), four, to[2] + first);
@@ -95,11 +112,12 @@ struct SmallColors {
 struct SmallPixels {
   static constexpr int kMost = kGroupSize * kBlockPixels;
   int count = 0;
-  alignas(64) std::int32_t place[kMost + kLanes];                       // the triangle's number in the group, and y and x in the tile: 8 bits each
-  alignas(64) std::int32_t index[kMost + kLanes];                       // of the pixel
-  alignas(64) std::int32_t key[kMost + kLanes];                         // of its depth, where kHasKeys
-  alignas(64) std::int32_t word[kMost + kLanes];                        // of its colour
-  std::uint32_t triangles = 0;                                          // that have pixels
+  alignas(64) std::int32_t
+      place[kMost + kLanes];  // the triangle's number in the group, and y and x in the tile: 8 bits each
+  alignas(64) std::int32_t index[kMost + kLanes];  // of the pixel
+  alignas(64) std::int32_t key[kMost + kLanes];    // of its depth, where kHasKeys
+  alignas(64) std::int32_t word[kMost + kLanes];   // of its colour
+  std::uint32_t triangles = 0;                     // that have pixels
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
   HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
@@ -126,17 +144,20 @@ struct SmallPixels {
     colors.set_up(run, draw, triangles);
     hn::StoreU(hn::Zero(kInt), kInt, place + count);
     for (int first = 0; first < count; first += kLanes) {
-      const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at), at_y = y_of(at);
+      const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at),
+                at_y = y_of(at);
       const PickByTriangle pick(of_triangle);
       hn::StoreU(run.pixel_indices(at_x, at_y), kInt, index + first);
       Float w[3];
       for (int k = 0; k < 3; ++k) {
-        const Int edge = hn::Add(pick(g.e[k]), hn::Add(hn::Mul(pick(g.a[k]), at_x), hn::Mul(pick(g.b[k]), at_y)));
+        const Int edge =
+            hn::Add(pick(g.e[k]), hn::Add(hn::Mul(pick(g.a[k]), at_x), hn::Mul(pick(g.b[k]), at_y)));
         w[k] = mul_add(hn::ConvertTo(kFloat, edge), pick(g.scale[k]), pick(g.shift[k]));
       }
       const auto affine = hn::RebindMask(kFloat, hn::Ne(pick(g.affine), hn::Zero(kInt)));
       if (!hn::AllTrue(kFloat, affine)) {
-        const Float inverse = hn::IfThenElse(affine, splat(1.0f), hn::Div(splat(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2])));
+        const Float inverse =
+            hn::IfThenElse(affine, splat(1.0f), hn::Div(splat(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2])));
         w[1] = hn::Mul(w[1], inverse);
         w[2] = hn::Mul(w[2], inverse);
       }
@@ -145,7 +166,7 @@ struct SmallPixels {
   }
   /// Whether keys come in lanes: of a depth format that they do for, and where products of 64 bits do.
   template <class Depth>
-  static constexpr bool kHasKeys = HWY_TARGET == HWY_AVX3 && std::is_same_v<Depth, UnormDepth>;
+  static constexpr bool kHasKeys = HWY_TARGET == HWY_AVX3&& std::is_same_v<Depth, UnormDepth>;
   /// As UnormDepth::key() has them. @pre set_up
   HWY_INLINE void set_up_keys([[maybe_unused]] const TriangleGroup& g, [[maybe_unused]] DepthKind kind) {
 #if HWY_TARGET == HWY_AVX3
@@ -155,11 +176,18 @@ struct SmallPixels {
       const auto keys_of = [&](auto half_of) HWY_ATTR {  // eight pixels
         const auto wide = [&](Int all) HWY_ATTR { return _mm512_cvtepu32_epi64(half_of(all.raw)); };
         const __m512i of_triangle = wide(hn::ShiftRight<16>(at)), x = wide(x_of(at)), y = wide(y_of(at));
-        const auto pick = [&](const std::uint64_t* array) HWY_ATTR { return _mm512_permutex2var_epi64(_mm512_load_si512(array), of_triangle, _mm512_load_si512(array + 8)); };
-        return _mm512_add_epi64(pick(g.fixed_base), _mm512_add_epi64(_mm512_mullo_epi64(pick(g.fixed_dx), x), _mm512_mullo_epi64(pick(g.fixed_dy), y)));
+        const auto pick = [&](const std::uint64_t* array) HWY_ATTR {
+          return _mm512_permutex2var_epi64(_mm512_load_si512(array), of_triangle,
+                                           _mm512_load_si512(array + 8));
+        };
+        return _mm512_add_epi64(pick(g.fixed_base),
+                                _mm512_add_epi64(_mm512_mullo_epi64(pick(g.fixed_dx), x),
+                                                 _mm512_mullo_epi64(pick(g.fixed_dy), y)));
       };
-      const __m512i low = keys_of([](__m512i all) HWY_ATTR { return _mm512_castsi512_si256(all); }), high = keys_of([](__m512i all) HWY_ATTR { return _mm512_extracti64x4_epi64(all, 1); });
-      hn::Store(hn::BitCast(kInt, hn::ShiftRightSame(hn::ConcatOdd(kUint, Uint{high}, Uint{low}), shift)), kInt, key + first);
+      const __m512i low = keys_of([](__m512i all) HWY_ATTR { return _mm512_castsi512_si256(all); }),
+                    high = keys_of([](__m512i all) HWY_ATTR { return _mm512_extracti64x4_epi64(all, 1); });
+      hn::Store(hn::BitCast(kInt, hn::ShiftRightSame(hn::ConcatOdd(kUint, Uint{high}, Uint{low}), shift)),
+                kInt, key + first);
     }
 #endif
   }

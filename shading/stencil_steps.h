@@ -9,12 +9,16 @@
 
 namespace tessera {
 
-/// An action: min(max(((stored & keep) ^ flip) + add, least), most), of which the bits that may be written are stored.
+/// An action: min(max(((stored & keep) ^ flip) + add, least), most), of which the bits that may be written
+/// are stored.
 struct StencilStep {
   std::int32_t keep = -1, flip = 0, add = 0;
-  std::int32_t least = std::numeric_limits<std::int32_t>::min(), most = std::numeric_limits<std::int32_t>::max();
+  std::int32_t least = std::numeric_limits<std::int32_t>::min(),
+               most = std::numeric_limits<std::int32_t>::max();
 
-  constexpr std::int32_t operator()(std::int32_t stored) const { return std::min(std::max(((stored & keep) ^ flip) + add, least), most); }
+  constexpr std::int32_t operator()(std::int32_t stored) const {
+    return std::min(std::max(((stored & keep) ^ flip) + add, least), most);
+  }
 };
 
 constexpr StencilStep stencil_step(StencilAction action, std::int32_t reference, std::int32_t most) {
@@ -30,7 +34,8 @@ constexpr StencilStep stencil_step(StencilAction action, std::int32_t reference,
   }
 }
 
-/// The values that pass a comparison with a reference in front: `count` from `first` on, modulo 2^32. Stored ones are below 2^31.
+/// The values that pass a comparison with a reference in front: `count` from `first` on, modulo 2^32. Stored
+/// ones are below 2^31.
 struct PassingValues {
   std::uint32_t first = 0, count = 0;
 };
@@ -57,7 +62,9 @@ struct StencilSteps {
   bool fail_writes = false, zfail_writes = false, zpass_writes = false;  ///< else nothing changes then
 
   constexpr bool writes() const { return fail_writes || zfail_writes || zpass_writes; }
-  constexpr bool passes(std::int32_t stored) const { return static_cast<std::uint32_t>(stored & mask) - passing.first < passing.count; }
+  constexpr bool passes(std::int32_t stored) const {
+    return static_cast<std::uint32_t>(stored & mask) - passing.first < passing.count;
+  }
 };
 
 /// @param most  of the buffer: 2^bits - 1

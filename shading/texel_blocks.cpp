@@ -12,11 +12,13 @@ void TexelPlaces::set_up(const TexelTile& tile, int samples, int sample) {
   std::fill(column + (rect.x0 & ~3), column + ((rect.x1 + 3) & ~3), kNoTexel);
   std::fill(row + (rect.y0 & ~3), row + ((rect.y1 + 3) & ~3), kNoTexel);
   texel_columns(tile.texels, tile.tile_x + rect.x0, tile.tile_x + rect.x1, samples, sample, column + rect.x0);
-  texel_rows(tile.texels, tile.tile_y + rect.y0, tile.tile_y + rect.y1, tile.grid.height_px, samples, sample, row + rect.y0);
+  texel_rows(tile.texels, tile.tile_y + rect.y0, tile.tile_y + rect.y1, tile.grid.height_px, samples, sample,
+             row + rect.y0);
 }
 
 bool TexelPlaces::same_in_block(const TexelPlaces& other, int bx, int by) const {
-  return std::equal(column + bx, column + bx + kBlockSize, other.column + bx) && std::equal(row + by, row + by + kBlockSize, other.row + by);
+  return std::equal(column + bx, column + bx + kBlockSize, other.column + bx) &&
+         std::equal(row + by, row + by + kBlockSize, other.row + by);
 }
 
 std::uint32_t TexelPlaces::covered(const PixelRectangle& texels, int bx, int by) const {
@@ -31,13 +33,16 @@ std::uint32_t TexelPlaces::covered(const PixelRectangle& texels, int bx, int by)
   return bits;
 }
 
-void TexelPlaces::fetch(const PixelRectangle& texels, int bx, int by, std::uint32_t bits, float* colors) const {
+void TexelPlaces::fetch(const PixelRectangle& texels, int bx, int by, std::uint32_t bits,
+                        float* colors) const {
   std::fill_n(colors, 4 * kBlockPixels, 0.0f);
   const bool is_grey = texels.channels < 3;
   for (std::uint32_t left = bits; left != 0; left &= left - 1) {
     const int p = std::countr_zero(left);
-    const std::uint8_t* const at = texels.row(row[by + p / kBlockSize]) + std::ptrdiff_t{column[bx + p % kBlockSize]} * texels.channels;
-    const std::uint8_t levels[4] = {at[0], at[is_grey ? 0 : 1], at[is_grey ? 0 : 2], texels.channels % 2 == 0 ? at[texels.channels - 1] : std::uint8_t{255}};
+    const std::uint8_t* const at =
+        texels.row(row[by + p / kBlockSize]) + std::ptrdiff_t{column[bx + p % kBlockSize]} * texels.channels;
+    const std::uint8_t levels[4] = {at[0], at[is_grey ? 0 : 1], at[is_grey ? 0 : 2],
+                                    texels.channels % 2 == 0 ? at[texels.channels - 1] : std::uint8_t{255}};
     // Divided, so that a level is the float nearest to it: tests compare with such.
     for (int c = 0; c < 4; ++c) colors[c * kBlockPixels + p] = static_cast<float>(levels[c]) / 255.0f;
   }

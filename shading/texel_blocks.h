@@ -1,5 +1,5 @@
-// The blocks of a tile that see a bitmap's or an image's texels: which pixels, and their colours. Plain code, once for all instruction
-// sets: what happens to the fragments then takes longer.
+// The blocks of a tile that see a bitmap's or an image's texels: which pixels, and their colours. Plain code,
+// once for all instruction sets: what happens to the fragments then takes longer.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,9 @@
-// Textures as pixels see them: levels of 32-bit texels, how they are filtered, and what a texel does to a colour.
+// Textures as pixels see them: levels of 32-bit texels, how they are filtered, and what a texel does to a
+// colour.
 //
-// A level is stored with one texel more in each row, the one that follows the last under the texture's wrap, and one row more
-// after the last: the four texels of a bilinear filter are then two pairs of neighbours, wherever they lie.
+// A level is stored with one texel more in each row, the one that follows the last under the texture's wrap,
+// and one row more after the last: the four texels of a bilinear filter are then two pairs of neighbours,
+// wherever they lie.
 #pragma once
 
 #include <algorithm>
@@ -19,19 +21,21 @@ inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
 
 /// Texels along one side of a level, in fixed point with 16 fraction bits.
 struct TexelAxis {
-  float scale;                ///< all of them
-  std::int32_t all, last;     ///< the same, and the last one
-  explicit TexelAxis(std::int32_t texels) : scale(static_cast<float>(texels) * 65536.0f), all(texels * 65536), last((texels - 1) * 65536) {}
+  float scale;             ///< all of them
+  std::int32_t all, last;  ///< the same, and the last one
+  explicit TexelAxis(std::int32_t texels)
+      : scale(static_cast<float>(texels) * 65536.0f), all(texels * 65536), last((texels - 1) * 65536) {}
 };
 
 struct TextureLevel {
-  std::int32_t first = 0;     ///< word of texel (0, 0)
+  std::int32_t first = 0;  ///< word of texel (0, 0)
   std::int32_t width = 1, height = 1;
-  std::int32_t stride = 0;    ///< from row to row; 0 of a single one, which is then its own neighbour
+  std::int32_t stride = 0;  ///< from row to row; 0 of a single one, which is then its own neighbour
   TexelAxis columns{1}, rows{1};
 
   TextureLevel() = default;
-  TextureLevel(std::int32_t first_word, std::int32_t w, std::int32_t h) : first(first_word), width(w), height(h), stride(h > 1 ? w + 1 : 0), columns(w), rows(h) {}
+  TextureLevel(std::int32_t first_word, std::int32_t w, std::int32_t h)
+      : first(first_word), width(w), height(h), stride(h > 1 ? w + 1 : 0), columns(w), rows(h) {}
   std::int64_t words() const { return height > 1 ? std::int64_t{stride} * (height + 1) : width + 1; }
 };
 
@@ -42,13 +46,13 @@ inline constexpr int kTexelShift[4] = {16, 8, 0, 24};
 enum class TexelFilter : std::uint8_t { nearest, linear, linear_levels, any };
 
 struct TextureLevels {
-  const std::uint32_t* words = nullptr;       ///< of all levels; rows from the bottom
+  const std::uint32_t* words = nullptr;  ///< of all levels; rows from the bottom
   TextureLevel level[kMaxTextureLevels];
   int last = 0;                               ///< above 0: mipmaps
   bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
   bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
-  bool gathers_pairs = false;                 ///< of texels: see machine_gathers_pairs()
+  bool gathers_pairs = false;  ///< of texels: see machine_gathers_pairs()
 
   /// How many texels a pixel spans decides something.
   bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }
@@ -56,28 +60,32 @@ struct TextureLevels {
     if (!needs_footprint()) return mag_linear ? TexelFilter::linear : TexelFilter::nearest;
     return mag_linear && min_linear ? TexelFilter::linear_levels : TexelFilter::any;
   }
-  /// Squared texels a pixel up to which a texture is magnified: GL 2.1, 3.8.9, c is 0, or 0.5 where magnification is the sharper filter.
+  /// Squared texels a pixel up to which a texture is magnified: GL 2.1, 3.8.9, c is 0, or 0.5 where
+  /// magnification is the sharper filter.
   float most_magnified = 1;
 };
 
 /// What a draw does with its texture.
 struct DrawTexture {
-  const TextureLevels* levels = nullptr;      ///< null: `texel` everywhere
+  const TextureLevels* levels = nullptr;  ///< null: `texel` everywhere
   std::array<float, 4> texel{1, 1, 1, 1};
   TextureFunction function = TextureFunction::modulate;
-  bool has_alpha = false;                     ///< else the texels' alpha is 1
-  std::array<float, 3> constant{};            ///< of `blend`, 0..1
-  int attribute = 0;                          ///< of s; t follows it
+  bool has_alpha = false;           ///< else the texels' alpha is 1
+  std::array<float, 3> constant{};  ///< of `blend`, 0..1
+  int attribute = 0;                ///< of s; t follows it
 
   /// A fragment's alpha may change.
   bool changes_alpha() const { return has_alpha && function != TextureFunction::decal; }
 };
 
-/// A texel's components stand in 16 bits: the level times 256. Divided by this a level is the float nearest to it: tests compare with such.
+/// A texel's components stand in 16 bits: the level times 256. Divided by this a level is the float nearest
+/// to it: tests compare with such.
 inline constexpr float kTexelOne = 65280.0f;
 
-/// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of textured_lanes().
-inline std::array<float, 4> textured_color(const DrawTexture& texture, const std::array<float, 4>& f, const std::array<float, 4>& t) {
+/// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of
+/// textured_lanes().
+inline std::array<float, 4> textured_color(const DrawTexture& texture, const std::array<float, 4>& f,
+                                           const std::array<float, 4>& t) {
   std::array<float, 4> c = f;
   for (std::size_t k = 0; k < 3; ++k) {
     switch (texture.function) {

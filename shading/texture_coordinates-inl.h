@@ -1,8 +1,11 @@
-// Texture coordinates of a triangle's pixels, and how many texels one goes by from pixel to pixel, from exact derivatives.
+// Texture coordinates of a triangle's pixels, and how many texels one goes by from pixel to pixel, from exact
+// derivatives.
 //
-// With weights w_k linear in the window, W their sum and N = w_1 (s_1 - s_0) + w_2 (s_2 - s_0), s = s_0 + N / W, hence
+// With weights w_k linear in the window, W their sum and N = w_1 (s_1 - s_0) + w_2 (s_2 - s_0), s = s_0 + N /
+// W, hence
 //   ds/dx = (dN/dx - (s - s_0) dW/dx) / W.
-// Along a line that is (x, y) times the slope along its length, with x^2 + y^2 = 1 [GL 2.1, equation 3.15]; points have no slopes.
+// Along a line that is (x, y) times the slope along its length, with x^2 + y^2 = 1 [GL 2.1, equation 3.15];
+// points have no slopes.
 #if defined(TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
 #undef TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
@@ -24,7 +27,8 @@ struct TextureAxis {
   float dx, dy;          // of the sum of weighted differences
   float sum_dx, sum_dy;  // of the weights' sum
 
-  HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, bool keeps_range, float texels, const float (&weight_dx)[3], const float (&weight_dy)[3]) {
+  HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, bool keeps_range, float texels,
+                         const float (&weight_dx)[3], const float (&weight_dy)[3]) {
     corner = corners(t, attribute, keeps_range);
     dx = texels * std::fma(weight_dx[1], corner.to_second, weight_dx[2] * corner.to_third);
     dy = texels * std::fma(weight_dy[1], corner.to_second, weight_dy[2] * corner.to_third);
@@ -38,19 +42,26 @@ struct TextureCoordinates {
   TextureAxis s, t;
   bool has_slopes = false, is_line = false;
 
-  HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture, bool of_line, int samples) {
+  HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture,
+                           bool of_line, int samples) {
     triangle = &of;
-    // Of nearest texels a hair beyond the vertices is another one; and with several samples centres may be far beyond.
-    const bool keeps_range = !of_line && (samples > 1 || !(texture.levels->mag_linear && texture.levels->min_linear));
+    // Of nearest texels a hair beyond the vertices is another one; and with several samples centres may be
+    // far beyond.
+    const bool keeps_range =
+        !of_line && (samples > 1 || !(texture.levels->mag_linear && texture.levels->min_linear));
     is_line = of_line;
     float weight_dx[3], weight_dy[3];
     for (int k = 0; k < 3; ++k) {
-      weight_dx[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.a[k]) : static_cast<float>(wide[of.wide].a[k]));
-      weight_dy[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.b[k]) : static_cast<float>(wide[of.wide].b[k]));
+      weight_dx[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.a[k])
+                                                : static_cast<float>(wide[of.wide].a[k]));
+      weight_dy[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.b[k])
+                                                : static_cast<float>(wide[of.wide].b[k]));
     }
     const TextureLevel& level = texture.levels->level[0];
     s.set_up(of, texture.attribute, keeps_range, static_cast<float>(level.width), weight_dx, weight_dy);
-    t.set_up(of, texture.attribute + 1, keeps_range, level.height > 1 ? static_cast<float>(level.height) : 0.0f, weight_dx, weight_dy);  // of a single row t has no say
+    t.set_up(of, texture.attribute + 1, keeps_range,
+             level.height > 1 ? static_cast<float>(level.height) : 0.0f, weight_dx,
+             weight_dy);  // of a single row t has no say
     has_slopes = texture.levels->needs_footprint();
   }
 
@@ -71,7 +82,8 @@ struct TextureCoordinates {
     if constexpr (!kHasSlopes) return;
     const Float from_s = hn::Sub(at_s, splat(s.corner.first)), from_t = hn::Sub(at_t, splat(t.corner.first));
     const auto squared = [&](float ds, float s_sum, float dt, float t_sum) HWY_ATTR {
-      const Float along_s = neg_mul_add(from_s, splat(s_sum), splat(ds)), along_t = neg_mul_add(from_t, splat(t_sum), splat(dt));
+      const Float along_s = neg_mul_add(from_s, splat(s_sum), splat(ds)),
+                  along_t = neg_mul_add(from_t, splat(t_sum), splat(dt));
       return mul_add(along_s, along_s, hn::Mul(along_t, along_t));
     };
     const Float x = squared(s.dx, s.sum_dx, t.dx, t.sum_dx), y = squared(s.dy, s.sum_dy, t.dy, t.sum_dy);

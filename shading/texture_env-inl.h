@@ -14,19 +14,26 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// The most common function, without alpha.
-HWY_INLINE Colors modulated(const Colors& f, const Colors& t) { return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}}; }
+HWY_INLINE Colors modulated(const Colors& f, const Colors& t) {
+  return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}};
+}
 
 inline HWY_NOINLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   const auto each = [&](auto component) HWY_ATTR {
-    const Float alpha = !texture.changes_alpha() ? f.c[3] : texture.function == TextureFunction::replace ? t.c[3] : hn::Mul(f.c[3], t.c[3]);
+    const Float alpha = !texture.changes_alpha()                       ? f.c[3]
+                        : texture.function == TextureFunction::replace ? t.c[3]
+                                                                       : hn::Mul(f.c[3], t.c[3]);
     return Colors{{component(0), component(1), component(2), alpha}};
   };
   switch (texture.function) {
     case TextureFunction::modulate: return each([&](int k) HWY_ATTR { return hn::Mul(f.c[k], t.c[k]); });
     case TextureFunction::replace: return each([&](int k) HWY_ATTR { return t.c[k]; });
-    case TextureFunction::decal: return each([&](int k) HWY_ATTR { return mul_add(t.c[3], hn::Sub(t.c[k], f.c[k]), f.c[k]); });
+    case TextureFunction::decal:
+      return each([&](int k) HWY_ATTR { return mul_add(t.c[3], hn::Sub(t.c[k], f.c[k]), f.c[k]); });
     case TextureFunction::blend:
-      return each([&](int k) HWY_ATTR { return mul_add(t.c[k], hn::Sub(splat(texture.constant[static_cast<std::size_t>(k)]), f.c[k]), f.c[k]); });
+      return each([&](int k) HWY_ATTR {
+        return mul_add(t.c[k], hn::Sub(splat(texture.constant[static_cast<std::size_t>(k)]), f.c[k]), f.c[k]);
+      });
     default: return each([&](int k) HWY_ATTR { return hn::Min(hn::Add(f.c[k], t.c[k]), splat(1.0f)); });
   }
 }

@@ -1,5 +1,5 @@
-// Texels of a batch of points by their texture's filters. Coordinates become fixed point with 16 fraction bits: the same bits on every
-// instruction set.
+// Texels of a batch of points by their texture's filters. Coordinates become fixed point with 16 fraction
+// bits: the same bits on every instruction set.
 #if defined(TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
 #undef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
@@ -21,22 +21,26 @@ namespace HWY_NAMESPACE {
 HWY_INLINE Float wrapped(Float f, Wrap wrap) {
   if (wrap == Wrap::repeat) return clamped_below(hn::Sub(f, hn::Floor(f)));
   const Float there_and_back = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
-  return clamped_unit(wrap == Wrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
+  return clamped_unit(
+      wrap == Wrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
 }
 
 /// The texel that holds a coordinate.
-HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) { return hn::ShiftRight<16>(hn::Min(truncate(hn::Mul(unit, splat(axis.scale))), splat(axis.last))); }
+HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) {
+  return hn::ShiftRight<16>(hn::Min(truncate(hn::Mul(unit, splat(axis.scale))), splat(axis.last)));
+}
 
-/// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the next, twice.
+/// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the
+/// next, twice.
 struct TexelPlace {
   Int texel, fraction;
 };
 HWY_INLINE TexelPlace linear_place(Float unit, const TexelAxis& axis, Wrap wrap) {
   Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
-  if (wrap == Wrap::repeat)  // left of the first centre one is behind the last: what is below 0 is large without a sign
+  if (wrap == Wrap::repeat)  // left of the first centre one is behind the last: what is below 0 is large
+                             // without a sign
     at = hn::BitCast(kInt, hn::Min(hn::BitCast(kUint, at), hn::BitCast(kUint, hn::Add(at, splat(axis.all)))));
-  else
-    at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
+  else at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
   return {hn::ShiftRight<16>(at), twice(at)};
 }
 
@@ -45,7 +49,9 @@ HWY_INLINE Int nearest_words(const std::uint32_t* words, const TextureLevel& lev
   const Int column = nearest_texel(s, level.columns), row = nearest_texel(t, level.rows);
   return load_words(words, hn::Add(column, hn::Mul(row, splat(level.stride))));
 }
-HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) { return texels_of(nearest_words(texture.words + level.first, level, s, t)); }
+HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
+  return texels_of(nearest_words(texture.words + level.first, level, s, t));
+}
 
 /// Which four texels of a level are mixed, and by how much.
 struct LinearTexels {
@@ -55,7 +61,8 @@ struct LinearTexels {
   Int index, to_right, to_next_row;
 
   HWY_INLINE void place(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-    const TexelPlace column = linear_place(s, level.columns, texture.wrap_s), row = linear_place(t, level.rows, texture.wrap_t);
+    const TexelPlace column = linear_place(s, level.columns, texture.wrap_s),
+                     row = linear_place(t, level.rows, texture.wrap_t);
     words = texture.words + level.first;
     stride = level.stride;
     gathers_pairs = texture.gathers_pairs;
@@ -80,10 +87,13 @@ HWY_INLINE Texels linear_texels(const TextureLevels& texture, const TextureLevel
   return texels.mix();
 }
 
-/// Half of log2(m) / (m - 1) with 16 fraction bits, for m in [sqrt(1/2), sqrt(2)): a Remez fit, off by less than 1/65536 of a level.
-inline constexpr float kLevelCoefficients[] = {5975.88720703125f, -12489.646484375f, 16273.4267578125f, -23630.955078125f, 47260.09375f};
+/// Half of log2(m) / (m - 1) with 16 fraction bits, for m in [sqrt(1/2), sqrt(2)): a Remez fit, off by less
+/// than 1/65536 of a level.
+inline constexpr float kLevelCoefficients[] = {5975.88720703125f, -12489.646484375f, 16273.4267578125f,
+                                               -23630.955078125f, 47260.09375f};
 
-/// The level of detail of minified points with 16 fraction bits, of others 0; whole where levels are not blended. GL 2.1, 3.8.8.
+/// The level of detail of minified points with 16 fraction bits, of others 0; whole where levels are not
+/// blended. GL 2.1, 3.8.8.
 HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
   // The footprint is squared. Of numbers that are not positive comes something finite.
   const Int bits = hn::BitCast(kInt, footprint);
@@ -91,7 +101,8 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
   if (texture.blends_levels) {
     // m 2^e with m in [sqrt(1/2), sqrt(2)).
     const Int exponent = hn::ShiftRight<23>(hn::Sub(bits, splat(kSqrtHalfBits)));
-    const Float m = hn::BitCast(kFloat, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), above_one = hn::Sub(m, splat(1.0f));
+    const Float m = hn::BitCast(kFloat, hn::Sub(bits, hn::ShiftLeft<23>(exponent))),
+                above_one = hn::Sub(m, splat(1.0f));
     Float sum = splat(kLevelCoefficients[0]);
     for (int k = 1; k < 5; ++k) sum = mul_add(sum, above_one, splat(kLevelCoefficients[k]));
     level = hn::Add(truncate(hn::Mul(sum, above_one)), hn::ShiftLeft<15>(exponent));
@@ -106,7 +117,9 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
 
 /// Chunks all of whose points are at one level, or between it and the next smaller one.
 template <int kChunks>
-HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, const Int (&level_of)[kChunks], const Float (&s)[kChunks], const Float (&t)[kChunks], Texels (&texels)[kChunks]) {
+HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, const Int (&level_of)[kChunks],
+                                   const Float (&s)[kChunks], const Float (&t)[kChunks],
+                                   Texels (&texels)[kChunks]) {
   LinearTexels linear[2][kChunks];
   for (int i = 0; i < kChunks; ++i) linear[0][i].place(texture, texture.level[level], s[i], t[i]);
   if (!texture.blends_levels || level == texture.last) {
@@ -119,29 +132,37 @@ HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, cons
     texels[i] = mixed(larger, linear[1][i].mix(), twice(level_of[i]));
   }
 }
-HWY_INLINE Texels linear_texels_from(const TextureLevels& texture, int level, Int level_of, Float s, Float t) {
+HWY_INLINE Texels linear_texels_from(const TextureLevels& texture, int level, Int level_of, Float s,
+                                     Float t) {
   Texels texels[1];
   linear_texels_from<1>(texture, level, {level_of}, {s}, {t}, texels);
   return texels[0];
 }
-HWY_INLINE Texels nearest_texels_from(const TextureLevels& texture, int level, Int level_of, Float s, Float t) {
+HWY_INLINE Texels nearest_texels_from(const TextureLevels& texture, int level, Int level_of, Float s,
+                                      Float t) {
   const Texels larger = nearest_texels(texture, texture.level[level], s, t);
-  return texture.blends_levels && level < texture.last ? mixed(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of)) : larger;
+  return texture.blends_levels && level < texture.last
+             ? mixed(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of))
+             : larger;
 }
 
 /// Points of one chunk at whatever levels they have: one pass for each of those, nearly always one or two.
-inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Float s, Float t, Float footprint) {
+inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Float s, Float t,
+                                              Float footprint) {
   const auto minified = hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.most_magnified)));
   // Magnified points are points of level 0 like others, unless they have a filter of their own.
   const bool apart = texture.mag_linear != texture.min_linear;
   Texels all{hn::Zero(kInt), hn::Zero(kInt)};
-  if (apart && !hn::AllTrue(kInt, minified)) all = texture.mag_linear ? linear_texels(texture, texture.level[0], s, t) : nearest_texels(texture, texture.level[0], s, t);
+  if (apart && !hn::AllTrue(kInt, minified))
+    all = texture.mag_linear ? linear_texels(texture, texture.level[0], s, t)
+                             : nearest_texels(texture, texture.level[0], s, t);
   const Int level_of = level_of_detail(texture, footprint), whole = hn::ShiftRight<16>(level_of);
   alignas(64) std::int32_t levels[kLanes];
   hn::Store(whole, kInt, levels);
   for (std::uint32_t left = apart ? mask_bits(kInt, minified) : (1u << kLanes) - 1; left != 0;) {
     const int level = levels[std::countr_zero(left)];
-    const Texels here = texture.min_linear ? linear_texels_from(texture, level, level_of, s, t) : nearest_texels_from(texture, level, level_of, s, t);
+    const Texels here = texture.min_linear ? linear_texels_from(texture, level, level_of, s, t)
+                                           : nearest_texels_from(texture, level, level_of, s, t);
     auto same = hn::Eq(whole, splat(level));
     if (apart) same = hn::And(same, minified);
     all = {hn::IfThenElse(same, here.br, all.br), hn::IfThenElse(same, here.ga, all.ga)};
@@ -150,11 +171,12 @@ inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Floa
   return all;
 }
 
-/// What the points of some chunks see of a texture with levels, coordinates as they come. Each step is taken for all chunks before the
-/// next: few of one chunk's can run beside each other.
+/// What the points of some chunks see of a texture with levels, coordinates as they come. Each step is taken
+/// for all chunks before the next: few of one chunk's can run beside each other.
 /// @param footprint  squared texels a pixel spans, where that decides anything
 template <TexelFilter kFilter, int kChunks>
-HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], Float (&t)[kChunks], const Float (&footprint)[kChunks], Texels (&texels)[kChunks]) {
+HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], Float (&t)[kChunks],
+                             const Float (&footprint)[kChunks], Texels (&texels)[kChunks]) {
   for (Float& f : s) f = wrapped(f, texture.wrap_s);
   for (Float& f : t) f = wrapped(f, texture.wrap_t);
   if constexpr (kFilter == TexelFilter::nearest) {
@@ -168,7 +190,8 @@ HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], 
     for (int i = 0; i < kChunks; ++i) level_of[i] = level_of_detail(texture, footprint[i]);
     const int level = hn::GetLane(hn::ShiftRight<16>(level_of[0]));
     auto same = hn::Eq(hn::ShiftRight<16>(level_of[0]), splat(level));
-    for (int i = 1; i < kChunks; ++i) same = hn::And(same, hn::Eq(hn::ShiftRight<16>(level_of[i]), splat(level)));
+    for (int i = 1; i < kChunks; ++i)
+      same = hn::And(same, hn::Eq(hn::ShiftRight<16>(level_of[i]), splat(level)));
     if (hn::AllTrue(kInt, same)) return linear_texels_from(texture, level, level_of, s, t, texels);
     for (int i = 0; i < kChunks; ++i) texels[i] = texels_from_levels(texture, s[i], t[i], footprint[i]);
   } else {
@@ -193,14 +216,18 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
     for (int first = 0; first < count; first += kBlockPixels) {
       Float at_s[kChunksPerBlock], at_t[kChunksPerBlock], footprint[kChunksPerBlock];
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-        const auto field = [&](int number) HWY_ATTR { return hn::Load(kFloat, batch.field[number] + first + chunk * kLanes); };
-        at_s[chunk] = field(kTextureS), at_t[chunk] = field(kTextureT), footprint[chunk] = field(kTexelsSquared);
+        const auto field = [&](int number) HWY_ATTR {
+          return hn::Load(kFloat, batch.field[number] + first + chunk * kLanes);
+        };
+        at_s[chunk] = field(kTextureS), at_t[chunk] = field(kTextureT),
+        footprint[chunk] = field(kTexelsSquared);
       }
       Texels texels[kChunksPerBlock];
       texels_where<kFilter>(texture, at_s, at_t, footprint, texels);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
         const Colors colors = colors_of(texels[chunk]);
-        for (int c = 0; c < 4; ++c) hn::Store(colors.c[c], kFloat, batch.field[kTexelR + c] + first + chunk * kLanes);
+        for (int c = 0; c < 4; ++c)
+          hn::Store(colors.c[c], kFloat, batch.field[kTexelR + c] + first + chunk * kLanes);
       }
     }
   });
@@ -210,7 +237,8 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
 HWY_INLINE Colors texels_at(const DrawTexture& texture, const ShadingBatch& batch, int point) {
   Colors texel;
   for (int c = 0; c < 4; ++c)
-    texel.c[c] = texture.levels != nullptr ? hn::Load(kFloat, batch.field[kTexelR + c] + point) : splat(texture.texel[static_cast<std::size_t>(c)]);
+    texel.c[c] = texture.levels != nullptr ? hn::Load(kFloat, batch.field[kTexelR + c] + point)
+                                           : splat(texture.texel[static_cast<std::size_t>(c)]);
   return texel;
 }
 

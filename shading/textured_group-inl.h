@@ -1,5 +1,5 @@
-// Draws of textured triangles where each pixel that is seen is shaded at once: coordinates, texels and colours stay in registers. The same
-// bits as where they wait (deferred-inl.h).
+// Draws of textured triangles where each pixel that is seen is shaded at once: coordinates, texels and
+// colours stay in registers. The same bits as where they wait (deferred-inl.h).
 #if defined(TESSERA_SHADING_TEXTURED_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURED_GROUP_INL_H_
 #undef TESSERA_SHADING_TEXTURED_GROUP_INL_H_
@@ -18,8 +18,11 @@ namespace HWY_NAMESPACE {
 
 /// Those without operations, into RGB buffers, of colours that are there already.
 HWY_INLINE bool textures_at_once(const TileFrame& frame, const TileDraw& draw) {
-  return frame.shade_at_once && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr && draw.texture->levels != nullptr && !frame.layout.index && !frame.layout.luminance &&
-         frame.layout.alpha_bits == 0 && (draw.source == ColorSource::constant || draw.source == ColorSource::interpolated) && !draw.index[0] && !draw.index[1];
+  return frame.shade_at_once && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr &&
+         draw.texture->levels != nullptr && !frame.layout.index && !frame.layout.luminance &&
+         frame.layout.alpha_bits == 0 &&
+         (draw.source == ColorSource::constant || draw.source == ColorSource::interpolated) &&
+         !draw.index[0] && !draw.index[1];
 }
 
 /// One triangle's way through the blocks of a tile.
@@ -35,7 +38,8 @@ struct TexturedBlocks {
   Int seen = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
   std::uint64_t blocks = 0;   // drawn as a whole
 
-  /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of their steps.
+  /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of
+  /// their steps.
   static constexpr int kBlocksAtOnce = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
   struct FullBlock {
     int bx, by;
@@ -50,15 +54,20 @@ struct TexturedBlocks {
     is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
     modulates = draw.texture->function == TextureFunction::modulate;
     texels_alone = is_rgb8 && draw.texture->function == TextureFunction::replace;
-    at_once = is_rgb8 && (texels_alone || modulates) && !uses_depth && !run.cut && (draw.write_mask & 0xffffff) == 0xffffff;
+    at_once = is_rgb8 && (texels_alone || modulates) && !uses_depth && !run.cut &&
+              (draw.write_mask & 0xffffff) == 0xffffff;
     depth.set_up(run.frame, draw, run.memory.group, i, run.memory.source[i], run.tile_x, run.tile_y);
     coordinates.set_up(triangle, run.memory.wide.data(), *draw.texture, false, 1);
     for (int c = 0; c < 3; ++c) {
       const std::size_t face = triangle.back ? 1 : 0;
-      color[c] = draw.source == ColorSource::constant ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0} : corners(triangle, draw.color_attribute[face] + c, true);
+      color[c] = draw.source == ColorSource::constant
+                     ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0}
+                     : corners(triangle, draw.color_attribute[face] + c, true);
     }
   }
-  HWY_INLINE std::uint64_t shaded_pixels() const { return std::uint64_t{kBlockPixels} * blocks + count_of(seen); }
+  HWY_INLINE std::uint64_t shaded_pixels() const {
+    return std::uint64_t{kBlockPixels} * blocks + count_of(seen);
+  }
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
@@ -103,7 +112,8 @@ struct TexturedBlocks {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) at[chunk] = barycentric_at(bx, by, edges, chunk);
     find_texels(at, texels);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      store_words(run.color + block + chunk * kLanes, words(at[chunk], texels[chunk]), hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
+      store_words(run.color + block + chunk * kLanes, words(at[chunk], texels[chunk]),
+                  hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
   }
 
  private:
@@ -119,14 +129,17 @@ struct TexturedBlocks {
     find_texels(at, texels);
     for (int i = 0; i < kChunks; ++i) {
       const FullBlock& block = group[i / kChunksPerBlock];
-      auto* const stored = reinterpret_cast<std::int32_t*>(run.color + run.block_index(block.bx, block.by) + i % kChunksPerBlock * kLanes);
+      auto* const stored = reinterpret_cast<std::int32_t*>(run.color + run.block_index(block.bx, block.by) +
+                                                           i % kChunksPerBlock * kLanes);
       hn::Store(texels_alone ? words_of_texels(texels[i]) : modulated_words(at[i], texels[i]), kInt, stored);
     }
     blocks += kBlocks;
   }
   HWY_INLINE Barycentric barycentric_at(int bx, int by, const BlockEdges& edges, int chunk) const {
-    return HWY_UNLIKELY(triangle.wide >= 0) ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk)
-                              : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
+    return HWY_UNLIKELY(triangle.wide >= 0)
+               ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by,
+                                  chunk)
+               : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
   }
   template <int kChunks>
   HWY_INLINE void find_texels(const Barycentric (&at)[kChunks], Texels (&texels)[kChunks]) const {
@@ -134,24 +147,34 @@ struct TexturedBlocks {
     constexpr bool kHasSlopes = kFilter == TexelFilter::linear_levels || kFilter == TexelFilter::any;
     Float s[kChunks], t[kChunks], footprint[kChunks];
     for (int i = 0; i < kChunks; ++i)
-      coordinates.at<kHasSlopes, kKeepsRange>(at[i], [&](int field, Float value) HWY_ATTR { (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value; });
+      coordinates.at<kHasSlopes, kKeepsRange>(at[i], [&](int field, Float value) HWY_ATTR {
+        (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value;
+      });
     texels_where<kFilter>(*draw.texture->levels, s, t, footprint, texels);
   }
   HWY_INLINE Int words(const Barycentric& at, const Texels& texels) const {
     if (texels_alone) return words_of_texels(texels);
     if (is_rgb8 && modulates) return modulated_words(at, texels);
-    return words_of(run.frame.layout, textured_lanes(*draw.texture, own_colors(at), colors_of(texels)), splat(0.5f));
+    return words_of(run.frame.layout, textured_lanes(*draw.texture, own_colors(at), colors_of(texels)),
+                    splat(0.5f));
   }
-  HWY_INLINE Int modulated_words(const Barycentric& at, const Texels& texels) const { return words_of_rgb8(modulated(own_colors(at), colors_of(texels))); }
-  HWY_INLINE Colors own_colors(const Barycentric& at) const { return {{interpolate_within(at, color[0]), interpolate_within(at, color[1]), interpolate_within(at, color[2]), splat(1.0f)}}; }
+  HWY_INLINE Int modulated_words(const Barycentric& at, const Texels& texels) const {
+    return words_of_rgb8(modulated(own_colors(at), colors_of(texels)));
+  }
+  HWY_INLINE Colors own_colors(const Barycentric& at) const {
+    return {{interpolate_within(at, color[0]), interpolate_within(at, color[1]),
+             interpolate_within(at, color[2]), splat(1.0f)}};
+  }
 };
 
-/// Of full blocks side by side, whose nearest texels are stored as they are, what they have in common stays in registers: copies, since the compiler must
-/// read again what a stored word might have changed.
+/// Of full blocks side by side, whose nearest texels are stored as they are, what they have in common stays
+/// in registers: copies, since the compiler must read again what a stored word might have changed.
 struct NearestRows {
   TexturedBlocks<TexelFilter::nearest>& blocks;
 
-  HWY_INLINE bool do_for_all() const { return blocks.at_once && blocks.texels_alone && blocks.triangle.wide < 0; }
+  HWY_INLINE bool do_for_all() const {
+    return blocks.at_once && blocks.texels_alone && blocks.triangle.wide < 0;
+  }
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
@@ -173,7 +196,8 @@ struct NearestRows {
     for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
         const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
-        const Int texels = nearest_words(words, level, wrapped(interpolate_within(where, s), wrap_s), wrapped(interpolate_within(where, t), wrap_t));
+        const Int texels = nearest_words(words, level, wrapped(interpolate_within(where, s), wrap_s),
+                                         wrapped(interpolate_within(where, t), wrap_t));
         hn::Store(hn::And(texels, splat(0xffffff)), kInt, stored);
       }
     blocks.blocks += static_cast<std::uint64_t>(count);
@@ -191,7 +215,8 @@ inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
     const int i = std::countr_zero(left);
     TileEdges edges = tile_edges(g, i);
     WideEdges wide_edges;
-    if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
+    if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges))
+      continue;
     ShadedTriangle triangle;
     fill_shaded_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
     if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
@@ -199,7 +224,9 @@ inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
       TexturedBlocks<kFilter> blocks{.run = run, .draw = draw, .triangle = triangle};
       blocks.set_up(i);
       const BlockOffsets offsets(edges);
-      const auto draw_by = [&](auto& drawn) HWY_ATTR { for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn); };
+      const auto draw_by = [&](auto& drawn) HWY_ATTR {
+        for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn);
+      };
       bool by_rows = false;
       if constexpr (kFilter == TexelFilter::nearest) {
         NearestRows rows{blocks};

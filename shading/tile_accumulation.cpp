@@ -5,23 +5,31 @@
 namespace tessera {
 namespace {
 
-AccumulatedPixels from(const AccumulatedPixels& levels, int at) { return {levels[0] + at, levels[1] + at, levels[2] + at, levels[3] + at}; }
+AccumulatedPixels from(const AccumulatedPixels& levels, int at) {
+  return {levels[0] + at, levels[1] + at, levels[2] + at, levels[3] + at};
+}
 
-void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y, int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
+void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y, int tile_size,
+               std::uint32_t* color, const AccumulatedPixels& levels) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       const int at = tile_index(x, y, tile_size);
-      const float threshold = command.dither.threshold[(tile_y + y) % kDitherSize][(tile_x + x) % kDitherSize];
-      const std::uint32_t word = command.arithmetic.word({levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
+      const float threshold =
+          command.dither.threshold[(tile_y + y) % kDitherSize][(tile_x + x) % kDitherSize];
+      const std::uint32_t word =
+          command.arithmetic.word({levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
       color[at] = (color[at] & ~command.write_mask) | (word & command.write_mask);
     }
 }
 
 }  // namespace
 
-void run_on_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y, int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
-  if (command.arithmetic.op() == AccumulationOp::give_back) return give_back(command, rect, tile_x, tile_y, tile_size, color, levels);
-  if (rect == PixelRect{0, 0, tile_size, tile_size}) return command.arithmetic.run(color, levels, tile_size * tile_size);
+void run_on_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
+                 int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
+  if (command.arithmetic.op() == AccumulationOp::give_back)
+    return give_back(command, rect, tile_x, tile_y, tile_size, color, levels);
+  if (rect == PixelRect{0, 0, tile_size, tile_size})
+    return command.arithmetic.run(color, levels, tile_size * tile_size);
   // What of a row lies in one block stands side by side.
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0, end = 0; x < rect.x1; x = end) {

@@ -12,7 +12,7 @@ namespace tessera {
 /// Runs before draw `before_draw` and after `after_clears` of the frame's clears.
 struct TileAccumulation {
   std::uint32_t before_draw = 0, after_clears = 0;
-  PixelRect rect;                          ///< raster space
+  PixelRect rect;  ///< raster space
   Accumulation arithmetic;
   std::uint32_t write_mask = 0xffffffffu;  ///< give_back: of the colour word's bits
   FragmentOps dither;                      ///< give_back: its thresholds
@@ -21,6 +21,7 @@ struct TileAccumulation {
 /// @param rect    the pixels, tile-relative
 /// @param tile_x, tile_y  the tile's top left pixel, raster space
 /// @param color, levels   of the tile, in tile order
-void run_on_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y, int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
+void run_on_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
+                 int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
 
 }  // namespace tessera

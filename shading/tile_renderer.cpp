@@ -1,21 +1,23 @@
-// Renders a tile: clears, draws and commands of the accumulation buffer in the order in which they were recorded.
+// Renders a tile: clears, draws and commands of the accumulation buffer in the order in which they were
+// recorded.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/tile_renderer.cpp"
 #include "framebuffer/lanes.h"
 
 #include <algorithm>
 
-#include "shading/tile_renderer.h"
-#include "shading/tile_workspace.h"
 #include "shading/group_builder-inl.h"
 #include "shading/resolve-inl.h"
 #include "shading/tile_clears-inl.h"
+#include "shading/tile_renderer.h"
+#include "shading/tile_workspace.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all be the same: one does.
+/// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all
+/// be the same: one does.
 void begin_samples(TileRun& run, int tile) {
   TileWorkspace::Memory& memory = run.memory;
   const TileFrame& frame = run.frame;
@@ -63,11 +65,13 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   std::uint32_t next_clear = 0, next_accumulation = 0;
   GroupBuilder builder{run};
   const auto clears_before = [&](std::uint32_t draw, std::uint32_t end) {
-    while (next_clear < end && frame.clears[next_clear].before_draw <= draw) run_clear(run, frame.clears[next_clear++]);
+    while (next_clear < end && frame.clears[next_clear].before_draw <= draw)
+      run_clear(run, frame.clears[next_clear++]);
   };
   // All that was drawn before has been flushed.
   const auto commands_before = [&](std::uint32_t draw) {
-    while (next_accumulation < frame.accumulation_count && frame.accumulations[next_accumulation].before_draw <= draw) {
+    while (next_accumulation < frame.accumulation_count &&
+           frame.accumulations[next_accumulation].before_draw <= draw) {
       const TileAccumulation& command = frame.accumulations[next_accumulation++];
       clears_before(draw, command.after_clears);
       run_accumulation(run, command);
@@ -75,9 +79,11 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     clears_before(draw, frame.clear_count);
   };
   for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count();) {
-    if (frame.batches->one_by_one()) shade_whole_tile(run);  // triangles that were seen refer to the batch before
+    if (frame.batches->one_by_one())
+      shade_whole_tile(run);  // triangles that were seen refer to the batch before
     const Bins& bins = frame.batches->read(b);
-    // Other cores binned most of the batches, and a list is a chain: what comes next is fetched while the block before it is worked on.
+    // Other cores binned most of the batches, and a list is a chain: what comes next is fetched while the
+    // block before it is worked on.
     const std::uint32_t following = frame.batches->next(tile, b + 1);
     const Bins* const ahead = frame.batches->ahead(following);
     if (ahead != nullptr) ahead->fetch_first(tile);
@@ -131,7 +137,9 @@ TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
 TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
-std::uint32_t* TileWorkspace::select_color(std::size_t tile) { return memory_->color = memory_->colors[tile].word; }
+std::uint32_t* TileWorkspace::select_color(std::size_t tile) {
+  return memory_->color = memory_->colors[tile].word;
+}
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
 std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
 const std::uint32_t* TileWorkspace::sample_color(int sample) const { return memory_->samples->color[sample]; }
@@ -159,7 +167,8 @@ void TileWorkspace::allocate_accumulation() {
   if (!memory_->accumulation) memory_->accumulation = std::make_unique<TileLevels>();
 }
 
-std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b, float a) {
+std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
+                         float a) {
   if (layout.index) return search->nearest(r, g, b) & layout.word_mask();
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : quantize(a, layout.alpha_bits) << layout.bits;
   return quantize_rgb(layout, r, g, b) | alpha;

@@ -11,8 +11,8 @@
 
 #include "raster/binning.h"
 #include "raster/lanes-inl.h"
-#include "shading/interpolate-inl.h"
 #include "shading/fragment_word.h"
+#include "shading/interpolate-inl.h"
 #include "shading/tile_workspace.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,10 +30,13 @@ struct TileRun {
   int samples = 1;
   TilePixels sample[kMaxSamples];
 
-  HWY_INLINE int block_index(int bx, int by) const { return ((by >> 2) * (tile_size >> 2) + (bx >> 2)) * kBlockPixels; }
+  HWY_INLINE int block_index(int bx, int by) const {
+    return ((by >> 2) * (tile_size >> 2) + (bx >> 2)) * kBlockPixels;
+  }
   HWY_INLINE int pixel_index(int x, int y) const { return block_index(x, y) + (y & 3) * 4 + (x & 3); }
   HWY_INLINE Int pixel_indices(Int x, Int y) const {
-    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), splat(tile_size >> 2)), hn::ShiftRight<2>(x)), three = splat(3);
+    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), splat(tile_size >> 2)), hn::ShiftRight<2>(x)),
+              three = splat(3);
     return hn::Add(hn::ShiftLeft<4>(block), hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three)));
   }
 };
@@ -49,12 +52,15 @@ HWY_INLINE std::uint64_t count_of(Int negative) {
 
 inline constexpr std::int32_t kFarthestKey = std::numeric_limits<std::int32_t>::max();
 /// What is known of all blocks of a tile with several samples: none of their depth keys is greater.
-HWY_INLINE void set_farthest(TileRun& run, std::int32_t key) { std::fill_n(run.memory.samples->farthest, run.tile_size * run.tile_size / kBlockPixels, key); }
+HWY_INLINE void set_farthest(TileRun& run, std::int32_t key) {
+  std::fill_n(run.memory.samples->farthest, run.tile_size * run.tile_size / kBlockPixels, key);
+}
 
 /// Lanes of a chunk inside the draw's rectangle.
 HWY_INLINE auto inside_rect(const PixelRect& rect, int bx, int by, int chunk) {
   const Int x = hn::Add(splat(bx), block_columns(chunk)), y = hn::Add(splat(by), block_rows(chunk));
-  return hn::And(hn::And(hn::Gt(x, splat(rect.x0 - 1)), hn::Gt(splat(rect.x1), x)), hn::And(hn::Gt(y, splat(rect.y0 - 1)), hn::Gt(splat(rect.y1), y)));
+  return hn::And(hn::And(hn::Gt(x, splat(rect.x0 - 1)), hn::Gt(splat(rect.x1), x)),
+                 hn::And(hn::Gt(y, splat(rect.y0 - 1)), hn::Gt(splat(rect.y1), y)));
 }
 
 /// Writes the bits of `writable` in the lanes of `mask`.
@@ -76,7 +82,9 @@ HWY_INLINE void store_where(Mask mask, hn::Vec<Tag> value, Tag tag, hn::TFromD<T
 }
 /// As store_words(), of whole words.
 template <class Mask>
-HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) { store_where(mask, words, kInt, reinterpret_cast<std::int32_t*>(color)); }
+HWY_INLINE void store_whole_words(std::uint32_t* color, Int words, Mask mask) {
+  store_where(mask, words, kInt, reinterpret_cast<std::int32_t*>(color));
+}
 
 /// Whether triangle i of the group shows its back: by its own area, or as its polygon does.
 HWY_INLINE bool is_back(const TileRun& run, const TileDraw& draw, int i) {
@@ -93,7 +101,8 @@ struct ScaledColor {
     set_up(t.attributes[0] + attribute, t.attributes[1] + attribute, t.attributes[2] + attribute, layout);
   }
   /// @param first  four floats can be read there, and at the others
-  HWY_INLINE void set_up(const float* first, const float* second, const float* third, const ColorLayout& layout) {
+  HWY_INLINE void set_up(const float* first, const float* second, const float* third,
+                         const ColorLayout& layout) {
 #if HWY_TARGET == HWY_SCALAR
     const auto of = [&](int c) { return Corners{first[c], second[c] - first[c], third[c] - first[c]}; };
 #else
@@ -118,15 +127,16 @@ struct ScaledColor {
   }
 };
 
-/// Colours of 0..1 for 8 bits each of red, green and blue, which are mixed by their alpha with what is stored: the steps of FragmentTriangle, of which those
-/// are left out that change no bit. What is kept within 0..1 at the vertices is within 0..1 between them, and a sum that rounds to above 1 is the highest level, too.
-/// Alpha that is not kept there has no way here: it is of pixels that are lit, or of alpha tests.
+/// Colours of 0..1 for 8 bits each of red, green and blue, which are mixed by their alpha with what is
+/// stored: the steps of FragmentTriangle, of which those are left out that change no bit. What is kept within
+/// 0..1 at the vertices is within 0..1 between them, and a sum that rounds to above 1 is the highest level,
+/// too. Alpha that is not kept there has no way here: it is of pixels that are lit, or of alpha tests.
 struct MixedColor {
-  Corners c[4];                          // r g b a
+  Corners c[4];  // r g b a
   CornerLanes lanes[4];
   Float low[4], high[4];
-  bool same_alpha = false;               // at all pixels
-  Float one_alpha, one_rest;             // that one, and what is left of what is stored
+  bool same_alpha = false;    // at all pixels
+  Float one_alpha, one_rest;  // that one, and what is left of what is stored
 
   HWY_INLINE void set_up(const ShadedTriangle& t, const TileDraw& draw, const float* flat) {
     const int face = t.back ? 1 : 0;
@@ -151,10 +161,13 @@ struct MixedColor {
   }
   HWY_INLINE Int words(const Barycentric& at, Int stored) const {
     const Int byte = splat(255);
-    const Int below[3] = {hn::And(hn::ShiftRight<16>(stored), byte), hn::And(hn::ShiftRight<8>(stored), byte), hn::And(stored, byte)};
-    const Float a = same_alpha ? one_alpha : within(at, 3), of_stored = same_alpha ? one_rest : hn::Sub(splat(1.0f), a);
+    const Int below[3] = {hn::And(hn::ShiftRight<16>(stored), byte), hn::And(hn::ShiftRight<8>(stored), byte),
+                          hn::And(stored, byte)};
+    const Float a = same_alpha ? one_alpha : within(at, 3),
+                of_stored = same_alpha ? one_rest : hn::Sub(splat(1.0f), a);
     const auto level = [&](int k) HWY_ATTR {
-      const Float mixed = mul_add(within(at, k), a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), of_stored));
+      const Float mixed = mul_add(
+          within(at, k), a, hn::Mul(hn::Mul(hn::ConvertTo(kFloat, below[k]), splat(1.0f / 255)), of_stored));
       return truncate(mul_add(mixed, splat(255.0f), splat(0.5f)));
     };
     return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
@@ -162,20 +175,24 @@ struct MixedColor {
   /// The same of one pixel.
   HWY_INLINE std::uint32_t word(float b1, float b2, std::uint32_t stored) const {
     const auto at_pixel = [&](const Corners& k) {
-      const float value = std::fma(b1, k.to_second, std::fma(b2, k.to_third, k.first)), raised = value > k.low ? value : k.low;
+      const float value = std::fma(b1, k.to_second, std::fma(b2, k.to_third, k.first)),
+                  raised = value > k.low ? value : k.low;
       return raised < k.high ? raised : k.high;
     };
     const float a = at_pixel(c[3]), rest = 1 - a;
     const auto level = [&](int k, std::uint32_t below) {
       const float own = at_pixel(c[k]);
-      return static_cast<std::uint32_t>(std::fma(std::fma(own, a, static_cast<float>(below) * (1.0f / 255) * rest), 255.0f, 0.5f));
+      return static_cast<std::uint32_t>(
+          std::fma(std::fma(own, a, static_cast<float>(below) * (1.0f / 255) * rest), 255.0f, 0.5f));
     };
     return level(0, stored >> 16 & 255) << 16 | level(1, stored >> 8 & 255) << 8 | level(2, stored & 255);
   }
 
  private:
   /// interpolate_within(), of values that are no NaN.
-  HWY_INLINE Float within(const Barycentric& at, int k) const { return lesser_of(greater_of(interpolate(at, lanes[k]), low[k]), high[k]); }
+  HWY_INLINE Float within(const Barycentric& at, int k) const {
+    return lesser_of(greater_of(interpolate(at, lanes[k]), low[k]), high[k]);
+  }
   static HWY_INLINE Corners of_all(float value) { return {value, 0, 0, value, value}; }
   static HWY_INLINE Corners clamped(Corners corners) {
     corners.low = clamp_unit(corners.low);

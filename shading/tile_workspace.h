@@ -16,7 +16,8 @@ namespace tessera {
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 /// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
 inline constexpr std::size_t kMaxCollected = 1024;
-inline constexpr std::size_t kCollectedRoom = kMaxCollected + kGroupSize;  ///< with the group in which it gets there
+inline constexpr std::size_t kCollectedRoom =
+    kMaxCollected + kGroupSize;  ///< with the group in which it gets there
 
 struct alignas(64) TileNormals {
   float component[3][kMaxTileSize * kMaxTileSize];
@@ -30,8 +31,8 @@ struct alignas(64) TileStencil {
 struct TilePixels {
   std::uint32_t* color;
   std::int32_t* depth;
-  std::uint32_t* ids;      ///< triangles seen and not shaded yet; kNoTriangle elsewhere
-  std::int32_t* stencil;   ///< null where the frame has none
+  std::uint32_t* ids;     ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  std::int32_t* stencil;  ///< null where the frame has none
 };
 
 /// What a tile's samples hold. Depth, ids and stencil of sample 0 are the tile's own.
@@ -42,9 +43,11 @@ struct alignas(64) TileSamples {
   std::int32_t depth[kMaxSamples][kStride];
   std::uint32_t ids[kMaxSamples][kStride];
   std::int32_t stencil[kMaxSamples][kStride];
-  TriangleGroup group[kMaxSamples];         ///< moved the other way: of wide triangles, and for draws with operations
+  TriangleGroup
+      group[kMaxSamples];  ///< moved the other way: of wide triangles, and for draws with operations
   SampleGroup narrow;
-  std::int32_t farthest[kMaxTileSize * kMaxTileSize / kBlockPixels];  ///< no depth key of a sample in the block is greater
+  std::int32_t farthest[kMaxTileSize * kMaxTileSize /
+                        kBlockPixels];      ///< no depth key of a sample in the block is greater
   int clean_samples = 0, clean_pixels = 0;  ///< so much of `ids` is kNoTriangle
 
   TilePixels of(int sample, bool has_stencil) {
@@ -61,7 +64,7 @@ struct TouchedBlocks {
   static constexpr int kBlocks = kMaxTileSize * kMaxTileSize / kBlockPixels;
   int count = 0;
   std::uint16_t list[kBlocks];
-  std::uint32_t samples[kBlocks] = {};           ///< that have bits
+  std::uint32_t samples[kBlocks] = {};            ///< that have bits
   std::uint16_t bits[kMaxSamples][kBlocks] = {};  ///< of the pixels
 };
 
@@ -73,10 +76,11 @@ struct alignas(64) TileColors {
 };
 
 struct alignas(64) TileWorkspace::Memory {
-  std::uint32_t* color = nullptr;                              ///< of the tile that is rendered: one of `colors`
+  std::uint32_t* color = nullptr;  ///< of the tile that is rendered: one of `colors`
   alignas(64) std::int32_t depth[kNoPixel + 1];
-  alignas(64) std::uint32_t ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
-  bool ids_clean = false;                                      ///< every id is kNoTriangle: shading leaves them so
+  alignas(64) std::uint32_t
+      ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  bool ids_clean = false;                ///< every id is kNoTriangle: shading leaves them so
   std::vector<ShadedTriangle> triangles;
   std::vector<WideEdges> wide;
   TriangleGroup group;
@@ -89,12 +93,15 @@ struct alignas(64) TileWorkspace::Memory {
   std::int32_t surfaces[kCollectedRoom];
   TouchedBlocks touched;
   std::vector<TileColors> colors;
-  std::unique_ptr<TileNormals> normals;  ///< only where a capture wants them
-  std::unique_ptr<TileStencil> stencil;  ///< only where a draw or clear has it
-  std::unique_ptr<TileSamples> samples;  ///< only where a frame has several for each pixel
+  std::unique_ptr<TileNormals> normals;      ///< only where a capture wants them
+  std::unique_ptr<TileStencil> stencil;      ///< only where a draw or clear has it
+  std::unique_ptr<TileSamples> samples;      ///< only where a frame has several for each pixel
   std::unique_ptr<TileLevels> accumulation;  ///< only where a command works on it
 
-  AccumulatedPixels levels() { return {accumulation->component[0], accumulation->component[1], accumulation->component[2], accumulation->component[3]}; }
+  AccumulatedPixels levels() {
+    return {accumulation->component[0], accumulation->component[1], accumulation->component[2],
+            accumulation->component[3]};
+  }
 };
 
 }  // namespace tessera

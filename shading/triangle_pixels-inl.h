@@ -40,7 +40,9 @@ struct PixelStencil {
     if (!does) store(index, steps.fail);
     return does;
   }
-  HWY_INLINE void store_after_depth(int index, bool depth_passes) const { store(index, depth_passes ? steps.zpass : steps.zfail); }
+  HWY_INLINE void store_after_depth(int index, bool depth_passes) const {
+    store(index, depth_passes ? steps.zpass : steps.zfail);
+  }
 
  private:
   HWY_INLINE void store(int index, const StencilStep& step) const {
@@ -49,9 +51,12 @@ struct PixelStencil {
   }
 };
 template <Test kTest>
-HWY_INLINE bool has_stencil_test(const TileDraw& draw) { return kTest == Test::any && draw.ops != nullptr && draw.ops->stencil; }
+HWY_INLINE bool has_stencil_test(const TileDraw& draw) {
+  return kTest == Test::any && draw.ops != nullptr && draw.ops->stencil;
+}
 HWY_INLINE PixelStencil pixel_stencil(const TileRun& run, const TileDraw& draw, bool back) {
-  return {.steps = stencil_steps(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_most), .values = run.sample[0].stencil};
+  return {.steps = stencil_steps(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_most),
+          .values = run.sample[0].stencil};
 }
 
 /// One triangle's way through the blocks of a tile.
@@ -71,16 +76,24 @@ struct TrianglePixels {
   PixelStencil stencil{};
   std::uint32_t seen_pixels = 0;  // of those with a colour
   Int seen = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
-  Int writable, depth_writable;  // masks, so that there is nothing to branch on
-  const bool cut;                // the draw's rectangle cuts through blocks
+  Int writable, depth_writable;   // masks, so that there is nothing to branch on
+  const bool cut;                 // the draw's rectangle cuts through blocks
   const bool writes_all_planes;
-  const bool stores_full;        // full blocks without any mask
+  const bool stores_full;  // full blocks without any mask
 
-  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_, const ShadedTriangle& shaded, bool back)
-      : run(tile_run), draw(tile_draw), edges(tile_edges_), offsets(tile_edges_), triangle(shaded),
+  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_,
+                            const ShadedTriangle& shaded, bool back)
+      : run(tile_run),
+        draw(tile_draw),
+        edges(tile_edges_),
+        offsets(tile_edges_),
+        triangle(shaded),
         tests_stencil(has_stencil_test<kTest>(tile_draw)),
-        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))), depth_writable(splat(tile_draw.depth_write ? -1 : 0)), cut(tile_run.cut),
-        writes_all_planes(tile_draw.write_mask == 0xffffffffu), stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && writes_all_planes) {
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))),
+        depth_writable(splat(tile_draw.depth_write ? -1 : 0)),
+        cut(tile_run.cut),
+        writes_all_planes(tile_draw.write_mask == 0xffffffffu),
+        stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && writes_all_planes) {
     if (tests_stencil) stencil = pixel_stencil(run, draw, back);
   }
 
@@ -92,7 +105,9 @@ struct TrianglePixels {
     else draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges);
   }
   /// Once, where code is long and such blocks are few.
-  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) { draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges); }
+  HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) {
+    draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges);
+  }
   /// Blocks side by side, all of whose pixels are inside.
   HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
     int index = run.block_index(bx, by);
@@ -125,7 +140,9 @@ struct TrianglePixels {
   }
   /// @param block  its index
   template <bool kFull, class Edges>
-  HWY_INLINE void draw_chunks(int bx, int by, int block, [[maybe_unused]] const typename Depth::Block& block_depth, [[maybe_unused]] const Edges& block_edges) {
+  HWY_INLINE void draw_chunks(int bx, int by, int block,
+                              [[maybe_unused]] const typename Depth::Block& block_depth,
+                              [[maybe_unused]] const Edges& block_edges) {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
       auto mask = hn::Eq(hn::Zero(kInt), hn::Zero(kInt));
@@ -147,11 +164,13 @@ struct TrianglePixels {
           hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
         } else {
           mask = hn::And(mask, comparing(key, draw.depth_test, stored));
-          hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt, stored_at);
+          hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt,
+                    stored_at);
         }
       }
       if (kMayTestStencil && tests_stencil && stencil.steps.writes())
-        hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt, stencil.values + index);
+        hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt,
+                  stencil.values + index);
       // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
       if constexpr (kSeen == Seen::collect) {
         auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
@@ -162,24 +181,32 @@ struct TrianglePixels {
         if (is_interpolated(kSeen) && bits == 0) continue;
         seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
         std::uint32_t* const stored_at = run.color + index;
-        const Int words = words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
-        kFull && writes_all_planes ? store_whole_words(stored_at, words, mask) : store_words(stored_at, words, mask, writable);
+        const Int words =
+            words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
+        kFull&& writes_all_planes ? store_whole_words(stored_at, words, mask)
+                                  : store_words(stored_at, words, mask, writable);
       }
     }
   }
   /// @param stored_at  what is there in the frame buffer, for what is mixed with it
   template <class Edges>
-  HWY_INLINE Int words_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx, [[maybe_unused]] int by, [[maybe_unused]] int chunk, [[maybe_unused]] const std::int32_t* stored_at) const {
+  HWY_INLINE Int words_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx,
+                          [[maybe_unused]] int by, [[maybe_unused]] int chunk,
+                          [[maybe_unused]] const std::int32_t* stored_at) const {
     if constexpr (kSeen == Seen::word) return splat(word);
-    else if constexpr (kSeen == Seen::mix) return color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
+    else if constexpr (kSeen == Seen::mix)
+      return color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
     else return color.words(barycentric_at(block_edges, bx, by, chunk));
   }
 
   /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
   template <class Edges>
   HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
-    if (HWY_UNLIKELY(triangle.wide >= 0)) return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by, chunk);
-    return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk), block_edges.at(2, chunk));
+    if (HWY_UNLIKELY(triangle.wide >= 0))
+      return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by,
+                              chunk);
+    return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk),
+                                  block_edges.at(2, chunk));
   }
 
   /// One pixel of a small triangle.

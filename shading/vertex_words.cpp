@@ -4,17 +4,19 @@
 
 #include <algorithm>
 
-#include "shading/vertex_words.h"
 #include "shading/fragment_ops-inl.h"
+#include "shading/vertex_words.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-void vertex_words_lanes(const ColorLayout& layout, const ShadingBatch& batch, int count, std::uint32_t* words) {
+void vertex_words_lanes(const ColorLayout& layout, const ShadingBatch& batch, int count,
+                        std::uint32_t* words) {
   for (int first = 0; first < count; first += kLanes) {
     Colors colors{{splat(0.0f), splat(0.0f), splat(0.0f), splat(1.0f)}};
-    for (int c = 0; c < 3; ++c) colors.c[c] = clamped_unit(hn::Load(kFloat, batch.field[kColorR + c] + first));
+    for (int c = 0; c < 3; ++c)
+      colors.c[c] = clamped_unit(hn::Load(kFloat, batch.field[kColorR + c] + first));
     alignas(64) std::int32_t lanes[kLanes];
     hn::Store(words_of(layout, colors, splat(0.5f)), kInt, lanes);
     std::copy_n(lanes, std::min(kLanes, count - first), reinterpret_cast<std::int32_t*>(words + first));
@@ -28,8 +30,10 @@ void scale_colors_lanes(const ColorLayout& layout, ShadingBatch& batch, int coun
     const Float levels = splat(static_cast<float>((1 << bits[c]) - 1));
     for (int first = 0; first < count; first += kLanes) {
       float* const color = batch.field[kColorR + c] + first;
-      const Float scaled = mul_add(hn::Load(kFloat, color), levels, splat(0.5f)), whole = hn::ConvertTo(kFloat, truncate(scaled));
-      hn::Store(hn::Min(hn::Max(scaled, hn::Add(whole, splat(kHair))), hn::Add(whole, splat(1 - kHair))), kFloat, color);
+      const Float scaled = mul_add(hn::Load(kFloat, color), levels, splat(0.5f)),
+                  whole = hn::ConvertTo(kFloat, truncate(scaled));
+      hn::Store(hn::Min(hn::Max(scaled, hn::Add(whole, splat(kHair))), hn::Add(whole, splat(1 - kHair))),
+                kFloat, color);
     }
   }
 }

@@ -9,12 +9,16 @@
 
 namespace tessera {
 
-/// words[i] of the colour of point i, for i < count: as color_word() of a layout without a palette, at full alpha. Beyond `count` nothing is written.
-using VertexWords = void(const ColorLayout& layout, const ShadingBatch& batch, int count, std::uint32_t* words);
+/// words[i] of the colour of point i, for i < count: as color_word() of a layout without a palette, at full
+/// alpha. Beyond `count` nothing is written.
+using VertexWords = void(const ColorLayout& layout, const ShadingBatch& batch, int count,
+                         std::uint32_t* words);
 VertexWords* vertex_words(Isa isa);
 
-/// Colours of 0..1 of the points i < count into the layout's levels with the half that rounds, in place, so that cutting off leaves the level; at least 2^-12 away
-/// from where that would be another one: an interpolated colour is off by less than 12 * 2^-24 of 256, and no pixel leaves the range of its triangle's vertices.
+/// Colours of 0..1 of the points i < count into the layout's levels with the half that rounds, in place, so
+/// that cutting off leaves the level; at least 2^-12 away from where that would be another one: an
+/// interpolated colour is off by less than 12 * 2^-24 of 256, and no pixel leaves the range of its triangle's
+/// vertices.
 using ScaleColors = void(const ColorLayout& layout, ShadingBatch& batch, int count);
 ScaleColors* scale_colors(Isa isa);
 

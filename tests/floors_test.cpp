@@ -1,5 +1,6 @@
-// The house rules that a compiler does not check: reads the #include lines of every source and compares them with the floors
-// framebuffer < raster < shading < engine. Includes point down; tests and perf may include everything, nothing includes them.
+// The house rules that a compiler does not check: reads the #include lines of every source and compares them
+// with the floors framebuffer < raster < shading < engine. Includes point down; tests and perf may include
+// everything, nothing includes them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,21 +23,23 @@ const std::vector<std::string> kFloors = {"framebuffer", "raster", "shading", "e
 const std::set<std::string> kFolders = {"framebuffer", "raster", "shading", "engine", "tests", "perf"};
 
 struct Include {
-  std::string file;    // that holds the line, relative to the root
+  std::string file;  // that holds the line, relative to the root
   int line = 0;
   std::string target;  // relative to the root if it is ours, else as written
   bool ours = false;
 };
 
 bool is_source(const fs::path& path) {
-  static const std::set<std::string> kExtensions = {".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp"};
+  static const std::set<std::string> kExtensions = {".c",  ".cc",  ".cpp", ".cxx", ".h",
+                                                    ".hh", ".hpp", ".hxx", ".inl", ".ipp"};
   return kExtensions.contains(path.extension().string());
 }
 
 std::vector<std::string> sources_below(const fs::path& folder) {
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && is_source(entry.path())) found.push_back(fs::relative(entry.path(), kRoot).generic_string());
+    if (entry.is_regular_file() && is_source(entry.path()))
+      found.push_back(fs::relative(entry.path(), kRoot).generic_string());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -46,13 +49,15 @@ std::vector<std::string> top_folders() {
   std::vector<std::string> found;
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_directory() && name.front() != '.' && !name.starts_with("build") && !fs::exists(entry.path() / "CMakeCache.txt"))
+    if (entry.is_directory() && name.front() != '.' && !name.starts_with("build") &&
+        !fs::exists(entry.path() / "CMakeCache.txt"))
       found.push_back(name);
   }
   return found;
 }
 
-// An include is ours if it names a file beside the includer or below the root; brackets or quotes make no difference.
+// An include is ours if it names a file beside the includer or below the root; brackets or quotes make no
+// difference.
 Include resolve(const std::string& file, int line, const std::string& written) {
   for (const fs::path& base : {(kRoot / file).parent_path(), kRoot}) {
     const fs::path path = (base / written).lexically_normal();
@@ -103,19 +108,25 @@ int floor_of(const std::string& file) {  // -1: tests, perf, or not ours
   const auto found = std::find(kFloors.begin(), kFloors.end(), folder_of(file));
   return found == kFloors.end() ? -1 : static_cast<int>(found - kFloors.begin());
 }
-// The library itself: what is below the engine, and what lies in the engine's folder but not in one of its own folders.
+// The library itself: what is below the engine, and what lies in the engine's folder but not in one of its
+// own folders.
 bool in_core(const std::string& file) {
   const int floor = floor_of(file);
-  return floor >= 0 && (floor < 3 || std::count(file.begin(), file.end(), '/') == 1 || file.starts_with("engine/tessera/"));
+  return floor >= 0 &&
+         (floor < 3 || std::count(file.begin(), file.end(), '/') == 1 || file.starts_with("engine/tessera/"));
 }
 bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
-  return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) { return text.starts_with(prefix); });
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
-std::string where(const Include& include) { return include.file + ":" + std::to_string(include.line) + " includes " + include.target; }
+std::string where(const Include& include) {
+  return include.file + ":" + std::to_string(include.line) + " includes " + include.target;
+}
 
 const std::vector<std::string> kThreads = {"tbb/", "oneapi/"};
 const std::vector<std::string> kLanes = {"hwy/"};
-const std::vector<std::string> kImageFiles = {"OpenImageIO/", "Imath/", "OpenEXR/", "png.h", "pngconf.h", "libpng"};
+const std::vector<std::string> kImageFiles = {"OpenImageIO/", "Imath/",    "OpenEXR/",
+                                              "png.h",        "pngconf.h", "libpng"};
 const std::vector<std::string> kProgramOnly = {"nlohmann/", "CLI/", "tiny_obj_loader.h", "assimp/"};
 const std::vector<std::string> kMath = {"glm/"};
 
@@ -124,14 +135,16 @@ template <class Allowed>
 std::vector<std::string> offenders(const std::vector<std::string>& prefixes, Allowed allowed) {
   std::vector<std::string> found;
   for (const Include& include : all_includes())
-    if (!include.ours && floor_of(include.file) >= 0 && starts_with_any(include.target, prefixes) && !allowed(include.file))
+    if (!include.ours && floor_of(include.file) >= 0 && starts_with_any(include.target, prefixes) &&
+        !allowed(include.file))
       found.push_back(where(include));
   return found;
 }
 
 TEST(Floors, TheReaderSeesTheSources) {
   EXPECT_GT(all_includes().size(), 30u);
-  EXPECT_TRUE(std::any_of(all_includes().begin(), all_includes().end(), [](const Include& i) { return i.ours; }));
+  EXPECT_TRUE(
+      std::any_of(all_includes().begin(), all_includes().end(), [](const Include& i) { return i.ours; }));
 }
 
 TEST(Floors, CodeLivesInSixFolders) {
@@ -140,7 +153,8 @@ TEST(Floors, CodeLivesInSixFolders) {
     if (!sources_below(kRoot / folder).empty()) with_code.insert(folder);
   EXPECT_EQ(with_code, kFolders);
   for (const auto& entry : fs::directory_iterator(kRoot))
-    EXPECT_FALSE(entry.is_regular_file() && is_source(entry.path())) << entry.path().filename() << " lies outside the folders";
+    EXPECT_FALSE(entry.is_regular_file() && is_source(entry.path()))
+        << entry.path().filename() << " lies outside the folders";
 }
 
 TEST(Floors, IncludesPointDown) {
@@ -155,28 +169,37 @@ TEST(Floors, IncludesPointDown) {
 
 TEST(Floors, EveryQuotedProjectPathExists) {
   for (const Include& include : all_includes())
-    EXPECT_FALSE(!include.ours && kFolders.contains(folder_of(include.target)) && include.target.find('/') != std::string::npos)
+    EXPECT_FALSE(!include.ours && kFolders.contains(folder_of(include.target)) &&
+                 include.target.find('/') != std::string::npos)
         << where(include) << ": no such file";
 }
 
 TEST(Floors, TheLibraryDoesNotIncludeTheProgram) {
   for (const Include& include : all_includes())
     EXPECT_TRUE(!include.ours || !in_core(include.file) || in_core(include.target)) << where(include);
-  EXPECT_THAT(offenders(kProgramOnly, [](const std::string& file) { return !in_core(file); }), testing::IsEmpty());
+  EXPECT_THAT(offenders(kProgramOnly, [](const std::string& file) { return !in_core(file); }),
+              testing::IsEmpty());
 }
 
 TEST(Floors, OneFileIncludesOneTbb) {
-  EXPECT_THAT(offenders(kThreads, [](const std::string& file) { return file == "engine/parallel.cpp"; }), testing::IsEmpty());
-  const auto in_parallel = [](const Include& i) { return i.file == "engine/parallel.cpp" && starts_with_any(i.target, kThreads); };
-  EXPECT_TRUE(std::any_of(all_includes().begin(), all_includes().end(), in_parallel)) << "engine/parallel.cpp";
+  EXPECT_THAT(offenders(kThreads, [](const std::string& file) { return file == "engine/parallel.cpp"; }),
+              testing::IsEmpty());
+  const auto in_parallel = [](const Include& i) {
+    return i.file == "engine/parallel.cpp" && starts_with_any(i.target, kThreads);
+  };
+  EXPECT_TRUE(std::any_of(all_includes().begin(), all_includes().end(), in_parallel))
+      << "engine/parallel.cpp";
 }
 
 TEST(Floors, HighwayComesThroughLanes) {
-  EXPECT_THAT(offenders(kLanes, [](const std::string& file) { return file == "framebuffer/lanes.h"; }), testing::IsEmpty());
+  EXPECT_THAT(offenders(kLanes, [](const std::string& file) { return file == "framebuffer/lanes.h"; }),
+              testing::IsEmpty());
 }
 
 TEST(Floors, ImageLibrariesStayInTheirModule) {
-  EXPECT_THAT(offenders(kImageFiles, [](const std::string& file) { return file.starts_with("engine/imageio"); }), testing::IsEmpty());
+  EXPECT_THAT(
+      offenders(kImageFiles, [](const std::string& file) { return file.starts_with("engine/imageio"); }),
+      testing::IsEmpty());
 }
 
 // The name of a constant that a line of a header begins to define: what stands before its value.
@@ -193,7 +216,8 @@ std::optional<std::string> constant_of(const std::string& line) {
   return is_function || !name.starts_with("k") ? std::nullopt : std::optional(name);
 }
 
-// One namespace holds all floors: of two constants with one name, which a linker takes for one, half of the code reads the other.
+// One namespace holds all floors: of two constants with one name, which a linker takes for one, half of the
+// code reads the other.
 TEST(Floors, ConstantsOfHeadersHaveNamesOfTheirOwn) {
   std::map<std::string, std::string> headers;
   for (const std::string& floor : kFloors)

@@ -13,7 +13,8 @@ namespace tessera::test {
 namespace {
 
 bool is_within(const reference::Counts& counts, double share) {
-  return counts.differing <= static_cast<std::int64_t>(std::floor(share * static_cast<double>(counts.pixels)));
+  return counts.differing <=
+         static_cast<std::int64_t>(std::floor(share * static_cast<double>(counts.pixels)));
 }
 
 Rgb draw_by_engine(const std::string& path, const RendererOptions& options) {
@@ -32,7 +33,8 @@ Rgb draw_by_engine(const std::string& path, const RendererOptions& options) {
   Renderer(options).finish(frame, target);
 
   Rgb rgb;
-  for (std::size_t i = 0; i < pixels; ++i) rgb.insert(rgb.end(), {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]});
+  for (std::size_t i = 0; i < pixels; ++i)
+    rgb.insert(rgb.end(), {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]});
   return rgb;
 }
 
@@ -58,7 +60,8 @@ ThreeWayReport compare_three_ways(const std::string& path, const RendererOptions
   ThreeWayReport report;
   report.name = std::filesystem::path(path).stem().string();
   const reference::Scene scene = reference::load_scene(path);
-  const int width = report.width_px = scene.framebuffer.width_px, height = report.height_px = scene.framebuffer.height_px;
+  const int width = report.width_px = scene.framebuffer.width_px,
+            height = report.height_px = scene.framebuffer.height_px;
 
   report.reference = reference::render(scene).rgb;
   report.engine = draw_by_engine(path, options);
@@ -76,10 +79,13 @@ ThreeWayReport compare_three_ways(const std::string& path, const RendererOptions
 
 std::string write_pictures(const ThreeWayReport& report) {
   const char* const named = std::getenv("TESSERA_PICTURES");
-  const std::filesystem::path folder = named != nullptr && *named != '\0' ? std::filesystem::path(named) : std::filesystem::temp_directory_path() / "tessera_pictures";
+  const std::filesystem::path folder = named != nullptr && *named != '\0'
+                                           ? std::filesystem::path(named)
+                                           : std::filesystem::temp_directory_path() / "tessera_pictures";
   std::filesystem::create_directories(folder);
   const auto write = [&](const char* what, const Rgb& rgb) {
-    reference::write_ppm((folder / (report.name + "_" + what + ".ppm")).string(), rgb, report.width_px, report.height_px);
+    reference::write_ppm((folder / (report.name + "_" + what + ".ppm")).string(), rgb, report.width_px,
+                         report.height_px);
   };
   write("engine", report.engine);
   write("reference", report.reference);

@@ -26,7 +26,9 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-bool takes_file(const OptionDoc& option) { return option.value.find("FILE") != std::string::npos || option.value == "DIR"; }
+bool takes_file(const OptionDoc& option) {
+  return option.value.find("FILE") != std::string::npos || option.value == "DIR";
+}
 
 std::vector<std::string> command_names(const std::vector<CommandDoc>& commands) {
   std::vector<std::string> names;
@@ -36,14 +38,18 @@ std::vector<std::string> command_names(const std::vector<CommandDoc>& commands) 
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) text.replace(at, what.size(), by);
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+    text.replace(at, what.size(), by);
   return text;
 }
 std::string in_single_quotes(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
 std::string bash_script(const std::vector<CommandDoc>& commands) {
-  std::string text = "# bash completion for tessera\n_tessera() {\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command= w\n"
-                     "  for w in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do [[ $w != -* ]] && { command=$w; break; }; done\n  COMPREPLY=()\n  case $command in\n";
+  std::string text =
+      "# bash completion for tessera\n_tessera() {\n  local word=${COMP_WORDS[COMP_CWORD]} "
+      "before=${COMP_WORDS[COMP_CWORD-1]} command= w\n"
+      "  for w in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do [[ $w != -* ]] && { command=$w; break; }; done\n  "
+      "COMPREPLY=()\n  case $command in\n";
   for (const CommandDoc& command : commands) {
     if (command.name.empty()) continue;
     text += "    " + command.name + ")\n      case $before in\n";
@@ -51,23 +57,34 @@ std::string bash_script(const std::vector<CommandDoc>& commands) {
     for (const OptionDoc& option : command.options) {
       all.insert(all.end(), option.names.begin(), option.names.end());
       const std::vector<std::string> values = choices(option);
-      if (!values.empty() && !is_optional(option)) text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -W \"" + joined(values, " ") + "\" -- \"$word\")); return;;\n";
-      else if (takes_file(option)) text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -f -- \"$word\")); return;;\n";
+      if (!values.empty() && !is_optional(option))
+        text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -W \"" +
+                joined(values, " ") + "\" -- \"$word\")); return;;\n";
+      else if (takes_file(option))
+        text +=
+            "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -f -- \"$word\")); return;;\n";
     }
     const std::vector<std::string> operands = choices(command.operand);
     const std::string operand = operands.empty() ? "-f" : "-W \"" + joined(operands, " ") + "\"";
-    text += "      esac\n      if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"" + joined(all, " ") + "\" -- \"$word\")); else COMPREPLY=($(compgen " + operand + " -- \"$word\")); fi;;\n";
+    text += "      esac\n      if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"" + joined(all, " ") +
+            "\" -- \"$word\")); else COMPREPLY=($(compgen " + operand + " -- \"$word\")); fi;;\n";
   }
-  text += "    *) COMPREPLY=($(compgen -W \"" + joined(command_names(commands), " ") + " --help --version\" -- \"$word\"));;\n  esac\n}\ncomplete -o filenames -F _tessera tessera\n";
+  text += "    *) COMPREPLY=($(compgen -W \"" + joined(command_names(commands), " ") +
+          " --help --version\" -- \"$word\"));;\n  esac\n}\ncomplete -o filenames -F _tessera tessera\n";
   return text;
 }
 
 std::string zsh_script(const std::vector<CommandDoc>& commands) {
-  const auto escaped = [](const std::string& text) { return replaced(replaced(replaced(text, "[", "\\["), "]", "\\]"), ":", "\\:"); };
+  const auto escaped = [](const std::string& text) {
+    return replaced(replaced(replaced(text, "[", "\\["), "]", "\\]"), ":", "\\:");
+  };
   std::string text = "#compdef tessera\n_tessera() {\n  local -a commands\n  commands=(";
   for (const CommandDoc& command : commands)
-    if (!command.name.empty()) text += in_single_quotes(command.name + ":" + replaced(command.text, ":", "\\:")) + " ";
-  text += ")\n  if (( CURRENT == 2 )); then _describe command commands; return; fi\n  shift words; (( CURRENT-- ))\n  case $words[1] in\n";
+    if (!command.name.empty())
+      text += in_single_quotes(command.name + ":" + replaced(command.text, ":", "\\:")) + " ";
+  text +=
+      ")\n  if (( CURRENT == 2 )); then _describe command commands; return; fi\n  shift words; (( CURRENT-- "
+      "))\n  case $words[1] in\n";
   for (const CommandDoc& command : commands) {
     if (command.name.empty()) continue;
     text += "    " + command.name + ") _arguments";
@@ -75,7 +92,8 @@ std::string zsh_script(const std::vector<CommandDoc>& commands) {
       for (const std::string& option_name : option.names) {
         const std::vector<std::string> values = choices(option);
         std::string spec = option_name + "[" + escaped(option.text) + "]";
-        if (!values.empty() && is_optional(option)) spec = option_name + "=-[" + escaped(option.text) + "]::value:(" + joined(values, " ") + ")";
+        if (!values.empty() && is_optional(option))
+          spec = option_name + "=-[" + escaped(option.text) + "]::value:(" + joined(values, " ") + ")";
         else if (!values.empty()) spec += ":value:(" + joined(values, " ") + ")";
         else if (takes_file(option)) spec += ":file:_files";
         else if (!option.value.empty()) spec += ":" + escaped(option.value) + ":";
@@ -92,17 +110,23 @@ std::string fish_script(const std::vector<CommandDoc>& commands) {
   const std::string names = joined(command_names(commands), " ");
   for (const CommandDoc& command : commands) {
     if (command.name.empty()) continue;
-    text += "complete -c tessera -f -n 'not __fish_seen_subcommand_from " + names + "' -a " + command.name + " -d " + in_single_quotes(command.text) + "\n";
+    text += "complete -c tessera -f -n 'not __fish_seen_subcommand_from " + names + "' -a " + command.name +
+            " -d " + in_single_quotes(command.text) + "\n";
     for (const OptionDoc& option : command.options) {
       text += "complete -c tessera -n '__fish_seen_subcommand_from " + command.name + "'";
-      for (const std::string& option_name : option.names) text += option_name.starts_with("--") ? " -l " + option_name.substr(2) : " -s " + option_name.substr(1);
+      for (const std::string& option_name : option.names)
+        text +=
+            option_name.starts_with("--") ? " -l " + option_name.substr(2) : " -s " + option_name.substr(1);
       const std::vector<std::string> values = choices(option);
-      if (!values.empty()) text += std::string(is_optional(option) ? " -f" : " -x") + " -a " + in_single_quotes(joined(values, " "));
+      if (!values.empty())
+        text +=
+            std::string(is_optional(option) ? " -f" : " -x") + " -a " + in_single_quotes(joined(values, " "));
       else if (!option.value.empty()) text += takes_file(option) ? " -r -F" : " -x";
       text += " -d " + in_single_quotes(option.text) + "\n";
     }
     if (const std::vector<std::string> operands = choices(command.operand); !operands.empty())
-      text += "complete -c tessera -f -n '__fish_seen_subcommand_from " + command.name + "' -a " + in_single_quotes(joined(operands, " ")) + "\n";
+      text += "complete -c tessera -f -n '__fish_seen_subcommand_from " + command.name + "' -a " +
+              in_single_quotes(joined(operands, " ")) + "\n";
   }
   return text;
 }
@@ -117,27 +141,38 @@ std::string roff(const std::string& text) {
 }  // namespace
 
 std::string completion_script(const std::string& shell, const std::vector<CommandDoc>& commands) {
-  return shell == "bash" ? bash_script(commands) : shell == "zsh" ? zsh_script(commands) : fish_script(commands);
+  return shell == "bash"  ? bash_script(commands)
+         : shell == "zsh" ? zsh_script(commands)
+                          : fish_script(commands);
 }
 
 std::string man_page(const std::vector<CommandDoc>& commands, const std::string& version) {
-  std::string text = ".TH TESSERA 1 \"\" \"tessera " + roff(version) + "\"\n.SH NAME\ntessera \\- a multithreaded, tile\\-based software rasterizer\n.SH SYNOPSIS\n";
+  std::string text =
+      ".TH TESSERA 1 \"\" \"tessera " + roff(version) +
+      "\"\n.SH NAME\ntessera \\- a multithreaded, tile\\-based software rasterizer\n.SH SYNOPSIS\n";
   for (const CommandDoc& command : commands)
     if (!command.name.empty()) text += ".B tessera " + command.name + "\n[options]\n.br\n";
   text += ".SH COMMANDS\n";
   for (const CommandDoc& command : commands) {
     if (command.name.empty()) continue;
-    text += ".SS tessera " + command.name + (command.operand.value.empty() ? "" : " \\fI" + roff(command.operand.value) + "\\fR") + "\n" + roff(command.text) + "\n";
+    text += ".SS tessera " + command.name +
+            (command.operand.value.empty() ? "" : " \\fI" + roff(command.operand.value) + "\\fR") + "\n" +
+            roff(command.text) + "\n";
     for (const OptionDoc& option : command.options) {
       text += ".TP\n.BR ";
       std::vector<std::string> names;
       for (const std::string& option_name : option.names) names.push_back(roff(option_name));
-      text += joined(names, " \", \" ") + (option.value.empty() ? "" : " \" \" \\fI" + roff(option.value) + "\\fR") + "\n" + roff(option.text) + "\n";
+      text += joined(names, " \", \" ") +
+              (option.value.empty() ? "" : " \" \" \\fI" + roff(option.value) + "\\fR") + "\n" +
+              roff(option.text) + "\n";
     }
     if (!command.examples.empty()) text += ".PP\n.nf\n" + roff(command.examples) + "\n.fi\n";
   }
-  text += ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\nthreads, as for \\-\\-threads\n.TP\n.B NO_COLOR\npictures in the terminal are made of letters\n"
-          ".SH EXIT STATUS\n0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference or the self\\-test found something wrong, 130 it was interrupted\n";
+  text +=
+      ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\nthreads, as for \\-\\-threads\n.TP\n.B NO_COLOR\npictures "
+      "in the terminal are made of letters\n"
+      ".SH EXIT STATUS\n0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference or "
+      "the self\\-test found something wrong, 130 it was interrupted\n";
   return text;
 }
 

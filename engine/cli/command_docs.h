@@ -7,14 +7,14 @@
 namespace tessera::cli {
 
 struct OptionDoc {
-  std::vector<std::string> names;    ///< "-o", "--output"
-  std::string value;                 ///< "FILE", "flat|gouraud|phong"; empty: a flag
+  std::vector<std::string> names;  ///< "-o", "--output"
+  std::string value;               ///< "FILE", "flat|gouraud|phong"; empty: a flag
   std::string text;
 };
 struct CommandDoc {
   std::string name, text, examples;  ///< name empty: the program itself
   std::vector<OptionDoc> options;
-  OptionDoc operand;                 ///< without names; value empty: it takes none
+  OptionDoc operand;  ///< without names; value empty: it takes none
 };
 
 /// A completion script for "bash", "zsh" or "fish".

@@ -10,8 +10,9 @@
 
 namespace tessera::cli {
 
-/// Keeps what a run reads, is known to refer to, or compares with; and where pictures got no name, everything but Tessera's own ones, since importers do not
-/// understand every reference of every format. To be asked before anything is rendered, and again before a file is written: what is at its path, or where its path
+/// Keeps what a run reads, is known to refer to, or compares with; and where pictures got no name, everything
+/// but Tessera's own ones, since importers do not understand every reference of every format. To be asked
+/// before anything is rendered, and again before a file is written: what is at its path, or where its path
 /// leads, may have changed in between. (What is kept are the files that were there when the guard was made.)
 class FileGuard {
  public:

@@ -14,7 +14,9 @@ namespace {
 std::string cpu_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
-    if (const std::size_t colon = line.find(": "); line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+    if (const std::size_t colon = line.find(": ");
+        line.starts_with("model name") && colon != std::string::npos)
+      return line.substr(colon + 2);
   return "unknown";
 }
 
@@ -37,7 +39,8 @@ std::string machine_text() {
 #endif
   text += "CPU                " + cpu_name() + "\n";
   text += "cores              " + std::to_string(available_cores()) + " for this process\n";
-  text += "caches             L1 " + cache(_SC_LEVEL1_DCACHE_SIZE) + ", L2 " + cache(_SC_LEVEL2_CACHE_SIZE) + ", L3 " + cache(_SC_LEVEL3_CACHE_SIZE) + "\n";
+  text += "caches             L1 " + cache(_SC_LEVEL1_DCACHE_SIZE) + ", L2 " + cache(_SC_LEVEL2_CACHE_SIZE) +
+          ", L3 " + cache(_SC_LEVEL3_CACHE_SIZE) + "\n";
   return text + "instruction sets   " + sets + "; chosen: " + std::string(name(available.front())) + "\n";
 }
 

@@ -29,13 +29,17 @@ Mean mean_of(const Picture& picture, int x0, int y0, int x1, int y1) {
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x)
       for (std::size_t c = 0; c < 3; ++c)
-        sum[c] += picture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)) + c];
+        sum[c] += picture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                    static_cast<std::size_t>(x)) +
+                               c];
   const long long count = static_cast<long long>(x1 - x0) * (y1 - y0);
-  return {static_cast<int>((sum[0] + count / 2) / count), static_cast<int>((sum[1] + count / 2) / count), static_cast<int>((sum[2] + count / 2) / count)};
+  return {static_cast<int>((sum[0] + count / 2) / count), static_cast<int>((sum[1] + count / 2) / count),
+          static_cast<int>((sum[2] + count / 2) / count)};
 }
 
 std::string color_code(const char* layer, const Mean& c) {
-  return std::string("\x1b[") + layer + ";2;" + std::to_string(c[0]) + ";" + std::to_string(c[1]) + ";" + std::to_string(c[2]) + "m";
+  return std::string("\x1b[") + layer + ";2;" + std::to_string(c[0]) + ";" + std::to_string(c[1]) + ";" +
+         std::to_string(c[2]) + "m";
 }
 
 }  // namespace
@@ -47,7 +51,8 @@ std::string frame_path(const std::string& path, int frame, int frames) {
   std::string number = std::to_string(frame);
   number.insert(0, digits - std::min(digits, number.size()), '0');
   std::string result = path;
-  for (std::size_t at = 0; (at = result.find(kFrame, at)) != std::string::npos; at += number.size()) result.replace(at, kFrame.size(), number);
+  for (std::size_t at = 0; (at = result.find(kFrame, at)) != std::string::npos; at += number.size())
+    result.replace(at, kFrame.size(), number);
   return result;
 }
 
@@ -62,12 +67,17 @@ void write_output(const Picture& picture, const std::string& path, int compressi
 std::string terminal_text(const Picture& picture, int columns, bool colored) {
   // A cell is two pixels high, and about twice as high as wide.
   const int width = std::clamp(columns, 1, picture.width);
-  const int rows = std::max(1, static_cast<int>((static_cast<long long>(picture.height) * width + picture.width) / (2LL * picture.width)));
+  const int rows =
+      std::max(1, static_cast<int>((static_cast<long long>(picture.height) * width + picture.width) /
+                                   (2LL * picture.width)));
   constexpr std::string_view kDensity = " .:-=+*#%@";
   const auto mean = [&](int column, int half_row) {
-    const auto edge = [](int i, int n, int pixels) { return static_cast<int>(static_cast<long long>(i) * pixels / n); };
+    const auto edge = [](int i, int n, int pixels) {
+      return static_cast<int>(static_cast<long long>(i) * pixels / n);
+    };
     const int x0 = edge(column, width, picture.width), y0 = edge(half_row, 2 * rows, picture.height);
-    return mean_of(picture, x0, y0, std::max(x0 + 1, edge(column + 1, width, picture.width)), std::max(y0 + 1, edge(half_row + 1, 2 * rows, picture.height)));
+    return mean_of(picture, x0, y0, std::max(x0 + 1, edge(column + 1, width, picture.width)),
+                   std::max(y0 + 1, edge(half_row + 1, 2 * rows, picture.height)));
   };
   std::string text;
   for (int row = 0; row < rows; ++row) {
@@ -76,7 +86,8 @@ std::string terminal_text(const Picture& picture, int columns, bool colored) {
       if (colored) {
         text += color_code("38", upper) + color_code("48", lower) + "\xe2\x96\x80";  // upper half block
       } else {
-        const int gray = (30 * (upper[0] + lower[0]) + 59 * (upper[1] + lower[1]) + 11 * (upper[2] + lower[2])) / 200;
+        const int gray =
+            (30 * (upper[0] + lower[0]) + 59 * (upper[1] + lower[1]) + 11 * (upper[2] + lower[2])) / 200;
         text += kDensity[static_cast<std::size_t>(gray) * kDensity.size() / 256];
       }
     }

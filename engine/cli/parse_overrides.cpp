@@ -28,7 +28,8 @@ bool parse_size(const std::string& text, SceneOverrides& overrides) {
   const std::size_t cross = text.find('x');
   if (cross == std::string::npos) return false;
   const auto parse = [](const std::string& digits, std::optional<int>& size) {
-    const bool is_number = !digits.empty() && digits.size() <= 5 && digits.find_first_not_of("0123456789") == std::string::npos;
+    const bool is_number =
+        !digits.empty() && digits.size() <= 5 && digits.find_first_not_of("0123456789") == std::string::npos;
     if (is_number) size = std::stoi(digits);
     return is_number && *size >= 1 && *size <= kMaxFrameBufferSize;
   };
@@ -45,14 +46,18 @@ bool parse_camera(const std::string& text, SceneOverrides& overrides) {
   lens.far = distance * 100;
   if (!(lens.fovy > 0 && lens.fovy < 180) || distance == 0) return false;
   const bool along_y = n[0] == n[3] && n[2] == n[5];
-  overrides.camera = SceneCamera{.view = look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, along_y ? Vec3{0, 0, -1} : Vec3{0, 1, 0}), .projection = lens};
+  overrides.camera = SceneCamera{
+      .view = look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, along_y ? Vec3{0, 0, -1} : Vec3{0, 1, 0}),
+      .projection = lens};
   return true;
 }
 
 bool parse_light(const std::string& text, SceneOverrides& overrides) {
   const std::vector<double> n = numbers_in(text, 3, 4);
   if (n.empty()) return false;
-  overrides.lights.push_back(Light{.position = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]), n.size() == 4 ? static_cast<float>(n[3]) : 1.0f}});
+  overrides.lights.push_back(
+      Light{.position = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]),
+                         n.size() == 4 ? static_cast<float>(n[3]) : 1.0f}});
   return true;
 }
 

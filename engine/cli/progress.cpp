@@ -25,8 +25,12 @@ Interrupt::Interrupt() {
 bool Interrupt::pressed() { return interrupted; }
 
 Progress::Progress(ShowProgress show)
-    : enabled_(show == ShowProgress::always || (show == ShowProgress::automatic && ::isatty(STDERR_FILENO) != 0)),
-      wait_(show == ShowProgress::always ? std::chrono::steady_clock::duration::zero() : std::chrono::seconds(1)), start_(std::chrono::steady_clock::now()), last_(start_) {}
+    : enabled_(show == ShowProgress::always ||
+               (show == ShowProgress::automatic && ::isatty(STDERR_FILENO) != 0)),
+      wait_(show == ShowProgress::always ? std::chrono::steady_clock::duration::zero()
+                                         : std::chrono::seconds(1)),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
 Progress::~Progress() { clear(); }
 
 void Progress::show(double done, const std::string& what) {
@@ -38,9 +42,12 @@ void Progress::show(double done, const std::string& what) {
   shown_ = true;
   constexpr int kWidth = 30;
   const int filled = std::clamp(static_cast<int>(done * kWidth), 0, kWidth);
-  const double seconds = std::chrono::duration<double>(now - start_).count(), left = done > 0 ? seconds / done - seconds : 0;
-  const std::string bar(static_cast<std::size_t>(filled), '#'), rest(static_cast<std::size_t>(kWidth - filled), '.');
-  std::fprintf(stderr, "\r[%s%s] %3d %%  %s  %.0f s left \x1b[K", bar.c_str(), rest.c_str(), static_cast<int>(100 * done), what.c_str(), left);
+  const double seconds = std::chrono::duration<double>(now - start_).count(),
+               left = done > 0 ? seconds / done - seconds : 0;
+  const std::string bar(static_cast<std::size_t>(filled), '#'),
+      rest(static_cast<std::size_t>(kWidth - filled), '.');
+  std::fprintf(stderr, "\r[%s%s] %3d %%  %s  %.0f s left \x1b[K", bar.c_str(), rest.c_str(),
+               static_cast<int>(100 * done), what.c_str(), left);
   std::fflush(stderr);
 }
 

@@ -25,7 +25,8 @@ class Progress {
   std::chrono::steady_clock::time_point start_, last_;
 };
 
-/// Whether Ctrl-C was pressed since the program began, if nobody above chose to ignore it. A second one ends the program at once.
+/// Whether Ctrl-C was pressed since the program began, if nobody above chose to ignore it. A second one ends
+/// the program at once.
 class Interrupt {
  public:
   Interrupt();

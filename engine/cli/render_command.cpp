@@ -26,11 +26,17 @@ namespace fs = std::filesystem;
 constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
 const char* buffer_name(Buffer buffer) {
-  return buffer == Buffer::color ? "color" : buffer == Buffer::depth ? "depth" : buffer == Buffer::stencil ? "stencil" : "accumulation";
+  return buffer == Buffer::color     ? "color"
+         : buffer == Buffer::depth   ? "depth"
+         : buffer == Buffer::stencil ? "stencil"
+                                     : "accumulation";
 }
 
-/// In any format, since an animation may change it: 24 bits of colour and 8 of alpha, 32 of depth, 8 of stencil, four accumulated components of 32.
-int most_planes(Buffer buffer) { return buffer == Buffer::accumulation ? 128 : buffer == Buffer::stencil ? 8 : 32; }
+/// In any format, since an animation may change it: 24 bits of colour and 8 of alpha, 32 of depth, 8 of
+/// stencil, four accumulated components of 32.
+int most_planes(Buffer buffer) {
+  return buffer == Buffer::accumulation ? 128 : buffer == Buffer::stencil ? 8 : 32;
+}
 
 /// What is rendered, frame by frame.
 class Input {
@@ -48,7 +54,8 @@ class Input {
       Model model = import_model(request.input, ModelUse::display, go_on);
       files_ = {model.files.begin(), model.files.end()};
       files_.insert(request.input);
-      scene_ = model_scene(std::move(model), request.input, overrides_.width.value_or(standard.width), overrides_.height.value_or(standard.height));
+      scene_ = model_scene(std::move(model), request.input, overrides_.width.value_or(standard.width),
+                           overrides_.height.value_or(standard.height));
     }
     apply(overrides_, scene_);
   }
@@ -83,7 +90,8 @@ void print_explanations(const Scene& scene, const Frame& frame) {
     std::cout << "draw " << index++ << ", " << name << ":\n" << text << "\n";
   };
   for (const SceneCommand& command : scene.frame) {
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) print("\"" + scene.meshes[draw->mesh].name + "\"");
+    if (const auto* draw = std::get_if<DrawCommand>(&command.what))
+      print("\"" + scene.meshes[draw->mesh].name + "\"");
     if (std::holds_alternative<BitmapCommand>(command.what)) print("a bitmap");
     if (std::holds_alternative<ImageCommand>(command.what)) print("an image");
   }
@@ -118,7 +126,8 @@ IndexedPicture indexed_picture(const FrameBuffer& buffer) {
   const FrameBufferFormat& format = buffer.format();
   IndexedPicture picture{.width = format.width, .height = format.height};
   while (picture.bits / 2 >= format.color_bits) picture.bits /= 2;
-  std::vector<std::uint32_t> words(static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height));
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(format.width) *
+                                   static_cast<std::size_t>(format.height));
   buffer.read_color_words(words);
   picture.indices.assign(words.begin(), words.end());
   if (format.color_mode == ColorMode::index) {
@@ -127,7 +136,8 @@ IndexedPicture indexed_picture(const FrameBuffer& buffer) {
     for (std::size_t i = 0; i < format.palette.size(); ++i) {
       const Color& c = format.palette[i];
       const float components[3] = {c.r, c.g, c.b};
-      for (std::size_t k = 0; k < 3; ++k) picture.palette[3 * i + k] = static_cast<std::uint8_t>(components[k] * 255 + 0.5f);
+      for (std::size_t k = 0; k < 3; ++k)
+        picture.palette[3 * i + k] = static_cast<std::uint8_t>(components[k] * 255 + 0.5f);
     }
   }
   return picture;
@@ -135,10 +145,8 @@ IndexedPicture indexed_picture(const FrameBuffer& buffer) {
 
 /// What has to be read after the frame.
 void keep(bool planes, bool words, Frame& frame) {
-  if (planes)
-    frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
-  else if (words)
-    frame.keep({Buffer::color});
+  if (planes) frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
+  else if (words) frame.keep({Buffer::color});
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -147,7 +155,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 void print_log(LogLevel least, LogLevel level, std::string_view message) {
   constexpr const char* kNames[] = {"debug", "info", "warning"};
-  if (level >= least) std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << printable(message) << "\n";
+  if (level >= least)
+    std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << printable(message) << "\n";
 }
 
 // In a rendering of its own, which nobody times.
@@ -166,7 +175,8 @@ int report_difference(const Picture& picture, const Picture& reference, const Re
   const Difference difference = compare(picture, reference, request.threshold);
   char share[32];
   std::snprintf(share, sizeof share, "%.4f %%", 100 * difference.share);
-  std::cerr << "tessera: " << difference.pixels << " pixels (" << share << ") are more than " << request.threshold << " of 255 levels from \"" << request.reference
+  std::cerr << "tessera: " << difference.pixels << " pixels (" << share << ") are more than "
+            << request.threshold << " of 255 levels from \"" << request.reference
             << "\"; the largest difference is " << difference.largest << "\n";
   return difference.pixels == 0 ? 0 : kDiffers;
 }
@@ -189,11 +199,13 @@ void check_files(const RenderRequest& request, const std::string& path, const Fi
 void check_outputs(const RenderRequest& request, const std::string& path) {
   const auto require_frame = [&](const std::string& name) {
     if (request.frames > 1 && name.find("{frame}") == std::string::npos)
-      throw Error("--frames " + std::to_string(request.frames) + " would write \"" + name + "\" again and again; put {frame} into the name");
+      throw Error("--frames " + std::to_string(request.frames) + " would write \"" + name +
+                  "\" again and again; put {frame} into the name");
   };
   if (!is_stream(path)) require_frame(path);
   if (!request.planes_folder.empty()) require_frame(request.planes_folder);
-  const char* const rivals[] = {is_stream(path) ? "the picture" : "", request.explain ? "--explain" : "", request.stats == StatsFormat::json ? "--stats=json" : ""};
+  const char* const rivals[] = {is_stream(path) ? "the picture" : "", request.explain ? "--explain" : "",
+                                request.stats == StatsFormat::json ? "--stats=json" : ""};
   std::string found;
   for (const char* rival : rivals) {
     if (*rival == '\0') continue;
@@ -208,7 +220,8 @@ int render(RenderRequest request) {
   const auto start = std::chrono::steady_clock::now();
   const Interrupt interrupt;
   Input input(request);
-  for (const std::string& warning : input.scene().warnings) std::cerr << "tessera: warning: " << printable(warning) << "\n";
+  for (const std::string& warning : input.scene().warnings)
+    std::cerr << "tessera: warning: " << printable(warning) << "\n";
   RunStats run;
   run.load_ms = milliseconds_since(start);
 
@@ -238,7 +251,8 @@ int render(RenderRequest request) {
 
   int exit_code = 0;
   for (int f = 0; f < request.frames; ++f) {
-    what = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames) : "rendering";
+    what = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames)
+                              : "rendering";
     input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
     const Scene& scene = input.scene();
     FrameBuffer buffer(scene.framebuffer);
@@ -261,15 +275,16 @@ int render(RenderRequest request) {
     const auto write_start = std::chrono::steady_clock::now();
     const std::string file = frame_path(path, f, request.frames);
     if (!is_stream(path)) guard.check_picture(file);
-    if (indexed)
-      write_indexed_png(indexed_picture(buffer), file, request.output.compression);
-    else
-      write_output(picture, file, request.output.compression);
-    if (!request.planes_folder.empty()) write_planes(buffer, frame_path(request.planes_folder, f, request.frames), guard);
+    if (indexed) write_indexed_png(indexed_picture(buffer), file, request.output.compression);
+    else write_output(picture, file, request.output.compression);
+    if (!request.planes_folder.empty())
+      write_planes(buffer, frame_path(request.planes_folder, f, request.frames), guard);
     run.write_ms += milliseconds_since(write_start);
-    for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i) run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
+    for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
+      run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
-    if (request.stats != StatsFormat::none && f + 1 == request.frames) run.frame.fragments = count_fragments(scene, run.options);
+    if (request.stats != StatsFormat::none && f + 1 == request.frames)
+      run.frame.fragments = count_fragments(scene, run.options);
     if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);
   }
   if (request.stats == StatsFormat::text) std::cerr << stats_text(run);

@@ -30,7 +30,9 @@ struct SceneReport {
   std::string first_wrong;
 };
 
-std::string count(std::size_t number, const char* what) { return std::to_string(number) + " " + what + (number == 1 ? "" : "s"); }
+std::string count(std::size_t number, const char* what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
 
 // Colours and depths: as much as a row of a terminal holds.
 std::string short_text(const PictureHash& hash) { return to_text(hash).substr(0, 33); }
@@ -38,18 +40,27 @@ std::string short_text(const PictureHash& hash) { return to_text(hash).substr(0,
 // One row of the tables.
 std::string row(const std::string& what, const std::string& found, bool good, const char* otherwise) {
   char text[256];
-  std::snprintf(text, sizeof text, "%-29s  %-45s  %s\n", what.c_str(), found.c_str(), good ? "ok" : otherwise);
+  std::snprintf(text, sizeof text, "%-29s  %-45s  %s\n", what.c_str(), found.c_str(),
+                good ? "ok" : otherwise);
   return text;
 }
 
-std::string wrong_text(std::size_t wrong, std::size_t all, const std::string& first) { return std::to_string(wrong) + " of " + count(all, "rendering") + " are wrong; the first: " + printable(first) + "\n"; }
+std::string wrong_text(std::size_t wrong, std::size_t all, const std::string& first) {
+  return std::to_string(wrong) + " of " + count(all, "rendering") +
+         " are wrong; the first: " + printable(first) + "\n";
+}
 
 std::vector<SceneReport> scenes_with(const PictureHashes& hashes, const std::string& file) {
   std::vector<SceneReport> scenes;
   for (const SelftestScene& each : kSelftestScenes) {
     const auto expected = hashes.find(each.name);
-    if (expected == hashes.end()) throw Error(file + ": there is no hash of the scene \"" + std::string(each.name) + "\"");
-    scenes.push_back({.about = std::string(each.about), .scene = parse_scene(each.json, std::string(each.name)), .expected = expected->second, .found = {}, .first_wrong = {}});
+    if (expected == hashes.end())
+      throw Error(file + ": there is no hash of the scene \"" + std::string(each.name) + "\"");
+    scenes.push_back({.about = std::string(each.about),
+                      .scene = parse_scene(each.json, std::string(each.name)),
+                      .expected = expected->second,
+                      .found = {},
+                      .first_wrong = {}});
   }
   return scenes;
 }
@@ -62,10 +73,13 @@ Fingerprint rendered(const Scene& scene, Renderer& renderer) {
   return fingerprint(buffer);
 }
 
-/// What is wrong with a fingerprint; empty: nothing. The list has no hashes of planes: they have to be as they were by the first way.
+/// What is wrong with a fingerprint; empty: nothing. The list has no hashes of planes: they have to be as
+/// they were by the first way.
 std::string difference(const Fingerprint& f, const SceneReport& scene) {
   const PictureHash hash = picture_hash(f);
-  if (hash != scene.expected) return "colours, depths, stencil and accumulation come to " + to_text(hash) + ", expected " + to_text(scene.expected);
+  if (hash != scene.expected)
+    return "colours, depths, stencil and accumulation come to " + to_text(hash) + ", expected " +
+           to_text(scene.expected);
   return f == scene.found ? "" : "planes are not what they were by the first way";
 }
 
@@ -99,8 +113,10 @@ Tally run_scenes(std::vector<SceneReport>& scenes, const Ways& ways) {
   for (const SceneReport& each : scenes) {
     const bool right = each.wrong_ways == 0;
     tally.right += right ? 1 : 0;
-    std::cout << row(each.scene.name, each.found ? short_text(picture_hash(*each.found)) : "", right, "DIFFERS");
-    if (!right) std::cout << "  " << each.about << ": " << wrong_text(each.wrong_ways, ways.size(), each.first_wrong);
+    std::cout << row(each.scene.name, each.found ? short_text(picture_hash(*each.found)) : "", right,
+                     "DIFFERS");
+    if (!right)
+      std::cout << "  " << each.about << ": " << wrong_text(each.wrong_ways, ways.size(), each.first_wrong);
   }
   return tally;
 }
@@ -120,7 +136,8 @@ Tally run_oracles(const Ways& ways) {
 
 void print_hashes(const std::vector<SceneReport>& scenes) {
   Renderer renderer;
-  for (const SceneReport& each : scenes) std::cout << each.scene.name << " " << to_text(picture_hash(rendered(each.scene, renderer))) << "\n";
+  for (const SceneReport& each : scenes)
+    std::cout << each.scene.name << " " << to_text(picture_hash(rendered(each.scene, renderer))) << "\n";
 }
 
 PictureHashes expected_hashes(const std::string& file) {
@@ -132,7 +149,10 @@ PictureHashes expected_hashes(const std::string& file) {
 
 int selftest(const SelftestRequest& request) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<SceneReport> scenes = request.expected.empty() ? scenes_with(parse_picture_hashes(kSelftestHashes, "the program"), "the program") : scenes_with(expected_hashes(request.expected), request.expected);
+  std::vector<SceneReport> scenes =
+      request.expected.empty()
+          ? scenes_with(parse_picture_hashes(kSelftestHashes, "the program"), "the program")
+          : scenes_with(expected_hashes(request.expected), request.expected);
   if (request.hashes) {
     print_hashes(scenes);
     return 0;
@@ -142,17 +162,22 @@ int selftest(const SelftestRequest& request) {
   std::optional<ThreadLimit> more_threads_than_cores;
   if (threads > available_cores()) more_threads_than_cores.emplace(threads);
   const Ways ways = every_way(threads);
-  std::cout << machine_text() << "each scene         " << ways.size() << " times: by each set, " << (threads == 1 ? "" : "1 and ") << count(static_cast<std::size_t>(threads), "thread")
-            << ", tiles of 32, 64 and 128, shaded late and at once\n\n" << std::flush;
+  std::cout << machine_text() << "each scene         " << ways.size() << " times: by each set, "
+            << (threads == 1 ? "" : "1 and ") << count(static_cast<std::size_t>(threads), "thread")
+            << ", tiles of 32, 64 and 128, shaded late and at once\n\n"
+            << std::flush;
   const Tally right_scenes = run_scenes(scenes, ways);
   std::cout << "\n" << std::flush;
   const Tally right_oracles = run_oracles(few_ways(threads));
 
   const bool good = right_scenes.right == right_scenes.all && right_oracles.right == right_oracles.all;
-  const std::string verdict = right_scenes.text("scene") + " and " + right_oracles.text("oracle") + " are right";
+  const std::string verdict =
+      right_scenes.text("scene") + " and " + right_oracles.text("oracle") + " are right";
   char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "%.1f s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  std::cout << "\nverdict            " << (good ? "all is well: " : "NOT WELL: ") << verdict << ", in " << seconds << "\n";
+  std::snprintf(seconds, sizeof seconds, "%.1f s",
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  std::cout << "\nverdict            " << (good ? "all is well: " : "NOT WELL: ") << verdict << ", in "
+            << seconds << "\n";
   if (good) return 0;
   std::cerr << "tessera: error: the self-test failed: " << verdict << "\n";
   return kSelftestFailed;

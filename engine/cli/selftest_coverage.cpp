@@ -1,5 +1,5 @@
-// Triangles that add one level each to what they cover, counted pixel by pixel; and opaque ones, each nearer than all before it, of which the last one is
-// seen. No tolerance.
+// Triangles that add one level each to what they cover, counted pixel by pixel; and opaque ones, each nearer
+// than all before it, of which the last one is seen. No tolerance.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -18,32 +18,39 @@ constexpr int kRounds = 20;
 
 using Corner = std::array<std::int32_t, 2>;  // raster space, 1/256 pixel
 using Triangles = std::vector<std::array<Corner, 3>>;
-using Counts = std::vector<std::uint32_t>;   // of each pixel, rows from the top
+using Counts = std::vector<std::uint32_t>;  // of each pixel, rows from the top
 
 struct Dice {
   std::mt19937 random;
-  int between(int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)); }
+  int between(int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+  }
 };
 
 std::int64_t doubled_area(const Corner& a, const Corner& b, const Corner& c) {
   return std::int64_t{b[0] - a[0]} * (c[1] - a[1]) - std::int64_t{c[0] - a[0]} * (b[1] - a[1]);
 }
 
-// Of all sizes, as far as the guard band; corners anywhere, on pixels' centres, or on pixels' borders, some of them tiles'.
+// Of all sizes, as far as the guard band; corners anywhere, on pixels' centres, or on pixels' borders, some
+// of them tiles'.
 Triangles random_triangles(Dice& dice) {
   constexpr int kFarthest = 16000 * 256;
   Triangles triangles;
   for (int i = 0; i < kTriangles; ++i) {
-    const int reach = 1 << dice.between(3, 22), snap = std::array{1, 128, 256}[static_cast<std::size_t>(dice.between(0, 2))];
+    const int reach = 1 << dice.between(3, 22),
+              snap = std::array{1, 128, 256}[static_cast<std::size_t>(dice.between(0, 2))];
     const Corner middle{dice.between(0, kSide * 256), dice.between(0, kSide * 256)};
     auto& triangle = triangles.emplace_back();
     for (Corner& corner : triangle)
-      for (std::size_t axis = 0; axis < 2; ++axis) corner[axis] = std::clamp(middle[axis] + dice.between(-reach, reach), -kFarthest, kFarthest) / snap * snap;
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        corner[axis] =
+            std::clamp(middle[axis] + dice.between(-reach, reach), -kFarthest, kFarthest) / snap * snap;
   }
   return triangles;
 }
 
-// Two triangles beyond the frame, of which one is split at a point inside again and again: every edge in the frame is shared.
+// Two triangles beyond the frame, of which one is split at a point inside again and again: every edge in the
+// frame is shared.
 Triangles shared_edges(Dice& dice) {
   constexpr int kLow = -1000, kHigh = kSide * 256 + 1000;
   const Corner p{kLow, kLow}, q{kHigh, kLow}, r{kHigh, kHigh}, s{kLow, kHigh};
@@ -53,9 +60,11 @@ Triangles shared_edges(Dice& dice) {
     const auto [a, b, c] = split;
     const int along = dice.between(1, 255), across = dice.between(1, 256 - along);
     Corner inside;
-    for (std::size_t axis = 0; axis < 2; ++axis) inside[axis] = a[axis] + ((b[axis] - a[axis]) * along + (c[axis] - a[axis]) * across) / 256;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      inside[axis] = a[axis] + ((b[axis] - a[axis]) * along + (c[axis] - a[axis]) * across) / 256;
     if (dice.between(0, 3) == 0) inside = {inside[0] / 128 * 128, inside[1] / 128 * 128};
-    if (doubled_area(a, b, inside) <= 0 || doubled_area(b, c, inside) <= 0 || doubled_area(c, a, inside) <= 0) continue;
+    if (doubled_area(a, b, inside) <= 0 || doubled_area(b, c, inside) <= 0 || doubled_area(c, a, inside) <= 0)
+      continue;
     split = {a, b, inside};
     triangles.push_back({b, c, inside});
     triangles.push_back({c, a, inside});
@@ -66,7 +75,7 @@ Triangles shared_edges(Dice& dice) {
 /// What each pixel should hold.
 struct Expected {
   Counts counts = Counts(static_cast<std::size_t>(kSide) * kSide);  ///< of the triangles that cover it
-  Counts last = counts;                                            ///< the number of the last of them, from 1 on; 0: none
+  Counts last = counts;  ///< the number of the last of them, from 1 on; 0: none
 };
 Expected exactly(const Triangles& triangles) {
   Expected expected;
@@ -76,12 +85,13 @@ Expected exactly(const Triangles& triangles) {
     const auto [left, right] = std::minmax({a[0], b[0], c[0]});
     const auto [top, bottom] = std::minmax({a[1], b[1], c[1]});
     const WindowVertex vertices[3] = {{a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]}};
-    TriangleReference(vertices).for_each_covered(std::max(first_pixel(left), 0), std::max(first_pixel(top), 0), std::min(last_pixel(right) + 1, kSide), std::min(last_pixel(bottom) + 1, kSide),
-                                                 [&](int x, int y) {
-                                                   const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
-                                                   ++expected.counts[at];
-                                                   expected.last[at] = number;
-                                                 });
+    TriangleReference(vertices).for_each_covered(
+        std::max(first_pixel(left), 0), std::max(first_pixel(top), 0), std::min(last_pixel(right) + 1, kSide),
+        std::min(last_pixel(bottom) + 1, kSide), [&](int x, int y) {
+          const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+          ++expected.counts[at];
+          expected.last[at] = number;
+        });
   }
   return expected;
 }
@@ -95,7 +105,8 @@ std::vector<float> clip_positions(const Triangles& triangles, Dice& dice) {
     const bool turned = dice.between(0, 1) != 0;
     for (const std::size_t k : {0, turned ? 2 : 1, turned ? 1 : 2}) {
       const Corner& corner = triangle[k];
-      positions.insert(positions.end(), {static_cast<float>(corner[0]) / (128 * kSide) - 1, 1 - static_cast<float>(corner[1]) / (128 * kSide), depth});
+      positions.insert(positions.end(), {static_cast<float>(corner[0]) / (128 * kSide) - 1,
+                                         1 - static_cast<float>(corner[1]) / (128 * kSide), depth});
     }
   }
   return positions;
@@ -117,7 +128,8 @@ Counts drawn_counts(const std::vector<float>& positions, Renderer& renderer) {
 /// The number of each pixel's triangle, as its colour.
 Counts drawn_numbers(const std::vector<float>& positions, Shading shading, Renderer& renderer) {
   std::vector<float> colors;
-  for (std::size_t corner = 0; corner < positions.size() / 3; ++corner) colors.insert(colors.end(), {0, 0, static_cast<float>(corner / 3 + 1) / 255, 1});
+  for (std::size_t corner = 0; corner < positions.size() / 3; ++corner)
+    colors.insert(colors.end(), {0, 0, static_cast<float>(corner / 3 + 1) / 255, 1});
   FrameBuffer buffer({.width = kSide, .height = kSide});
   Frame frame(buffer);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
@@ -141,7 +153,8 @@ OracleReport check_coverage(const Ways& ways) {
     for (const bool shared : {false, true}) {
       const Triangles triangles = shared ? shared_edges(dice) : random_triangles(dice);
       triangle_count += triangles.size();
-      cases.push_back({clip_positions(triangles, dice), exactly(triangles), round % 2 == 0 ? Shading::gouraud : Shading::flat});
+      cases.push_back({clip_positions(triangles, dice), exactly(triangles),
+                       round % 2 == 0 ? Shading::gouraud : Shading::flat});
       if (shared) cases.back().exact.counts.assign(cases.back().exact.counts.size(), 1);
     }
   OracleReport report{.oracle = "coverage, 128-bit integers", .measured = {}, .first_wrong = {}};
@@ -150,10 +163,13 @@ OracleReport check_coverage(const Ways& ways) {
     Renderer renderer(way);
     std::size_t wrong = 0;
     std::string first;
-    const auto compare = [&](const Counts& drawn, const Counts& exact, const char* before, const char* after) {
+    const auto compare = [&](const Counts& drawn, const Counts& exact, const char* before,
+                             const char* after) {
       for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (drawn[i] == exact[i]) continue;
-        if (wrong++ == 0) first = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " + before + std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
+        if (wrong++ == 0)
+          first = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " + before +
+                  std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
       }
     };
     for (const Case& each : cases) {
@@ -163,7 +179,8 @@ OracleReport check_coverage(const Ways& ways) {
     wrong_pixels += wrong;
     if (wrong != 0) report.add(first, way);
   }
-  report.measured = std::to_string(triangle_count * ways.size()) + " triangles, " + std::to_string(wrong_pixels) + " pixels wrong";
+  report.measured = std::to_string(triangle_count * ways.size()) + " triangles, " +
+                    std::to_string(wrong_pixels) + " pixels wrong";
   return report;
 }
 

@@ -1,5 +1,6 @@
-// A colour c of 8 bits is stored as the level nearest to 255 c, a depth z of b bits as the one nearest to (2^b - 1) z, a depth of
-// floats as it is. Ties, and the rounding of 255 c + 1/2 to a float or of the depth to a double, may go either way.
+// A colour c of 8 bits is stored as the level nearest to 255 c, a depth z of b bits as the one nearest to
+// (2^b - 1) z, a depth of floats as it is. Ties, and the rounding of 255 c + 1/2 to a float or of the depth
+// to a double, may go either way.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -20,12 +21,16 @@ constexpr long double kColorRounding = 0x1p-17L, kDepthRounding = 0x1p-20L;
 
 struct Format {
   DepthFormat depth;
-  int bits;          // 0: floats
+  int bits;  // 0: floats
   const char* name;
 };
-constexpr Format kFormats[] = {{DepthFormat::unorm16, 16, "16-bit depth"}, {DepthFormat::unorm24, 24, "24-bit depth"}, {DepthFormat::unorm32, 32, "32-bit depth"}, {DepthFormat::float32, 0, "float depth"}};
+constexpr Format kFormats[] = {{DepthFormat::unorm16, 16, "16-bit depth"},
+                               {DepthFormat::unorm24, 24, "24-bit depth"},
+                               {DepthFormat::unorm32, 32, "32-bit depth"},
+                               {DepthFormat::float32, 0, "float depth"}};
 
-/// Colours and depths in 0 .. 1, rows from the top: random ones, levels of 8 bits, and what lies half way between two.
+/// Colours and depths in 0 .. 1, rows from the top: random ones, levels of 8 bits, and what lies half way
+/// between two.
 struct Points {
   std::vector<float> positions, colors, depths;
 
@@ -34,11 +39,15 @@ struct Points {
     const auto value = [&] {
       const std::uint32_t bits = random(), kind = bits >> 30;
       const float level = static_cast<float>(bits % 511) / 510;
-      return kind == 0 ? level : kind == 1 ? std::nextafter(level, 1.0f) : static_cast<float>(bits & 0xffffff) / 0xffffff;
+      return kind == 0   ? level
+             : kind == 1 ? std::nextafter(level, 1.0f)
+                         : static_cast<float>(bits & 0xffffff) / 0xffffff;
     };
     for (int i = 0; i < kPoints; ++i) {
       depths.push_back(value());
-      positions.insert(positions.end(), {(static_cast<float>(i % kSide) + 0.5f) / (kSide / 2) - 1, 1 - (static_cast<float>(i / kSide) + 0.5f) / (kSide / 2), depths.back()});
+      positions.insert(positions.end(),
+                       {(static_cast<float>(i % kSide) + 0.5f) / (kSide / 2) - 1,
+                        1 - (static_cast<float>(i / kSide) + 0.5f) / (kSide / 2), depths.back()});
       colors.insert(colors.end(), {value(), value(), value(), 1});
     }
   }
@@ -71,11 +80,15 @@ OracleReport check_levels(const Ways& ways) {
       const std::vector<std::uint32_t> words = color_words(buffer), depths = depth_words(buffer);
       long double color_error = 0, depth_error = 0;
       for (std::size_t i = 0; i < kPoints; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) color_error = std::max(color_error, std::abs((words[i] >> (16 - 8 * c) & 255) - 255.0L * points.colors[4 * i + c]));
+        for (std::size_t c = 0; c < 3; ++c)
+          color_error = std::max(
+              color_error, std::abs((words[i] >> (16 - 8 * c) & 255) - 255.0L * points.colors[4 * i + c]));
         if (format.bits == 0)
-          depth_error = std::max(depth_error, std::bit_cast<float>(depths[i]) == points.depths[i] ? 0.0L : 1.0L);
+          depth_error =
+              std::max(depth_error, std::bit_cast<float>(depths[i]) == points.depths[i] ? 0.0L : 1.0L);
         else
-          depth_error = std::max(depth_error, std::abs(depths[i] - (std::ldexp(1.0L, format.bits) - 1) * points.depths[i]));
+          depth_error = std::max(
+              depth_error, std::abs(depths[i] - (std::ldexp(1.0L, format.bits) - 1) * points.depths[i]));
       }
       if (color_error > 0.5L + kColorRounding && off.find("colour") == std::string::npos) note("colour");
       if (depth_error > 0.5L + kDepthRounding) note(format.name);

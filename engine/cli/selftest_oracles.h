@@ -8,10 +8,10 @@
 namespace tessera::cli {
 
 struct OracleReport {
-  std::string oracle;          ///< what is held against what
+  std::string oracle;  ///< what is held against what
   std::string measured;
   std::size_t wrong_ways = 0;
-  std::string first_wrong;     ///< of the first such way
+  std::string first_wrong;  ///< of the first such way
 
   void add(const std::string& wrong, const RendererOptions& way) {
     if (wrong_ways++ == 0) first_wrong = wrong + ", by " + to_text(way);
@@ -20,7 +20,8 @@ struct OracleReport {
 
 // Each draws the same frames in every one of the ways.
 
-/// Pixels that triangles cover, against edge functions in 128-bit integers; meshes whose triangles share their edges cover each pixel once.
+/// Pixels that triangles cover, against edge functions in 128-bit integers; meshes whose triangles share
+/// their edges cover each pixel once.
 OracleReport check_coverage(const Ways& ways);
 /// Highlights x^shininess, against the host's pow in double.
 OracleReport check_powers(const Ways& ways);

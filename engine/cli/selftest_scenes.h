@@ -1,5 +1,6 @@
-// The scenes that the self-test renders and what they must come to: scenes of tests/scenes, named in selftest_scenes.txt, and
-// their lines of tests/picture_hashes.txt. CMake turns them into a source (embed_selftest.cmake).
+// The scenes that the self-test renders and what they must come to: scenes of tests/scenes, named in
+// selftest_scenes.txt, and their lines of tests/picture_hashes.txt. CMake turns them into a source
+// (embed_selftest.cmake).
 #pragma once
 
 #include <span>

@@ -7,7 +7,9 @@ Ways every_way(int threads) {
   for (const InstructionSet set : available_instruction_sets())
     for (const int n : threads == 1 ? std::vector<int>{1} : std::vector<int>{1, threads})
       for (const int tile_size : {32, 64, 128})
-        for (const bool defer : {true, false}) ways.push_back({.threads = n, .tile_size = tile_size, .instruction_set = set, .defer_shading = defer});
+        for (const bool defer : {true, false})
+          ways.push_back(
+              {.threads = n, .tile_size = tile_size, .instruction_set = set, .defer_shading = defer});
   return ways;
 }
 
@@ -21,7 +23,8 @@ Ways few_ways(int threads) {
 }
 
 std::string to_text(const RendererOptions& way) {
-  return std::string(name(way.instruction_set)) + ", " + std::to_string(way.threads) + (way.threads == 1 ? " thread" : " threads") + ", tiles of " + std::to_string(way.tile_size) +
+  return std::string(name(way.instruction_set)) + ", " + std::to_string(way.threads) +
+         (way.threads == 1 ? " thread" : " threads") + ", tiles of " + std::to_string(way.tile_size) +
          (way.defer_shading ? "" : ", shaded at once");
 }
 

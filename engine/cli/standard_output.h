@@ -18,7 +18,8 @@ inline void write_to_stdout(std::string_view text) {
     throw Error(std::string("cannot write to the standard output: ") + std::strerror(errno));
 }
 
-/// Hands over what is still waiting in std::cout and stdio. @throws Error where that fails, or where something was lost before: the reason of that is not known any more
+/// Hands over what is still waiting in std::cout and stdio. @throws Error where that fails, or where
+/// something was lost before: the reason of that is not known any more
 inline void require_stdout_written() {
   write_to_stdout("");
   if (std::ferror(stdout) != 0 || !std::cout) throw Error("cannot write to the standard output");

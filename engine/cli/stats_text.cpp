@@ -50,12 +50,16 @@ std::vector<Count> counts_of(const FrameStats& s) {
           {"pixels shaded", "shaded_pixels", s.shaded_pixels}};
 }
 std::vector<std::pair<const char*, double>> stages_of(const FrameStats& s) {
-  return {{"planning", s.plan_seconds}, {"vertices", s.vertex_seconds}, {"binning", s.binning_seconds}, {"tiles", s.tile_seconds}};
+  return {{"planning", s.plan_seconds},
+          {"vertices", s.vertex_seconds},
+          {"binning", s.binning_seconds},
+          {"tiles", s.tile_seconds}};
 }
 constexpr const char* kBufferNames[] = {"colour", "depth", "stencil", "accumulation"};
 
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -63,20 +67,26 @@ double median(std::vector<double> values) {
 
 std::string stats_text(const RunStats& stats) {
   const int threads = stats.options.threads;
-  std::string text = "rendered with " + std::to_string(threads) + (threads == 1 ? " thread, " : " threads, ") + std::string(name(stats.options.instruction_set)) + ", tiles of " +
+  std::string text = "rendered with " + std::to_string(threads) +
+                     (threads == 1 ? " thread, " : " threads, ") +
+                     std::string(name(stats.options.instruction_set)) + ", tiles of " +
                      std::to_string(stats.frame.tile_size) + " pixels\n";
   text += row("reading and setting up", milliseconds(stats.load_ms));
   const auto [least, most] = std::minmax_element(stats.render_ms.begin(), stats.render_ms.end());
   if (stats.render_ms.size() == 1) {
     text += row("rendering", milliseconds(*least));
   } else {
-    text += row("rendering, median of " + std::to_string(stats.render_ms.size()), milliseconds(median(stats.render_ms)));
+    text += row("rendering, median of " + std::to_string(stats.render_ms.size()),
+                milliseconds(median(stats.render_ms)));
     text += row("  fastest", milliseconds(*least)) + row("  slowest", milliseconds(*most));
   }
-  for (const auto& [stage, seconds] : stages_of(stats.frame)) text += row(std::string("  ") + stage + (stats.render_ms.size() > 1 ? ", of the last" : ""), milliseconds(1e3 * seconds));
+  for (const auto& [stage, seconds] : stages_of(stats.frame))
+    text += row(std::string("  ") + stage + (stats.render_ms.size() > 1 ? ", of the last" : ""),
+                milliseconds(1e3 * seconds));
   text += row("writing files", milliseconds(stats.write_ms));
   for (const Count& count : counts_of(stats.frame)) text += row(count.label, grouped(count.value));
-  for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i) text += row(std::string("bytes of the ") + kBufferNames[i] + " planes", grouped(stats.buffer_bytes[i]));
+  for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i)
+    text += row(std::string("bytes of the ") + kBufferNames[i] + " planes", grouped(stats.buffer_bytes[i]));
   return text;
 }
 
@@ -92,7 +102,8 @@ std::string stats_json(const RunStats& stats) {
   json["write_ms"] = stats.write_ms;
   for (const Count& count : counts_of(stats.frame)) json["counts"][count.key] = count.value;
   constexpr const char* kKeys[] = {"color", "depth", "stencil", "accumulation"};
-  for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i) json["buffer_bytes"][kKeys[i]] = stats.buffer_bytes[i];
+  for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i)
+    json["buffer_bytes"][kKeys[i]] = stats.buffer_bytes[i];
   return json.dump(2) + "\n";
 }
 

@@ -13,11 +13,12 @@ namespace tessera::cli {
 enum class StatsFormat { none, text, json };
 
 struct RunStats {
-  FrameStats frame;                       ///< of the last frame rendered
+  FrameStats frame;  ///< of the last frame rendered
   RendererOptions options;
   double load_ms = 0, write_ms = 0;
-  std::vector<double> render_ms;          ///< of every rendering
-  std::array<std::size_t, 4> buffer_bytes{};  ///< colour, depth, stencil, accumulation: what their planes take
+  std::vector<double> render_ms;  ///< of every rendering
+  std::array<std::size_t, 4>
+      buffer_bytes{};  ///< colour, depth, stencil, accumulation: what their planes take
 };
 
 std::string stats_text(const RunStats& stats);

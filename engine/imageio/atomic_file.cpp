@@ -13,18 +13,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) { throw Error("cannot write \"" + path + "\": " + reason); }
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw Error("cannot write \"" + path + "\": " + reason);
+}
 
 void write_plainly(const std::string& path, const std::string& shown_path, std::string_view content) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) fail(shown_path, std::strerror(errno));
-  const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size() && std::fflush(file) == 0;
+  const bool is_written =
+      std::fwrite(content.data(), 1, content.size(), file) == content.size() && std::fflush(file) == 0;
   const int reason = errno;
   const bool is_closed = std::fclose(file) == 0;
   if (!is_written || !is_closed) fail(shown_path, std::strerror(is_written ? errno : reason));
 }
 
-fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 /// A link there tells in words what it leads to: "pipe:[7]", or a file that has no name any more.
 bool is_in_proc(const fs::path& file) {
@@ -48,7 +53,8 @@ std::optional<fs::path> require_writable(const std::string& path) {
   }
   const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error)) fail(path, "there is no folder \"" + folder.string() + "\"");
-  if (::access(folder.c_str(), W_OK) != 0) fail(path, "no new file in \"" + folder.string() + "\": " + std::strerror(errno));
+  if (::access(folder.c_str(), W_OK) != 0)
+    fail(path, "no new file in \"" + folder.string() + "\": " + std::strerror(errno));
   return fs::canonical(folder) / target.filename();
 }
 

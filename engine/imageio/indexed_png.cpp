@@ -28,12 +28,13 @@ void nothing(png_structp) {}
 void ignore(png_structp, png_const_charp) {}
 
 // Nothing here has a destructor: libpng leaves by longjmp.
-void write(png_structp png, png_infop info, const unsigned char* indices, int width, int height, int bits, const unsigned char* palette, int entries, int compression,
-           unsigned char* row) {
+void write(png_structp png, png_infop info, const unsigned char* indices, int width, int height, int bits,
+           const unsigned char* palette, int entries, int compression, unsigned char* row) {
   if (setjmp(png_jmpbuf(png)) != 0) return;
   png_set_compression_level(png, compression);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits, entries > 0 ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_GRAY,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
+               entries > 0 ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (entries > 0) {
     png_color colors[256];
     for (int i = 0; i < entries; ++i) colors[i] = {palette[3 * i], palette[3 * i + 1], palette[3 * i + 2]};
@@ -61,9 +62,12 @@ void write(png_structp png, png_infop info, const unsigned char* indices, int wi
 
 }  // namespace
 
-std::string encode_indexed_png(const unsigned char* indices, int width, int height, int bits, const unsigned char* palette, int palette_entries,
-                               int compression, std::vector<unsigned char>& file) {
-  if (palette_entries > 1 << bits) return "a palette of " + std::to_string(palette_entries) + " entries does not fit " + std::to_string(bits) + " bits";
+std::string encode_indexed_png(const unsigned char* indices, int width, int height, int bits,
+                               const unsigned char* palette, int palette_entries, int compression,
+                               std::vector<unsigned char>& file) {
+  if (palette_entries > 1 << bits)
+    return "a palette of " + std::to_string(palette_entries) + " entries does not fit " +
+           std::to_string(bits) + " bits";
   Writer writer{file, {}};
   std::vector<unsigned char> row(static_cast<std::size_t>(width));
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, fail, ignore);

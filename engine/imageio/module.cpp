@@ -1,5 +1,5 @@
-// The module libtessera_imageio: with indexed_png.cpp the only code that sees OpenImageIO and libpng. OpenImageIO brings 260 libraries and 130 MiB with it,
-// so the program loads it when the first file needs it.
+// The module libtessera_imageio: with indexed_png.cpp the only code that sees OpenImageIO and libpng.
+// OpenImageIO brings 260 libraries and 130 MiB with it, so the program loads it when the first file needs it.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -11,9 +11,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "engine/tessera/export.h"
 #include "engine/imageio/indexed_png.h"
 #include "engine/imageio/module_interface.h"
+#include "engine/tessera/export.h"
 
 namespace {
 
@@ -27,7 +27,8 @@ struct Failure {
   std::string reason;
 };
 
-Bytes encode(const std::string& ending, const unsigned char* rgba, int width, int height, std::ptrdiff_t stride_bytes, int compression) {
+Bytes encode(const std::string& ending, const unsigned char* rgba, int width, int height,
+             std::ptrdiff_t stride_bytes, int compression) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + ending);
   if (!output) {
     OIIO::geterror();  // names a file that does not exist
@@ -35,35 +36,44 @@ Bytes encode(const std::string& ending, const unsigned char* rgba, int width, in
   }
   Bytes bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
-  if (!output->supports("ioproxy") || !output->set_ioproxy(&memory)) throw Failure{"OpenImageIO cannot encode " + ending + " in memory"};
+  if (!output->supports("ioproxy") || !output->set_ioproxy(&memory))
+    throw Failure{"OpenImageIO cannot encode " + ending + " in memory"};
   constexpr int kChannels = 3;
   OIIO::ImageSpec spec(width, height, kChannels, OIIO::TypeDesc::UINT8);
   spec.attribute("Software", TESSERA_IMAGEIO_SOFTWARE);
   spec.attribute("png:compressionLevel", compression >= 0 ? compression : kPngCompression);
-  const bool is_encoded = output->open("picture" + ending, spec) && output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) && output->close();
+  const bool is_encoded = output->open("picture" + ending, spec) &&
+                          output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) &&
+                          output->close();
   if (!is_encoded) throw Failure{"OpenImageIO: " + output->geterror()};
   return bytes;
 }
 
 /// Width, height and channels, then RGBA.
-Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count, int most_pixels_a_side) {
+Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count,
+             int most_pixels_a_side) {
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
   OIIO::ImageSpec asked;
   asked.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
   OIIO::Filesystem::IOProxy* const proxy = &memory;
-  asked.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);  // open() forgets its own one where something is asked for
+  asked.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR,
+                  &proxy);  // open() forgets its own one where something is asked for
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, &asked, &memory);
   if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels_a_side || spec.height > most_pixels_a_side)
-    throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + ", at most " + std::to_string(most_pixels_a_side) + " a side are read"};
+  if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels_a_side ||
+      spec.height > most_pixels_a_side)
+    throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+                  ", at most " + std::to_string(most_pixels_a_side) + " a side are read"};
   const int channels = spec.nchannels;
   if (spec.depth > 1 || channels < 1)  // read_image() gives every layer of a volume
-    throw Failure{"the image has " + std::to_string(spec.depth) + " layers of " + std::to_string(channels) + " channels, expected one layer"};
+    throw Failure{"the image has " + std::to_string(spec.depth) + " layers of " + std::to_string(channels) +
+                  " channels, expected one layer"};
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   const int size[3] = {spec.width, spec.height, channels < 4 ? channels : 4};
   Bytes raw(pixels * static_cast<std::size_t>(channels)), bytes(sizeof size + 4 * pixels, 255);
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data())) throw Failure{"OpenImageIO: " + input->geterror()};
+  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
+    throw Failure{"OpenImageIO: " + input->geterror()};
   std::memcpy(bytes.data(), size, sizeof size);
   const int alpha = channels == 2 ? 1 : channels >= 4 ? 3 : -1;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -97,7 +107,8 @@ Bytes formats() {
 
 /// Runs make() and hands its bytes over; no exception leaves the module.
 template <class Make>
-int handed_over(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size, const Make& make) {
+int handed_over(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size,
+                const Make& make) {
   std::string reason;
   try {
     OIIO::attribute("threads", 1);  // the renderer's threads are the process's threads
@@ -115,28 +126,39 @@ int handed_over(tessera_imageio_take_function* take, void* user, char* message, 
 
 }  // namespace
 
-extern "C" TESSERA_API int tessera_imageio_encode_2(const char* ending, const unsigned char* rgba, int width, int height, std::ptrdiff_t stride_bytes,
-                                                    int compression, tessera_imageio_take_function* take, void* user, char* message,
-                                                    std::size_t message_size) {
-  return handed_over(take, user, message, message_size, [&] { return encode(ending, rgba, width, height, stride_bytes, compression); });
+extern "C" TESSERA_API int tessera_imageio_encode_2(const char* ending, const unsigned char* rgba, int width,
+                                                    int height, std::ptrdiff_t stride_bytes, int compression,
+                                                    tessera_imageio_take_function* take, void* user,
+                                                    char* message, std::size_t message_size) {
+  return handed_over(take, user, message, message_size,
+                     [&] { return encode(ending, rgba, width, height, stride_bytes, compression); });
 }
 
-extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char* indices, int width, int height, int bits, const unsigned char* palette,
-                                                            int palette_entries, int compression, tessera_imageio_take_function* take, void* user,
+extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char* indices, int width,
+                                                            int height, int bits,
+                                                            const unsigned char* palette, int palette_entries,
+                                                            int compression,
+                                                            tessera_imageio_take_function* take, void* user,
                                                             char* message, std::size_t message_size) {
   return handed_over(take, user, message, message_size, [&] {
     Bytes bytes;
-    const std::string reason = tessera::encode_indexed_png(indices, width, height, bits, palette, palette_entries, compression >= 0 ? compression : kPngCompression, bytes);
+    const std::string reason =
+        tessera::encode_indexed_png(indices, width, height, bits, palette, palette_entries,
+                                    compression >= 0 ? compression : kPngCompression, bytes);
     if (!reason.empty()) throw Failure{reason};
     return bytes;
   });
 }
 
-extern "C" TESSERA_API int tessera_imageio_decode_2(const char* ending, const unsigned char* bytes, std::size_t count, int most_pixels_a_side,
-                                                    tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size) {
-  return handed_over(take, user, message, message_size, [&] { return decode(ending, bytes, count, most_pixels_a_side); });
+extern "C" TESSERA_API int tessera_imageio_decode_2(const char* ending, const unsigned char* bytes,
+                                                    std::size_t count, int most_pixels_a_side,
+                                                    tessera_imageio_take_function* take, void* user,
+                                                    char* message, std::size_t message_size) {
+  return handed_over(take, user, message, message_size,
+                     [&] { return decode(ending, bytes, count, most_pixels_a_side); });
 }
 
-extern "C" TESSERA_API int tessera_imageio_formats_1(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size) {
+extern "C" TESSERA_API int tessera_imageio_formats_1(tessera_imageio_take_function* take, void* user,
+                                                     char* message, std::size_t message_size) {
   return handed_over(take, user, message, message_size, [] { return formats(); });
 }

@@ -1,6 +1,6 @@
-// The module libtessera_imageio, loaded on first need: beside the running program, in ../lib from there, or where the system
-// looks for libraries; once found it stays loaded. Each function throws Error: where the module is missing, by its name; and with
-// what the module says.
+// The module libtessera_imageio, loaded on first need: beside the running program, in ../lib from there, or
+// where the system looks for libraries; once found it stays loaded. Each function throws Error: where the
+// module is missing, by its name; and with what the module says.
 #pragma once
 
 #include <string>

@@ -29,12 +29,16 @@ std::optional<float> number(const aiMaterial& from, const char* key, unsigned ty
 }
 
 // Black, or what assimp's readers write where the format does not know ambient colours.
-bool is_placeholder(const Color& c) { return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f); }
+bool is_placeholder(const Color& c) {
+  return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f);
+}
 Color scaled(const Color& c, float by) { return {c.r * by, c.g * by, c.b * by, 1}; }
 
 Color emission(const aiMaterial& from) {
-  const bool has_picture = from.GetTextureCount(aiTextureType_EMISSIVE) > 0 || from.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
-  return has_picture ? Material{}.emission : color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission);
+  const bool has_picture = from.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
+                           from.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+  return has_picture ? Material{}.emission
+                     : color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission);
 }
 
 Material phong_material(const aiMaterial& from, int model) {
@@ -44,7 +48,8 @@ Material phong_material(const aiMaterial& from, int model) {
   material.ambient = is_placeholder(ambient) ? material.diffuse : ambient;
   material.emission = emission(from);
   const float shininess = number(from, AI_MATKEY_SHININESS).value_or(0);
-  const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud && model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
+  const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud &&
+                             model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
   if (has_highlight) {
     material.specular = color(from, AI_MATKEY_COLOR_SPECULAR).value_or(material.specular);
     material.shininess = std::min(shininess, kMostShininess);
@@ -61,17 +66,25 @@ float blinn_exponent(float roughness) {
 
 Material physical_material(const aiMaterial& from, const Color& base) {
   const auto factor = [&](std::optional<float> x) { return std::clamp(x.value_or(1), 0.0f, 1.0f); };
-  const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)), rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
+  const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)),
+              rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
   const auto mirrored = [&](float b) { return (kDielectric * (1 - metal) + b * metal) * spread(rough); };
-  return {.ambient = base, .diffuse = base, .specular = {mirrored(base.r), mirrored(base.g), mirrored(base.b), 1},
-          .emission = emission(from), .shininess = blinn_exponent(rough)};
+  return {.ambient = base,
+          .diffuse = base,
+          .specular = {mirrored(base.r), mirrored(base.g), mirrored(base.b), 1},
+          .emission = emission(from),
+          .shininess = blinn_exponent(rough)};
 }
 
 Material glossy_material(const aiMaterial& from, float glossiness) {
   const float rough = 1 - std::clamp(glossiness, 0.0f, 1.0f);
   const Color diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(Color{1, 1, 1, 1});
-  return {.ambient = diffuse, .diffuse = diffuse, .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}), spread(rough)),
-          .emission = emission(from), .shininess = blinn_exponent(rough)};
+  return {
+      .ambient = diffuse,
+      .diffuse = diffuse,
+      .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}), spread(rough)),
+      .emission = emission(from),
+      .shininess = blinn_exponent(rough)};
 }
 
 Material unlit_material(const Color& c) {
@@ -86,14 +99,17 @@ Material material_of(const aiMaterial& from) {
   int model = 0;
   from.Get(AI_MATKEY_SHADING_MODEL, model);
   if (base && model == aiShadingMode_Unlit) return unlit_material(*base);
-  if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR)) return glossy_material(from, *glossiness);
+  if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR))
+    return glossy_material(from, *glossiness);
   if (base && number(from, AI_MATKEY_METALLIC_FACTOR)) return physical_material(from, *base);
   return phong_material(from, model);
 }
 
 bool wants_texture(const aiMaterial& from) {
-  constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR, aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
-  return std::any_of(std::begin(kColors), std::end(kColors), [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
+  constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR,
+                                       aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
+  return std::any_of(std::begin(kColors), std::end(kColors),
+                     [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
 }
 
 std::vector<std::string> textures_of(const aiMaterial& from) {
@@ -101,16 +117,20 @@ std::vector<std::string> textures_of(const aiMaterial& from) {
   for (unsigned i = 0; i < from.mNumProperties; ++i) {
     const aiMaterialProperty& property = *from.mProperties[i];
     std::uint32_t length = 0;  // what stands before the characters; a zero stands behind them
-    if (property.mType != aiPTI_String || property.mDataLength <= sizeof length || std::string_view(property.mKey.C_Str()) != _AI_MATKEY_TEXTURE_BASE) continue;
+    if (property.mType != aiPTI_String || property.mDataLength <= sizeof length ||
+        std::string_view(property.mKey.C_Str()) != _AI_MATKEY_TEXTURE_BASE)
+      continue;
     std::memcpy(&length, property.mData, sizeof length);
-    names.emplace_back(property.mData + sizeof length, std::min<std::size_t>(length, property.mDataLength - sizeof length - 1));
+    names.emplace_back(property.mData + sizeof length,
+                       std::min<std::size_t>(length, property.mDataLength - sizeof length - 1));
   }
   return names;
 }
 
 bool wants_transparency(const aiMaterial& from) {
   aiString mode;
-  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS) return std::string_view(mode.C_Str()) != "OPAQUE";
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS)
+    return std::string_view(mode.C_Str()) != "OPAQUE";
   return number(from, AI_MATKEY_OPACITY).value_or(1) < 1;
 }
 

@@ -30,11 +30,17 @@ class Converter {
  public:
   /// @param with_view  also cameras and lights
   Converter(const aiScene& scene, bool with_view, bool is_collada)
-      : scene_(scene), with_view_(with_view), is_collada_(is_collada), camera_used_(scene.mNumCameras), light_used_(scene.mNumLights) {
-    for (unsigned m = 0; m < scene_.mNumMeshes; ++m) gives_colors_.push_back(gives_colors(*scene_.mMeshes[m]));
+      : scene_(scene),
+        with_view_(with_view),
+        is_collada_(is_collada),
+        camera_used_(scene.mNumCameras),
+        light_used_(scene.mNumLights) {
+    for (unsigned m = 0; m < scene_.mNumMeshes; ++m)
+      gives_colors_.push_back(gives_colors(*scene_.mMeshes[m]));
     has_colors_ = std::find(gives_colors_.begin(), gives_colors_.end(), true) != gives_colors_.end();
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) has_texcoords_ |= scene_.mMeshes[m]->HasTextureCoords(0);
-    for (unsigned m = 0; m < scene_.mNumMaterials; ++m) materials_.push_back(material_of(*scene_.mMaterials[m]));
+    for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
+      materials_.push_back(material_of(*scene_.mMaterials[m]));
   }
 
   Model converted() {
@@ -51,17 +57,24 @@ class Converter {
     for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
       for (const std::string& name : textures_of(*scene_.mMaterials[m]))
         if (scene_.GetEmbeddedTexture(name.c_str()) == nullptr) model_.files.push_back(name);
-    if (textures > 0) model_.warnings.push_back("textures of models are not supported: materials with one, " + std::to_string(textures) + " here, keep their plain colours");
-    if (transparent > 0) model_.warnings.push_back("transparency is not supported: materials with it, " + std::to_string(transparent) + " here, are drawn opaque");
+    if (textures > 0)
+      model_.warnings.push_back("textures of models are not supported: materials with one, " +
+                                std::to_string(textures) + " here, keep their plain colours");
+    if (transparent > 0)
+      model_.warnings.push_back("transparency is not supported: materials with it, " +
+                                std::to_string(transparent) + " here, are drawn opaque");
     return std::move(model_);
   }
 
  private:
   void visit(const aiNode& node, const aiMatrix4x4& parent, int depth) {
-    if (depth > kDeepestNode) throw Error("its nodes are nested deeper than " + std::to_string(kDeepestNode) + " levels");
+    if (depth > kDeepestNode)
+      throw Error("its nodes are nested deeper than " + std::to_string(kDeepestNode) + " levels");
     const aiMatrix4x4 world = parent * node.mTransformation;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
-      if (node.mMeshes[m] >= scene_.mNumMeshes) throw Error("a node names mesh " + std::to_string(node.mMeshes[m]) + " of " + std::to_string(scene_.mNumMeshes));
+      if (node.mMeshes[m] >= scene_.mNumMeshes)
+        throw Error("a node names mesh " + std::to_string(node.mMeshes[m]) + " of " +
+                    std::to_string(scene_.mNumMeshes));
       add_mesh(node.mMeshes[m], world);
     }
     if (with_view_) add_view(node, world);
@@ -73,7 +86,8 @@ class Converter {
     for (unsigned i = 0; i < scene_.mNumCameras; ++i)
       if (!camera_used_[i] && scene_.mCameras[i]->mName == node.mName) {
         camera_used_[i] = true;
-        if (auto camera = camera_of(*scene_.mCameras[i], world, is_collada_)) model_.cameras.push_back(*camera);
+        if (auto camera = camera_of(*scene_.mCameras[i], world, is_collada_))
+          model_.cameras.push_back(*camera);
         break;
       }
     for (unsigned i = 0; i < scene_.mNumLights; ++i)
@@ -86,7 +100,8 @@ class Converter {
 
   void add_mesh(unsigned number, const aiMatrix4x4& world) {
     const aiMesh& mesh = *scene_.mMeshes[number];
-    if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || !mesh.HasPositions() || !mesh.HasFaces()) return;
+    if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || !mesh.HasPositions() || !mesh.HasFaces())
+      return;
     const auto first = static_cast<std::uint32_t>(model_.mesh.vertex_count());
     aiMatrix3x3 normal_matrix(world);
     const bool mirrors = normal_matrix.Determinant() < 0;
@@ -105,9 +120,11 @@ class Converter {
 
   // Colours of vertices are factors of the material's; with them, the colour is all in the vertices.
   void add_color(const aiMesh& mesh, bool gives, unsigned vertex) {
-    const Color base = mesh.mMaterialIndex < materials_.size() ? materials_[mesh.mMaterialIndex].diffuse : Material{}.diffuse;
+    const Color base = mesh.mMaterialIndex < materials_.size() ? materials_[mesh.mMaterialIndex].diffuse
+                                                               : Material{}.diffuse;
     const aiColor4D c = gives ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
-    model_.mesh.colors.insert(model_.mesh.colors.end(), {c.r * base.r, c.g * base.g, c.b * base.b, c.a * base.a});
+    model_.mesh.colors.insert(model_.mesh.colors.end(),
+                              {c.r * base.r, c.g * base.g, c.b * base.b, c.a * base.a});
   }
 
   // t grows upwards whatever the format has: assimp turns v over where that is needed.
@@ -122,14 +139,20 @@ class Converter {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;
       for (const unsigned k : {0u, mirrors ? 2u : 1u, mirrors ? 1u : 2u}) {
-        if (face.mIndices[k] >= mesh.mNumVertices) throw Error("a triangle names vertex " + std::to_string(face.mIndices[k]) + " of " + std::to_string(mesh.mNumVertices));
+        if (face.mIndices[k] >= mesh.mNumVertices)
+          throw Error("a triangle names vertex " + std::to_string(face.mIndices[k]) + " of " +
+                      std::to_string(mesh.mNumVertices));
         indices.push_back(first + face.mIndices[k]);
       }
     }
   }
 
   void add_part(unsigned material, const std::vector<std::uint32_t>& indices) {
-    ModelPart part{.material_name = {}, .material = {}, .first_index = model_.mesh.indices.size(), .index_count = indices.size(), .uses_colors = has_colors_};
+    ModelPart part{.material_name = {},
+                   .material = {},
+                   .first_index = model_.mesh.indices.size(),
+                   .index_count = indices.size(),
+                   .uses_colors = has_colors_};
     if (material < scene_.mNumMaterials) {
       part.material_name = scene_.mMaterials[material]->GetName().C_Str();
       part.material = materials_[material];
@@ -148,6 +171,8 @@ class Converter {
 
 }  // namespace
 
-Model model_of(const aiScene& scene, bool with_view, bool is_collada) { return Converter(scene, with_view, is_collada).converted(); }
+Model model_of(const aiScene& scene, bool with_view, bool is_collada) {
+  return Converter(scene, with_view, is_collada).converted();
+}
 
 }  // namespace tessera

@@ -11,8 +11,8 @@ namespace tessera {
 
 inline constexpr std::string_view kHoldsNoTriangle = "holds no triangle";
 
-/// All nodes of a scene, in world space, as one mesh, a part for each material; normals that are missing are 0 0 0, and `files` are
-/// names, from the folder of the model.
+/// All nodes of a scene, in world space, as one mesh, a part for each material; normals that are missing are
+/// 0 0 0, and `files` are names, from the folder of the model.
 /// @param with_view   also cameras and lights
 /// @param is_collada  angles mean something else there
 /// @throws Error for indices out of bounds, nodes nested too deeply, and where no triangle is left.

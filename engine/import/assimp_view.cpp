@@ -37,7 +37,8 @@ bool set_angle(const aiCamera& camera, bool is_collada, ModelCamera& to) {
 }
 
 void set_attenuation(const aiLight& light, bool is_collada, Light& to) {
-  const float c = std::max(light.mAttenuationConstant, 1.0f), l = light.mAttenuationLinear, q = light.mAttenuationQuadratic;
+  const float c = std::max(light.mAttenuationConstant, 1.0f), l = light.mAttenuationLinear,
+              q = light.mAttenuationQuadratic;
   const bool is_said = is_collada || !(l == 1 && q == 0);  // a linear 1 alone is what assimp starts from
   if (!is_said || !(l >= 0 && q >= 0) || !std::isfinite(c + l + q)) return;
   to.attenuation_constant = c;
@@ -48,13 +49,14 @@ void set_attenuation(const aiLight& light, bool is_collada, Light& to) {
 }  // namespace
 
 std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& world, bool is_collada) {
-  const aiVector3D eye = world * camera.mPosition, target = world * (camera.mPosition + camera.mLookAt), up = aiMatrix3x3(world) * camera.mUp;
+  const aiVector3D eye = world * camera.mPosition, target = world * (camera.mPosition + camera.mLookAt),
+                   up = aiMatrix3x3(world) * camera.mUp;
   ModelCamera to{.near = camera.mClipPlaneNear, .far = camera.mClipPlaneFar};
   to.is_orthographic = camera.mOrthographicWidth > 0 && std::isfinite(camera.mOrthographicWidth);
   if (to.is_orthographic)
-    (camera.mAspect > 0 ? to.half_height : to.half_width) = camera.mOrthographicWidth / (camera.mAspect > 0 ? camera.mAspect : 1);
-  else if (!set_angle(camera, is_collada, to))
-    return {};
+    (camera.mAspect > 0 ? to.half_height : to.half_width) =
+        camera.mOrthographicWidth / (camera.mAspect > 0 ? camera.mAspect : 1);
+  else if (!set_angle(camera, is_collada, to)) return {};
   try {
     to.view = look_at({eye.x, eye.y, eye.z}, {target.x, target.y, target.z}, {up.x, up.y, up.z});
   } catch (const Error&) {
@@ -82,7 +84,8 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, 
       to.spot_direction = {direction.x, direction.y, direction.z};
       // The outer angle of Collada is made up by assimp; its falloff angle is the inner one.
       const double cutoff = is_collada ? light.mAngleInnerCone : light.mAngleOuterCone;
-      to.spot_cutoff = cutoff >= std::numbers::pi ? 180 : static_cast<float>(std::clamp(cutoff * kDegrees, 0.0, 90.0));
+      to.spot_cutoff =
+          cutoff >= std::numbers::pi ? 180 : static_cast<float>(std::clamp(cutoff * kDegrees, 0.0, 90.0));
       if (!is_collada) to.spot_exponent = exponent_of_ramp(light.mAngleInnerCone, light.mAngleOuterCone);
       [[fallthrough]];
     }
@@ -90,7 +93,10 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, 
       to.position = {position.x, position.y, position.z, 1};
       set_attenuation(light, is_collada, to);
       break;
-    default: model.warnings.push_back("light \"" + std::string(light.mName.C_Str()) + "\" is neither directional, point, spot nor ambient, and left out"); return;
+    default:
+      model.warnings.push_back("light \"" + std::string(light.mName.C_Str()) +
+                               "\" is neither directional, point, spot nor ambient, and left out");
+      return;
   }
   const bool has_place = std::isfinite(to.position[0] + to.position[1] + to.position[2]);
   const bool has_direction = light.mType == aiLightSource_POINT || direction.SquareLength() > 0.5f;

@@ -15,8 +15,9 @@ namespace tessera {
 /// @param world  of the camera's node
 std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& world, bool is_collada);
 
-/// Adds a light to the model; those that give no light or are of a kind that Tessera has not are left out, the latter with a
-/// warning. They shine with their colour, scaled to at most 1, and their attenuation never brightens.
+/// Adds a light to the model; those that give no light or are of a kind that Tessera has not are left out,
+/// the latter with a warning. They shine with their colour, scaled to at most 1, and their attenuation never
+/// brightens.
 void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, Model& model);
 
 }  // namespace tessera

@@ -56,7 +56,8 @@ void limit_memory(std::size_t more_bytes) {
 void limit_memory(std::size_t) {}
 #endif
 
-[[noreturn]] void be_child(int to, pid_t parent, const ChildLimits& limits, const std::function<std::string()>& work) {
+[[noreturn]] void be_child(int to, pid_t parent, const ChildLimits& limits,
+                           const std::function<std::string()>& work) {
   // Libraries may print; nobody asked them to.
   if (const int nowhere = ::open("/dev/null", O_RDWR); nowhere >= 0)
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
@@ -88,7 +89,8 @@ void limit_memory(std::size_t) {}
 using Clock = std::chrono::steady_clock;
 enum class Read { all, ended, late, unwanted };
 
-Read read_all(int from, Clock::time_point end, const std::function<bool()>& go_on, char* to, std::size_t count) {
+Read read_all(int from, Clock::time_point end, const std::function<bool()>& go_on, char* to,
+              std::size_t count) {
   constexpr std::chrono::milliseconds kPause(100);
   while (count > 0) {
     if (go_on && !go_on()) return Read::unwanted;
@@ -136,8 +138,7 @@ class Child {
   }
   int wait() {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-    }
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
     id_ = 0;
     return status;
   }
@@ -149,9 +150,11 @@ class Child {
 
 }  // namespace
 
-std::string run_in_child(const std::string& what, const ChildLimits& limits, const std::function<std::string()>& work) {
+std::string run_in_child(const std::string& what, const ChildLimits& limits,
+                         const std::function<std::string()>& work) {
   int ends[2];
-  if (!make_pipe(ends)) throw Error(what + ": cannot make a pipe to a process of its own: " + std::strerror(errno));
+  if (!make_pipe(ends))
+    throw Error(what + ": cannot make a pipe to a process of its own: " + std::strerror(errno));
   std::fflush(nullptr);
   const pid_t parent = ::getpid(), id = ::fork();
   if (id == 0) {
@@ -168,19 +171,24 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits, con
   std::string bytes;
   Read read = read_all(ends[0], end, limits.go_on, reinterpret_cast<char*>(&header), sizeof header);
   if (read == Read::all) {
-    if (header.bytes > limits.result_bytes) throw Error(what + " gives " + mebibytes(header.bytes) + ", at most " + mebibytes(limits.result_bytes) + " are taken");
+    if (header.bytes > limits.result_bytes)
+      throw Error(what + " gives " + mebibytes(header.bytes) + ", at most " + mebibytes(limits.result_bytes) +
+                  " are taken");
     bytes.resize(header.bytes);
     read = read_all(ends[0], end, limits.go_on, bytes.data(), bytes.size());
   }
   if (read == Read::unwanted) throw Cancelled(what + " was interrupted");
-  if (read == Read::late) throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) + " seconds; given up");
+  if (read == Read::late)
+    throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) +
+                " seconds; given up");
   if (read == Read::ended) {
     const int status = child.wait(), signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGINT) throw Cancelled(what + " was interrupted");
     if (signal == SIGXCPU || signal == SIGKILL) throw Error(what + " took too much time or memory; given up");
     throw Error(what + " broke down: the file is damaged, or of a kind that its reader cannot stand");
   }
-  if (header.kind == Header::no_memory) throw Error(what + " takes more than " + mebibytes(limits.memory_bytes) + " of memory; given up");
+  if (header.kind == Header::no_memory)
+    throw Error(what + " takes more than " + mebibytes(limits.memory_bytes) + " of memory; given up");
   if (header.kind == Header::error) throw Error(bytes);
   return bytes;
 }

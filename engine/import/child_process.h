@@ -1,4 +1,5 @@
-// Readers of other people's files run in a child process with limits of time and memory: what goes wrong there stays there.
+// Readers of other people's files run in a child process with limits of time and memory: what goes wrong
+// there stays there.
 #pragma once
 
 #include <chrono>
@@ -15,10 +16,11 @@ struct ChildLimits {
   std::function<bool()> go_on{};                    ///< asked a few times a second; false: the child is ended
 };
 
-/// Runs work() in a child and returns what it returned there. @throws Error with the message of the Error that it threw there,
-/// or saying how the child ended: "<what> took more than 10 seconds; given up". @throws Cancelled if Ctrl-C or go_on
-/// ended it. The child runs on the one thread that called: where other threads may hold locks of libraries that work() uses, call
-/// it before they start.
-std::string run_in_child(const std::string& what, const ChildLimits& limits, const std::function<std::string()>& work);
+/// Runs work() in a child and returns what it returned there. @throws Error with the message of the Error
+/// that it threw there, or saying how the child ended: "<what> took more than 10 seconds; given up". @throws
+/// Cancelled if Ctrl-C or go_on ended it. The child runs on the one thread that called: where other threads
+/// may hold locks of libraries that work() uses, call it before they start.
+std::string run_in_child(const std::string& what, const ChildLimits& limits,
+                         const std::function<std::string()>& work);
 
 }  // namespace tessera

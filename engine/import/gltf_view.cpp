@@ -48,7 +48,8 @@ Matrix local_matrix(const Json& node) {
     for (std::size_t k = 0; k < 16; ++k) m.m[k] = columns[4 * (k % 4) + k / 4];
     return m;
   }
-  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0}), s = node.value("scale", std::array<double, 3>{1, 1, 1});
+  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0}),
+             s = node.value("scale", std::array<double, 3>{1, 1, 1});
   const auto r = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
   return translate(t[0], t[1], t[2]) * from_quaternion(r[0], r[1], r[2], r[3]) * scale(s[0], s[1], s[2]);
 }
@@ -57,10 +58,12 @@ struct NoSuchElement : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What an index names; `kind` is what the list is of. (nlohmann would cast any number to std::size_t, and one that does not fit has no defined result.)
+// What an index names; `kind` is what the list is of. (nlohmann would cast any number to std::size_t, and one
+// that does not fit has no defined result.)
 const Json& element(const Json& list, const Json& index, const char* kind) {
   if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= list.size())
-    throw NoSuchElement("found " + (index.is_number() ? index.dump() : index.type_name()) + ", expected the index of one of " + std::to_string(list.size()) + " " + kind);
+    throw NoSuchElement("found " + (index.is_number() ? index.dump() : index.type_name()) +
+                        ", expected the index of one of " + std::to_string(list.size()) + " " + kind);
   return list.at(index.get<std::size_t>());
 }
 
@@ -73,20 +76,24 @@ class ViewReader {
   void read() {
     if (!file_.contains("scenes") || file_.at("scenes").empty()) return;
     const Json first = 0u;
-    visit_all(element(file_.at("scenes"), file_.contains("scene") ? file_.at("scene") : first, "scenes"), "nodes", Matrix{}, 0);
+    visit_all(element(file_.at("scenes"), file_.contains("scene") ? file_.at("scene") : first, "scenes"),
+              "nodes", Matrix{}, 0);
   }
 
  private:
   // Of a node or scene; nothing is copied, because copies of JSON recurse.
   void visit_all(const Json& owner, const char* list, const Matrix& parent, int depth) {
     if (owner.is_object() && !owner.contains(list)) return;
-    for (const Json& index : owner.at(list).get_ref<const Json::array_t&>()) visit(element(file_.at("nodes"), index, "nodes"), parent, depth);
+    for (const Json& index : owner.at(list).get_ref<const Json::array_t&>())
+      visit(element(file_.at("nodes"), index, "nodes"), parent, depth);
   }
 
   void visit(const Json& node, const Matrix& parent, int depth) {
-    if (depth > kDeepestNode || ++visits_ > kMostVisits) throw Error("its nodes are too many, or nested too deeply");
+    if (depth > kDeepestNode || ++visits_ > kMostVisits)
+      throw Error("its nodes are too many, or nested too deeply");
     const Matrix world = parent * local_matrix(node);
-    if (node.contains("camera")) add_camera(element(file_.at("cameras"), node.at("camera"), "cameras"), world);
+    if (node.contains("camera"))
+      add_camera(element(file_.at("cameras"), node.at("camera"), "cameras"), world);
     if (node.contains(light_)) add_light(element(file_.at(lights_), node.at(light_), "lights"), world);
     visit_all(node, "children", world, depth + 1);
   }
@@ -117,34 +124,45 @@ class ViewReader {
 
   // The first of them is told.
   void leave_out(double angle) {
-    if (!std::exchange(is_told_, true)) model_.warnings.push_back("a perspective camera is left out: found an angle of " + Json(angle).dump() + ", expected one between 0 and pi");
+    if (!std::exchange(is_told_, true))
+      model_.warnings.push_back("a perspective camera is left out: found an angle of " + Json(angle).dump() +
+                                ", expected one between 0 and pi");
   }
 
   void add_light(const Json& light, const Matrix& world) {
     const auto color = light.value("color", std::array<double, 3>{1, 1, 1});
     const double unit = light.value("intensity", 1.0) / std::numbers::pi;
     Light to;
-    to.diffuse = to.specular = {static_cast<float>(color[0] * unit), static_cast<float>(color[1] * unit), static_cast<float>(color[2] * unit), 1};
+    to.diffuse = to.specular = {static_cast<float>(color[0] * unit), static_cast<float>(color[1] * unit),
+                                static_cast<float>(color[2] * unit), 1};
     const Vec3 place = column(world, 3), back = column(world, 2);
     const auto& type = light.at("type").get_ref<const std::string&>();
     if (type == "directional") {
       to.position = {static_cast<float>(back.x), static_cast<float>(back.y), static_cast<float>(back.z), 0};
     } else {
-      to.position = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), 1};
+      to.position = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z),
+                     1};
       to.attenuation_constant = 0;
       to.attenuation_quadratic = 1;
     }
     if (type == "spot") {
-      const double inner = light.value("/spot/innerConeAngle"_json_pointer, 0.0), outer = light.value("/spot/outerConeAngle"_json_pointer, std::numbers::pi / 4);
-      to.spot_direction = {static_cast<float>(-back.x), static_cast<float>(-back.y), static_cast<float>(-back.z)};
+      const double inner = light.value("/spot/innerConeAngle"_json_pointer, 0.0),
+                   outer = light.value("/spot/outerConeAngle"_json_pointer, std::numbers::pi / 4);
+      to.spot_direction = {static_cast<float>(-back.x), static_cast<float>(-back.y),
+                           static_cast<float>(-back.z)};
       to.spot_cutoff = static_cast<float>(std::clamp(outer * kDegrees, 0.0, 90.0));
       to.spot_exponent = exponent_of_ramp(inner, outer);
     }
-    const auto is_finite = [](const auto& list) { return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); }); };
-    if (is_finite(to.position) && is_finite(to.spot_direction) && std::isfinite(to.diffuse.r + to.diffuse.g + to.diffuse.b)) model_.lights.push_back(to);
+    const auto is_finite = [](const auto& list) {
+      return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); });
+    };
+    if (is_finite(to.position) && is_finite(to.spot_direction) &&
+        std::isfinite(to.diffuse.r + to.diffuse.g + to.diffuse.b))
+      model_.lights.push_back(to);
   }
 
-  const Json::json_pointer light_{"/extensions/KHR_lights_punctual/light"}, lights_{"/extensions/KHR_lights_punctual/lights"};
+  const Json::json_pointer light_{"/extensions/KHR_lights_punctual/light"},
+      lights_{"/extensions/KHR_lights_punctual/lights"};
   const Json& file_;
   Model& model_;
   int visits_ = 0;
@@ -157,7 +175,8 @@ std::string decoded(const std::string& uri) {
   for (std::size_t i = 0; i < uri.size(); ++i) {
     const char* const digits = uri.data() + i + 1;
     unsigned byte = 0;
-    const bool is_coded = uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    const bool is_coded = uri[i] == '%' && i + 2 < uri.size() &&
+                          std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
     name += is_coded ? static_cast<char>(byte) : uri[i];
     if (is_coded) i += 2;
   }
@@ -188,7 +207,9 @@ bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   const Json& version = file.at(place);
   if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2")) return false;
   add_files(file, model);
-  const auto warn = [&model](const std::exception& error) { model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what())); };
+  const auto warn = [&model](const std::exception& error) {
+    model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what()));
+  };
   try {
     ViewReader(file, model).read();
   } catch (const Json::exception& error) {

@@ -31,13 +31,16 @@ std::string import_by_module(const std::string& path) {
   if (what.empty()) what = "\"" + path + "\"";
   auto* const import = function_of_module<tessera_import_function>(TESSERA_IMPORT_NAME, what);
   try {
-    return taken([&](auto* take, void* user, char* message, std::size_t size) { return import(path.c_str(), take, user, message, size); });
+    return taken([&](auto* take, void* user, char* message, std::size_t size) {
+      return import(path.c_str(), take, user, message, size);
+    });
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }
 }
 
-// Where files may be that a model's file names: a backslash mostly is a slash, and Blender's "//" is the folder of the model.
+// Where files may be that a model's file names: a backslash mostly is a slash, and Blender's "//" is the
+// folder of the model.
 std::vector<std::string> paths_of(const std::vector<std::string>& names, const fs::path& folder) {
   constexpr std::size_t kMostPaths = 100000, kLongestName = 4096;
   std::set<std::string> paths;
@@ -57,11 +60,15 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
   errno = 0;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw Error("cannot read \"" + path + "\": " + (error ? error.message() : std::strerror(ENOENT)));
-  if (!fs::is_regular_file(status)) throw Error("cannot read \"" + path + "\": it is " + (fs::is_directory(status) ? "a directory" : "no regular file") + ", expected a model");
+  if (!fs::exists(status))
+    throw Error("cannot read \"" + path + "\": " + (error ? error.message() : std::strerror(ENOENT)));
+  if (!fs::is_regular_file(status))
+    throw Error("cannot read \"" + path + "\": it is " +
+                (fs::is_directory(status) ? "a directory" : "no regular file") + ", expected a model");
   if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
   const auto read = [&] {
-    Model model = lower_case_ending(path) == ".obj" ? import_obj(path) : model_from_bytes(import_by_module(path), path);
+    Model model =
+        lower_case_ending(path) == ".obj" ? import_obj(path) : model_from_bytes(import_by_module(path), path);
     if (use == ModelUse::display) {
       if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
       wind_by_normals(model.mesh);
@@ -74,8 +81,11 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
 
 std::vector<std::string> model_endings() {
   const std::string list = run_in_child("listing the formats of models", {}, [] {
-    auto* const formats = function_of_module<tessera_import_formats_function>(TESSERA_IMPORT_FORMATS_NAME, "every other format");
-    return taken([&](auto* take, void* user, char* message, std::size_t size) { return formats(take, user, message, size); });
+    auto* const formats = function_of_module<tessera_import_formats_function>(TESSERA_IMPORT_FORMATS_NAME,
+                                                                              "every other format");
+    return taken([&](auto* take, void* user, char* message, std::size_t size) {
+      return formats(take, user, message, size);
+    });
   });
   std::vector<std::string> endings;
   std::istringstream stream(list);

@@ -1,4 +1,5 @@
-// The module libtessera_import: what sees assimp. It runs in a child process, where it may take what it likes.
+// The module libtessera_import: what sees assimp. It runs in a child process, where it may take what it
+// likes.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -7,10 +8,10 @@
 #include <new>
 #include <string>
 
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
+#include <assimp/Importer.hpp>
 
 #include "engine/import/assimp_model.h"
 #include "engine/import/gltf_view.h"
@@ -36,12 +37,15 @@ bool contains(const std::string& path, const std::string& word) {
 Model read(const std::string& path) {
   Assimp::Importer importer;
   const std::string ending = lower_case_ending(path);
-  if (ending.empty() || !importer.IsExtensionSupported(ending)) throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
+  if (ending.empty() || !importer.IsExtensionSupported(ending))
+    throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
-  const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  const aiScene* const scene = importer.ReadFile(
+      path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   if (scene == nullptr) refuse(importer.GetErrorString());
   Model view;
-  const bool is_gltf2 = (ending == ".gltf" || ending == ".glb") && add_gltf_view(path, view), is_collada = ending == ".dae" || ending == ".zae";
+  const bool is_gltf2 = (ending == ".gltf" || ending == ".glb") && add_gltf_view(path, view),
+             is_collada = ending == ".dae" || ending == ".zae";
   Model model = model_of(*scene, !is_gltf2, is_collada);
   importer.FreeScene();
   // assimp takes an orthographic camera of Collada for one of a few degrees.
@@ -71,7 +75,8 @@ std::string formats() {
 }
 
 template <class Work>
-int answer(const Work& work, tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
+int answer(const Work& work, tessera_import_take_function* take, void* user, char* message,
+           std::size_t message_size) {
   try {
     const std::string bytes = work();
     take(user, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
@@ -87,10 +92,13 @@ int answer(const Work& work, tessera_import_take_function* take, void* user, cha
 }  // namespace
 }  // namespace tessera
 
-extern "C" TESSERA_API int tessera_import_2(const char* path, tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
-  return tessera::answer([&] { return tessera::to_bytes(tessera::read(path)); }, take, user, message, message_size);
+extern "C" TESSERA_API int tessera_import_2(const char* path, tessera_import_take_function* take, void* user,
+                                            char* message, std::size_t message_size) {
+  return tessera::answer([&] { return tessera::to_bytes(tessera::read(path)); }, take, user, message,
+                         message_size);
 }
 
-extern "C" TESSERA_API int tessera_import_formats_1(tessera_import_take_function* take, void* user, char* message, std::size_t message_size) {
+extern "C" TESSERA_API int tessera_import_formats_1(tessera_import_take_function* take, void* user,
+                                                    char* message, std::size_t message_size) {
   return tessera::answer([] { return tessera::formats(); }, take, user, message, message_size);
 }

@@ -13,9 +13,12 @@ std::vector<MeshData> split_into_parts(Model model) {
     return meshes;
   }
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> new_index(model.mesh.vertex_count(), kUnused), used;  // used: those to forget after each part
-  const auto copy = [](const std::vector<float>& from, std::vector<float>& to, std::size_t vertex, std::size_t components) {
-    if (!from.empty()) to.insert(to.end(), &from[components * vertex], &from[components * vertex] + components);
+  std::vector<std::uint32_t> new_index(model.mesh.vertex_count(), kUnused),
+      used;  // used: those to forget after each part
+  const auto copy = [](const std::vector<float>& from, std::vector<float>& to, std::size_t vertex,
+                       std::size_t components) {
+    if (!from.empty())
+      to.insert(to.end(), &from[components * vertex], &from[components * vertex] + components);
   };
   for (const ModelPart& part : model.parts) {
     MeshData& mesh = meshes.emplace_back();

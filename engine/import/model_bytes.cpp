@@ -33,10 +33,8 @@ class Writer {
   std::string bytes;
 
   template <class T>
-    requires kIsPlain<T>
-  void operator()(const T& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
+  requires kIsPlain<T>
+  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
   void operator()(const std::string& text) { list(text); }
   template <class T>
   void operator()(const std::vector<T>& elements) {
@@ -66,10 +64,8 @@ class Reader {
   explicit Reader(const std::string& bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires kIsPlain<T>
-  void operator()(T& value) {
-    std::memcpy(&value, take(sizeof value), sizeof value);
-  }
+  requires kIsPlain<T>
+  void operator()(T& value) { std::memcpy(&value, take(sizeof value), sizeof value); }
   void operator()(bool& value) {
     const char byte = *take(1);
     if (byte != 0 && byte != 1) fail();
@@ -100,7 +96,9 @@ class Reader {
   template <class List>
   void list(List& elements) {
     elements.resize(count(sizeof(elements[0])));
-    if (!elements.empty()) std::memcpy(elements.data(), take(elements.size() * sizeof(elements[0])), elements.size() * sizeof(elements[0]));
+    if (!elements.empty())
+      std::memcpy(elements.data(), take(elements.size() * sizeof(elements[0])),
+                  elements.size() * sizeof(elements[0]));
   }
   std::size_t count(std::size_t element_bytes) {
     std::size_t size = 0;
@@ -133,7 +131,9 @@ void members(Stream& stream, Either<Light> auto& l) {
   for (auto* color : {&l.ambient, &l.diffuse, &l.specular}) members(stream, *color);
   for (auto& x : l.position) stream(x);
   for (auto& x : l.spot_direction) stream(x);
-  for (auto* x : {&l.spot_exponent, &l.spot_cutoff, &l.attenuation_constant, &l.attenuation_linear, &l.attenuation_quadratic}) stream(*x);
+  for (auto* x : {&l.spot_exponent, &l.spot_cutoff, &l.attenuation_constant, &l.attenuation_linear,
+                  &l.attenuation_quadratic})
+    stream(*x);
 }
 template <class Stream>
 void members(Stream& stream, Either<ModelCamera> auto& c) {
@@ -171,13 +171,19 @@ void members(Stream& stream, Either<Model> auto& model) {
 bool is_sound(const Model& model) {
   const MeshData& mesh = model.mesh;
   const std::size_t vertices = mesh.positions.size() / 3;
-  const auto fits = [&](const std::vector<float>& list, std::size_t components) { return list.empty() || list.size() == components * vertices; };
-  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) || !fits(mesh.colors, 4) || !fits(mesh.texcoords, 2)) return false;
+  const auto fits = [&](const std::vector<float>& list, std::size_t components) {
+    return list.empty() || list.size() == components * vertices;
+  };
+  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) ||
+      !fits(mesh.colors, 4) || !fits(mesh.texcoords, 2))
+    return false;
   for (const std::uint32_t index : mesh.indices)
     if (index >= vertices) return false;
   std::size_t next = 0;
   for (const ModelPart& part : model.parts) {
-    if (part.first_index != next || part.index_count % 3 != 0 || part.index_count > mesh.indices.size() - next) return false;
+    if (part.first_index != next || part.index_count % 3 != 0 ||
+        part.index_count > mesh.indices.size() - next)
+      return false;
     next += part.index_count;
   }
   return next == mesh.indices.size();

@@ -8,7 +8,8 @@
 namespace tessera {
 
 std::string to_bytes(const Model& model);
-/// @throws Error, naming the file, for bytes that no sound model becomes: they may come from a process that broke.
+/// @throws Error, naming the file, for bytes that no sound model becomes: they may come from a process that
+/// broke.
 Model model_from_bytes(const std::string& bytes, const std::string& path);
 
 }  // namespace tessera

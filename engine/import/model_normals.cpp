@@ -14,7 +14,8 @@ namespace {
 using Double3 = std::array<double, 3>;
 using Float3 = std::array<float, 3>;
 
-// Beyond that many triangles at one place, all of them are one surface: comparing each with each would take too long.
+// Beyond that many triangles at one place, all of them are one surface: comparing each with each would take
+// too long.
 constexpr std::size_t kMostCompared = 256;
 
 double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -26,7 +27,8 @@ Float3 float3(const std::vector<float>& from, std::uint32_t vertex) {
 
 // Twice the area long.
 Double3 face_normal(const MeshData& mesh, std::size_t first_index) {
-  const Float3 a = float3(mesh.positions, mesh.indices[first_index]), b = float3(mesh.positions, mesh.indices[first_index + 1]),
+  const Float3 a = float3(mesh.positions, mesh.indices[first_index]),
+               b = float3(mesh.positions, mesh.indices[first_index + 1]),
                c = float3(mesh.positions, mesh.indices[first_index + 2]);
   Double3 u, v;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -38,10 +40,14 @@ Double3 face_normal(const MeshData& mesh, std::size_t first_index) {
 
 Double3 unit(const Double3& n) {
   const double length = std::sqrt(dot(n, n));
-  return length > 0 && std::isfinite(length) ? Double3{n[0] / length, n[1] / length, n[2] / length} : Double3{};
+  return length > 0 && std::isfinite(length) ? Double3{n[0] / length, n[1] / length, n[2] / length}
+                                             : Double3{};
 }
 
-bool is_missing(const Float3& normal) { return !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0) || !std::isfinite(normal[0] + normal[1] + normal[2]); }
+bool is_missing(const Float3& normal) {
+  return !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0) ||
+         !std::isfinite(normal[0] + normal[1] + normal[2]);
+}
 
 // Corners that lie at one position stand together; positions that are no numbers come last.
 std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
@@ -77,13 +83,16 @@ class VertexSplitter {
 
  private:
   std::uint32_t copy_with(std::uint32_t vertex, const Float3& normal) {
-    const auto [entry, is_new] = copies_.try_emplace({vertex, normal}, static_cast<std::uint32_t>(mesh_.vertex_count()));
+    const auto [entry, is_new] =
+        copies_.try_emplace({vertex, normal}, static_cast<std::uint32_t>(mesh_.vertex_count()));
     if (is_new) {
       const Float3 p = float3(mesh_.positions, vertex);
       mesh_.positions.insert(mesh_.positions.end(), p.begin(), p.end());
       mesh_.normals.insert(mesh_.normals.end(), normal.begin(), normal.end());
-      for (std::size_t k = 0; k < 4 && !mesh_.colors.empty(); ++k) mesh_.colors.push_back(mesh_.colors[4 * std::size_t{vertex} + k]);
-      for (std::size_t k = 0; k < 2 && !mesh_.texcoords.empty(); ++k) mesh_.texcoords.push_back(mesh_.texcoords[2 * std::size_t{vertex} + k]);
+      for (std::size_t k = 0; k < 4 && !mesh_.colors.empty(); ++k)
+        mesh_.colors.push_back(mesh_.colors[4 * std::size_t{vertex} + k]);
+      for (std::size_t k = 0; k < 2 && !mesh_.texcoords.empty(); ++k)
+        mesh_.texcoords.push_back(mesh_.texcoords[2 * std::size_t{vertex} + k]);
     }
     return entry->second;
   }
@@ -98,18 +107,21 @@ class VertexSplitter {
 void add_creased_normals(MeshData& mesh, double crease_degrees) {
   mesh.normals.resize(mesh.positions.size());
   std::vector<bool> missing;
-  for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex) missing.push_back(is_missing(float3(mesh.normals, vertex)));
+  for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
+    missing.push_back(is_missing(float3(mesh.normals, vertex)));
   std::vector<Double3> normals, units;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     normals.push_back(face_normal(mesh, i));
     units.push_back(unit(normals.back()));
   }
-  const double least_cosine = sin_cos_degrees(crease_degrees).cosine - 1e-9;  // rounded positions: what is meant to be plane is
+  const double least_cosine =
+      sin_cos_degrees(crease_degrees).cosine - 1e-9;  // rounded positions: what is meant to be plane is
   const std::vector<std::uint32_t> corners = corners_by_position(mesh);
   VertexSplitter splitter(mesh);
   for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
     const Float3 here = float3(mesh.positions, mesh.indices[corners[first]]);
-    for (end = first + 1; end < corners.size() && float3(mesh.positions, mesh.indices[corners[end]]) == here;) ++end;
+    for (end = first + 1; end < corners.size() && float3(mesh.positions, mesh.indices[corners[end]]) == here;)
+      ++end;
     const auto mean = [&](auto belongs) {
       Double3 sum{};
       for (std::size_t j = first; j < end; ++j)
@@ -123,7 +135,10 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
     for (std::size_t i = first; i < end; ++i) {
       if (!missing[mesh.indices[corners[i]]]) continue;
       const Double3& own = units[corners[i] / 3];
-      splitter.set(corners[i], is_compared ? mean([&](std::uint32_t face) { return dot(units[face], own) >= least_cosine; }) : of_all);
+      splitter.set(corners[i], is_compared ? mean([&](std::uint32_t face) {
+                     return dot(units[face], own) >= least_cosine;
+                   })
+                                           : of_all);
     }
   }
 }

@@ -7,7 +7,8 @@
 
 namespace tessera {
 
-/// In this process; `files` are names, from the folder of the model. @throws Error, naming the file and where possible the line.
+/// In this process; `files` are names, from the folder of the model. @throws Error, naming the file and where
+/// possible the line.
 Model import_obj(const std::string& path);
 
 }  // namespace tessera

@@ -13,7 +13,8 @@ namespace {
 // The words of one line, and where it is.
 class Line {
  public:
-  Line(std::string_view text, const std::string& file, std::size_t number) : rest_(text), file_(file), number_(number) {}
+  Line(std::string_view text, const std::string& file, std::size_t number)
+      : rest_(text), file_(file), number_(number) {}
 
   /// The next word; empty at the end.
   std::string_view word() {
@@ -24,13 +25,16 @@ class Line {
     return word;
   }
 
-  [[noreturn]] void fail(const std::string& message) const { throw Error(file_ + ":" + std::to_string(number_) + ": " + message); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(file_ + ":" + std::to_string(number_) + ": " + message);
+  }
 
   void expect_numbers(std::string_view keyword, int count) {
     for (int i = 0; i < count; ++i) {
       std::string_view text = word();
       if (text.empty() || text.front() == '#')
-        fail("\"" + std::string(keyword) + "\" has " + std::to_string(i) + " numbers, needs " + std::to_string(count));
+        fail("\"" + std::string(keyword) + "\" has " + std::to_string(i) + " numbers, needs " +
+             std::to_string(count));
       const std::string found(text.substr(0, 40));
       if (text.front() == '+') text.remove_prefix(1);
       double x = 0;
@@ -67,7 +71,8 @@ struct Counts {
 std::int64_t index_of(std::string_view text, const Line& line) {
   std::int64_t index = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc{} || end != text.data() + text.size()) line.fail("found \"" + std::string(text.substr(0, 40)) + "\", expected an index");
+  if (error != std::errc{} || end != text.data() + text.size())
+    line.fail("found \"" + std::string(text.substr(0, 40)) + "\", expected an index");
   return index;
 }
 
@@ -75,20 +80,24 @@ std::int64_t index_of(std::string_view text, const Line& line) {
 void check_index(std::string_view text, std::int64_t count, const char* kind, const Line& line) {
   const std::int64_t index = index_of(text, line);
   if (index == 0 || index > count || index < -count)
-    line.fail("index " + std::to_string(index) + " out of bounds, there are " + std::to_string(count) + " " + kind + " before this line");
+    line.fail("index " + std::to_string(index) + " out of bounds, there are " + std::to_string(count) + " " +
+              kind + " before this line");
 }
 
 // It may be more than there are: then no texture coordinates are used.
 void check_texture_index(std::string_view text, const Line& line) {
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   const std::int64_t index = index_of(text, line);
-  if (index == 0 || index > kMost || index < -kMost) line.fail("texture index " + std::to_string(index) + " out of bounds");
+  if (index == 0 || index > kMost || index < -kMost)
+    line.fail("texture index " + std::to_string(index) + " out of bounds");
 }
 
 void check_face(Line& line, const Counts& counts) {
-  constexpr int kMostCorners = 1024;  // the time that it takes to cut a polygon into triangles grows with the square, or worse
+  constexpr int kMostCorners =
+      1024;  // the time that it takes to cut a polygon into triangles grows with the square, or worse
   int corners = 0;
-  for (std::string_view corner = line.word(); !corner.empty() && corner.front() != '#'; corner = line.word()) {
+  for (std::string_view corner = line.word(); !corner.empty() && corner.front() != '#';
+       corner = line.word()) {
     const std::size_t slash = corner.find('/');
     check_index(corner.substr(0, slash), counts.positions, "vertices", line);
     if (slash != corner.npos) {
@@ -99,7 +108,9 @@ void check_face(Line& line, const Counts& counts) {
     ++corners;
   }
   if (corners < 3) line.fail("a face has " + std::to_string(corners) + " corners, needs 3");
-  if (corners > kMostCorners) line.fail("a face has " + std::to_string(corners) + " corners, at most " + std::to_string(kMostCorners) + " are read");
+  if (corners > kMostCorners)
+    line.fail("a face has " + std::to_string(corners) + " corners, at most " + std::to_string(kMostCorners) +
+              " are read");
 }
 
 }  // namespace
@@ -131,7 +142,8 @@ std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, co
       material->texture |= keyword == "map_Kd";
       material->dissolve |= keyword == "d" || keyword == "Tr";
     }
-    if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke") line.expect_numbers(keyword, 3);
+    if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke")
+      line.expect_numbers(keyword, 3);
     if (keyword == "Ns" || keyword == "d") line.expect_numbers(keyword, 1);
   });
   return given;

@@ -55,7 +55,8 @@ bool begins_with_int(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
-  return error == std::errc{} && (rest.empty() || (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == rest.npos));
+  return error == std::errc{} &&
+         (rest.empty() || (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == rest.npos));
 }
 
 }  // namespace
@@ -73,7 +74,8 @@ std::string normalized_obj(const std::string& text) {
   });
 }
 
-std::string normalized_mtl(const std::string& text, const std::string& path, std::vector<std::string>& warnings) {
+std::string normalized_mtl(const std::string& text, const std::string& path,
+                           std::vector<std::string>& warnings) {
   std::string material;
   return edit_lines(text, [&](std::string_view keyword, std::string_view arguments) -> std::string {
     if (keyword == "newmtl") {
@@ -81,12 +83,14 @@ std::string normalized_mtl(const std::string& text, const std::string& path, std
       return named(keyword, arguments);
     }
     if (keyword == "illum" && !begins_with_int(arguments)) {
-      warnings.push_back(path + ": illum of material \"" + material + "\" is left out: found \"" + std::string(arguments.substr(0, 40)) + "\", expected an integer");
+      warnings.push_back(path + ": illum of material \"" + material + "\" is left out: found \"" +
+                         std::string(arguments.substr(0, 40)) + "\", expected an integer");
       return "#";
     }
     if (keyword != "Ka" && keyword != "Kd" && keyword != "Ks" && keyword != "Ke") return {};
     if (arguments.starts_with("spectral") || arguments.starts_with("xyz")) {
-      warnings.push_back(path + ": " + std::string(keyword) + " of material \"" + material + "\" is left out: only R G B is read");
+      warnings.push_back(path + ": " + std::string(keyword) + " of material \"" + material +
+                         "\" is left out: only R G B is read");
       return "#";
     }
     const bool is_grey = !arguments.empty() && arguments.find_first_of(" \t#") == arguments.npos;

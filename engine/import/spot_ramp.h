@@ -6,8 +6,8 @@
 
 namespace tessera {
 
-/// glTF's ramp, the square of (cos t - cos outer) / (cos inner - cos outer), is 1/2 at some angle t; cos(t)^exponent is too.
-/// Angles in radians. 0 where there is no such exponent.
+/// glTF's ramp, the square of (cos t - cos outer) / (cos inner - cos outer), is 1/2 at some angle t;
+/// cos(t)^exponent is too. Angles in radians. 0 where there is no such exponent.
 inline float exponent_of_ramp(double inner, double outer) {
   constexpr double kMostExponent = 16384;
   const double cosine = std::cos(outer) + std::sqrt(0.5) * (std::cos(inner) - std::cos(outer));

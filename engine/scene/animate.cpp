@@ -39,7 +39,9 @@ bool walk(Json& json, double time, const std::string& pointer, const std::string
     for (auto& [key, member] : json.items()) any |= walk(member, time, pointer + "/" + key, file);
   if (json.is_array())
     for (std::size_t i = 0; i < json.size(); ++i)
-      if (json[i].is_structured()) any |= walk(json[i], time, pointer + "/" + std::to_string(i), file);  // a long list of numbers costs no pointers
+      if (json[i].is_structured())
+        any |= walk(json[i], time, pointer + "/" + std::to_string(i),
+                    file);  // a long list of numbers costs no pointers
   return any;
 }
 

@@ -1,4 +1,5 @@
-// Numbers that change over time: {"keys": [[t, value], ...]}, linear in between, the first and last value before and after.
+// Numbers that change over time: {"keys": [[t, value], ...]}, linear in between, the first and last value
+// before and after.
 #pragma once
 
 #include "engine/scene/json_value.h"

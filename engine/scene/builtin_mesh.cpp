@@ -1,5 +1,5 @@
-// Sphere, torus, cube, cylinder, cone, quad and grid. Points on circles come from one table for each circle, so that a seam
-// has the very same coordinates on both sides.
+// Sphere, torus, cube, cylinder, cone, quad and grid. Points on circles come from one table for each circle,
+// so that a seam has the very same coordinates on both sides.
 #include "engine/scene/builtin_mesh.h"
 
 #include <algorithm>
@@ -24,7 +24,8 @@ class Circle {
     constexpr Point kQuarters[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};  // exact: a pole must be one point
     for (int i = 0; i < count; ++i) {
       const double angle = 2 * std::numbers::pi * i / count;
-      points_.push_back(4 * i % count == 0 ? kQuarters[4 * i / count] : Point{std::cos(angle), std::sin(angle)});
+      points_.push_back(4 * i % count == 0 ? kQuarters[4 * i / count]
+                                           : Point{std::cos(angle), std::sin(angle)});
     }
   }
   Point at(int i) const { return points_[static_cast<std::size_t>(i) % points_.size()]; }
@@ -64,10 +65,13 @@ MeshData torus(int n) {
 
 // A square of side 2 as n x n quads around `centre`, s along `right`, t along `up`, both unit vectors.
 void append_square(MeshData& mesh, int n, Vec3 centre, Vec3 right, Vec3 up) {
-  const Vec3 normal{right.y * up.z - right.z * up.y, right.z * up.x - right.x * up.z, right.x * up.y - right.y * up.x};
+  const Vec3 normal{right.y * up.z - right.z * up.y, right.z * up.x - right.x * up.z,
+                    right.x * up.y - right.y * up.x};
   append_patch(mesh, n, n, [&](int i, int j) {
     const double s = static_cast<double>(2 * i - n) / n, t = static_cast<double>(2 * j - n) / n;
-    return SurfacePoint{{centre.x + s * right.x + t * up.x, centre.y + s * right.y + t * up.y, centre.z + s * right.z + t * up.z}, normal};
+    return SurfacePoint{{centre.x + s * right.x + t * up.x, centre.y + s * right.y + t * up.y,
+                         centre.z + s * right.z + t * up.z},
+                        normal};
   });
 }
 
@@ -91,20 +95,24 @@ MeshData grid(int n) {
 // A disc at height y; its triangles share the centre. Seen from its own side s runs counter-clockwise.
 void append_cap(MeshData& mesh, const Circle& circle, int around, double y, bool faces_up) {
   append_patch(mesh, around, 1, [&](int i, int j) {
-    return SurfacePoint{circle.around_y(faces_up ? i : around - i, 1.0 - j, y), {0, faces_up ? 1.0 : -1.0, 0}};
+    return SurfacePoint{circle.around_y(faces_up ? i : around - i, 1.0 - j, y),
+                        {0, faces_up ? 1.0 : -1.0, 0}};
   });
 }
 
 MeshData cylinder(int n) {
   MeshData mesh;
   const Circle circle(2 * n);
-  append_patch(mesh, 2 * n, 1, [&](int i, int j) { return SurfacePoint{circle.around_y(i, 1, 2 * j - 1), circle.around_y(i, 1, 0)}; });
+  append_patch(mesh, 2 * n, 1, [&](int i, int j) {
+    return SurfacePoint{circle.around_y(i, 1, 2 * j - 1), circle.around_y(i, 1, 0)};
+  });
   append_cap(mesh, circle, 2 * n, 1, true);
   append_cap(mesh, circle, 2 * n, -1, false);
   return mesh;
 }
 
-// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps a normal of its own.
+// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps a
+// normal of its own.
 MeshData cone(int n) {
   MeshData mesh;
   const Circle circle(2 * n);
@@ -125,8 +133,8 @@ MeshData builtin_mesh(std::string_view name, int detail) {
   if (std::find(kBuiltinMeshNames.begin(), kBuiltinMeshNames.end(), name) == kBuiltinMeshNames.end())
     throw Error("there is no built-in mesh \"" + text + "\"");
   if (detail < least_mesh_detail(name) || detail > kMaxMeshDetail)
-    throw Error("detail of a built-in " + text + " is " + std::to_string(detail) + ", must be " + std::to_string(least_mesh_detail(name)) +
-                " .. " + std::to_string(kMaxMeshDetail));
+    throw Error("detail of a built-in " + text + " is " + std::to_string(detail) + ", must be " +
+                std::to_string(least_mesh_detail(name)) + " .. " + std::to_string(kMaxMeshDetail));
 
   MeshData mesh = name == "teapot"     ? teapot_mesh(detail)
                   : name == "sphere"   ? sphere(detail)

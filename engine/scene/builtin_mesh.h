@@ -1,4 +1,5 @@
-// The built-in meshes of the scene format: y up, wound counter-clockwise seen from outside, with outward unit normals.
+// The built-in meshes of the scene format: y up, wound counter-clockwise seen from outside, with outward unit
+// normals.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@ namespace tessera {
 inline constexpr int kMaxMeshDetail = 1024;
 inline constexpr int kDefaultMeshDetail = 16;
 
-inline constexpr std::array<std::string_view, 8> kBuiltinMeshNames{"teapot", "sphere", "torus", "cube", "cylinder", "cone", "quad", "grid"};
+inline constexpr std::array<std::string_view, 8> kBuiltinMeshNames{"teapot",   "sphere", "torus", "cube",
+                                                                   "cylinder", "cone",   "quad",  "grid"};
 
 /// @param name    one of kBuiltinMeshNames
 /// @param detail  subdivisions: least_mesh_detail(name) .. kMaxMeshDetail
@@ -22,7 +24,8 @@ MeshData builtin_mesh(std::string_view name, int detail = kDefaultMeshDetail);
 /// A sphere or a torus needs 2: with 1 no triangle of it has an area.
 int least_mesh_detail(std::string_view name);
 
-/// Martin Newell's teapot at detail x detail quads a patch, centred in the bounds of its vertices; the longest side spans -1..1.
+/// Martin Newell's teapot at detail x detail quads a patch, centred in the bounds of its vertices; the
+/// longest side spans -1..1.
 MeshData teapot_mesh(int detail);
 
 }  // namespace tessera

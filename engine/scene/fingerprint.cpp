@@ -7,7 +7,9 @@
 
 namespace tessera {
 
-std::size_t pixel_count(const FrameBuffer& buffer) { return static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height); }
+std::size_t pixel_count(const FrameBuffer& buffer) {
+  return static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
+}
 
 std::vector<std::uint32_t> color_words(const FrameBuffer& buffer) {
   std::vector<std::uint32_t> words(pixel_count(buffer));
@@ -47,7 +49,8 @@ std::uint64_t hash_of(const PlaneView& plane) {
 }
 
 std::ostream& operator<<(std::ostream& out, const Fingerprint& f) {
-  out << std::hex << "colour " << f.color << ", depth " << f.depth << ", stencil " << f.stencil << ", accumulation " << f.accumulation << ", planes";
+  out << std::hex << "colour " << f.color << ", depth " << f.depth << ", stencil " << f.stencil
+      << ", accumulation " << f.accumulation << ", planes";
   for (const std::uint64_t plane : f.planes) out << ' ' << (plane & 0xffff);
   return out << std::dec;
 }
@@ -60,7 +63,8 @@ Fingerprint fingerprint(const FrameBuffer& buffer) {
     if (buffer.plane_count(which) == 0) return 0;
     try {
       Hash hash;
-      for (const auto value : values()) hash.add(std::bit_cast<std::conditional_t<sizeof value == 1, std::uint8_t, std::uint32_t>>(value));
+      for (const auto value : values())
+        hash.add(std::bit_cast<std::conditional_t<sizeof value == 1, std::uint8_t, std::uint32_t>>(value));
       return hash.value();
     } catch (const Error&) {
       return 1;
@@ -69,7 +73,8 @@ Fingerprint fingerprint(const FrameBuffer& buffer) {
   f.stencil = value_hash(Buffer::stencil, [&] { return stencil_values(buffer); });
   f.accumulation = value_hash(Buffer::accumulation, [&] { return accumulated_values(buffer); });
   for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation})
-    if ((which != Buffer::stencil || f.stencil != 1) && (which != Buffer::accumulation || f.accumulation != 1))
+    if ((which != Buffer::stencil || f.stencil != 1) &&
+        (which != Buffer::accumulation || f.accumulation != 1))
       for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
   return f;
 }

@@ -32,7 +32,8 @@ class Hash {
 std::uint64_t hash_of(std::span<const std::uint32_t> words);
 std::uint64_t hash_of(const PlaneView& plane);
 
-/// What a frame left behind. 0 stands for a buffer that there is none of, 1 for one that was not kept. Alpha stands in the colour.
+/// What a frame left behind. 0 stands for a buffer that there is none of, 1 for one that was not kept. Alpha
+/// stands in the colour.
 struct Fingerprint {
   std::uint64_t color = 0, depth = 0, stencil = 0, accumulation = 0;
   std::vector<std::uint64_t> planes;  ///< of colour, then of depth, of stencil and of accumulation

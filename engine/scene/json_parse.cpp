@@ -1,5 +1,6 @@
-// The library's parser, and values made of what it says. It would let a second key of the same name win in silence, look at all keys of an object
-// before each new one, and, where its own callback watches, at all elements of a list after each object in it.
+// The library's parser, and values made of what it says. It would let a second key of the same name win in
+// silence, look at all keys of an object before each new one, and, where its own callback watches, at all
+// elements of a list after each object in it.
 #include <set>
 
 #include "engine/scene/json_value.h"
@@ -7,7 +8,8 @@
 namespace tessera::json {
 namespace {
 
-// Follows the parser through the file and knows the pointer of where it is. What the parser calls returns true: it shall go on.
+// Follows the parser through the file and knows the pointer of where it is. What the parser calls returns
+// true: it shall go on.
 class Reader {
  public:
   Reader(const std::string& file, Json& whole) : file_(file), whole_(whole) {}
@@ -24,14 +26,18 @@ class Reader {
   bool key(std::string& name) {
     Level& object = levels_.back();
     object.key = name;
-    if (!object.keys.insert(name).second) throw Error(file_ + ": " + pointer() + ": the key \"" + name + "\" occurs twice in one object");
+    if (!object.keys.insert(name).second)
+      throw Error(file_ + ": " + pointer() + ": the key \"" + name + "\" occurs twice in one object");
     return true;
   }
   bool end_object() {
     Json object(Json::value_t::object);
     auto& members = object.get_ref<Json::object_t&>();
-    members.reserve(levels_.back().members.size());  // its keys are constant: to grow, it would copy them with all that is in them
-    for (Member& member : levels_.back().members) members.emplace_back(std::move(member.key), std::move(member.value));
+    members.reserve(
+        levels_.back()
+            .members.size());  // its keys are constant: to grow, it would copy them with all that is in them
+    for (Member& member : levels_.back().members)
+      members.emplace_back(std::move(member.key), std::move(member.value));
     return close(std::move(object));
   }
   bool end_array() {
@@ -48,7 +54,8 @@ class Reader {
   std::string pointer() const {
     std::string text;
     for (const Level& level : levels_)
-      if (level.is_array || !level.key.empty()) text += "/" + (level.is_array ? std::to_string(level.elements.size()) : level.key);
+      if (level.is_array || !level.key.empty())
+        text += "/" + (level.is_array ? std::to_string(level.elements.size()) : level.key);
     return text.empty() ? "(top level)" : text;
   }
 
@@ -67,7 +74,8 @@ class Reader {
 
   bool open(bool is_array) {
     constexpr std::size_t kDeepest = 64;
-    if (levels_.size() == kDeepest) throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
+    if (levels_.size() == kDeepest)
+      throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
     levels_.emplace_back();
     levels_.back().is_array = is_array;
     return true;
@@ -79,12 +87,9 @@ class Reader {
   }
 
   bool put(Json value) {
-    if (levels_.empty())
-      whole_ = std::move(value);
-    else if (levels_.back().is_array)
-      levels_.back().elements.push_back(std::move(value));
-    else
-      levels_.back().members.push_back(Member{levels_.back().key, std::move(value)});
+    if (levels_.empty()) whole_ = std::move(value);
+    else if (levels_.back().is_array) levels_.back().elements.push_back(std::move(value));
+    else levels_.back().members.push_back(Member{levels_.back().key, std::move(value)});
     return true;
   }
 
@@ -99,12 +104,14 @@ Json parse(std::string_view text, const std::string& file) {
   Json whole;
   Reader reader(file, whole);
   try {
-    Json::sax_parse(text.begin(), text.end(), &reader, Json::input_format_t::json, /*strict=*/true, /*ignore_comments=*/true);
+    Json::sax_parse(text.begin(), text.end(), &reader, Json::input_format_t::json, /*strict=*/true,
+                    /*ignore_comments=*/true);
     return whole;
   } catch (const Json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while ..."
     std::string message = error.what();
-    if (const std::size_t bracket = message.find("] "); bracket != std::string::npos) message.erase(0, bracket + 2);
+    if (const std::size_t bracket = message.find("] "); bracket != std::string::npos)
+      message.erase(0, bracket + 2);
     constexpr std::string_view kPrefix = "parse error at ";
     if (message.starts_with(kPrefix)) throw Error(file + ": " + message.substr(kPrefix.size()));
     throw Error(file + ": " + reader.pointer() + ": " + message);

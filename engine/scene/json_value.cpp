@@ -21,7 +21,9 @@ std::string description(const Json& json) {
   return text;
 }
 
-std::string short_number(double x) { return Json(x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<std::int64_t>(x)) : Json(x)).dump(); }
+std::string short_number(double x) {
+  return Json(x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<std::int64_t>(x)) : Json(x)).dump();
+}
 
 }  // namespace
 
@@ -37,7 +39,9 @@ std::string Value::pointer_to(const std::string& key) const {
   return pointer;
 }
 
-void Value::fail(std::string_view expected) const { refuse("found " + description(*json_) + ", expected " + std::string(expected)); }
+void Value::fail(std::string_view expected) const {
+  refuse("found " + description(*json_) + ", expected " + std::string(expected));
+}
 
 void Value::refuse(std::string_view message) const {
   throw Error(*file_ + ": " + (pointer_.empty() ? "(top level)" : pointer_) + ": " + std::string(message));
@@ -105,29 +109,36 @@ Color Value::color() const {
 
 Color Value::color(double least, double most) const {
   expect_numbers(4);
-  return {element(0).real(least, most), element(1).real(least, most), element(2).real(least, most), element(3).real(least, most)};
+  return {element(0).real(least, most), element(1).real(least, most), element(2).real(least, most),
+          element(3).real(least, most)};
 }
 
 Matrix Value::matrix() const { return {numbers<16>()}; }
 
 Rect Value::rect() const {
-  constexpr std::int64_t kFarthest = 1 << 20;  // well beyond any buffer; keeps sums of corner and size in range
+  constexpr std::int64_t kFarthest = 1
+                                     << 20;  // well beyond any buffer; keeps sums of corner and size in range
   if (!json_->is_array() || json_->size() != 4) fail("[x, y, width, height]");
-  const auto at = [&](std::size_t i, std::int64_t least) { return static_cast<int>(element(i).integer(least, kFarthest)); };
+  const auto at = [&](std::size_t i, std::int64_t least) {
+    return static_cast<int>(element(i).integer(least, kFarthest));
+  };
   return {at(0, -kFarthest), at(1, -kFarthest), at(2, 0), at(3, 0)};
 }
 
-void Value::refuse_choice(const std::vector<std::string_view>& names, std::span<const std::string_view> unsupported) const {
+void Value::refuse_choice(const std::vector<std::string_view>& names,
+                          std::span<const std::string_view> unsupported) const {
   std::vector<std::string_view> all = names;
   all.insert(all.end(), unsupported.begin(), unsupported.end());
   const std::string expected = (names.size() == 1 ? "" : "one of ") + quoted_list(names);
   if (!json_->is_string()) fail(expected);
   const std::string& typed = text();
-  if (std::find(unsupported.begin(), unsupported.end(), typed) != unsupported.end()) refuse_unsupported("\"" + typed + "\"");
+  if (std::find(unsupported.begin(), unsupported.end(), typed) != unsupported.end())
+    refuse_unsupported("\"" + typed + "\"");
   fail(expected + did_you_mean(typed, all));
 }
 
-Object::Object(const Value& value, std::initializer_list<std::string_view> keys, std::initializer_list<std::string_view> unsupported)
+Object::Object(const Value& value, std::initializer_list<std::string_view> keys,
+               std::initializer_list<std::string_view> unsupported)
     : value_(value) {
   if (!value.json().is_object()) value.fail("an object");
   std::vector<std::string_view> all(keys);
@@ -135,7 +146,8 @@ Object::Object(const Value& value, std::initializer_list<std::string_view> keys,
   for (const auto& [key, unused] : value.json().items()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const Value member = value.member(key);
-    if (std::find(unsupported.begin(), unsupported.end(), key) != unsupported.end()) member.refuse_unsupported();
+    if (std::find(unsupported.begin(), unsupported.end(), key) != unsupported.end())
+      member.refuse_unsupported();
     const std::string suggestion = did_you_mean(key, all);
     const std::string known = (keys.size() == 1 ? ", expected " : ", expected one of ") + quoted_list(keys);
     member.refuse("unknown key \"" + key + "\"" + (suggestion.empty() ? known : suggestion));
@@ -155,7 +167,8 @@ Value Object::require(const std::string& key) const {
 void Object::only_default(const std::string& key, const Json& standard, const Json& others) const {
   const std::optional<Value> found = find(key);
   if (!found || found->json() == standard) return;
-  const bool known = others.empty() ? found->json().type() == standard.type() || (found->json().is_number() && standard.is_number())
+  const bool known = others.empty() ? found->json().type() == standard.type() ||
+                                          (found->json().is_number() && standard.is_number())
                                     : std::find(others.begin(), others.end(), found->json()) != others.end();
   if (known) found->refuse_unsupported(description(found->json()));
   std::string list = standard.dump();

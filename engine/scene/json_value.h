@@ -1,5 +1,5 @@
-// Strict, typed reading of JSON. A Value knows where it stands in which file, so that whatever is wrong with it can be told
-// as one Error: file, JSON pointer, what was found, what was expected.
+// Strict, typed reading of JSON. A Value knows where it stands in which file, so that whatever is wrong with
+// it can be told as one Error: file, JSON pointer, what was found, what was expected.
 #pragma once
 
 #include <array>
@@ -20,13 +20,14 @@ namespace tessera::json {
 
 using Json = nlohmann::ordered_json;  // keeps the order of the file: meshes are drawn in it
 
-/// Parses JSON with comments. Throws Error, with line and column, for bad syntax; with the pointer for a key that occurs twice
-/// in one object; and for nesting beyond 64 levels.
+/// Parses JSON with comments. Throws Error, with line and column, for bad syntax; with the pointer for a key
+/// that occurs twice in one object; and for nesting beyond 64 levels.
 Json parse(std::string_view text, const std::string& file);
 
 class Value {
  public:
-  Value(const Json& json, std::string pointer, const std::string& file) : json_(&json), pointer_(std::move(pointer)), file_(&file) {}
+  Value(const Json& json, std::string pointer, const std::string& file)
+      : json_(&json), pointer_(std::move(pointer)), file_(&file) {}
 
   const Json& json() const { return *json_; }
   const std::string& pointer() const { return pointer_; }
@@ -34,7 +35,8 @@ class Value {
   Value element(std::size_t i) const { return {(*json_)[i], pointer_ + "/" + std::to_string(i), *file_}; }
   /// The member must exist.
   Value member(const std::string& key) const { return {json_->at(key), pointer_to(key), *file_}; }
-  /// Calls take(key, value) for each member of an object whose keys are names that the file chose, in its order.
+  /// Calls take(key, value) for each member of an object whose keys are names that the file chose, in its
+  /// order.
   template <class Take>
   void for_each_member(const Take& take) const {
     if (!json_->is_object()) fail("an object");
@@ -50,7 +52,7 @@ class Value {
 
   double number() const;
   double number(double least, double most) const;
-  float real() const;                                        ///< a number that a float can hold
+  float real() const;  ///< a number that a float can hold
   float real(double least, double most) const { return static_cast<float>(number(least, most)); }
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
   bool boolean() const;
@@ -66,14 +68,15 @@ class Value {
     return result;
   }
   Vec3 vec3() const;
-  Color color() const;                                       ///< any four numbers that floats can hold
+  Color color() const;  ///< any four numbers that floats can hold
   Color color(double least, double most) const;
   Matrix matrix() const;
-  Rect rect() const;                                         ///< four integers, width and height not negative
+  Rect rect() const;  ///< four integers, width and height not negative
 
   /// One of a list of names. Those of `unsupported` exist in the format, but not in this version.
   template <class Enum>
-  Enum choice(std::initializer_list<std::pair<std::string_view, Enum>> names, std::initializer_list<std::string_view> unsupported = {}) const {
+  Enum choice(std::initializer_list<std::pair<std::string_view, Enum>> names,
+              std::initializer_list<std::string_view> unsupported = {}) const {
     std::vector<std::string_view> all;
     for (const auto& [name, value] : names) {
       if (json_->is_string() && name == json_->get_ref<const std::string&>()) return value;
@@ -97,7 +100,8 @@ class Value {
  private:
   std::string pointer_to(const std::string& key) const;  // escaped as RFC 6901 asks
   void expect_numbers(std::size_t count) const;
-  [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names, std::span<const std::string_view> unsupported) const;
+  [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names,
+                                  std::span<const std::string_view> unsupported) const;
 
   const Json* json_;
   std::string pointer_;
@@ -107,14 +111,17 @@ class Value {
 /// The members of an object.
 class Object {
  public:
-  /// Throws Error for a value that is no object, for an unknown key, and for a key of the format that this version refuses.
-  Object(const Value& value, std::initializer_list<std::string_view> keys, std::initializer_list<std::string_view> unsupported = {});
+  /// Throws Error for a value that is no object, for an unknown key, and for a key of the format that this
+  /// version refuses.
+  Object(const Value& value, std::initializer_list<std::string_view> keys,
+         std::initializer_list<std::string_view> unsupported = {});
 
   const Value& value() const { return value_; }
   bool has(const std::string& key) const { return value_.json().contains(key); }
   std::optional<Value> find(const std::string& key) const;
   Value require(const std::string& key) const;
-  /// A key that may only hold its default in this version. `others` are the remaining values of the format, if it lists them.
+  /// A key that may only hold its default in this version. `others` are the remaining values of the format,
+  /// if it lists them.
   void only_default(const std::string& key, const Json& standard, const Json& others = Json::array()) const;
 
  private:

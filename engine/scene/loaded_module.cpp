@@ -18,12 +18,14 @@ void* load_module(const char* file_name, const std::string& wanted_for, const ch
     if (void* module = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
     reason = ::dlerror();
   }
-  throw Error(wanted_for + " needs the module " + file_name + ", which could not be loaded (" + reason + "); " + otherwise);
+  throw Error(wanted_for + " needs the module " + file_name + ", which could not be loaded (" + reason +
+              "); " + otherwise);
 }
 
 void* function_of(void* module, const char* file_name, const char* name) {
   void* const function = ::dlsym(module, name);
-  if (function == nullptr) throw Error(std::string("the module ") + file_name + " is of another version: it has no " + name);
+  if (function == nullptr)
+    throw Error(std::string("the module ") + file_name + " is of another version: it has no " + name);
   return function;
 }
 

@@ -12,15 +12,17 @@
 
 namespace tessera {
 
-/// A module's handle: looked for beside the running program, in ../lib from there, and where the system looks for libraries.
-/// It stays loaded. @throws Error "<wanted_for> needs the module <file_name>, ...; <otherwise>" where it is missing.
+/// A module's handle: looked for beside the running program, in ../lib from there, and where the system looks
+/// for libraries. It stays loaded. @throws Error "<wanted_for> needs the module <file_name>, ...;
+/// <otherwise>" where it is missing.
 void* load_module(const char* file_name, const std::string& wanted_for, const char* otherwise);
 
 /// @throws Error for a module of another version.
 void* function_of(void* module, const char* file_name, const char* name);
 
-/// Functions of modules hand out bytes by take(user, bytes, count), and return 0, or 1 and a reason, or 2: not enough memory.
-/// Runs call(take, user, message, message size) and returns what it took. @throws Error with the reason, in one line; std::bad_alloc.
+/// Functions of modules hand out bytes by take(user, bytes, count), and return 0, or 1 and a reason, or 2:
+/// not enough memory. Runs call(take, user, message, message size) and returns what it took. @throws Error
+/// with the reason, in one line; std::bad_alloc.
 template <class Call>
 std::string taken(const Call& call) {
   struct Taken {

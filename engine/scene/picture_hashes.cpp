@@ -36,8 +36,11 @@ PictureHashes parse_picture_hashes(std::string_view text, const std::string& fil
     std::string_view name = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     PictureHash hash;
-    const auto fail = [&](const std::string& message) { throw Error(file + ":" + std::to_string(number) + ": " + message); };
-    const bool taken = take_hash(name, hash.accumulation) && take_hash(name, hash.stencil) && take_hash(name, hash.depth) && take_hash(name, hash.color);
+    const auto fail = [&](const std::string& message) {
+      throw Error(file + ":" + std::to_string(number) + ": " + message);
+    };
+    const bool taken = take_hash(name, hash.accumulation) && take_hash(name, hash.stencil) &&
+                       take_hash(name, hash.depth) && take_hash(name, hash.color);
     if (!taken || name.empty() || name.find(' ') != std::string_view::npos)
       fail("expected a scene's name and four hashes of 16 hexadecimal digits, one blank between");
     if (!hashes.emplace(name, hash).second) fail("\"" + std::string(name) + "\" occurs twice");

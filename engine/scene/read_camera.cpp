@@ -46,7 +46,8 @@ void read_planes(const Value& value, bool is_orthographic, SceneCamera& camera) 
   const Value far_value = object.require("far");
   const double far = read_far(far_value);
   if (is_orthographic && far == kInfinity) far_value.fail("a number: an orthographic volume is finite");
-  const double left = number("left"), right = number("right"), bottom = number("bottom"), top = number("top"), near = number("near");
+  const double left = number("left"), right = number("right"), bottom = number("bottom"), top = number("top"),
+               near = number("near");
   camera.projection = value.checked([&] {
     return is_orthographic ? orthographic(left, right, bottom, top, near, far, camera.reversed)
                            : frustum(left, right, bottom, top, near, far, camera.reversed);
@@ -62,10 +63,8 @@ void read_projection(const Value& value, SceneCamera& camera) {
                                                             {"orthographic", Type::orthographic},
                                                             {"frustum", Type::frustum}});
   if (const auto reversed = object.find("reversed")) camera.reversed = reversed->boolean();
-  if (type == Type::perspective)
-    read_perspective(value, camera);
-  else
-    read_planes(value, type == Type::orthographic, camera);
+  if (type == Type::perspective) read_perspective(value, camera);
+  else read_planes(value, type == Type::orthographic, camera);
 }
 
 }  // namespace
@@ -81,18 +80,23 @@ SceneCamera read_camera(const Value& value) {
     return camera;
   }
   const auto projection = object.find("projection");
-  if (const auto reversed = object.find("reversed")) reversed->refuse("\"reversed\" stands in \"projection\", or beside view and projection matrices");
-  if (projection && projection->json().is_array()) value.refuse("a projection matrix needs a \"view\" matrix beside it");
+  if (const auto reversed = object.find("reversed"))
+    reversed->refuse("\"reversed\" stands in \"projection\", or beside view and projection matrices");
+  if (projection && projection->json().is_array())
+    value.refuse("a projection matrix needs a \"view\" matrix beside it");
   const auto vector = [&](const char* key, Vec3 standard) {
     const auto found = object.find(key);
     return found ? found->vec3() : standard;
   };
-  const Vec3 eye = vector("eye", {0, 0, 4}), target = vector("target", {0, 0, 0}), up = vector("up", {0, 1, 0});
+  const Vec3 eye = vector("eye", {0, 0, 4}), target = vector("target", {0, 0, 0}),
+             up = vector("up", {0, 1, 0});
   camera.view = value.checked([&] { return look_at(eye, target, up); });
   if (projection) read_projection(*projection, camera);
   return camera;
 }
 
-SceneCamera default_camera() { return {.view = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}), .projection = Lens{}}; }
+SceneCamera default_camera() {
+  return {.view = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}), .projection = Lens{}};
+}
 
 }  // namespace tessera

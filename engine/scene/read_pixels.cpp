@@ -21,7 +21,8 @@ double read_raster_depth(const Object& object) {
   const auto depth = object.find("depth");
   if (!depth) return 0;
   if (depth->json().is_number()) return depth->number(0, 1);
-  if (!depth->json().is_object() && depth->json() != json::Json(false)) depth->fail("a number from 0 to 1, false or an object");
+  if (!depth->json().is_object() && depth->json() != json::Json(false))
+    depth->fail("a number from 0 to 1, false or an object");
   return 0;
 }
 
@@ -38,8 +39,10 @@ FragmentState read_state(const Object& object, const Scene& scene) {
           .scissor = s.scissor};
 }
 
-std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder, ModelCache& cache) {
-  const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
+std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder,
+                                               ModelCache& cache) {
+  const std::filesystem::path path =
+      std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
   cache.files.insert(path.string());
   auto picture = cache.pictures.find(path.string());
   if (picture == cache.pictures.end()) {
@@ -52,7 +55,12 @@ std::shared_ptr<const Picture> read_image_file(const Value& file, const std::str
   return picture->second;
 }
 
-int hexadecimal_digit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; }
+int hexadecimal_digit(char c) {
+  return c >= '0' && c <= '9'   ? c - '0'
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                : -1;
+}
 
 }  // namespace
 
@@ -69,8 +77,9 @@ void read_hexadecimal_row(const Value& value, std::size_t bytes, std::vector<std
 }
 
 BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
-  const Object object(value, {"at", "depth", "width", "height", "rows", "color",  //
-                              "color_mask", "plane_mask", "scissor", "alpha_test", "stencil", "blend", "logic_op"});
+  const Object object(value,
+                      {"at", "depth", "width", "height", "rows", "color",  //
+                       "color_mask", "plane_mask", "scissor", "alpha_test", "stencil", "blend", "logic_op"});
   BitmapCommand command;
   Bitmap& bitmap = command.bitmap;
   const auto [x, y] = read_two(object.require("at"));
@@ -80,15 +89,18 @@ BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
   const Value rows = object.require("rows");
   if (!rows.json().is_array() || rows.size() != static_cast<std::size_t>(bitmap.height))
     rows.fail("one row for each of the bitmap's " + std::to_string(bitmap.height));
-  for (std::size_t i = 0; i < rows.size(); ++i) read_hexadecimal_row(rows.element(i), (static_cast<std::size_t>(bitmap.width) + 7) / 8, command.bits);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    read_hexadecimal_row(rows.element(i), (static_cast<std::size_t>(bitmap.width) + 7) / 8, command.bits);
   bitmap.depth = read_raster_depth(object);
   if (const auto color = object.find("color")) bitmap.color = color->color();
   command.state = read_state(object, scene);
   return command;
 }
 
-ImageCommand read_image(const Value& value, const Scene& scene, const std::string& base_folder, ModelCache& cache) {
-  const Object object(value, {"at", "depth", "file", "zoom", "color_mask", "plane_mask", "scissor", "alpha_test", "stencil", "blend", "logic_op"});
+ImageCommand read_image(const Value& value, const Scene& scene, const std::string& base_folder,
+                        ModelCache& cache) {
+  const Object object(value, {"at", "depth", "file", "zoom", "color_mask", "plane_mask", "scissor",
+                              "alpha_test", "stencil", "blend", "logic_op"});
   ImageCommand command;
   PixelImage& image = command.image;
   const auto [x, y] = read_two(object.require("at"));

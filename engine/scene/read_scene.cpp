@@ -1,6 +1,7 @@
-// The top level of a scene file: frame buffer, light model, lights, materials. The other parts have files of their own.
-#include "engine/scene/animate.h"
+// The top level of a scene file: frame buffer, light model, lights, materials. The other parts have files of
+// their own.
 #include "engine/scene/read_scene.h"
+#include "engine/scene/animate.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,55 +20,77 @@ void read_palette(const Value& value, Scene& scene) {
   FrameBufferFormat& format = scene.framebuffer;
   if (value.json().is_string()) {
     scene.palette_name = value.choice<std::string>(
-        {{"bw", "bw"}, {"gray", "gray"}, {"ega16", "ega16"}, {"vga256", "vga256"}, {"web216", "web216"}}, {"adaptive"});
+        {{"bw", "bw"}, {"gray", "gray"}, {"ega16", "ega16"}, {"vga256", "vga256"}, {"web216", "web216"}},
+        {"adaptive"});
     format.palette = value.checked([&] { return named_palette(scene.palette_name, format.color_bits); });
     return;
   }
   const std::size_t most = std::size_t{1} << format.color_bits;
   if (!value.json().is_array()) value.fail("the name of a palette or a list of [r, g, b]");
-  if (value.size() == 0 || value.size() > most) value.fail("1 to " + std::to_string(most) + " entries for " + std::to_string(format.color_bits) + " bits");
+  if (value.size() == 0 || value.size() > most)
+    value.fail("1 to " + std::to_string(most) + " entries for " + std::to_string(format.color_bits) +
+               " bits");
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value entry = value.element(i);
     if (!entry.json().is_array() || entry.size() != 3) entry.fail("[r, g, b]");
-    format.palette.push_back({entry.element(0).real(0, 1), entry.element(1).real(0, 1), entry.element(2).real(0, 1), 1});
+    format.palette.push_back(
+        {entry.element(0).real(0, 1), entry.element(1).real(0, 1), entry.element(2).real(0, 1), 1});
   }
 }
 
 void read_framebuffer(const Value& value, Scene& scene) {
-  const Object object(value, {"width", "height", "color", "palette", "dither", "alpha", "depth", "stencil", "accumulation", "samples"});
+  const Object object(value, {"width", "height", "color", "palette", "dither", "alpha", "depth", "stencil",
+                              "accumulation", "samples"});
   FrameBufferFormat& format = scene.framebuffer;
-  if (const auto width = object.find("width")) format.width = static_cast<int>(width->integer(1, kMaxFrameBufferSize));
-  if (const auto height = object.find("height")) format.height = static_cast<int>(height->integer(1, kMaxFrameBufferSize));
+  if (const auto width = object.find("width"))
+    format.width = static_cast<int>(width->integer(1, kMaxFrameBufferSize));
+  if (const auto height = object.find("height"))
+    format.height = static_cast<int>(height->integer(1, kMaxFrameBufferSize));
   if (const auto color = object.find("color")) {
     const Object parts(*color, {"mode", "bits"});
-    if (const auto mode = parts.find("mode")) format.color_mode = mode->choice<ColorMode>({{"rgb", ColorMode::rgb}, {"index", ColorMode::index}});
+    if (const auto mode = parts.find("mode"))
+      format.color_mode = mode->choice<ColorMode>({{"rgb", ColorMode::rgb}, {"index", ColorMode::index}});
     if (const auto bits = parts.find("bits")) format.color_bits = static_cast<int>(bits->integer(1, 24));
   }
   if (const auto palette = object.find("palette")) {
-    if (format.color_mode != ColorMode::index) palette->refuse("a palette needs \"color\": {\"mode\": \"index\"}");
+    if (format.color_mode != ColorMode::index)
+      palette->refuse("a palette needs \"color\": {\"mode\": \"index\"}");
     read_palette(*palette, scene);
   }
   if (const auto depth = object.find("depth"))
-    format.depth = depth->choice<DepthFormat>({{"none", DepthFormat::none}, {"unorm16", DepthFormat::unorm16}, {"unorm24", DepthFormat::unorm24},
-                                               {"unorm32", DepthFormat::unorm32}, {"float32", DepthFormat::float32}});
-  if (const auto stencil = object.find("stencil")) format.stencil_bits = static_cast<int>(stencil->integer(0, 8));
+    format.depth = depth->choice<DepthFormat>({{"none", DepthFormat::none},
+                                               {"unorm16", DepthFormat::unorm16},
+                                               {"unorm24", DepthFormat::unorm24},
+                                               {"unorm32", DepthFormat::unorm32},
+                                               {"float32", DepthFormat::float32}});
+  if (const auto stencil = object.find("stencil"))
+    format.stencil_bits = static_cast<int>(stencil->integer(0, 8));
   if (const auto dither = object.find("dither"))
-    format.dither = dither->choice<Dither>({{"none", Dither::none}, {"bayer2", Dither::bayer2}, {"bayer4", Dither::bayer4}, {"bayer8", Dither::bayer8}},
+    format.dither = dither->choice<Dither>({{"none", Dither::none},
+                                            {"bayer2", Dither::bayer2},
+                                            {"bayer4", Dither::bayer4},
+                                            {"bayer8", Dither::bayer8}},
                                            {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
   if (const auto alpha = object.find("alpha")) {
     if (alpha->json() != Json(0) && alpha->json() != Json(8)) alpha->fail("0 or 8 bits");
     format.alpha_bits = static_cast<int>(alpha->integer(0, 8));
-    if (format.alpha_bits > 0 && format.color_mode == ColorMode::index) alpha->refuse("an index buffer has no alpha planes");
+    if (format.alpha_bits > 0 && format.color_mode == ColorMode::index)
+      alpha->refuse("an index buffer has no alpha planes");
   }
   if (const auto accumulation = object.find("accumulation")) {
-    if (accumulation->json() != Json(0) && accumulation->json() != Json(16) && accumulation->json() != Json(32)) accumulation->fail("0, 16 or 32 bits");
+    if (accumulation->json() != Json(0) && accumulation->json() != Json(16) &&
+        accumulation->json() != Json(32))
+      accumulation->fail("0, 16 or 32 bits");
     format.accumulation_bits = static_cast<int>(accumulation->integer(0, 32));
-    if (format.accumulation_bits > 0 && format.color_mode == ColorMode::index) accumulation->refuse("an index buffer does not accumulate");
+    if (format.accumulation_bits > 0 && format.color_mode == ColorMode::index)
+      accumulation->refuse("an index buffer does not accumulate");
   }
   if (const auto samples = object.find("samples")) {
-    if (samples->json() != Json(1) && samples->json() != Json(4) && samples->json() != Json(8)) samples->fail("1, 4 or 8");
+    if (samples->json() != Json(1) && samples->json() != Json(4) && samples->json() != Json(8))
+      samples->fail("1, 4 or 8");
     format.samples = static_cast<int>(samples->integer(1, 8));
-    if (format.samples > 1 && format.color_mode == ColorMode::index) samples->refuse("an index buffer has one sample a pixel");
+    if (format.samples > 1 && format.color_mode == ColorMode::index)
+      samples->refuse("an index buffer has one sample a pixel");
   }
 }
 
@@ -85,7 +108,8 @@ LightModel read_light_model(const Value& value) {
 constexpr double kMostExponent = 16384;  // of shininess and spots
 
 Light read_light(const Value& value) {
-  const Object object(value, {"ambient", "diffuse", "specular", "position", "spot_direction", "spot_exponent", "spot_cutoff", "attenuation"});
+  const Object object(value, {"ambient", "diffuse", "specular", "position", "spot_direction", "spot_exponent",
+                              "spot_cutoff", "attenuation"});
   Light light;
   if (const auto ambient = object.find("ambient")) light.ambient = ambient->color();
   if (const auto diffuse = object.find("diffuse")) light.diffuse = diffuse->color();
@@ -98,13 +122,16 @@ Light read_light(const Value& value) {
     if (!direction->json().is_array() || direction->size() != 3) direction->fail("an array of 3 numbers");
     for (std::size_t i = 0; i < 3; ++i) light.spot_direction[i] = direction->element(i).real();
   }
-  if (const auto exponent = object.find("spot_exponent")) light.spot_exponent = exponent->real(0, kMostExponent);
+  if (const auto exponent = object.find("spot_exponent"))
+    light.spot_exponent = exponent->real(0, kMostExponent);
   if (const auto cutoff = object.find("spot_cutoff")) {
     light.spot_cutoff = cutoff->real();
-    if (light.spot_cutoff != 180 && !(light.spot_cutoff >= 0 && light.spot_cutoff <= 90)) cutoff->fail("0 to 90 degrees, or 180");
+    if (light.spot_cutoff != 180 && !(light.spot_cutoff >= 0 && light.spot_cutoff <= 90))
+      cutoff->fail("0 to 90 degrees, or 180");
   }
   if (const auto attenuation = object.find("attenuation")) {
-    if (!attenuation->json().is_array() || attenuation->size() != 3) attenuation->fail("an array of 3 numbers");
+    if (!attenuation->json().is_array() || attenuation->size() != 3)
+      attenuation->fail("an array of 3 numbers");
     light.attenuation_constant = attenuation->element(0).real();
     light.attenuation_linear = attenuation->element(1).real();
     light.attenuation_quadratic = attenuation->element(2).real();
@@ -113,7 +140,8 @@ Light read_light(const Value& value) {
 }
 
 Material read_material(const Value& value) {
-  const Object object(value, {"preset", "ambient", "diffuse", "specular", "emission", "shininess", "color_indexes"});
+  const Object object(value,
+                      {"preset", "ambient", "diffuse", "specular", "emission", "shininess", "color_indexes"});
   Material material;
   if (const auto preset = object.find("preset")) {
     const std::vector<std::string_view> names = material_names();
@@ -128,7 +156,8 @@ Material read_material(const Value& value) {
   if (const auto shininess = object.find("shininess")) material.shininess = shininess->real(0, kMostExponent);
   if (const auto indexes = object.find("color_indexes")) {
     if (!indexes->json().is_array() || indexes->size() != 3) indexes->fail("an array of 3 numbers");
-    material.color_indexes = {indexes->element(0).real(), indexes->element(1).real(), indexes->element(2).real()};
+    material.color_indexes = {indexes->element(0).real(), indexes->element(1).real(),
+                              indexes->element(2).real()};
   }
   return material;
 }
@@ -143,14 +172,17 @@ LightList read_lights(const Value& value) {
 
 Materials read_materials(const Value& value) {
   Materials materials;
-  value.for_each_member([&](const std::string& name, const Value& member) { materials[name] = read_material(member); });
+  value.for_each_member(
+      [&](const std::string& name, const Value& member) { materials[name] = read_material(member); });
   return materials;
 }
 
 namespace {
 
-Scene read_scene(const Json& json, const std::string& name, const std::string& base_folder, ModelCache& models) {
-  const Object top(Value(json, "", name), {"tessera", "title", "framebuffer", "camera", "light_model", "lights", "materials", "textures", "meshes", "frame"});
+Scene read_scene(const Json& json, const std::string& name, const std::string& base_folder,
+                 ModelCache& models) {
+  const Object top(Value(json, "", name), {"tessera", "title", "framebuffer", "camera", "light_model",
+                                           "lights", "materials", "textures", "meshes", "frame"});
   const Value version = top.require("tessera");
   if (version.json() != Json(1)) version.fail("1, the version of the scene format");
 
@@ -164,10 +196,12 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
   const auto materials = top.find("materials");
   const Materials named = materials ? read_materials(*materials) : Materials{};
   const auto textures = top.find("textures");
-  const std::vector<std::string> texture_names = textures ? read_textures(*textures, base_folder, models, scene) : std::vector<std::string>{};
+  const std::vector<std::string> texture_names =
+      textures ? read_textures(*textures, base_folder, models, scene) : std::vector<std::string>{};
   if (const auto meshes = top.find("meshes")) read_meshes(*meshes, base_folder, models, scene);
   const auto frame = top.find("frame");
-  scene.frame = frame ? read_frame(*frame, scene, named, texture_names, base_folder, models) : default_frame(scene);
+  scene.frame =
+      frame ? read_frame(*frame, scene, named, texture_names, base_folder, models) : default_frame(scene);
   return scene;
 }
 
@@ -187,7 +221,8 @@ struct SceneFile::Content {
   ModelCache models;
 };
 
-SceneFile::SceneFile(const std::string& path, std::function<bool()> go_on) : content_(std::make_unique<Content>()) {
+SceneFile::SceneFile(const std::string& path, std::function<bool()> go_on)
+    : content_(std::make_unique<Content>()) {
   content_->models.go_on = std::move(go_on);
   content_->path = path;
   content_->models.files.insert(path);
@@ -205,7 +240,8 @@ const std::set<std::string>& SceneFile::files() const { return content_->models.
 Scene SceneFile::at(double time) {
   Json json = content_->json;
   json::animate(json, time, content_->path);
-  return read_scene(json, content_->path, std::filesystem::path(content_->path).parent_path().string(), content_->models);
+  return read_scene(json, content_->path, std::filesystem::path(content_->path).parent_path().string(),
+                    content_->models);
 }
 
 Scene load_scene(const std::string& path) { return SceneFile(path).at(0); }

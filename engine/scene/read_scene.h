@@ -24,7 +24,8 @@ LightList read_lights(const json::Value& value);
 struct ModelCache {
   std::map<std::string, Model> models;
   std::map<std::string, std::shared_ptr<const Picture>> pictures;
-  std::map<std::string, std::shared_ptr<const Texture>> textures;  // of those written in the scene, by their texels
+  std::map<std::string, std::shared_ptr<const Texture>>
+      textures;                 // of those written in the scene, by their texels
   std::set<std::string> files;  // paths of all that was read, and of what models refer to
   std::function<bool()> go_on;  ///< of reading one
 };
@@ -35,7 +36,8 @@ void read_meshes(const json::Value& value, const std::string& base_folder, Model
 void read_hexadecimal_row(const json::Value& value, std::size_t bytes, std::vector<std::uint8_t>& row);
 
 /// Appends every texture of the file's `textures`. Returns their names.
-std::vector<std::string> read_textures(const json::Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene);
+std::vector<std::string> read_textures(const json::Value& value, const std::string& base_folder,
+                                       ModelCache& cache, Scene& scene);
 
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
@@ -47,12 +49,14 @@ void read_operations(const json::Object& object, const FrameBufferFormat& format
 void read_fragment_state(const json::Object& object, const Scene& scene, DrawState& state);
 
 BitmapCommand read_bitmap(const json::Value& value, const Scene& scene);
-ImageCommand read_image(const json::Value& value, const Scene& scene, const std::string& base_folder, ModelCache& cache);
+ImageCommand read_image(const json::Value& value, const Scene& scene, const std::string& base_folder,
+                        ModelCache& cache);
 
 /// @param scene  all but the frame has been read.
 /// @param textures  their names
-std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials, const std::vector<std::string>& textures,
-                                     const std::string& base_folder, ModelCache& cache);
+std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials,
+                                     const std::vector<std::string>& textures, const std::string& base_folder,
+                                     ModelCache& cache);
 /// One clear of what there is and one draw of every mesh.
 std::vector<SceneCommand> default_frame(const Scene& scene);
 

@@ -28,9 +28,11 @@ Clear masked(Clear clear, const FrameBufferFormat& format) {
 }  // namespace
 
 Camera SceneCamera::at_aspect(double aspect) const {
-  const auto matrix = std::visit(Overloaded{[&](const Lens& lens) { return perspective(lens.fovy, aspect, lens.near, lens.far, reversed); },
-                                            [](const Matrix& given) { return given; }},
-                                 projection);
+  const auto matrix = std::visit(
+      Overloaded{
+          [&](const Lens& lens) { return perspective(lens.fovy, aspect, lens.near, lens.far, reversed); },
+          [](const Matrix& given) { return given; }},
+      projection);
   return {.view = view, .projection = matrix, .reversed = reversed};
 }
 
@@ -40,9 +42,11 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   FrameBufferFormat& format = scene.framebuffer;
   if (overrides.width) format.width = *overrides.width;
   if (overrides.height) format.height = *overrides.height;
-  if (format.width < 1 || format.width > kMaxFrameBufferSize || format.height < 1 || format.height > kMaxFrameBufferSize)
-    throw Error("the picture's size is " + std::to_string(format.width) + "x" + std::to_string(format.height) + ", must be 1x1 .. " +
-                std::to_string(kMaxFrameBufferSize) + "x" + std::to_string(kMaxFrameBufferSize));
+  if (format.width < 1 || format.width > kMaxFrameBufferSize || format.height < 1 ||
+      format.height > kMaxFrameBufferSize)
+    throw Error("the picture's size is " + std::to_string(format.width) + "x" +
+                std::to_string(format.height) + ", must be 1x1 .. " + std::to_string(kMaxFrameBufferSize) +
+                "x" + std::to_string(kMaxFrameBufferSize));
 
   if (overrides.palette) {
     const bool was_index = format.color_mode == ColorMode::index;
@@ -55,8 +59,9 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     throw Error("color bits are " + std::to_string(format.color_bits) + ", must be 1 .. 24");
   if (!scene.palette_name.empty()) format.palette = named_palette(scene.palette_name, format.color_bits);
   if (format.palette.size() > std::size_t{1} << format.color_bits)
-    throw Error("the scene's palette has " + std::to_string(format.palette.size()) + " entries, " + std::to_string(format.color_bits) +
-                " color bits hold " + std::to_string(1 << format.color_bits));
+    throw Error("the scene's palette has " + std::to_string(format.palette.size()) + " entries, " +
+                std::to_string(format.color_bits) + " color bits hold " +
+                std::to_string(1 << format.color_bits));
 
   // What is overridden no longer changes within the frame.
   if (overrides.camera) {
@@ -71,7 +76,9 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   }
   if (!overrides.lights.empty()) {
     scene.lights = overrides.lights;
-    std::erase_if(scene.frame, [](const SceneCommand& command) { return std::holds_alternative<LightList>(command.what); });
+    std::erase_if(scene.frame, [](const SceneCommand& command) {
+      return std::holds_alternative<LightList>(command.what);
+    });
   }
   if (overrides.shading)
     for (SceneCommand& command : scene.frame)
@@ -85,14 +92,15 @@ void record(const Scene& scene, Frame& frame) {
   frame.set_lights(scene.lights);
   for (const SceneCommand& command : scene.frame)
     at_command(scene, command, [&] {
-      std::visit(Overloaded{[&](const Clear& clear) { frame.clear(masked(clear, scene.framebuffer)); },
-                            [&](const DrawCommand& draw) { frame.draw(scene.meshes[draw.mesh].view(), draw.state); },
-                            [&](const BitmapCommand& bitmap) { frame.draw_bitmap(bitmap.view(), bitmap.state); },
-                            [&](const ImageCommand& image) { frame.draw_image(image.view(), image.state); },
-                            [&](const Accum& accum) { frame.accumulate(accum); },
-                            [&](const SceneCamera& camera) { frame.set_camera(camera.at_aspect(aspect)); },
-                            [&](const LightList& lights) { frame.set_lights(lights); }},
-                 command.what);
+      std::visit(
+          Overloaded{[&](const Clear& clear) { frame.clear(masked(clear, scene.framebuffer)); },
+                     [&](const DrawCommand& draw) { frame.draw(scene.meshes[draw.mesh].view(), draw.state); },
+                     [&](const BitmapCommand& bitmap) { frame.draw_bitmap(bitmap.view(), bitmap.state); },
+                     [&](const ImageCommand& image) { frame.draw_image(image.view(), image.state); },
+                     [&](const Accum& accum) { frame.accumulate(accum); },
+                     [&](const SceneCamera& camera) { frame.set_camera(camera.at_aspect(aspect)); },
+                     [&](const LightList& lights) { frame.set_lights(lights); }},
+          command.what);
     });
 }
 

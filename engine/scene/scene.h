@@ -1,9 +1,11 @@
-// A scene: plain data with every default filled in and every name, path and angle resolved, and how it becomes a Frame.
+// A scene: plain data with every default filled in and every name, path and angle resolved, and how it
+// becomes a Frame.
 //
 //   Scene scene = load_scene("pot.json");
 //   FrameBuffer buffer(scene.framebuffer);
 //   Frame frame(buffer);
-//   record(scene, frame);                    // meshes, textures, bitmaps and images stay the scene's: it must outlive the frame
+//   record(scene, frame);                    // meshes, textures, bitmaps and images stay the scene's: it
+//   must outlive the frame
 #pragma once
 
 #include <functional>
@@ -24,8 +26,8 @@ struct Picture;
 
 /// A perspective whose aspect is the picture's.
 struct Lens {
-  double fovy = 45;                      ///< degrees
-  double near = 0.1, far = 100;          ///< far may be infinite
+  double fovy = 45;              ///< degrees
+  double near = 0.1, far = 100;  ///< far may be infinite
 };
 
 /// A camera that follows the size of the picture.
@@ -38,17 +40,17 @@ struct SceneCamera {
 };
 
 struct DrawCommand {
-  std::size_t mesh = 0;                  ///< index into Scene::meshes
+  std::size_t mesh = 0;  ///< index into Scene::meshes
   DrawState state;
 };
 struct BitmapCommand {
-  Bitmap bitmap;                         ///< all but its bits
+  Bitmap bitmap;  ///< all but its bits
   std::vector<std::uint8_t> bits;
   FragmentState state;
   Bitmap view() const;
 };
 struct ImageCommand {
-  PixelImage image;                      ///< all but its pixels
+  PixelImage image;  ///< all but its pixels
   std::shared_ptr<const Picture> picture;
   FragmentState state;
   PixelImage view() const;
@@ -58,25 +60,25 @@ using Command = std::variant<Clear, DrawCommand, BitmapCommand, ImageCommand, Ac
 
 struct SceneCommand {
   Command what;
-  std::string pointer;                   ///< where it stands in the file, for messages; empty: the scene made it
+  std::string pointer;  ///< where it stands in the file, for messages; empty: the scene made it
 };
 
 struct Scene {
-  std::string name;                      ///< the file, for messages
+  std::string name;  ///< the file, for messages
   std::string title;
   FrameBufferFormat framebuffer;
-  std::string palette_name;              ///< of a palette known by name; empty: by bits, or the scene's own entries
+  std::string palette_name;  ///< of a palette known by name; empty: by bits, or the scene's own entries
   SceneCamera camera;
   LightModel light_model;
   LightList lights{Light{}};
-  std::vector<MeshData> meshes;          ///< in the order of the file
+  std::vector<MeshData> meshes;                          ///< in the order of the file
   std::vector<std::shared_ptr<const Texture>> textures;  ///< likewise; draws point to them
   std::vector<SceneCommand> frame;
-  std::vector<std::string> warnings;     ///< what was odd, but no error
+  std::vector<std::string> warnings;  ///< what was odd, but no error
 };
 
-/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models and images are read once,
-/// textures once for each sampler.
+/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models
+/// and images are read once, textures once for each sampler.
 class SceneFile {
  public:
   /// @param go_on  asked while models are read; false ends it with Cancelled
@@ -88,7 +90,8 @@ class SceneFile {
   Scene at(double time);
   /// Some number changes over time.
   bool is_animated() const;
-  /// The files that scenes so far were read from: this one, images, models, and what models refer to, found or not.
+  /// The files that scenes so far were read from: this one, images, models, and what models refer to, found
+  /// or not.
   const std::set<std::string>& files() const;
 
  private:
@@ -108,19 +111,21 @@ Scene builtin_scene();
 /// What a caller wants otherwise than the scene has it.
 struct SceneOverrides {
   std::optional<int> width = {}, height = {};
-  std::optional<Shading> shading = {};          ///< of every draw
+  std::optional<Shading> shading = {};  ///< of every draw
   std::optional<int> color_bits = {};
-  std::optional<std::string> palette = {};      ///< by name; turns the colour buffer into an index buffer
-  std::optional<SceneCamera> camera = {};       ///< for the whole frame; reversed where the scene's is
-  LightList lights = {};                        ///< for the whole frame; empty: the scene's
+  std::optional<std::string> palette = {};  ///< by name; turns the colour buffer into an index buffer
+  std::optional<SceneCamera> camera = {};   ///< for the whole frame; reversed where the scene's is
+  LightList lights = {};                    ///< for the whole frame; empty: the scene's
 };
 /// @throws Error for values out of range and for a palette that does not fit into the bits.
 void apply(const SceneOverrides& overrides, Scene& scene);
 
-/// The fewest colour bits that hold a palette known by name; 8 for one that fills any number of bits, or is unknown.
+/// The fewest colour bits that hold a palette known by name; 8 for one that fills any number of bits, or is
+/// unknown.
 int palette_bits(std::string_view name);
 
-/// Replays the scene's commands. The frame borrows the scene's meshes, textures, bitmaps and images until it is finished.
+/// Replays the scene's commands. The frame borrows the scene's meshes, textures, bitmaps and images until it
+/// is finished.
 /// @throws Error, naming the command.
 void record(const Scene& scene, Frame& frame);
 

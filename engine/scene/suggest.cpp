@@ -7,7 +7,8 @@
 namespace tessera {
 namespace {
 
-// Optimal string alignment distance, after V. Levenshtein and F. Damerau: two neighbours swapped count as one change.
+// Optimal string alignment distance, after V. Levenshtein and F. Damerau: two neighbours swapped count as one
+// change.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -15,7 +16,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     before = last;
     last = row;
@@ -26,7 +28,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates) {
-  constexpr std::size_t kLongestName = 64;  // longer ones are no typing mistake, and the distance costs length^2
+  constexpr std::size_t kLongestName =
+      64;  // longer ones are no typing mistake, and the distance costs length^2
   if (typed.empty() || typed.size() > kLongestName) return {};
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 3) + 1;

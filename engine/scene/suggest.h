@@ -7,7 +7,8 @@
 
 namespace tessera {
 
-/// The candidate with the fewest changed, missing, added or swapped letters; empty if none is near (a third of the length).
+/// The candidate with the fewest changed, missing, added or swapped letters; empty if none is near (a third
+/// of the length).
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates);
 
 /// `; did you mean "x"?`, or nothing.

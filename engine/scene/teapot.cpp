@@ -1,5 +1,5 @@
-// Martin Newell's teapot from its bicubic Bezier patches, evaluated in double. Sums are symmetric in the direction of a
-// parameter, so that patches that share an edge have the very same vertices along it.
+// Martin Newell's teapot from its bicubic Bezier patches, evaluated in double. Sums are symmetric in the
+// direction of a parameter, so that patches that share an edge have the very same vertices along it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,8 +52,9 @@ Curve across(const Patch& patch, Parameter s, const Reduce& reduce) {
   return {reduce(patch[0], s), reduce(patch[1], s), reduce(patch[2], s), reduce(patch[3], s)};
 }
 
-// dP/ds x dP/dt points out of the teapot. In a row that is one point dP/ds vanishes; just beside it dP/ds is the way into
-// the patch times d2P/dsdt, so the limit of the normal is that of d2P/dsdt x dP/dt (turned round at the patch's far end).
+// dP/ds x dP/dt points out of the teapot. In a row that is one point dP/ds vanishes; just beside it dP/ds is
+// the way into the patch times d2P/dsdt, so the limit of the normal is that of d2P/dsdt x dP/dt (turned round
+// at the patch's far end).
 Vec3 normal(const Patch& patch, Parameter s, Parameter t) {
   const Curve points = across(patch, s, point), slopes = across(patch, s, derivative);
   const Vec3 along_t = derivative(points, t);

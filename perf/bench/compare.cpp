@@ -13,8 +13,11 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
   const json::Value whole(report, "", file);
   if (!report.is_object() || !report.contains("workloads")) whole.fail("a report of tessera bench --json");
   for (const char* key : {"width", "height", "threads", "instruction_set"})
-    if (!report.contains(key)) whole.refuse(std::string("found no \"") + key + "\", expected a report of tessera bench --json");
-  const auto integer = [&whole](const char* key) { return static_cast<int>(whole.member(key).integer(1, kMaxFrameBufferSize)); };
+    if (!report.contains(key))
+      whole.refuse(std::string("found no \"") + key + "\", expected a report of tessera bench --json");
+  const auto integer = [&whole](const char* key) {
+    return static_cast<int>(whole.member(key).integer(1, kMaxFrameBufferSize));
+  };
   width_ = integer("width");
   height_ = integer("height");
   setting_ = setting_text(width_, height_, integer("threads"), whole.member("instruction_set").text());
@@ -22,29 +25,37 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const json::Value row = rows.element(i);
     if (!row.json().is_object() || !row.json().contains("name")) row.fail("a workload with its name");
-    if (row.json().contains("median_ms")) medians_[row.member("name").text()] = row.member("median_ms").number(1e-9, 1e12);
+    if (row.json().contains("median_ms"))
+      medians_[row.member("name").text()] = row.member("median_ms").number(1e-9, 1e12);
   }
   report_ = report;
 }
 
 bool EarlierRun::has_any_of(std::span<const WorkloadEntry* const> entries) const {
-  return std::any_of(entries.begin(), entries.end(), [this](const WorkloadEntry* entry) { return medians_.contains(entry->name); });
+  return std::any_of(entries.begin(), entries.end(),
+                     [this](const WorkloadEntry* entry) { return medians_.contains(entry->name); });
 }
 
 void EarlierRun::require_size(int width, int height) const {
-  if (width != width_ || height != height_) throw Error(formatted("%s: found frames of %dx%d, expected %dx%d, as they are now", file_.c_str(), width_, height_, width, height));
+  if (width != width_ || height != height_)
+    throw Error(formatted("%s: found frames of %dx%d, expected %dx%d, as they are now", file_.c_str(), width_,
+                          height_, width, height));
 }
 
 Comparison EarlierRun::compare(const Report& now, double allowed) const {
   Comparison comparison;
-  if (setting_ != setting_text(now)) comparison.table = "not the same setting: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
+  if (setting_ != setting_text(now))
+    comparison.table =
+        "not the same setting: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
   const nlohmann::ordered_json is = report_json(now);
   for (const char* path : {"/tile_size", "/seed", "/kept_on_cores", "/machine/CPU", "/machine/compiler"}) {
     const nlohmann::ordered_json::json_pointer at(path);
     if (report_.contains(at) && is.contains(at) && report_[at] != is[at])
-      comparison.table += "not the same " + at.back() + ": " + report_[at].dump() + " in " + file_ + ", now " + is[at].dump() + "\n";
+      comparison.table += "not the same " + at.back() + ": " + report_[at].dump() + " in " + file_ +
+                          ", now " + is[at].dump() + "\n";
   }
-  comparison.table += formatted("%-22s %12s %12s %12s\n", "workload", "earlier, ms", "now, ms", "earlier/now");
+  comparison.table +=
+      formatted("%-22s %12s %12s %12s\n", "workload", "earlier, ms", "now, ms", "earlier/now");
   std::map<std::string, double> only_then = medians_;
   for (const Row& row : now.rows) {
     const auto found = medians_.find(row.name);
@@ -55,7 +66,8 @@ Comparison EarlierRun::compare(const Report& now, double allowed) const {
     }
     const double earlier = found->second;
     const bool is_worse = row.ms.median > earlier * (1 + allowed);
-    comparison.table += formatted("%-22s %12.3f %12.3f %12.3f%s\n", row.name.c_str(), earlier, row.ms.median, earlier / row.ms.median, is_worse ? "  worse" : "");
+    comparison.table += formatted("%-22s %12.3f %12.3f %12.3f%s\n", row.name.c_str(), earlier, row.ms.median,
+                                  earlier / row.ms.median, is_worse ? "  worse" : "");
     comparison.is_worse |= is_worse;
   }
   for (const auto& [name, median] : only_then) comparison.table += name + ": only in " + file_ + "\n";

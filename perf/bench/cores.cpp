@@ -44,7 +44,9 @@ double passing_ns(int first_core, int second_core) {
     if (!are_apart) return;
     const auto start = std::chrono::steady_clock::now();
     take_turns(turn, mine, kRounds);
-    if (mine == 0) ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / (2 * kRounds);
+    if (mine == 0)
+      ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() /
+           (2 * kRounds);
   };
   {
     const std::jthread first([&] { play(0, first_core); });

@@ -26,7 +26,9 @@ std::optional<std::uint64_t> read_counter(int file) {
 
 }  // namespace
 
-HardwareCounters::HardwareCounters() : cycles_(open_counter(PERF_COUNT_HW_CPU_CYCLES)), instructions_(open_counter(PERF_COUNT_HW_INSTRUCTIONS)) {}
+HardwareCounters::HardwareCounters()
+    : cycles_(open_counter(PERF_COUNT_HW_CPU_CYCLES)),
+      instructions_(open_counter(PERF_COUNT_HW_INSTRUCTIONS)) {}
 
 HardwareCounters::~HardwareCounters() {
   for (const int file : {cycles_, instructions_})
@@ -34,7 +36,8 @@ HardwareCounters::~HardwareCounters() {
 }
 
 std::optional<HardwareCounters::Counts> HardwareCounters::read() const {
-  const std::optional<std::uint64_t> cycles = read_counter(cycles_), instructions = read_counter(instructions_);
+  const std::optional<std::uint64_t> cycles = read_counter(cycles_),
+                                     instructions = read_counter(instructions_);
   if (!cycles || !instructions) return std::nullopt;
   return Counts{*cycles, *instructions};
 }

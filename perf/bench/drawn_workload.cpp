@@ -6,7 +6,9 @@
 namespace tessera::bench {
 namespace {
 
-std::size_t pixels_of(const FrameBufferFormat& format) { return static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height); }
+std::size_t pixels_of(const FrameBufferFormat& format) {
+  return static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
+}
 
 RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
   if (drawing.shades_at_once) options.defer_shading = false;
@@ -17,7 +19,11 @@ RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
 class Easel {
  public:
   Easel(const Drawing& drawing, const RendererOptions& options)
-      : drawing_(drawing), renderer_(options_for(drawing, options)), buffer_(drawing.format), frame_(buffer_, renderer_), picture_(drawing.format.width, drawing.format.height) {
+      : drawing_(drawing),
+        renderer_(options_for(drawing, options)),
+        buffer_(drawing.format),
+        frame_(buffer_, renderer_),
+        picture_(drawing.format.width, drawing.format.height) {
     if (!drawing.before) return;
     drawing.before(drawing, frame_);
     renderer_.finish(frame_);
@@ -37,14 +43,20 @@ class Easel {
     return picture_;
   }
   /// What a frame moves of planes and of the image.
-  std::uint64_t moved_bytes() const { return (drawing_.keeps_planes || drawing_.before ? plane_bytes() : 0) + (drawing_.keeps_planes ? 0 : picture_.rgba.size()); }
+  std::uint64_t moved_bytes() const {
+    return (drawing_.keeps_planes || drawing_.before ? plane_bytes() : 0) +
+           (drawing_.keeps_planes ? 0 : picture_.rgba.size());
+  }
   std::uint64_t kept_bytes() const { return plane_bytes() + picture_.rgba.size(); }
 
  private:
-  FrameStats finish() { return drawing_.keeps_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target()); }
+  FrameStats finish() {
+    return drawing_.keeps_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target());
+  }
   std::uint64_t plane_bytes() const {
     std::uint64_t bytes = 0;
-    for (const Buffer buffer : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation}) bytes += buffer_.allocated_bytes(buffer);
+    for (const Buffer buffer : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation})
+      bytes += buffer_.allocated_bytes(buffer);
     return bytes;
   }
 
@@ -57,27 +69,33 @@ class Easel {
 
 class DrawnWorkload : public Workload {
  public:
-  DrawnWorkload(Drawing drawing, const RendererOptions& options) : drawing_(std::move(drawing)), options_(options) {}
+  DrawnWorkload(Drawing drawing, const RendererOptions& options)
+      : drawing_(std::move(drawing)), options_(options) {}
 
   FrameStats draw() override { return easel().draw(); }
 
   std::string fault() override {
     const FrameStats stats = easel().draw_to_be_judged();
     if (drawing_.fragments != 0 && stats.shaded_pixels != drawing_.fragments)
-      return "shaded " + std::to_string(stats.shaded_pixels) + " pixels, expected " + std::to_string(drawing_.fragments);
+      return "shaded " + std::to_string(stats.shaded_pixels) + " pixels, expected " +
+             std::to_string(drawing_.fragments);
     const Picture& picture = easel_->picture();
     if (drawing_.fault)
       if (std::string fault = drawing_.fault(picture); !fault.empty()) return fault;
-    // The scalar kernels' bits; and the scalar kernels, which would only repeat themselves, have to have those of the best others.
+    // The scalar kernels' bits; and the scalar kernels, which would only repeat themselves, have to have
+    // those of the best others.
     RendererOptions others = options_;
-    others.instruction_set = options_.instruction_set == InstructionSet::scalar ? InstructionSet::automatic : InstructionSet::scalar;
+    others.instruction_set = options_.instruction_set == InstructionSet::scalar ? InstructionSet::automatic
+                                                                                : InstructionSet::scalar;
     Easel reference(drawing_, others);
     reference.draw_to_be_judged();
     const Picture& expected = reference.picture();
     const auto found = std::mismatch(picture.rgba.begin(), picture.rgba.end(), expected.rgba.begin()).first;
     if (found == picture.rgba.end()) return {};
-    const auto at = static_cast<std::size_t>(found - picture.rgba.begin()) / 4, width = static_cast<std::size_t>(picture.width);
-    return "pixel " + std::to_string(at % width) + " of row " + std::to_string(at / width) + " is not as the kernels of another instruction set have it";
+    const auto at = static_cast<std::size_t>(found - picture.rgba.begin()) / 4,
+               width = static_cast<std::size_t>(picture.width);
+    return "pixel " + std::to_string(at % width) + " of row " + std::to_string(at / width) +
+           " is not as the kernels of another instruction set have it";
   }
 
   const Picture& picture() override { return easel_->picture(); }
@@ -89,10 +107,14 @@ class DrawnWorkload : public Workload {
     work.vertices = stats.vertices;
     work.fragments = drawing_.tested_fragments != 0 ? drawing_.tested_fragments : stats.shaded_pixels;
     work.bytes = easel_->moved_bytes();  // and meshes are read once
-    for (const MeshData& mesh : drawing_.meshes) work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() + mesh.texcoords.size() + mesh.indices.size());
+    for (const MeshData& mesh : drawing_.meshes)
+      work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() +
+                         mesh.texcoords.size() + mesh.indices.size());
     work.limit = drawing_.limit;
     work.limited_bytes = drawing_.limited_bytes != 0 ? drawing_.limited_bytes : easel_->moved_bytes();
-    const auto in_tile = [&](int pixels) { return static_cast<std::uint64_t>(std::min(pixels, stats.tile_size)); };
+    const auto in_tile = [&](int pixels) {
+      return static_cast<std::uint64_t>(std::min(pixels, stats.tile_size));
+    };
     work.tile_bytes = drawing_.pixel_bytes * in_tile(drawing_.format.width) * in_tile(drawing_.format.height);
     work.kept_bytes = easel_->kept_bytes();
     return work;
@@ -100,7 +122,8 @@ class DrawnWorkload : public Workload {
 
  private:
   Easel& easel() {
-    if (!easel_) easel_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
+    if (!easel_)
+      easel_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
     return *easel_;
   }
 
@@ -113,7 +136,9 @@ class DrawnWorkload : public Workload {
 
 WorkloadEntry drawn(const std::string& name, const std::string& what, MakeDrawing make) {
   WorkloadEntry entry{.name = name, .what = what};
-  entry.make = [make](const WorkloadSetup& setup) { return std::make_unique<DrawnWorkload>(make(setup.width, setup.height, setup.seed), setup.options); };
+  entry.make = [make](const WorkloadSetup& setup) {
+    return std::make_unique<DrawnWorkload>(make(setup.width, setup.height, setup.seed), setup.options);
+  };
   entry.rival = [make = std::move(make)](const WorkloadSetup& setup) {
     const Drawing drawing = make(setup.width, setup.height, setup.seed);
     return drawing.rival ? std::optional(drawing.rival(drawing)) : std::nullopt;

@@ -1,4 +1,5 @@
-// A workload that draws into a frame buffer and scans the picture out into an image, judged by the scalar kernels' bits and by what its kind knows of it.
+// A workload that draws into a frame buffer and scans the picture out into an image, judged by the scalar
+// kernels' bits and by what its kind knows of it.
 #pragma once
 
 #include <functional>
@@ -18,15 +19,21 @@ struct Drawing {
   std::vector<MeshData> meshes{};
   std::vector<Texture> textures{};
   std::function<void(const Drawing&, Frame&)> record{};
-  std::function<void(const Drawing&, Frame&)> before{};  ///< drawn once, into planes that the frames start from; may be empty
-  std::function<void(const Drawing&, Frame&)> reveal{};  ///< drawn after it in the frame that is judged alone: shows what is in no colour. May be empty
-  bool shades_at_once = false;      ///< also what is hidden later on
-  bool keeps_planes = false;        ///< the picture stays in the frame buffer's planes; otherwise it leaves by an image
-  std::uint64_t fragments = 0;      ///< what FrameStats::shaded_pixels of the judged frame has to be; 0: anything
-  std::uint64_t tested_fragments = 0;  ///< what counts as fragments where depth is all that is drawn; 0: FrameStats::shaded_pixels
+  std::function<void(const Drawing&, Frame&)>
+      before{};  ///< drawn once, into planes that the frames start from; may be empty
+  std::function<void(const Drawing&, Frame&)> reveal{};  ///< drawn after it in the frame that is judged
+                                                         ///< alone: shows what is in no colour. May be empty
+  bool shades_at_once = false;                           ///< also what is hidden later on
+  bool keeps_planes =
+      false;  ///< the picture stays in the frame buffer's planes; otherwise it leaves by an image
+  std::uint64_t fragments = 0;  ///< what FrameStats::shaded_pixels of the judged frame has to be; 0: anything
+  std::uint64_t tested_fragments =
+      0;  ///< what counts as fragments where depth is all that is drawn; 0: FrameStats::shaded_pixels
   Limit limit = Limit::none;
-  std::uint64_t limited_bytes = 0;  ///< what that limit counts; 0: the planes, where a frame reads or keeps them, and the image
-  std::uint64_t pixel_bytes = 0;    ///< of the words of a tile's pixel that are stored, where tiles are what the limit stores
+  std::uint64_t limited_bytes =
+      0;  ///< what that limit counts; 0: the planes, where a frame reads or keeps them, and the image
+  std::uint64_t pixel_bytes =
+      0;  ///< of the words of a tile's pixel that are stored, where tiles are what the limit stores
   std::function<std::string(const Picture&)> fault{};  ///< of the picture; may be empty
   std::function<RivalForm(const Drawing&)> rival{};    ///< empty: rivals do not draw it
 };

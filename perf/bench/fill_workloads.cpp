@@ -13,19 +13,23 @@ namespace {
 
 constexpr int kLayers = 16;
 constexpr int kTextureSize = 256;
-constexpr float kMagnified = 0.7013f;  // texels a pixel: no centre is on a border between two, in whatever size
+constexpr float kMagnified =
+    0.7013f;  // texels a pixel: no centre is on a border between two, in whatever size
 
 using rivals::Varying;
 
 using ChangeLayer = std::function<void(int layer, DrawState&)>;
 
-std::uint64_t area(int width, int height) { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
+std::uint64_t area(int width, int height) {
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
 
 /// Layers that come nearer, 1/20 each, from a depth of 0.9 on.
 Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& change) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
-  for (int k = 0; k < kLayers; ++k) drawing.meshes.push_back(window_grid(1, 1, 0.8f - 0.1f * static_cast<float>(k), 0, texture_repeats));
+  for (int k = 0; k < kLayers; ++k)
+    drawing.meshes.push_back(window_grid(1, 1, 0.8f - 0.1f * static_cast<float>(k), 0, texture_repeats));
   drawing.shades_at_once = true;
   drawing.fragments = kLayers * area(width, height);
   drawing.limit = Limit::tile_stores;
@@ -52,7 +56,8 @@ void store_a_word_more(Drawing& drawing) {
 }
 
 /// @param change  of what all layers have
-std::function<RivalForm(const Drawing&)> as_rivals_draw(Varying varying, const Color& color, std::function<void(RivalForm&)> change = {}) {
+std::function<RivalForm(const Drawing&)> as_rivals_draw(Varying varying, const Color& color,
+                                                        std::function<void(RivalForm&)> change = {}) {
   return [=](const Drawing& drawing) {
     RivalForm form;
     form.mesh = merged(drawing.meshes);
@@ -67,33 +72,42 @@ std::function<RivalForm(const Drawing&)> as_rivals_draw(Varying varying, const C
 std::function<std::string(const Picture&)> all_of(int r, int g, int b) {
   return [=](const Picture& picture) {
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-      if (picture.rgba[i] != r || picture.rgba[i + 1] != g || picture.rgba[i + 2] != b) return std::string("a pixel does not have the last layer's colour");
+      if (picture.rgba[i] != r || picture.rgba[i + 1] != g || picture.rgba[i + 2] != b)
+        return std::string("a pixel does not have the last layer's colour");
     return std::string();
   };
 }
 
 /// In one colour, without those of the vertices.
 Drawing flat_layers(int width, int height) {
-  Drawing drawing = layers(width, height, 1, [](int k, DrawState& state) { state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1}; });
+  Drawing drawing = layers(width, height, 1, [](int k, DrawState& state) {
+    state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1};
+  });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  drawing.rival = as_rivals_draw(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});  // what is seen in the end: one colour is fastest
+  drawing.rival = as_rivals_draw(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f,
+                                                    1});  // what is seen in the end: one colour is fastest
   drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
 }
 
-// Colours run from 0 at the left and the bottom to 1: what a pixel's centre has is known without an interpolator.
+// Colours run from 0 at the left and the bottom to 1: what a pixel's centre has is known without an
+// interpolator.
 std::string colors_across(const Picture& picture) {
   const std::uint8_t* pixel = picture.rgba.data();
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x, pixel += 4) {
-      const double u = (x + 0.5) / picture.width, v = 1 - (y + 0.5) / picture.height, expected[] = {u, v, 1 - u};
+      const double u = (x + 0.5) / picture.width, v = 1 - (y + 0.5) / picture.height,
+                   expected[] = {u, v, 1 - u};
       for (int c = 0; c < 3; ++c)
-        if (std::abs(pixel[c] - 255 * expected[c]) > 0.51) return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " is more than half a level off";
+        if (std::abs(pixel[c] - 255 * expected[c]) > 0.51)
+          return "pixel " + std::to_string(x) + " of row " + std::to_string(y) +
+                 " is more than half a level off";
     }
   return {};
 }
 
-Drawing gouraud_layers(int width, int height, const ChangeLayer& change, std::function<void(RivalForm&)> change_rival = {}) {
+Drawing gouraud_layers(int width, int height, const ChangeLayer& change,
+                       std::function<void(RivalForm&)> change_rival = {}) {
   Drawing drawing = layers(width, height, 1, change);
   drawing.fault = colors_across;
   drawing.rival = as_rivals_draw(Varying::colors, {}, std::move(change_rival));
@@ -103,7 +117,8 @@ Drawing gouraud_layers(int width, int height, const ChangeLayer& change, std::fu
 void with_depth(int, DrawState& state) { state.depth.enabled = true; }
 
 Drawing gouraud_depth_layers(int width, int height) {
-  Drawing drawing = gouraud_layers(width, height, with_depth, [](RivalForm& form) { form.tests_depth = true; });
+  Drawing drawing =
+      gouraud_layers(width, height, with_depth, [](RivalForm& form) { form.tests_depth = true; });
   store_a_word_more(drawing);
   return drawing;
 }
@@ -116,16 +131,19 @@ Drawing depth_layers(int width, int height) {
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
   // White wherever the last layer's depth is what is stored.
   drawing.reveal = [](const Drawing& d, Frame& frame) {
-    frame.draw(d.meshes.back().view(), {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
+    frame.draw(d.meshes.back().view(),
+               {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
   };
   drawing.tested_fragments = drawing.fragments;
   drawing.fragments = area(width, height);
   drawing.fault = all_of(255, 255, 255);
-  drawing.rival = as_rivals_draw(Varying::nothing, {1, 1, 1, 1}, [indices = static_cast<int>(drawing.meshes.back().indices.size())](RivalForm& form) {
-    form.tests_depth = true;
-    form.writes_color = false;
-    form.revealed_indices = indices;
-  });
+  drawing.rival =
+      as_rivals_draw(Varying::nothing, {1, 1, 1, 1},
+                     [indices = static_cast<int>(drawing.meshes.back().indices.size())](RivalForm& form) {
+                       form.tests_depth = true;
+                       form.writes_color = false;
+                       form.revealed_indices = indices;
+                     });
   return drawing;
 }
 
@@ -138,8 +156,12 @@ Drawing blended_layers(int width, int height) {
 }
 
 Drawing stencilled_layers(int width, int height) {
-  Drawing drawing = gouraud_layers(width, height, [](int, DrawState& state) { state.stencil = StencilState{.front = {.func = Compare::less, .ref = 0, .zpass = StencilOp::incr}}; },
-                                   [](RivalForm& form) { form.counts_in_stencil = true; });
+  Drawing drawing = gouraud_layers(
+      width, height,
+      [](int, DrawState& state) {
+        state.stencil = StencilState{.front = {.func = Compare::less, .ref = 0, .zpass = StencilOp::incr}};
+      },
+      [](RivalForm& form) { form.counts_in_stencil = true; });
   drawing.format.stencil_bits = 8;
   store_a_word_more(drawing);
   const auto record = drawing.record;
@@ -152,16 +174,23 @@ Drawing stencilled_layers(int width, int height) {
 
 /// @param texels_a_pixel  along x
 Drawing textured_layers(int width, int height, const TextureSampler& sampler, float texels_a_pixel) {
-  Drawing drawing = layers(width, height, texels_a_pixel * static_cast<float>(width) / kTextureSize, [](int, DrawState& state) { state.texture_env = TextureEnv::replace; });
+  Drawing drawing = layers(width, height, texels_a_pixel * static_cast<float>(width) / kTextureSize,
+                           [](int, DrawState& state) { state.texture_env = TextureEnv::replace; });
   std::vector<std::uint8_t> texels(4 * kTextureSize * kTextureSize);
-  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>((i * 2654435761u) >> 13);
-  drawing.textures.emplace_back(TextureImage{.pixels = texels.data(), .width = kTextureSize, .height = kTextureSize, .channels = 4}, sampler);
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    texels[i] = static_cast<std::uint8_t>((i * 2654435761u) >> 13);
+  drawing.textures.emplace_back(
+      TextureImage{.pixels = texels.data(), .width = kTextureSize, .height = kTextureSize, .channels = 4},
+      sampler);
   drawing.rival = as_rivals_draw(Varying::texcoords, {}, [texels, sampler](RivalForm& form) {
     form.texture_size = kTextureSize;
     form.sampler = sampler;
-    form.tolerated = 0.03;  // the texels are noise: where two of them meet, or two levels, a coordinate's last bits are seen
+    form.tolerated = 0.03;  // the texels are noise: where two of them meet, or two levels, a coordinate's
+                            // last bits are seen
     // OpenGL's rows start at the bottom.
-    for (int y = kTextureSize - 1; y >= 0; --y) form.texels.insert(form.texels.end(), texels.begin() + 4 * kTextureSize * y, texels.begin() + 4 * kTextureSize * (y + 1));
+    for (int y = kTextureSize - 1; y >= 0; --y)
+      form.texels.insert(form.texels.end(), texels.begin() + 4 * kTextureSize * y,
+                         texels.begin() + 4 * kTextureSize * (y + 1));
   });
   return drawing;
 }
@@ -169,7 +198,8 @@ Drawing textured_layers(int width, int height, const TextureSampler& sampler, fl
 /// Only what is seen is textured.
 Drawing hidden_layers(int width, int height) {
   Drawing drawing = textured_layers(width, height, {}, 1.5f);
-  drawing = Drawing{.format = drawing.format, .meshes = std::move(drawing.meshes), .textures = std::move(drawing.textures)};
+  drawing = Drawing{
+      .format = drawing.format, .meshes = std::move(drawing.meshes), .textures = std::move(drawing.textures)};
   drawing.fragments = area(width, height);
   drawing.record = [](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
@@ -182,8 +212,11 @@ Drawing hidden_layers(int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what, std::function<Drawing(int width, int height)> make) {
-  return drawn("fill-" + name, "16 full-screen layers, " + what, [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
+WorkloadEntry entry(const std::string& name, const std::string& what,
+                    std::function<Drawing(int width, int height)> make) {
+  return drawn(
+      "fill-" + name, "16 full-screen layers, " + what,
+      [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
 }
 
 }  // namespace
@@ -197,10 +230,24 @@ std::vector<WorkloadEntry> fill_workloads() {
       entry("z", "depth alone", depth_layers),
       entry("blend", "colours interpolated and blended by alpha", blended_layers),
       entry("stencil", "colours interpolated, stencil tested and counted up", stencilled_layers),
-      entry("nearest", "the nearest texel", [](int w, int h) { return textured_layers(w, h, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest}, kMagnified); }),
-      entry("bilinear", "four texels mixed", [](int w, int h) { return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear}, kMagnified); }),
-      entry("trilinear", "eight texels of two sizes mixed", [](int w, int h) { return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear}, 1.5f); }),
-      drawn_beside("fill-hidden", "16 full-screen layers, eight texels of two sizes mixed, each hides the one before", [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
+      entry("nearest", "the nearest texel",
+            [](int w, int h) {
+              return textured_layers(w, h, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest},
+                                     kMagnified);
+            }),
+      entry("bilinear", "four texels mixed",
+            [](int w, int h) {
+              return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear},
+                                     kMagnified);
+            }),
+      entry("trilinear", "eight texels of two sizes mixed",
+            [](int w, int h) {
+              return textured_layers(
+                  w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear}, 1.5f);
+            }),
+      drawn_beside("fill-hidden",
+                   "16 full-screen layers, eight texels of two sizes mixed, each hides the one before",
+                   [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
   };
 }
 

@@ -8,7 +8,8 @@ namespace {
 
 std::string not_all_of(const Picture& picture, int r, int g, int b) {
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-    if (picture.rgba[i] != r || picture.rgba[i + 1] != g || picture.rgba[i + 2] != b) return "a pixel is not " + std::to_string(r) + " " + std::to_string(g) + " " + std::to_string(b);
+    if (picture.rgba[i] != r || picture.rgba[i + 1] != g || picture.rgba[i + 2] != b)
+      return "a pixel is not " + std::to_string(r) + " " + std::to_string(g) + " " + std::to_string(b);
   return {};
 }
 
@@ -17,7 +18,9 @@ Drawing cleared(int width, int height) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height};
   drawing.limit = Limit::memory_stores;
-  drawing.record = [](const Drawing&, Frame& frame) { frame.clear({.color = Color{1, 0, 0.2f, 1}, .depth = 1.0, .stencil = 0x5au}); };
+  drawing.record = [](const Drawing&, Frame& frame) {
+    frame.clear({.color = Color{1, 0, 0.2f, 1}, .depth = 1.0, .stencil = 0x5au});
+  };
   drawing.fault = [](const Picture& picture) { return not_all_of(picture, 255, 0, 51); };
   return drawing;
 }
@@ -72,8 +75,11 @@ Drawing accumulated(int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what, std::function<Drawing(int width, int height)> make) {
-  return drawn_beside(name, what, [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
+WorkloadEntry entry(const std::string& name, const std::string& what,
+                    std::function<Drawing(int width, int height)> make) {
+  return drawn_beside(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
+    return make(width, height);
+  });
 }
 
 }  // namespace
@@ -81,9 +87,13 @@ WorkloadEntry entry(const std::string& name, const std::string& what, std::funct
 std::vector<WorkloadEntry> frame_buffer_workloads() {
   std::vector<WorkloadEntry> list{entry("clear", "colour, depth and stencil cleared, and shown", cleared)};
   for (const int bits : {1, 4, 8, 16, 24})
-    list.push_back(entry("planes-" + std::to_string(bits), "two triangles over the whole window, kept in " + std::to_string(bits) + (bits > 1 ? " planes" : " plane"), [bits](int w, int h) { return stored_planes(w, h, bits); }));
+    list.push_back(entry("planes-" + std::to_string(bits),
+                         "two triangles over the whole window, kept in " + std::to_string(bits) +
+                             (bits > 1 ? " planes" : " plane"),
+                         [bits](int w, int h) { return stored_planes(w, h, bits); }));
   list.push_back(entry("scan-out", "24 planes into an image", scanned_out));
-  list.push_back(entry("accumulation", "24 planes loaded, added and returned by 64 of accumulation", accumulated));
+  list.push_back(
+      entry("accumulation", "24 planes loaded, added and returned by 64 of accumulation", accumulated));
   return list;
 }
 

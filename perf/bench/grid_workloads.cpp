@@ -13,41 +13,54 @@ Drawing grid(int width, int height, int side, int samples = 1) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0, .samples = samples};
   drawing.meshes.push_back(window_grid(side, side, 0, 0.3f));
-  if (samples == 1) drawing.fragments = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);  // once each, whoever shares an edge
+  if (samples == 1)
+    drawing.fragments = static_cast<std::uint64_t>(width) *
+                        static_cast<std::uint64_t>(height);  // once each, whoever shares an edge
   drawing.record = [](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     DrawState state;
     state.lighting = false;
     frame.draw(d.meshes.front().view(), state);
   };
-  if (samples == 1) drawing.rival = [](const Drawing& d) {
-    RivalForm form{.mesh = d.meshes.front(), .shaders = rivals::window_shaders(rivals::Varying::colors), .tests_depth = true};
-    form.mesh.texcoords.clear();
-    return form;
-  };
+  if (samples == 1)
+    drawing.rival = [](const Drawing& d) {
+      RivalForm form{.mesh = d.meshes.front(),
+                     .shaders = rivals::window_shaders(rivals::Varying::colors),
+                     .tests_depth = true};
+      form.mesh.texcoords.clear();
+      return form;
+    };
   drawing.fault = [](const Picture& picture) {
     // Red and blue add up to 1 at every vertex.
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-      if (const int sum = picture.rgba[i] + picture.rgba[i + 2]; sum < 254 || sum > 256) return std::string("a pixel is left out, or not of the grid's colours");
+      if (const int sum = picture.rgba[i] + picture.rgba[i + 2]; sum < 254 || sum > 256)
+        return std::string("a pixel is left out, or not of the grid's colours");
     return std::string();
   };
   return drawing;
 }
 
 WorkloadEntry entry(const std::string& name, int side, const std::string& pixels) {
-  return drawn("grid-" + name, name + " triangles of " + pixels + ", colours interpolated, depth", [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
+  return drawn("grid-" + name, name + " triangles of " + pixels + ", colours interpolated, depth",
+               [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
 }
 
 }  // namespace
 
 WorkloadEntry grid_of(int side) {
-  return drawn_beside("grid-" + std::to_string(2 * side * side), "", [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
+  return drawn_beside("grid-" + std::to_string(2 * side * side), "",
+                      [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
 }
 
 std::vector<WorkloadEntry> grid_workloads() {
-  return {entry("2M", 1000, "1 pixel"), entry("500k", 500, "4 pixels"), entry("80k", 200, "26 pixels"), entry("20k", 100, "104 pixels"),
-          drawn_beside("grid-20M", "20,000,000 triangles of a tenth of a pixel, colours interpolated, depth", [](int w, int h, std::uint32_t) { return grid(w, h, 3162); }),
-          drawn_beside("samples-4", "80k triangles of 26 pixels, 4 samples a pixel", [](int w, int h, std::uint32_t) { return grid(w, h, 200, 4); })};
+  return {entry("2M", 1000, "1 pixel"),
+          entry("500k", 500, "4 pixels"),
+          entry("80k", 200, "26 pixels"),
+          entry("20k", 100, "104 pixels"),
+          drawn_beside("grid-20M", "20,000,000 triangles of a tenth of a pixel, colours interpolated, depth",
+                       [](int w, int h, std::uint32_t) { return grid(w, h, 3162); }),
+          drawn_beside("samples-4", "80k triangles of 26 pixels, 4 samples a pixel",
+                       [](int w, int h, std::uint32_t) { return grid(w, h, 200, 4); })};
 }
 
 }  // namespace tessera::bench

@@ -17,29 +17,37 @@ struct Step {
 
 std::vector<Step> triangles() {
   std::vector<Step> steps;
-  for (const int side : {71, 141, 224, 447, 707, 1414, 2236, 3162}) steps.push_back({2.0 * side * side, grid_of(side)});
+  for (const int side : {71, 141, 224, 447, 707, 1414, 2236, 3162})
+    steps.push_back({2.0 * side * side, grid_of(side)});
   return steps;
 }
 std::vector<Step> pixels() {
   std::vector<Step> steps;
-  for (const auto& [width, height] : {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}}) steps.push_back({static_cast<double>(width) * height, sphere_in_frame(width, height)});
+  for (const auto& [width, height] :
+       {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
+    steps.push_back({static_cast<double>(width) * height, sphere_in_frame(width, height)});
   return steps;
 }
 std::vector<Step> lights() {
   std::vector<Step> steps;
-  for (const int count : {1, 2, 4, 8, 16, 32}) steps.push_back({static_cast<double>(count), sphere_under(count)});
+  for (const int count : {1, 2, 4, 8, 16, 32})
+    steps.push_back({static_cast<double>(count), sphere_under(count)});
   return steps;
 }
 std::vector<Step> draws() {
   std::vector<Step> steps;
-  for (const int count : {10, 32, 100, 316, 1000, 3162, 10000}) steps.push_back({static_cast<double>(count), patches_drawn_apart(count)});
+  for (const int count : {10, 32, 100, 316, 1000, 3162, 10000})
+    steps.push_back({static_cast<double>(count), patches_drawn_apart(count)});
   return steps;
 }
 
-Growth measured(const std::string& of, const std::string& what, const std::vector<Step>& steps, const WorkloadSetup& setup, const MeasureOptions& options, const HardwareCounters& counters) {
+Growth measured(const std::string& of, const std::string& what, const std::vector<Step>& steps,
+                const WorkloadSetup& setup, const MeasureOptions& options, const HardwareCounters& counters) {
   Growth growth{.of = of, .what = what, .points = {}};
   for (const Step& step : steps) {
-    const Candidate candidate{.name = step.entry.name, .make = [&] { return step.entry.make(setup); }, .threads = setup.options.threads};
+    const Candidate candidate{.name = step.entry.name,
+                              .make = [&] { return step.entry.make(setup); },
+                              .threads = setup.options.threads};
     const Row row = measure(std::vector{candidate}, options, counters).front();
     if (!row.fault.empty()) throw Error(row.name + ": " + row.fault);
     growth.points.push_back({step.count, row.ms.median, static_cast<double>(row.peak_bytes) * 1e-6});
@@ -76,15 +84,22 @@ std::string label_of(int power) {
   return formatted("%g", std::pow(10, power));
 }
 
-std::string panel(const Growth& growth, double GrowthPoint::*value, const std::string& title, double x0, double y0) {
+std::string panel(const Growth& growth, double GrowthPoint::*value, const std::string& title, double x0,
+                  double y0) {
   const LogAxis across(growth, &GrowthPoint::count), up(growth, value);
   const auto x = [&](double count) { return x0 + kPanelWidth * across.at(count); };
   const auto y = [&](double v) { return y0 + kPanelHeight * (1 - up.at(v)); };
-  std::string svg = formatted("<text x='%.1f' y='%.1f' font-weight='bold'>%s</text>\n", x0, y0 - 8, title.c_str());
+  std::string svg =
+      formatted("<text x='%.1f' y='%.1f' font-weight='bold'>%s</text>\n", x0, y0 - 8, title.c_str());
   for (int power = across.first(); power <= across.last(); ++power)
-    svg += formatted("<path class='grid' d='M%.1f %.1fv%.1f'/><text x='%.1f' y='%.1f' text-anchor='middle'>%s</text>\n", x(std::pow(10, power)), y0, kPanelHeight, x(std::pow(10, power)), y0 + kPanelHeight + 14, label_of(power).c_str());
+    svg += formatted(
+        "<path class='grid' d='M%.1f %.1fv%.1f'/><text x='%.1f' y='%.1f' text-anchor='middle'>%s</text>\n",
+        x(std::pow(10, power)), y0, kPanelHeight, x(std::pow(10, power)), y0 + kPanelHeight + 14,
+        label_of(power).c_str());
   for (int power = up.first(); power <= up.last(); ++power)
-    svg += formatted("<path class='grid' d='M%.1f %.1fh%.1f'/><text x='%.1f' y='%.1f' text-anchor='end'>%s</text>\n", x0, y(std::pow(10, power)), kPanelWidth, x0 - 5, y(std::pow(10, power)) + 4, label_of(power).c_str());
+    svg += formatted(
+        "<path class='grid' d='M%.1f %.1fh%.1f'/><text x='%.1f' y='%.1f' text-anchor='end'>%s</text>\n", x0,
+        y(std::pow(10, power)), kPanelWidth, x0 - 5, y(std::pow(10, power)) + 4, label_of(power).c_str());
   std::string line;
   for (const GrowthPoint& point : growth.points) {
     line += formatted("%c%.1f %.1f", line.empty() ? 'M' : 'L', x(point.count), y(point.*value));
@@ -95,21 +110,28 @@ std::string panel(const Growth& growth, double GrowthPoint::*value, const std::s
 
 }  // namespace
 
-std::vector<Growth> measure_growth(const WorkloadSetup& setup, const MeasureOptions& options, const HardwareCounters& counters) {
-  return {measured("triangles", "a grid over the whole window, colours interpolated, depth", triangles(), setup, options, counters),
-          measured("pixels", "a sphere of 20k triangles under one light, lit at its pixels", pixels(), setup, options, counters),
-          measured("lights", "a sphere of 20k triangles, lit at its pixels by points", lights(), setup, options, counters),
-          measured("draws", "patches of 32 triangles side by side, each with a state of its own", draws(), setup, options, counters)};
+std::vector<Growth> measure_growth(const WorkloadSetup& setup, const MeasureOptions& options,
+                                   const HardwareCounters& counters) {
+  return {measured("triangles", "a grid over the whole window, colours interpolated, depth", triangles(),
+                   setup, options, counters),
+          measured("pixels", "a sphere of 20k triangles under one light, lit at its pixels", pixels(), setup,
+                   options, counters),
+          measured("lights", "a sphere of 20k triangles, lit at its pixels by points", lights(), setup,
+                   options, counters),
+          measured("draws", "patches of 32 triangles side by side, each with a state of its own", draws(),
+                   setup, options, counters)};
 }
 
 std::string growth_table(const std::vector<Growth>& all) {
   std::string text;
   for (const Growth& growth : all) {
-    text += formatted("\n%s: %s\n%12s %12s %12s %14s\n", growth.of.c_str(), growth.what.c_str(), growth.of.c_str(), "median ms", "peak MB", "ns more each");
+    text += formatted("\n%s: %s\n%12s %12s %12s %14s\n", growth.of.c_str(), growth.what.c_str(),
+                      growth.of.c_str(), "median ms", "peak MB", "ns more each");
     const GrowthPoint* before = nullptr;
     for (const GrowthPoint& point : growth.points) {
       text += formatted("%12.0f %12.3f %12.1f", point.count, point.ms, point.megabytes);
-      if (before != nullptr) text += formatted(" %14.1f", 1e6 * (point.ms - before->ms) / (point.count - before->count));
+      if (before != nullptr)
+        text += formatted(" %14.1f", 1e6 * (point.ms - before->ms) / (point.count - before->count));
       text += "\n";
       before = &point;
     }
@@ -119,8 +141,13 @@ std::string growth_table(const std::vector<Growth>& all) {
 
 std::string growth_svg(const std::vector<Growth>& all) {
   const double width = kPitchX * static_cast<double>(all.size()), height = 2 * kPitchY;
-  std::string svg = formatted("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' font-family='sans-serif' font-size='11'>\n", width, height);
-  svg += "<style>.grid{stroke:#ccc;fill:none}.line{stroke:#b03020;stroke-width:1.5;fill:none}circle{fill:#b03020}</style>\n";
+  std::string svg = formatted(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' font-family='sans-serif' "
+      "font-size='11'>\n",
+      width, height);
+  svg +=
+      "<style>.grid{stroke:#ccc;fill:none}.line{stroke:#b03020;stroke-width:1.5;fill:none}circle{fill:#"
+      "b03020}</style>\n";
   svg += formatted("<rect width='%.0f' height='%.0f' fill='white'/>\n", width, height);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double x0 = kLeft + kPitchX * static_cast<double>(i);

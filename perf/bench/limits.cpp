@@ -13,16 +13,23 @@ using Clock = std::chrono::steady_clock;
 
 std::size_t share_of(Limit limit, int threads, std::uint64_t bytes) {
   if (limit == Limit::l1_stores) return std::size_t{16} << 10;
-  return std::max<std::size_t>(bytes / (limit == Limit::memory_copies ? 2 : 1) / static_cast<std::uint64_t>(threads), 1);
+  return std::max<std::size_t>(
+      bytes / (limit == Limit::memory_copies ? 2 : 1) / static_cast<std::uint64_t>(threads), 1);
 }
 std::uint64_t times_for(Limit limit, std::uint64_t bytes, std::uint64_t moved) {
-  return limit == Limit::l1_stores ? 20000 : std::clamp<std::uint64_t>(moved / std::max<std::uint64_t>(bytes, 1), 1, 1000000);
+  return limit == Limit::l1_stores
+             ? 20000
+             : std::clamp<std::uint64_t>(moved / std::max<std::uint64_t>(bytes, 1), 1, 1000000);
 }
 
 }  // namespace
 
 LimitMoves::LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t moved)
-    : limit_(limit), share_(share_of(limit, threads, bytes)), times_(times_for(limit, bytes, moved)), parallel_(threads), memory_(static_cast<std::size_t>(threads)) {
+    : limit_(limit),
+      share_(share_of(limit, threads, bytes)),
+      times_(times_for(limit, bytes, moved)),
+      parallel_(threads),
+      memory_(static_cast<std::size_t>(threads)) {
   if (limit == Limit::memory_copies) copies_.resize(memory_.size());
   for (std::vector<Lines>* list : {&memory_, &copies_})
     for (Lines& part : *list) part.resize((share_ + sizeof(Line) - 1) / sizeof(Line));
@@ -46,11 +53,16 @@ void LimitMoves::move(std::size_t part, int turn) {
   asm volatile("" : : "r"(touched) : "memory");
 }
 
-double LimitMoves::bytes() const { return static_cast<double>(memory_.size() + copies_.size()) * static_cast<double>(share_) * static_cast<double>(times_); }
+double LimitMoves::bytes() const {
+  return static_cast<double>(memory_.size() + copies_.size()) * static_cast<double>(share_) *
+         static_cast<double>(times_);
+}
 
 LimitMoves limit_for(const FrameWork& work, int threads, std::uint64_t moved) {
   const bool is_in_tiles = work.limit == Limit::tile_stores;
-  return LimitMoves(work.limit, threads, is_in_tiles ? work.tile_bytes * static_cast<std::uint64_t>(threads) : work.limited_bytes, moved);
+  return LimitMoves(work.limit, threads,
+                    is_in_tiles ? work.tile_bytes * static_cast<std::uint64_t>(threads) : work.limited_bytes,
+                    moved);
 }
 
 double measure_limit(Limit limit, int threads, std::uint64_t bytes) {

@@ -9,13 +9,16 @@
 
 namespace tessera::bench {
 
-/// Moves bytes as fast as the C library does: each thread its share of a memory, a byte at least, again and again.
+/// Moves bytes as fast as the C library does: each thread its share of a memory, a byte at least, again and
+/// again.
 class LimitMoves {
  public:
   /// @param limit   not none
   /// @param threads 1 or more
-  /// @param bytes   of the memory, of all threads together (of copies, what is read and what is written); stores in L1 have 16 KiB for each thread, whatever stands here
-  /// @param moved   by a run(), about: the memory, once at least and a million times at most; stores in L1 move theirs 20,000 times
+  /// @param bytes   of the memory, of all threads together (of copies, what is read and what is written);
+  /// stores in L1 have 16 KiB for each thread, whatever stands here
+  /// @param moved   by a run(), about: the memory, once at least and a million times at most; stores in L1
+  /// move theirs 20,000 times
   LimitMoves(Limit limit, int threads, std::uint64_t bytes, std::uint64_t moved);
 
   void run();

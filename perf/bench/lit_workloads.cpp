@@ -18,7 +18,8 @@ constexpr float kRed = 0.41f, kShininess = 50;
 std::vector<Light> ring_of_lights(int count, bool spots) {
   std::vector<Light> lights;
   for (int k = 0; k < count; ++k) {
-    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 8, x = 3 * std::cos(angle), y = 3 * std::sin(angle), z = 3;
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 8, x = 3 * std::cos(angle),
+                y = 3 * std::sin(angle), z = 3;
     Light light;
     light.position = {x, y, z, 1};
     light.diffuse = {0.4f, 0.4f, 0.4f, 1};
@@ -38,38 +39,55 @@ std::vector<Light> ring_of_lights(int count, bool spots) {
 double red_in_the_middle(const std::vector<Light>& lights) {
   double red = 0.2 * kRed;
   for (const Light& light : lights) {
-    const double x = light.position[0], y = light.position[1], z = light.position[2] - kRadius, distance = std::hypot(x, y, z);
-    const double to_light = z / distance, halfway = std::sqrt((1 + to_light) / 2);  // of its cosines with the normal, which points to the eye
+    const double x = light.position[0], y = light.position[1], z = light.position[2] - kRadius,
+                 distance = std::hypot(x, y, z);
+    const double to_light = z / distance,
+                 halfway = std::sqrt((1 + to_light) /
+                                     2);  // of its cosines with the normal, which points to the eye
     double strength = 1 / (1 + double{light.attenuation_linear} * distance);
     if (light.spot_cutoff < 180) {
       const double aim = std::hypot(light.position[0], light.position[1], light.position[2]);
-      const double cosine = (x * light.position[0] + y * light.position[1] + z * light.position[2]) / (distance * aim);
-      strength *= cosine < std::cos(double{light.spot_cutoff} * std::numbers::pi / 180) ? 0 : std::pow(cosine, light.spot_exponent);
+      const double cosine =
+          (x * light.position[0] + y * light.position[1] + z * light.position[2]) / (distance * aim);
+      strength *= cosine < std::cos(double{light.spot_cutoff} * std::numbers::pi / 180)
+                      ? 0
+                      : std::pow(cosine, light.spot_exponent);
     }
     red += strength * (to_light * light.diffuse.r * kRed + std::pow(halfway, kShininess) * light.specular.r);
   }
   return std::min(red, 1.0);
 }
 
-// The outline is a circle: of tangents from the eye to the sphere, on the image plane at distance 1, which half as much above the middle is the window's edge.
+// The outline is a circle: of tangents from the eye to the sphere, on the image plane at distance 1, which
+// half as much above the middle is the window's edge.
 std::string wrong_sphere(const Picture& picture, double red) {
-  const double radius = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius) * picture.height, expected = std::numbers::pi * radius * radius;
+  const double radius = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius) * picture.height,
+               expected = std::numbers::pi * radius * radius;
   std::size_t seen = 0;
-  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) seen += (picture.rgba[i] | picture.rgba[i + 1] | picture.rgba[i + 2]) != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    seen += (picture.rgba[i] | picture.rgba[i + 1] | picture.rgba[i + 2]) != 0 ? 1 : 0;
   const bool is_cut = 2 * radius > std::min(picture.width, picture.height);
-  if (!is_cut && std::abs(static_cast<double>(seen) - expected) > 0.005 * expected + 8 * radius) return "covers " + std::to_string(seen) + " pixels, expected about " + std::to_string(std::llround(expected));
+  if (!is_cut && std::abs(static_cast<double>(seen) - expected) > 0.005 * expected + 8 * radius)
+    return "covers " + std::to_string(seen) + " pixels, expected about " +
+           std::to_string(std::llround(expected));
   const auto middle = static_cast<std::size_t>(picture.height / 2 * picture.width + picture.width / 2);
   const int found = picture.rgba[4 * middle];
-  if (std::abs(found - 255 * red) > 5) return "the middle's red is " + std::to_string(found) + ", expected about " + std::to_string(std::lround(255 * red));
+  if (std::abs(found - 255 * red) > 5)
+    return "the middle's red is " + std::to_string(found) + ", expected about " +
+           std::to_string(std::lround(255 * red));
   return {};
 }
 
 rivals::LitForm lit_form(int width, int height, Shading shading, int lights, bool spots) {
   const double aspect = static_cast<double>(width) / height;
-  return {.camera = {.view = translate(0, 0, -kDistance), .projection = frustum(-0.5 * aspect, 0.5 * aspect, -0.5, 0.5, 1, 20)},
+  return {.camera = {.view = translate(0, 0, -kDistance),
+                     .projection = frustum(-0.5 * aspect, 0.5 * aspect, -0.5, 0.5, 1, 20)},
           .lights = ring_of_lights(lights, spots),
           .model = {.local_viewer = true},
-          .material = {.ambient = {kRed, 0.135f, 0.067f, 1}, .diffuse = {kRed, 0.135f, 0.067f, 1}, .specular = {1, 1, 1, 1}, .shininess = kShininess},
+          .material = {.ambient = {kRed, 0.135f, 0.067f, 1},
+                       .diffuse = {kRed, 0.135f, 0.067f, 1},
+                       .specular = {1, 1, 1, 1},
+                       .shininess = kShininess},
           .shading = shading,
           .normalizes = shading == Shading::phong};
 }
@@ -91,8 +109,15 @@ Drawing lit_sphere(int width, int height, int columns, Shading shading, int ligh
     state.material = lit.material;
     frame.draw(d.meshes.front().view(), state);
   };
-  drawing.rival = [lit](const Drawing& d) { return RivalForm{.mesh = d.meshes.front(), .shaders = rivals::lit_shaders(lit), .tests_depth = true, .culls_back = true}; };
-  drawing.fault = [red = red_in_the_middle(ring_of_lights(lights, spots))](const Picture& picture) { return wrong_sphere(picture, red); };
+  drawing.rival = [lit](const Drawing& d) {
+    return RivalForm{.mesh = d.meshes.front(),
+                     .shaders = rivals::lit_shaders(lit),
+                     .tests_depth = true,
+                     .culls_back = true};
+  };
+  drawing.fault = [red = red_in_the_middle(ring_of_lights(lights, spots))](const Picture& picture) {
+    return wrong_sphere(picture, red);
+  };
   return drawing;
 }
 
@@ -100,8 +125,11 @@ WorkloadEntry entry(const std::string& size, int columns, Shading shading, int l
   const bool phong = shading == Shading::phong;
   const std::string kind = spots ? "spot" : "point", count = std::to_string(lights);
   return drawn(std::string(phong ? "phong-" : "vertex-") + size + "-" + count + (spots ? "-spot" : ""),
-          "a sphere of " + size + " triangles, lit at its " + (phong ? "pixels" : "vertices") + " by " + count + " " + kind + (lights > 1 ? " lights" : " light"),
-               [=](int width, int height, std::uint32_t) { return lit_sphere(width, height, columns, shading, lights, spots); });
+               "a sphere of " + size + " triangles, lit at its " + (phong ? "pixels" : "vertices") + " by " +
+                   count + " " + kind + (lights > 1 ? " lights" : " light"),
+               [=](int width, int height, std::uint32_t) {
+                 return lit_sphere(width, height, columns, shading, lights, spots);
+               });
 }
 
 }  // namespace
@@ -123,7 +151,9 @@ std::vector<WorkloadEntry> lit_workloads() {
     for (const int lights : {1, 8}) list.push_back(entry(size, columns, Shading::gouraud, lights, false));
   for (const bool spots : {false, true})
     for (const int lights : {1, 4, 8}) list.push_back(entry("20k", 142, Shading::phong, lights, spots));
-  for (const auto& [width, height] : {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}}) list.push_back(sphere_in_frame(width, height));
+  for (const auto& [width, height] :
+       {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
+    list.push_back(sphere_in_frame(width, height));
   return list;
 }
 

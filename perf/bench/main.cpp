@@ -38,16 +38,21 @@ constexpr const char* kExamples = R"(examples:
 /// Whether a name is a workload's, or, if it is no whole name, how that one's begins.
 bool means(const std::string& name, const WorkloadEntry& entry) {
   if (entry.name == name) return true;
-  const bool is_a_whole_name = std::any_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& other) { return other.name == name; });
+  const bool is_a_whole_name = std::any_of(workloads().begin(), workloads().end(),
+                                           [&](const WorkloadEntry& other) { return other.name == name; });
   return !is_a_whole_name && !name.empty() && entry.name.starts_with(name);
 }
 std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& names) {
   std::vector<const WorkloadEntry*> list;
   for (const std::string& name : names)
-    if (std::none_of(workloads().begin(), workloads().end(), [&](const WorkloadEntry& entry) { return means(name, entry); }))
-      throw CLI::ValidationError("workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
+    if (std::none_of(workloads().begin(), workloads().end(),
+                     [&](const WorkloadEntry& entry) { return means(name, entry); }))
+      throw CLI::ValidationError(
+          "workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
   for (const WorkloadEntry& entry : workloads())
-    if (names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) { return means(name, entry); })) list.push_back(&entry);
+    if (names.empty() ||
+        std::any_of(names.begin(), names.end(), [&](const std::string& name) { return means(name, entry); }))
+      list.push_back(&entry);
   return list;
 }
 
@@ -56,23 +61,31 @@ void write(const std::string& file, const std::string& text) {
   cli::write_to_stdout(text);
 }
 
-/// Before anything is measured: that what is to be written can be, as far as can be seen, and that no two are one. A file that is "-" is the standard output.
+/// Before anything is measured: that what is to be written can be, as far as can be seen, and that no two are
+/// one. A file that is "-" is the standard output.
 void require_outputs(const BenchOptions& options) {
   namespace fs = std::filesystem;
   std::map<fs::path, std::string> option_of;
   const auto note = [&](const char* option, const std::string& file, const std::optional<fs::path>& target) {
     if (!target) return;
-    if (const auto [other, is_new] = option_of.emplace(*target, option); !is_new) throw CLI::ValidationError(option, "found \"" + file + "\", as for " + other->second + ", expected another one");
+    if (const auto [other, is_new] = option_of.emplace(*target, option); !is_new)
+      throw CLI::ValidationError(
+          option, "found \"" + file + "\", as for " + other->second + ", expected another one");
   };
-  for (const auto& [option, file] : {std::pair("--json", options.json_file), {"--csv", options.csv_file}, {"--growth", options.growth_file}, {"--trace", options.trace_file}})
+  for (const auto& [option, file] : {std::pair("--json", options.json_file),
+                                     {"--csv", options.csv_file},
+                                     {"--growth", options.growth_file},
+                                     {"--trace", options.trace_file}})
     if (!file.empty()) note(option, file, file == "-" ? fs::path(file) : require_writable(file));
-  if (!options.heatmap_file.empty()) note("--heatmap", options.heatmap_file, require_writable_picture(options.heatmap_file));
+  if (!options.heatmap_file.empty())
+    note("--heatmap", options.heatmap_file, require_writable_picture(options.heatmap_file));
   const std::string& folder = options.pictures_folder;
   if (folder.empty()) return;
   const fs::path picture = fs::path(folder) / "picture.png";
   if (fs::is_directory(folder)) require_writable(picture);
   // A folder cannot be made where a file is to be, nor within one.
-  for (fs::path path = fs::weakly_canonical(fs::absolute(picture)).parent_path(); path.has_relative_path(); path = path.parent_path())
+  for (fs::path path = fs::weakly_canonical(fs::absolute(picture)).parent_path(); path.has_relative_path();
+       path = path.parent_path())
     if (option_of.contains(path)) note("--pictures", folder, path);
 }
 
@@ -108,7 +121,11 @@ Chosen prepared(const std::vector<std::string>& names) {
 class Bench {
  public:
   explicit Bench(const BenchOptions& options)
-      : options_(options), setup_{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed} {
+      : options_(options),
+        setup_{.width = options.width,
+               .height = options.height,
+               .options = options.renderer,
+               .seed = options.measure.seed} {
     report_.machine = cli::machine_text();
     report_.width = options.width;
     report_.height = options.height;
@@ -129,7 +146,8 @@ class Bench {
   }
   void measure_rates() {
     constexpr std::uint64_t kMuch = std::uint64_t{256} << 20, kTile = std::uint64_t{64} << 10;
-    const std::uint64_t frame = 4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
+    const std::uint64_t frame =
+        4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
     const auto rate_of = [](Limit limit, int threads, std::uint64_t bytes) -> std::optional<double> {
       try {
         return measure_limit(limit, threads, bytes);
@@ -137,14 +155,17 @@ class Bench {
         return {};  // what was measured before is worth more
       }
     };
-    const auto rate = [&](Limit limit, std::uint64_t bytes) { return rate_of(limit, report_.threads, bytes); };
-    report_.limits = {.l1_stores = rate(Limit::l1_stores, 0),
-                      .frame_stores = rate(Limit::memory_stores, frame),
-                      .frame_copies = rate(Limit::memory_copies, 2 * frame),
-                      .tile_stores = rate(Limit::memory_stores, kTile * static_cast<std::uint64_t>(report_.threads)),
-                      .memory_stores = rate(Limit::memory_stores, kMuch),
-                      .memory_loads = rate(Limit::memory_loads, kMuch),
-                      .memory_loads_of_one_core = rate_of(Limit::memory_loads, 1, kMuch)};
+    const auto rate = [&](Limit limit, std::uint64_t bytes) {
+      return rate_of(limit, report_.threads, bytes);
+    };
+    report_.limits = {
+        .l1_stores = rate(Limit::l1_stores, 0),
+        .frame_stores = rate(Limit::memory_stores, frame),
+        .frame_copies = rate(Limit::memory_copies, 2 * frame),
+        .tile_stores = rate(Limit::memory_stores, kTile * static_cast<std::uint64_t>(report_.threads)),
+        .memory_stores = rate(Limit::memory_stores, kMuch),
+        .memory_loads = rate(Limit::memory_loads, kMuch),
+        .memory_loads_of_one_core = rate_of(Limit::memory_loads, 1, kMuch)};
     try {
       report_.core_to_core_ns[1] = core_to_core_ns();
     } catch (const std::exception&) {
@@ -178,7 +199,8 @@ class Bench {
   void run_with_rivals(const std::vector<const WorkloadEntry*>& entries) {
     Rivalry& rivalry = report_.rivalry.emplace();
     rivalry.rival = rivals::mesa_name(options_.driver, report_.threads);
-    rivalry.finish_ms = rivals::mesa_finish_ms(report_.width, report_.height, options_.driver, report_.threads);
+    rivalry.finish_ms =
+        rivals::mesa_finish_ms(report_.width, report_.height, options_.driver, report_.threads);
     rivalry.finish_pixel_ms = rivals::mesa_finish_ms(1, 1, options_.driver, report_.threads);
     std::string without_rival;
     show(rivalry_heading());
@@ -197,23 +219,29 @@ class Bench {
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
     CoreModel& model = report_.core_model.emplace(measure_core_model(report_.threads));
     model.most_cores_of_memory = options_.memory_cores;
-    show(formatted("one core copies %.1f GB/s, and %d of them are taken to copy all that the memory does (--memory-cores); a stage begins in %.1f microseconds\n\n", model.core_bytes, model.most_cores_of_memory,
-                   1e6 * model.barrier_seconds));
+    show(
+        formatted("one core copies %.1f GB/s, and %d of them are taken to copy all that the memory does "
+                  "(--memory-cores); a stage begins in %.1f microseconds\n\n",
+                  model.core_bytes, model.most_cores_of_memory, 1e6 * model.barrier_seconds));
     show(scaling_heading(report_.threads));
     for (const WorkloadEntry* entry : entries) {
-      report_.scaling.push_back(scaling_of(*entry, setup_, report_.threads, model, options_.measure, counters_));
+      report_.scaling.push_back(
+          scaling_of(*entry, setup_, report_.threads, model, options_.measure, counters_));
       show(scaling_line(report_.scaling.back()));
       is_wrong_ |= !report_.scaling.back().fault.empty() || !report_.scaling.back().not_computed.empty();
     }
   }
   void measure_noise(const WorkloadEntry& entry) {
-    const std::vector<Row> rows = measure(std::vector<Candidate>(2, candidate_of(entry)), options_.measure, counters_);
+    const std::vector<Row> rows =
+        measure(std::vector<Candidate>(2, candidate_of(entry)), options_.measure, counters_);
     report_.noise_of = entry.name;
     if (rows[0].frames != 0) report_.noise = ratio_of(rows[1].ms, rows[0].ms);
   }
   static MeasureOptions with_limits(MeasureOptions options) { return options.takes_limits = true, options; }
   Candidate candidate_of(const WorkloadEntry& entry) const {
-    return {.name = entry.name, .make = [this, &entry] { return entry.make(setup_); }, .threads = report_.threads};
+    return {.name = entry.name,
+            .make = [this, &entry] { return entry.make(setup_); },
+            .threads = report_.threads};
   }
 
   const BenchOptions& options_;
@@ -224,28 +252,37 @@ class Bench {
 };
 
 void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
-  const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
+  const WorkloadSetup setup{.width = options.width,
+                            .height = options.height,
+                            .options = options.renderer,
+                            .seed = options.measure.seed};
   std::vector<TracedFrame> frames;
   if (!options.trace_file.empty())
     for (const WorkloadEntry* entry : entries) {
       frames.push_back(trace_frame(*entry, setup));
-      if (frames.back().tasks.empty()) std::cerr << entry->name << ": no renderer draws it, so its trace is empty\n";
+      if (frames.back().tasks.empty())
+        std::cerr << entry->name << ": no renderer draws it, so its trace is empty\n";
     }
   std::optional<Heatmap> map;
   if (!options.heatmap_file.empty()) {
     map = heatmap(cost_of_tasks(*entries.front(), setup, options.renderer.threads));
-    if (map->picture.rgba.empty()) throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
+    if (map->picture.rgba.empty())
+      throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
   }
   if (!options.trace_file.empty()) write(options.trace_file, chrome_trace(frames));
   if (!map) return;
   write_picture(map->picture, options.heatmap_file);
-  (options.trace_file == "-" ? std::cerr : std::cout) << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map->most_ns_a_pixel);
+  (options.trace_file == "-" ? std::cerr : std::cout)
+      << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map->most_ns_a_pixel);
 }
 
 void show_growth(const BenchOptions& options) {
   const HardwareCounters counters;
   const ThreadLimit limit(options.renderer.threads);
-  const WorkloadSetup setup{.width = options.width, .height = options.height, .options = options.renderer, .seed = options.measure.seed};
+  const WorkloadSetup setup{.width = options.width,
+                            .height = options.height,
+                            .options = options.renderer,
+                            .seed = options.measure.seed};
   const std::vector<Growth> all = measure_growth(setup, options.measure, counters);
   (options.growth_file == "-" ? std::cerr : std::cout) << growth_table(all);
   write(options.growth_file, growth_svg(all));
@@ -260,8 +297,12 @@ void keep_on_all(const std::vector<int>& cores) {
   };
   const std::vector<int> allowed = allowed_cores();
   std::vector<int> others;
-  std::copy_if(cores.begin(), cores.end(), std::back_inserter(others), [&](int core) { return std::find(allowed.begin(), allowed.end(), core) == allowed.end(); });
-  if (!others.empty()) throw CLI::ValidationError("--cores", "found " + listed(others) + ", which this process may not use, expected some of " + listed(allowed));
+  std::copy_if(cores.begin(), cores.end(), std::back_inserter(others),
+               [&](int core) { return std::find(allowed.begin(), allowed.end(), core) == allowed.end(); });
+  if (!others.empty())
+    throw CLI::ValidationError(
+        "--cores",
+        "found " + listed(others) + ", which this process may not use, expected some of " + listed(allowed));
   if (!keep_on(cores)) throw Error("the system does not keep this process on the cores " + listed(cores));
 }
 
@@ -269,7 +310,8 @@ int run(BenchOptions& options) {
   if (options.list) {
     for (const WorkloadEntry& entry : workloads()) {
       const std::string lacks = entry.lacks ? entry.lacks() : "";
-      std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.what.c_str(), entry.is_in_mean ? "" : " (beside the mean)", lacks.empty() ? "" : (": " + lacks).c_str());
+      std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.what.c_str(),
+                  entry.is_in_mean ? "" : " (beside the mean)", lacks.empty() ? "" : (": " + lacks).c_str());
     }
     return 0;
   }
@@ -280,9 +322,11 @@ int run(BenchOptions& options) {
   }
   const Chosen chosen = prepared(options.names);
   if (options.growth_file.empty()) std::cerr << chosen.left_out;
-  if (earlier && !earlier->has_any_of(chosen.entries)) throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
+  if (earlier && !earlier->has_any_of(chosen.entries))
+    throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
   if (!options.heatmap_file.empty() && chosen.entries.size() != 1)
-    throw CLI::ValidationError("--heatmap", "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
+    throw CLI::ValidationError("--heatmap",
+                               "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
   require_outputs(options);
   if (!options.cores.empty()) keep_on_all(options.cores);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();

@@ -13,7 +13,9 @@ namespace tessera::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 constexpr int kFewestTurns = 15, kMostTurns = 1000000;
 
@@ -34,7 +36,10 @@ struct Runner {
 };
 
 /// Turns of `ms` each that the seconds of a row hold, 15 at least.
-int turns_for(double seconds, double ms) { return static_cast<int>(std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kFewestTurns), 1e4)); }
+int turns_for(double seconds, double ms) {
+  return static_cast<int>(
+      std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kFewestTurns), 1e4));
+}
 
 std::uint64_t above(std::uint64_t bytes, std::uint64_t others) { return bytes > others ? bytes - others : 0; }
 
@@ -81,11 +86,14 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
 }
 
-/// One more runner for each limit that a row is held against, which runs so long, a millisecond where all is in caches, that its threads' start is little beside it.
+/// One more runner for each limit that a row is held against, which runs so long, a millisecond where all is
+/// in caches, that its threads' start is little beside it.
 void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
   const auto add = [&](const FrameWork& work, double Row::*rate) {
     try {
-      runners.push_back({.limit = limit_for(work, rows[drawing].threads, std::uint64_t{256} << 20), .rate = rate, .row = drawing});
+      runners.push_back({.limit = limit_for(work, rows[drawing].threads, std::uint64_t{256} << 20),
+                         .rate = rate,
+                         .row = drawing});
     } catch (const std::bad_alloc&) {
       // The row is worth more than what it is held against, and its limit stays 0.
     }
@@ -97,10 +105,13 @@ void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std:
   }
 }
 
-/// Frames that are timed, as many of each, in turns; limits take no more of these than the seconds of a row hold (15 at least).
+/// Frames that are timed, as many of each, in turns; limits take no more of these than the seconds of a row
+/// hold (15 at least).
 /// @param drawing  the row whose turn it is
-void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options, const HardwareCounters& counters, std::size_t& drawing) {
-  // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower one the other's.
+void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
+                   const HardwareCounters& counters, std::size_t& drawing) {
+  // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower
+  // one the other's.
   int frames = kMostTurns;
   std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) {  // limits come last
@@ -132,9 +143,11 @@ void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options, 
 
 }  // namespace
 
-std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options, const HardwareCounters& counters) {
+std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options,
+                         const HardwareCounters& counters) {
   std::vector<Row> rows;
-  for (const Candidate& candidate : candidates) rows.push_back({.name = candidate.name, .threads = candidate.threads});
+  for (const Candidate& candidate : candidates)
+    rows.push_back({.name = candidate.name, .threads = candidate.threads});
   std::vector<Runner> runners(candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     runners[k].row = k;
@@ -168,7 +181,9 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
     row.frames = runner.times.size();
     row.ms = ms;
     row.work = runner.workload->work(runner.stats);
-    if (counters.read()) row.counts = HardwareCounters::Counts{runner.counted.cycles / row.frames, runner.counted.instructions / row.frames};
+    if (counters.read())
+      row.counts = HardwareCounters::Counts{runner.counted.cycles / row.frames,
+                                            runner.counted.instructions / row.frames};
   }
   return rows;
 }

@@ -6,7 +6,10 @@
 namespace tessera::rivals {
 namespace {
 
-[[noreturn]] void fail() { throw std::runtime_error("--rivals: this program was built without GL/osmesa.h, of Debian's package libosmesa6-dev"); }
+[[noreturn]] void fail() {
+  throw std::runtime_error(
+      "--rivals: this program was built without GL/osmesa.h, of Debian's package libosmesa6-dev");
+}
 
 }  // namespace
 

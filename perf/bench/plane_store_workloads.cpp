@@ -1,4 +1,5 @@
-// What it costs to bring tiles into planes, without what draws them. The kernels are those of the renderer, called as it calls them.
+// What it costs to bring tiles into planes, without what draws them. The kernels are those of the renderer,
+// called as it calls them.
 #include <algorithm>
 #include <memory>
 #include <random>
@@ -27,11 +28,13 @@ struct alignas(kTileAlignment) Tile {
   std::uint32_t words[kMaxTileSize * kMaxTileSize];
 };
 
-/// Every worker has as many tiles, of random words, as the renderer keeps, and stores them wherever the window has some.
+/// Every worker has as many tiles, of random words, as the renderer keeps, and stores them wherever the
+/// window has some.
 class StoredTiles : public Workload {
  public:
   StoredTiles(const WorkloadSetup& setup, int bits)
-      : grid_{setup.width, setup.height, setup.options.tile_size != 0 ? setup.options.tile_size : kMaxTileSize},
+      : grid_{setup.width, setup.height,
+              setup.options.tile_size != 0 ? setup.options.tile_size : kMaxTileSize},
         parallel_(setup.options.threads, setup.options.executor),
         store_(store_planes_for(isa_of(setup.options.instruction_set))),
         planes_(setup.width, setup.height, bits),
@@ -40,8 +43,10 @@ class StoredTiles : public Workload {
         picture_(setup.width, setup.height) {
     std::mt19937 random(setup.seed);
     for (int t = 0; t < together_; ++t)
-      for (std::uint32_t& word : tiles_[static_cast<std::size_t>(t)].words) word = static_cast<std::uint32_t>(random());
-    for (std::size_t t = static_cast<std::size_t>(together_); t < tiles_.size(); ++t) tiles_[t] = tiles_[t - static_cast<std::size_t>(together_)];
+      for (std::uint32_t& word : tiles_[static_cast<std::size_t>(t)].words)
+        word = static_cast<std::uint32_t>(random());
+    for (std::size_t t = static_cast<std::size_t>(together_); t < tiles_.size(); ++t)
+      tiles_[t] = tiles_[t - static_cast<std::size_t>(together_)];
     for (const Tile& tile : tiles_) words_.push_back(tile.words);
     planes_.allocate(0);
   }
@@ -49,10 +54,14 @@ class StoredTiles : public Workload {
   FrameStats draw() override {
     const int in_line = kLinePixels / grid_.tile_size, strips = (grid_.columns() + in_line - 1) / in_line;
     parallel_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
-      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * in_line, last = std::min(first + in_line, grid_.columns());
+      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * in_line,
+                last = std::min(first + in_line, grid_.columns());
       const std::uint32_t* const* const tiles = words_.data() + worker * together_;
       for (int column = first; column < last; column += together_)
-        store_({tiles, static_cast<std::size_t>(std::min(together_, last - column))}, {.x0_px = column * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size}, planes_, ~std::uint32_t{0});
+        store_(
+            {tiles, static_cast<std::size_t>(std::min(together_, last - column))},
+            {.x0_px = column * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size},
+            planes_, ~std::uint32_t{0});
     });
     return {};
   }
@@ -61,7 +70,8 @@ class StoredTiles : public Workload {
     draw();
     for (int y = 0; y < grid_.height_px; ++y)
       for (int x = 0; x < grid_.width_px; ++x)
-        if (planes_.word(x, y) != expected(x, y)) return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " is not its tile's";
+        if (planes_.word(x, y) != expected(x, y))
+          return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " is not its tile's";
     return {};
   }
 
@@ -70,7 +80,9 @@ class StoredTiles : public Workload {
     for (int y = 0; y < grid_.height_px; ++y)
       for (int x = 0; x < grid_.width_px; ++x) {
         const std::uint32_t word = planes_.word(x, y) << to_24;
-        std::uint8_t* const pixel = picture_.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width_px) + static_cast<std::size_t>(x));
+        std::uint8_t* const pixel = picture_.rgba.data() + 4 * (static_cast<std::size_t>(y) *
+                                                                    static_cast<std::size_t>(grid_.width_px) +
+                                                                static_cast<std::size_t>(x));
         for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(word >> (16 - 8 * c));
         pixel[3] = 255;
       }
@@ -78,14 +90,23 @@ class StoredTiles : public Workload {
   }
 
   FrameWork work(const FrameStats&) const override {
-    const std::uint64_t pixels = static_cast<std::uint64_t>(grid_.width_px) * static_cast<std::uint64_t>(grid_.height_px), bytes = planes_.needed_bytes();
-    // What writes so many bytes of planes reads so many words of tiles: a copy, with something to do on the way.
-    return {.pixels = pixels, .bytes = bytes, .kept_bytes = bytes, .limit = Limit::memory_copies, .limited_bytes = bytes + pixels * sizeof(std::uint32_t)};
+    const std::uint64_t pixels = static_cast<std::uint64_t>(grid_.width_px) *
+                                 static_cast<std::uint64_t>(grid_.height_px),
+                        bytes = planes_.needed_bytes();
+    // What writes so many bytes of planes reads so many words of tiles: a copy, with something to do on the
+    // way.
+    return {.pixels = pixels,
+            .bytes = bytes,
+            .kept_bytes = bytes,
+            .limit = Limit::memory_copies,
+            .limited_bytes = bytes + pixels * sizeof(std::uint32_t)};
   }
 
  private:
   std::uint32_t expected(int x, int y) const {
-    return tiles_[static_cast<std::size_t>(x / grid_.tile_size % together_)].words[tile_index(x % grid_.tile_size, y % grid_.tile_size, grid_.tile_size)] & planes_.word_mask();
+    return tiles_[static_cast<std::size_t>(x / grid_.tile_size % together_)]
+               .words[tile_index(x % grid_.tile_size, y % grid_.tile_size, grid_.tile_size)] &
+           planes_.word_mask();
   }
 
   TileGrid grid_;
@@ -103,7 +124,10 @@ class StoredTiles : public Workload {
 std::vector<WorkloadEntry> plane_store_workloads() {
   std::vector<WorkloadEntry> list;
   for (const int bits : {1, 4, 8, 16, 24}) {
-    WorkloadEntry entry{.name = "store-" + std::to_string(bits), .what = "tiles that are there brought into " + std::to_string(bits) + (bits > 1 ? " planes" : " plane"), .is_in_mean = false};
+    WorkloadEntry entry{.name = "store-" + std::to_string(bits),
+                        .what = "tiles that are there brought into " + std::to_string(bits) +
+                                (bits > 1 ? " planes" : " plane"),
+                        .is_in_mean = false};
     entry.make = [bits](const WorkloadSetup& setup) { return std::make_unique<StoredTiles>(setup, bits); };
     entry.rival = [](const WorkloadSetup&) { return std::nullopt; };
     list.push_back(std::move(entry));

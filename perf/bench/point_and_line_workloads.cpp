@@ -14,7 +14,9 @@ constexpr int kCount = 1000000;
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : random_(seed) {}
-  float between(float low, float high) { return low + (high - low) * static_cast<float>(random_() >> 8) * 0x1p-24f; }
+  float between(float low, float high) {
+    return low + (high - low) * static_cast<float>(random_() >> 8) * 0x1p-24f;
+  }
 
  private:
   std::mt19937 random_;
@@ -26,18 +28,25 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   MeshData mesh;
   mesh.primitive = primitive;
   Dice dice(seed);
-  const float reach_x = 32.0f / static_cast<float>(width), reach_y = 32.0f / static_cast<float>(height);  // 16 pixels
+  const float reach_x = 32.0f / static_cast<float>(width),
+              reach_y = 32.0f / static_cast<float>(height);  // 16 pixels
   for (int i = 0; i < kCount; ++i) {
     const float x = dice.between(-1, 1), y = dice.between(-1, 1), z = dice.between(-1, 1);
     for (int end = 0; end < (primitive == Primitive::lines ? 2 : 1); ++end) {
-      mesh.positions.insert(mesh.positions.end(), {x + (end != 0 ? dice.between(-reach_x, reach_x) : 0), y + (end != 0 ? dice.between(-reach_y, reach_y) : 0), z});
-      mesh.colors.insert(mesh.colors.end(), {dice.between(0.1f, 1), dice.between(0.1f, 1), dice.between(0.1f, 1), 1});
+      mesh.positions.insert(mesh.positions.end(), {x + (end != 0 ? dice.between(-reach_x, reach_x) : 0),
+                                                   y + (end != 0 ? dice.between(-reach_y, reach_y) : 0), z});
+      mesh.colors.insert(mesh.colors.end(),
+                         {dice.between(0.1f, 1), dice.between(0.1f, 1), dice.between(0.1f, 1), 1});
     }
   }
   drawing.meshes.push_back(std::move(mesh));
   drawing.rival = [primitive](const Drawing& d) {
-    RivalForm form{.mesh = d.meshes.front(), .shaders = rivals::window_shaders(rivals::Varying::colors), .tests_depth = true};
-    if (primitive == Primitive::lines) form.tolerated = 0.1;  // who draws the pixel at an end, and what depth a pixel beside a line has, is left open
+    RivalForm form{.mesh = d.meshes.front(),
+                   .shaders = rivals::window_shaders(rivals::Varying::colors),
+                   .tests_depth = true};
+    if (primitive == Primitive::lines)
+      form.tolerated =
+          0.1;  // who draws the pixel at an end, and what depth a pixel beside a line has, is left open
     return form;
   };
   drawing.record = [](const Drawing& d, Frame& frame) {
@@ -50,13 +59,17 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
 }
 
 WorkloadEntry entry(const std::string& name, const std::string& what, Primitive primitive) {
-  return drawn(name, what, [=](int width, int height, std::uint32_t seed) { return scattered(width, height, seed, primitive); });
+  return drawn(name, what, [=](int width, int height, std::uint32_t seed) {
+    return scattered(width, height, seed, primitive);
+  });
 }
 
 }  // namespace
 
 std::vector<WorkloadEntry> point_and_line_workloads() {
-  return {entry("points-1M", "a million points of a pixel, coloured, depth", Primitive::points), entry("lines-1M", "a million lines of up to 16 pixels along each axis, coloured, depth", Primitive::lines)};
+  return {entry("points-1M", "a million points of a pixel, coloured, depth", Primitive::points),
+          entry("lines-1M", "a million lines of up to 16 pixels along each axis, coloured, depth",
+                Primitive::lines)};
 }
 
 }  // namespace tessera::bench

@@ -56,8 +56,9 @@ class WorkersOnCaller : public PretendedWorkers {
   void run_all(const Job& job) override { job(); }
 };
 
-/// On a thread of their own: for what the caller does alone. After all of a frame's tasks its core's caches would hold nothing of that; on many cores it takes a
-/// small share of them, and what the others leave for it comes from their caches. Meanwhile the caller reads other memory, for that share.
+/// On a thread of their own: for what the caller does alone. After all of a frame's tasks its core's caches
+/// would hold nothing of that; on many cores it takes a small share of them, and what the others leave for it
+/// comes from their caches. Meanwhile the caller reads other memory, for that share.
 class WorkersElsewhere : public PretendedWorkers {
  public:
   /// @param core  that the thread is kept on, if the system lets it

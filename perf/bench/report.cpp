@@ -17,7 +17,9 @@ double moved(const Row& row) { return static_cast<double>(row.work.limited_bytes
 // Of what was working memory in the first frame, where triangles are most of it.
 std::optional<double> bytes_a_triangle(const Row& row) {
   constexpr std::uint64_t kMany = 100000;
-  return row.work.triangles >= kMany ? std::optional(static_cast<double>(row.working_bytes) / static_cast<double>(row.work.triangles)) : std::nullopt;
+  return row.work.triangles >= kMany
+             ? std::optional(static_cast<double>(row.working_bytes) / static_cast<double>(row.work.triangles))
+             : std::nullopt;
 }
 
 const char* name_of(Limit limit) {
@@ -33,7 +35,9 @@ const char* name_of(Limit limit) {
 }
 
 // Of a frame's count, in millions a second.
-double millions(std::uint64_t count, const Row& row) { return static_cast<double>(count) / row.ms.median * 1e-3; }
+double millions(std::uint64_t count, const Row& row) {
+  return static_cast<double>(count) / row.ms.median * 1e-3;
+}
 
 struct Figure {
   const char* key;
@@ -57,17 +61,27 @@ std::vector<Figure> figures_of(const Row& row) {
   figures.push_back({"bytes_per_triangle", bytes_a_triangle(row)});
   figures.push_back({"limit_gigabytes_per_second", row.limit > 0 ? std::optional(row.limit) : std::nullopt});
   figures.push_back({"share_of_limit", row.limit > 0 ? std::optional(moved(row) / row.limit) : std::nullopt});
-  figures.push_back({"tile_bytes", row.l1_stores > 0 ? std::optional(static_cast<double>(row.work.tile_bytes)) : std::nullopt});
-  figures.push_back({"l1_stores_gigabytes_per_second", row.l1_stores > 0 ? std::optional(row.l1_stores) : std::nullopt});
-  figures.push_back({"share_of_l1_stores", row.l1_stores > 0 ? std::optional(moved(row) / row.l1_stores) : std::nullopt});
-  figures.push_back({"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
-  figures.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions)) : std::nullopt});
+  figures.push_back({"tile_bytes", row.l1_stores > 0 ? std::optional(static_cast<double>(row.work.tile_bytes))
+                                                     : std::nullopt});
+  figures.push_back(
+      {"l1_stores_gigabytes_per_second", row.l1_stores > 0 ? std::optional(row.l1_stores) : std::nullopt});
+  figures.push_back(
+      {"share_of_l1_stores", row.l1_stores > 0 ? std::optional(moved(row) / row.l1_stores) : std::nullopt});
+  figures.push_back(
+      {"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
+  figures.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions))
+                                                : std::nullopt});
   return figures;
 }
 
 std::vector<Figure> figures_of(const MachineLimits& limits) {
-  return {{"l1_stores", limits.l1_stores}, {"tile_stores", limits.tile_stores}, {"frame_stores", limits.frame_stores}, {"frame_copies", limits.frame_copies}, {"memory_stores", limits.memory_stores},
-          {"memory_loads", limits.memory_loads}, {"memory_loads_of_one_core", limits.memory_loads_of_one_core}};
+  return {{"l1_stores", limits.l1_stores},
+          {"tile_stores", limits.tile_stores},
+          {"frame_stores", limits.frame_stores},
+          {"frame_copies", limits.frame_copies},
+          {"memory_stores", limits.memory_stores},
+          {"memory_loads", limits.memory_loads},
+          {"memory_loads_of_one_core", limits.memory_loads_of_one_core}};
 }
 
 // What each of a machine's lines tells of, and what.
@@ -75,7 +89,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const std::string& mac
   std::vector<std::pair<std::string, std::string>> facts;
   std::istringstream lines(machine);
   for (std::string line; std::getline(lines, line);)
-    if (const std::size_t end = line.find("  "); end != std::string::npos) facts.emplace_back(line.substr(0, end), line.substr(line.find_first_not_of(' ', end)));
+    if (const std::size_t end = line.find("  "); end != std::string::npos)
+      facts.emplace_back(line.substr(0, end), line.substr(line.find_first_not_of(' ', end)));
   return facts;
 }
 
@@ -90,42 +105,63 @@ std::string csv_field(const std::string& text) {
 }  // namespace
 
 std::string setting_text(int width, int height, int threads, const std::string& instruction_set) {
-  return formatted("%dx%d, %d %s, %s", width, height, threads, threads == 1 ? "thread" : "threads", instruction_set.c_str());
+  return formatted("%dx%d, %d %s, %s", width, height, threads, threads == 1 ? "thread" : "threads",
+                   instruction_set.c_str());
 }
 
 std::string table_heading() {
-  return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %6s\n", "workload", "median ms", "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s", "GB/s", "ns/pixel", "peak MiB", "B/tri");
+  return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %6s\n", "workload", "median ms",
+                   "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s", "GB/s",
+                   "ns/pixel", "peak MiB", "B/tri");
 }
 
 std::string table_line(const Row& row) {
   if (!row.fault.empty()) return formatted("%-22s not timed: %s\n", row.name.c_str(), row.fault.c_str());
-  return formatted("%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.1f %8.0f %8.2f %8.3f %8.1f %6s\n", row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
-                   row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row), millions(row.work.vertices, row), millions(row.work.pixels, row), millions(row.work.bytes, row) * 1e-3,
-                   1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB, bytes_a_triangle(row) ? formatted("%.0f", *bytes_a_triangle(row)).c_str() : "");
+  return formatted(
+      "%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.1f %8.0f %8.2f %8.3f %8.1f %6s\n",
+      row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
+      row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row),
+      millions(row.work.vertices, row), millions(row.work.pixels, row), millions(row.work.bytes, row) * 1e-3,
+      1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB,
+      bytes_a_triangle(row) ? formatted("%.0f", *bytes_a_triangle(row)).c_str() : "");
 }
 
 std::string table_ending(const Report& report) {
   std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
-  if (report.noise) text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(), report.noise->value, report.noise->low, report.noise->high);
-  const auto rate = [](const std::optional<double>& limit) { return limit ? formatted("%.1f", *limit) : std::string("(no memory)"); };
-  text += "limits, GB/s: stores in L1 " + rate(report.limits.l1_stores) + ", of 64 KiB a thread " + rate(report.limits.tile_stores) + ", of a frame " + rate(report.limits.frame_stores) + ", copies of a frame " +
-          rate(report.limits.frame_copies) + ", stores of 256 MiB " + rate(report.limits.memory_stores) + ", loads of 256 MiB " + rate(report.limits.memory_loads) + " (by one core " +
-          rate(report.limits.memory_loads_of_one_core) + ")\n";
+  if (report.noise)
+    text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(),
+                      report.noise->value, report.noise->low, report.noise->high);
+  const auto rate = [](const std::optional<double>& limit) {
+    return limit ? formatted("%.1f", *limit) : std::string("(no memory)");
+  };
+  text += "limits, GB/s: stores in L1 " + rate(report.limits.l1_stores) + ", of 64 KiB a thread " +
+          rate(report.limits.tile_stores) + ", of a frame " + rate(report.limits.frame_stores) +
+          ", copies of a frame " + rate(report.limits.frame_copies) + ", stores of 256 MiB " +
+          rate(report.limits.memory_stores) + ", loads of 256 MiB " + rate(report.limits.memory_loads) +
+          " (by one core " + rate(report.limits.memory_loads_of_one_core) + ")\n";
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
-    text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n", report.core_to_core_ns[1], report.core_to_core_ns[0]);
+    text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n",
+                      report.core_to_core_ns[1], report.core_to_core_ns[0]);
   const auto is_timed = [](const Row& row) { return row.frames > 0; };
   const auto is_counted = [](const Row& row) { return row.counts.has_value(); };
-  if (std::any_of(report.rows.begin(), report.rows.end(), is_timed) && std::none_of(report.rows.begin(), report.rows.end(), is_counted))
+  if (std::any_of(report.rows.begin(), report.rows.end(), is_timed) &&
+      std::none_of(report.rows.begin(), report.rows.end(), is_counted))
     text += "hardware counters: the system gives none\n";
   for (const Row& row : report.rows)
     if (row.counts && row.counts->cycles > 0)
-      text += formatted("%-22s %.2f million cycles a frame, %.2f instructions a cycle\n", row.name.c_str(), 1e-6 * static_cast<double>(row.counts->cycles),
-                        static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
+      text +=
+          formatted("%-22s %.2f million cycles a frame, %.2f instructions a cycle\n", row.name.c_str(),
+                    1e-6 * static_cast<double>(row.counts->cycles),
+                    static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
   for (const Row& row : report.rows) {
     if (row.frames == 0 || row.work.limit == Limit::none) continue;
     if (row.limit > 0) {
-      const auto share_of = [&](double most, Limit limit) { return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * moved(row) / most, name_of(limit), most); };
-      text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), moved(row)) + share_of(row.limit, row.work.limit) + (row.l1_stores > 0 ? share_of(row.l1_stores, Limit::l1_stores) : "") + "\n";
+      const auto share_of = [&](double most, Limit limit) {
+        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * moved(row) / most, name_of(limit), most);
+      };
+      text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), moved(row)) +
+              share_of(row.limit, row.work.limit) +
+              (row.l1_stores > 0 ? share_of(row.l1_stores, Limit::l1_stores) : "") + "\n";
     } else {
       text += formatted("%-22s no memory for %s\n", row.name.c_str(), name_of(row.work.limit));
     }
@@ -148,12 +184,19 @@ nlohmann::ordered_json report_json(const Report& report) {
       if (figure.value) entry[figure.key] = *figure.value;
   };
   add(json["limits_gigabytes_per_second"], figures_of(report.limits));
-  if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0) json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
-  if (report.noise) json["noise"] = {{"workload", report.noise_of}, {"ratio", report.noise->value}, {"low_ratio", report.noise->low}, {"high_ratio", report.noise->high}};
+  if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
+    json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
+  if (report.noise)
+    json["noise"] = {{"workload", report.noise_of},
+                     {"ratio", report.noise->value},
+                     {"low_ratio", report.noise->low},
+                     {"high_ratio", report.noise->high}};
   if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
   if (!report.scaling.empty()) json["scaling"] = scaling_json(report.scaling);
   if (report.core_model)
-    json["core_model"] = {{"copies_of_one_core_gigabytes_per_second", report.core_model->core_bytes}, {"most_cores_of_memory", report.core_model->most_cores_of_memory}, {"pass_begins_in_seconds", report.core_model->barrier_seconds}};
+    json["core_model"] = {{"copies_of_one_core_gigabytes_per_second", report.core_model->core_bytes},
+                          {"most_cores_of_memory", report.core_model->most_cores_of_memory},
+                          {"pass_begins_in_seconds", report.core_model->barrier_seconds}};
   json["workloads"] = nlohmann::ordered_json::array();
   for (const Row& row : report.rows) {
     nlohmann::ordered_json entry{{"name", row.name}, {"threads", row.threads}, {"frames", row.frames}};
@@ -170,7 +213,8 @@ std::string report_csv(const Report& report) {
   for (const Figure& figure : figures_of(Row{})) text += std::string(",") + figure.key;
   text += ",fault,width,height,instruction_set,tile_size,seed,kept_on_cores,noise_low_ratio,noise_high_ratio";
   // The same in every row, so that rows of several files may stand together.
-  std::string shared = formatted(",%d,%d,%s,%d,%u,", report.width, report.height, report.instruction_set.c_str(), report.tile_size, report.seed);
+  std::string shared = formatted(",%d,%d,%s,%d,%u,", report.width, report.height,
+                                 report.instruction_set.c_str(), report.tile_size, report.seed);
   for (const int core : report.cores) shared += (shared.ends_with(',') ? "" : " ") + std::to_string(core);
   shared += report.noise ? formatted(",%.6g,%.6g", report.noise->low, report.noise->high) : ",,";
   for (const auto& [what, value] : facts_of(report.machine)) {
@@ -180,7 +224,8 @@ std::string report_csv(const Report& report) {
   text += "\n";
   for (const Row& row : report.rows) {
     text += row.name + "," + std::to_string(row.threads) + "," + std::to_string(row.frames);
-    for (const Figure& figure : figures_of(row)) text += row.fault.empty() && figure.value ? formatted(",%.6g", *figure.value) : ",";
+    for (const Figure& figure : figures_of(row))
+      text += row.fault.empty() && figure.value ? formatted(",%.6g", *figure.value) : ",";
     text += "," + csv_field(row.fault) + shared + "\n";
   }
   return text;

@@ -23,25 +23,27 @@ struct MachineLimits {
 };
 
 struct Report {
-  std::string machine;              ///< lines of "what   value"
+  std::string machine;  ///< lines of "what   value"
   int width = 0, height = 0, threads = 0;
   std::string instruction_set;
-  int tile_size = 0;                ///< pixels; 0: chosen by the frame
+  int tile_size = 0;  ///< pixels; 0: chosen by the frame
   std::uint32_t seed = 1;
-  std::vector<int> cores{};         ///< that the process was kept on; empty: all it may use
+  std::vector<int> cores{};  ///< that the process was kept on; empty: all it may use
   MachineLimits limits;
   std::array<double, 2> core_to_core_ns{};  ///< before and after everything else was measured
   std::vector<Row> rows;
   std::optional<Rivalry> rivalry{};
   std::vector<Scaling> scaling{};
   std::optional<CoreModel> core_model{};  ///< that scaling was computed with
-  std::optional<Ratio> noise{};     ///< of a workload to itself; empty: it was not measured
-  std::string noise_of;             ///< its name
+  std::optional<Ratio> noise{};           ///< of a workload to itself; empty: it was not measured
+  std::string noise_of;                   ///< its name
 };
 
 /// "1920x1080, 2 threads, avx512": what medians depend on beside the machine.
 std::string setting_text(int width, int height, int threads, const std::string& instruction_set);
-inline std::string setting_text(const Report& report) { return setting_text(report.width, report.height, report.threads, report.instruction_set); }
+inline std::string setting_text(const Report& report) {
+  return setting_text(report.width, report.height, report.threads, report.instruction_set);
+}
 
 /// One line for a row; the heading of those lines.
 std::string table_heading();
@@ -50,7 +52,8 @@ std::string table_line(const Row& row);
 std::string table_ending(const Report& report);
 
 nlohmann::ordered_json report_json(const Report& report);
-/// A row for each workload, which ends with what all share: size, instruction set and other options, the noise, the machine. Those with a fault have no figures.
+/// A row for each workload, which ends with what all share: size, instruction set and other options, the
+/// noise, the machine. Those with a fault have no figures.
 std::string report_csv(const Report& report);
 
 }  // namespace tessera::bench

@@ -12,7 +12,10 @@ ResidentMemory resident_memory() {
   ResidentMemory memory;
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {
-    const auto bytes_after = [&line](const char* name) { return line.starts_with(name) ? std::strtoull(line.c_str() + line.find(':') + 1, nullptr, 10) * 1024 : 0; };
+    const auto bytes_after = [&line](const char* name) {
+      return line.starts_with(name) ? std::strtoull(line.c_str() + line.find(':') + 1, nullptr, 10) * 1024
+                                    : 0;
+    };
     if (const std::uint64_t bytes = bytes_after("VmRSS:"); bytes != 0) memory.now = bytes;
     if (const std::uint64_t bytes = bytes_after("VmHWM:"); bytes != 0) memory.peak = bytes;
   }

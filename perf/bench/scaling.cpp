@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
 constexpr double kCostSeconds = 2;  // of a measured row's, for each count of cores
-constexpr int kManyCores = 64;  // whose seconds are shown in parts
+constexpr int kManyCores = 64;      // whose seconds are shown in parts
 static_assert(std::find(std::begin(kCores), std::end(kCores), kManyCores) != std::end(kCores));
 
 double length(const FrameTask& task) { return task.end - task.begin; }
@@ -38,7 +38,9 @@ double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
   struct Core {
     double free_at = 0;
     std::size_t worker = 0, shares_done = 0;  // its own is the first
-    bool operator>(const Core& other) const { return std::tie(free_at, worker) > std::tie(other.free_at, other.worker); }
+    bool operator>(const Core& other) const {
+      return std::tie(free_at, worker) > std::tie(other.free_at, other.worker);
+    }
   };
   std::priority_queue<Core, std::vector<Core>, std::greater<>> cores_free;
   for (std::size_t w = 0; w < workers; ++w) cores_free.push({.worker = w});
@@ -47,7 +49,8 @@ double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
     Core core = cores_free.top();
     cores_free.pop();
     const auto share = [&] { return (core.worker + core.shares_done) % workers; };
-    while (core.shares_done < workers && next[share()] == first_of_share(tasks.size(), workers, share() + 1)) ++core.shares_done;
+    while (core.shares_done < workers && next[share()] == first_of_share(tasks.size(), workers, share() + 1))
+      ++core.shares_done;
     if (core.shares_done == workers) continue;
     core.free_at += taking + length(tasks[next[share()]++]);
     end = std::max(end, core.free_at);
@@ -57,7 +60,10 @@ double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
 }
 
 std::array<std::pair<const char*, double>, 4> parts_of(const CoreSeconds& seconds) {
-  return {{{"working", seconds.working}, {"waiting", seconds.waiting}, {"alone", seconds.alone}, {"memory", seconds.memory}}};
+  return {{{"working", seconds.working},
+           {"waiting", seconds.waiting},
+           {"alone", seconds.alone},
+           {"memory", seconds.memory}}};
 }
 
 double barrier_seconds(int threads) {
@@ -66,8 +72,10 @@ double barrier_seconds(int threads) {
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
     const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < kTimes; ++i) parallel.for_each(static_cast<std::size_t>(threads), [](std::size_t, int) {});
-    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes);
+    for (int i = 0; i < kTimes; ++i)
+      parallel.for_each(static_cast<std::size_t>(threads), [](std::size_t, int) {});
+    least = std::min(
+        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes);
   }
   return least;
 }
@@ -76,7 +84,8 @@ double barrier_seconds(int threads) {
 
 CoreModel measure_core_model(int threads) {
   constexpr std::uint64_t kMuch = std::uint64_t{256} << 20;
-  return {.core_bytes = measure_limit(Limit::memory_copies, 1, kMuch), .barrier_seconds = barrier_seconds(threads)};
+  return {.core_bytes = measure_limit(Limit::memory_copies, 1, kMuch),
+          .barrier_seconds = barrier_seconds(threads)};
 }
 
 CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
@@ -85,7 +94,8 @@ CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& mod
   const double begins = cores > 1 ? model.barrier_seconds : 0;
   double passes = frame.calls_without_tasks * begins;
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
-    const auto last = std::find_if(first, frame.tasks.end(), [&](const FrameTask& task) { return task.pass != first->pass; });
+    const auto last = std::find_if(first, frame.tasks.end(),
+                                   [&](const FrameTask& task) { return task.pass != first->pass; });
     passes += scheduled({first, last}, taking, cores) + begins;
     first = last;
   }
@@ -104,11 +114,13 @@ std::vector<int> measured_threads(int threads) {
   return counts;
 }
 
-Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads, const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters) {
+Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads,
+                   const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters) {
   const auto on = [&](int count) {
     WorkloadSetup with = setup;
     with.options.threads = count;
-    return Candidate{.name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count};
+    return Candidate{
+        .name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count};
   };
   Scaling scaling{.workload = entry.name};
   const auto note_fault = [&](const std::vector<Row>& rows) {
@@ -130,9 +142,12 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
   }
   if (!counts.empty()) {
-    const Candidate apart{.name = entry.name, .make = [&] { return std::make_unique<TwoApart>(entry, setup); }, .threads = 2};
+    const Candidate apart{
+        .name = entry.name, .make = [&] { return std::make_unique<TwoApart>(entry, setup); }, .threads = 2};
     const std::vector<Row> rows = measure(std::vector{on(1), apart}, options, counters);
-    if (std::none_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_stopped; })) {  // what was measured before is worth more than both
+    if (std::none_of(rows.begin(), rows.end(), [](const Row& row) {
+          return row.is_stopped;
+        })) {  // what was measured before is worth more than both
       note_fault(rows);
       if (!scaling.fault.empty()) return scaling;
       scaling.two_apart = TwoApart::speed_up(rows[0].ms, rows[1].ms);
@@ -140,7 +155,8 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
   }
   try {
     for (const int cores : kCores) {
-      const std::vector<TracedFrame> costs = costs_of_frames(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
+      const std::vector<TracedFrame> costs =
+          costs_of_frames(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
       const CoreSeconds one = seconds_on(costs[0], 1, model), seconds = seconds_on(costs[1], cores, model);
       scaling.predicted.emplace_back(cores, one.sum() / seconds.sum());
       if (cores == kManyCores) scaling.of_64 = seconds;
@@ -155,7 +171,8 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
 
 std::string scaling_heading(int threads) {
   std::string text = formatted("%-22s %9s ", "workload", "1 core ms");
-  for (const int count : measured_threads(threads)) text += formatted(" %20s", (std::to_string(count) + " threads").c_str());
+  for (const int count : measured_threads(threads))
+    text += formatted(" %20s", (std::to_string(count) + " threads").c_str());
   if (threads > 1) text += formatted(" %20s", "2 apart");
   text += "  computed:";
   for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
@@ -163,9 +180,12 @@ std::string scaling_heading(int threads) {
 }
 
 std::string scaling_line(const Scaling& scaling) {
-  if (!scaling.fault.empty()) return formatted("%-22s not timed: %s\n", scaling.workload.c_str(), scaling.fault.c_str());
+  if (!scaling.fault.empty())
+    return formatted("%-22s not timed: %s\n", scaling.workload.c_str(), scaling.fault.c_str());
   std::string text = formatted("%-22s %9.3f ", scaling.workload.c_str(), scaling.one_ms);
-  const auto measured = [&](const Ratio& speed) { text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high); };
+  const auto measured = [&](const Ratio& speed) {
+    text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high);
+  };
   for (const auto& [threads, speed] : scaling.measured) measured(speed);
   if (scaling.two_apart) measured(*scaling.two_apart);
   else if (!scaling.measured.empty()) text += formatted(" %20s", "(no memory)");
@@ -177,20 +197,24 @@ std::string scaling_line(const Scaling& scaling) {
   }
   if (!scaling.not_computed.empty()) return text + "  not computed: " + scaling.not_computed + "\n";
   text += formatted("  %4.0f %%", 100 * of_64);
-  for (const auto& [what, seconds] : parts_of(scaling.of_64)) text += formatted("  %5.0f %%", 100 * seconds / scaling.of_64.sum());
+  for (const auto& [what, seconds] : parts_of(scaling.of_64))
+    text += formatted("  %5.0f %%", 100 * seconds / scaling.of_64.sum());
   return text + "\n";
 }
 
 nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  const auto measured = [](const Ratio& speed) { return nlohmann::ordered_json{{"speed_up", speed.value}, {"low", speed.low}, {"high", speed.high}}; };
+  const auto measured = [](const Ratio& speed) {
+    return nlohmann::ordered_json{{"speed_up", speed.value}, {"low", speed.low}, {"high", speed.high}};
+  };
   for (const Scaling& scaling : all) {
     nlohmann::ordered_json entry{{"name", scaling.workload}};
     if (!scaling.fault.empty()) {
       entry["fault"] = scaling.fault;
     } else {
       entry["one_thread_ms"] = scaling.one_ms;
-      for (const auto& [threads, speed] : scaling.measured) entry["measured"][std::to_string(threads)] = measured(speed);
+      for (const auto& [threads, speed] : scaling.measured)
+        entry["measured"][std::to_string(threads)] = measured(speed);
       if (scaling.two_apart) entry["two_apart"] = measured(*scaling.two_apart);
       if (!scaling.not_computed.empty()) entry["not_computed"] = scaling.not_computed;
       for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;

@@ -15,8 +15,10 @@ constexpr int kDraws = 1000;
 Drawing deep(int width, int height, bool front_first) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
-  for (int k = 0; k < kDepthComplexity; ++k) drawing.meshes.push_back(window_grid(100, 100, 0.2f * static_cast<float>(front_first ? k - 4 : 3 - k)));
-  drawing.fragments = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * (front_first ? 1 : kDepthComplexity);
+  for (int k = 0; k < kDepthComplexity; ++k)
+    drawing.meshes.push_back(window_grid(100, 100, 0.2f * static_cast<float>(front_first ? k - 4 : 3 - k)));
+  drawing.fragments = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+                      (front_first ? 1 : kDepthComplexity);
   drawing.record = [](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     DrawState state;
@@ -32,7 +34,8 @@ DrawState state_of(int k, const Texture& texture, const Matrix& place) {
   state.lighting = k % 2 == 0;
   state.shading = k % 3 == 0 ? Shading::phong : Shading::gouraud;
   state.color_material = ColorMaterial::none;
-  state.material.diffuse = {static_cast<float>(k % 10) / 9, static_cast<float>(k / 10 % 10) / 9, static_cast<float>(k / 100 % 10) / 9, 1};
+  state.material.diffuse = {static_cast<float>(k % 10) / 9, static_cast<float>(k / 10 % 10) / 9,
+                            static_cast<float>(k / 100 % 10) / 9, 1};
   state.depth.test = k % 5 == 0 ? Compare::always : Compare::lequal;
   if (k % 4 == 1) state.texture = &texture;
   if (k % 7 == 3) state.blend = BlendState{};
@@ -46,34 +49,45 @@ Drawing many_draws(int width, int height, int draws) {
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
   drawing.meshes.push_back(window_grid(4, 4));
   const std::vector<std::uint8_t> texels{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
-  drawing.textures.emplace_back(TextureImage{.pixels = texels.data(), .width = 2, .height = 2, .channels = 4});
-  const int across = static_cast<int>(std::lround(std::sqrt(1.6 * draws))), down = (draws + across - 1) / across;
+  drawing.textures.emplace_back(
+      TextureImage{.pixels = texels.data(), .width = 2, .height = 2, .channels = 4});
+  const int across = static_cast<int>(std::lround(std::sqrt(1.6 * draws))),
+            down = (draws + across - 1) / across;
   drawing.record = [=](const Drawing& d, Frame& frame) {
     Light light;
     light.position = {0, 0, 1, 0};
     frame.set_lights({light});
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     for (int k = 0; k < draws; ++k) {
-      const Matrix place = translate(2.0 * (k % across + 0.5) / across - 1, 2.0 * (k / across + 0.5) / down - 1, 0) * scale(1.0 / across, 1.0 / down, 1);
+      const Matrix place =
+          translate(2.0 * (k % across + 0.5) / across - 1, 2.0 * (k / across + 0.5) / down - 1, 0) *
+          scale(1.0 / across, 1.0 / down, 1);
       frame.draw(d.meshes.front().view(), state_of(k, d.textures.front(), place));
     }
   };
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what, std::function<Drawing(int width, int height)> make) {
-  return drawn_beside(name, what, [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
+WorkloadEntry entry(const std::string& name, const std::string& what,
+                    std::function<Drawing(int width, int height)> make) {
+  return drawn_beside(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
+    return make(width, height);
+  });
 }
 
 }  // namespace
 
 WorkloadEntry patches_drawn_apart(int draws) {
-  return entry("draws-" + std::to_string(draws), std::to_string(draws) + " draws of 32 triangles, each with a state of its own", [draws](int w, int h) { return many_draws(w, h, draws); });
+  return entry("draws-" + std::to_string(draws),
+               std::to_string(draws) + " draws of 32 triangles, each with a state of its own",
+               [draws](int w, int h) { return many_draws(w, h, draws); });
 }
 
 std::vector<WorkloadEntry> scene_workloads() {
-  return {entry("depth-8-front", "8 layers of 20k triangles over the whole window, the nearest first", [](int w, int h) { return deep(w, h, true); }),
-          entry("depth-8-back", "8 layers of 20k triangles over the whole window, the farthest first", [](int w, int h) { return deep(w, h, false); }),
+  return {entry("depth-8-front", "8 layers of 20k triangles over the whole window, the nearest first",
+                [](int w, int h) { return deep(w, h, true); }),
+          entry("depth-8-back", "8 layers of 20k triangles over the whole window, the farthest first",
+                [](int w, int h) { return deep(w, h, false); }),
           patches_drawn_apart(kDraws)};
 }
 

@@ -8,7 +8,10 @@ namespace tessera::bench {
 
 Statistics statistics_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  const auto percentile = [&](double part) { return values[static_cast<std::size_t>(std::max(std::ceil(part * static_cast<double>(values.size())) - 1, 0.0))]; };
+  const auto percentile = [&](double part) {
+    return values[static_cast<std::size_t>(
+        std::max(std::ceil(part * static_cast<double>(values.size())) - 1, 0.0))];
+  };
   const auto count = static_cast<double>(values.size());
   const auto rank = static_cast<std::size_t>(std::max(std::round(count / 2 - 0.98 * std::sqrt(count)), 1.0));
   return {.median = percentile(0.5),
@@ -21,6 +24,8 @@ Statistics statistics_of(std::vector<double> values) {
           .high_median = values[values.size() - rank]};
 }
 
-Ratio ratio_of(const Statistics& a, const Statistics& b) { return {a.median / b.median, a.low_median / b.high_median, a.high_median / b.low_median}; }
+Ratio ratio_of(const Statistics& a, const Statistics& b) {
+  return {a.median / b.median, a.low_median / b.high_median, a.high_median / b.low_median};
+}
 
 }  // namespace tessera::bench

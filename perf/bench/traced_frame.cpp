@@ -24,16 +24,26 @@ const char* name_of(FrameStage stage) {
 }
 
 nlohmann::ordered_json event_of(const FrameTask& task, std::size_t process) {
-  nlohmann::ordered_json event{{"name", name_of(task.stage)}, {"ph", "X"}, {"ts", task.begin * 1e6}, {"dur", (task.end - task.begin) * 1e6}, {"pid", process}, {"tid", task.worker}, {"args", {{"pass", task.pass}}}};
-  if (task.pixels.width > 0) event["args"].update({{"x", task.pixels.x}, {"y", task.pixels.y}, {"width", task.pixels.width}, {"height", task.pixels.height}});
+  nlohmann::ordered_json event{
+      {"name", name_of(task.stage)},          {"ph", "X"},      {"ts", task.begin * 1e6},
+      {"dur", (task.end - task.begin) * 1e6}, {"pid", process}, {"tid", task.worker},
+      {"args", {{"pass", task.pass}}}};
+  if (task.pixels.width > 0)
+    event["args"].update({{"x", task.pixels.x},
+                          {"y", task.pixels.y},
+                          {"width", task.pixels.width},
+                          {"height", task.pixels.height}});
   return event;
 }
 
-double ns_a_pixel(const FrameTask& task) { return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height); }
+double ns_a_pixel(const FrameTask& task) {
+  return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height);
+}
 
 // Red rises first, then green, then blue.
 void paint(std::uint8_t* rgba, double share) {
-  for (int c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
+  for (int c = 0; c < 3; ++c)
+    rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -47,11 +57,14 @@ std::set<int> workers_of(std::span<const FrameTask> tasks) {
 }  // namespace
 
 double TracedFrame::seconds_in_tasks() const {
-  return std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double sum, const FrameTask& task) { return sum + task.end - task.begin; });
+  return std::accumulate(tasks.begin(), tasks.end(), 0.0,
+                         [](double sum, const FrameTask& task) { return sum + task.end - task.begin; });
 }
 
 TracedWorkload::TracedWorkload(const WorkloadEntry& entry, WorkloadSetup setup) : name_(entry.name) {
-  setup.options.trace = [this](std::span<const FrameTask> of_frame) { tasks_.assign(of_frame.begin(), of_frame.end()); };
+  setup.options.trace = [this](std::span<const FrameTask> of_frame) {
+    tasks_.assign(of_frame.begin(), of_frame.end());
+  };
   workload_ = entry.make(setup);
 }
 
@@ -69,16 +82,22 @@ TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup) 
     TracedFrame frame = workload.draw();
     if (i >= kWarmUps) frames.push_back(std::move(frame));
   }
-  std::nth_element(frames.begin(), frames.begin() + kFrames / 2, frames.end(), [](const TracedFrame& a, const TracedFrame& b) { return a.seconds < b.seconds; });
+  std::nth_element(frames.begin(), frames.begin() + kFrames / 2, frames.end(),
+                   [](const TracedFrame& a, const TracedFrame& b) { return a.seconds < b.seconds; });
   return frames[kFrames / 2];
 }
 
 std::string chrome_trace(const std::vector<TracedFrame>& frames) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    events.push_back({{"name", "process_name"}, {"ph", "M"}, {"pid", i}, {"args", {{"name", frames[i].workload}}}});
+    events.push_back(
+        {{"name", "process_name"}, {"ph", "M"}, {"pid", i}, {"args", {{"name", frames[i].workload}}}});
     for (const int worker : workers_of(frames[i].tasks))
-      events.push_back({{"name", "thread_name"}, {"ph", "M"}, {"pid", i}, {"tid", worker}, {"args", {{"name", "worker " + std::to_string(worker)}}}});
+      events.push_back({{"name", "thread_name"},
+                        {"ph", "M"},
+                        {"pid", i},
+                        {"tid", worker},
+                        {"args", {{"name", "worker " + std::to_string(worker)}}}});
     for (const FrameTask& task : frames[i].tasks) events.push_back(event_of(task, i));
   }
   return nlohmann::ordered_json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n";
@@ -93,11 +112,15 @@ Heatmap heatmap(const TracedFrame& frame) {
   Heatmap map{.picture = Picture(width, height)};
   for (std::size_t i = 3; i < map.picture.rgba.size(); i += 4) map.picture.rgba[i] = 255;
   for (const FrameTask& task : frame.tasks)
-    if (task.stage == FrameStage::tiles) map.most_ns_a_pixel = std::max(map.most_ns_a_pixel, ns_a_pixel(task));
+    if (task.stage == FrameStage::tiles)
+      map.most_ns_a_pixel = std::max(map.most_ns_a_pixel, ns_a_pixel(task));
   for (const FrameTask& task : frame.tasks)
     for (int y = task.pixels.y; y < task.pixels.y + task.pixels.height; ++y)
       for (int x = task.pixels.x; x < task.pixels.x + task.pixels.width; ++x)
-        paint(map.picture.rgba.data() + 4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)), ns_a_pixel(task) / map.most_ns_a_pixel);
+        paint(map.picture.rgba.data() +
+                  4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(x)),
+              ns_a_pixel(task) / map.most_ns_a_pixel);
   return map;
 }
 

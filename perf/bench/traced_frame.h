@@ -11,10 +11,11 @@ namespace tessera::bench {
 
 struct TracedFrame {
   std::string workload;
-  double seconds = 0;               ///< from its first command to its end; of costs their sum
-  std::vector<FrameTask> tasks{};   ///< in the order in which they began
-  double seconds_taking = 0;        ///< where workers run, but not at tasks: they take their next ones, or do what no task tells of; of costs only
-  int calls_without_tasks = 0;      ///< for workers, who run in them all the same; of costs only
+  double seconds = 0;              ///< from its first command to its end; of costs their sum
+  std::vector<FrameTask> tasks{};  ///< in the order in which they began
+  double seconds_taking = 0;  ///< where workers run, but not at tasks: they take their next ones, or do what
+                              ///< no task tells of; of costs only
+  int calls_without_tasks = 0;  ///< for workers, who run in them all the same; of costs only
   FrameWork work{};
 
   double seconds_in_tasks() const;  ///< of all workers together
@@ -38,14 +39,15 @@ class TracedWorkload {
 /// Of several frames after the first ones the one in the middle, by time.
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
 
-/// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes, workers its threads.
-/// Source: Trace Event Format, complete events ("X"), times in microseconds.
+/// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes,
+/// workers its threads. Source: Trace Event Format, complete events ("X"), times in microseconds.
 std::string chrome_trace(const std::vector<TracedFrame>& frames);
 
-/// What pixels of a frame cost, tile by tile: from black over red and yellow to white, which is what the dearest tile costs.
+/// What pixels of a frame cost, tile by tile: from black over red and yellow to white, which is what the
+/// dearest tile costs.
 struct Heatmap {
   Picture picture;
-  double most_ns_a_pixel = 0;       ///< white
+  double most_ns_a_pixel = 0;  ///< white
 };
 Heatmap heatmap(const TracedFrame& frame);
 

@@ -1,4 +1,5 @@
-// Two frames at once that share nothing but the machine: where they are not twice as fast as one, it holds two threads back, whatever these share.
+// Two frames at once that share nothing but the machine: where they are not twice as fast as one, it holds
+// two threads back, whatever these share.
 #pragma once
 
 #include <array>
@@ -11,10 +12,12 @@
 
 namespace tessera::bench {
 
-/// The same workload twice, on a thread each. What is wrong with one of them is wrong with it; the rest is the first one's.
+/// The same workload twice, on a thread each. What is wrong with one of them is wrong with it; the rest is
+/// the first one's.
 class TwoApart : public Workload {
  public:
-  static constexpr int kFrames = 3;  ///< that each of them draws in a draw(), so that little of it is one that waits for the other
+  static constexpr int kFrames =
+      3;  ///< that each of them draws in a draw(), so that little of it is one that waits for the other
   /// How many times as fast as one alone they draw.
   static Ratio speed_up(const Statistics& one, const Statistics& draws) {
     const Ratio ratio = ratio_of(one, draws);

@@ -1,4 +1,5 @@
-// What `tessera bench` measures: frames that draw the same again and again, each of which knows what has to come out.
+// What `tessera bench` measures: frames that draw the same again and again, each of which knows what has to
+// come out.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +22,15 @@ namespace tessera::bench {
 struct WorkloadSetup {
   int width = 1920, height = 1080;  ///< pixels
   RendererOptions options{};
-  std::uint32_t seed = 1;           ///< of what is random in it
+  std::uint32_t seed = 1;  ///< of what is random in it
 };
 
 /// What the machine does at best with a frame's bytes.
 enum class Limit : std::uint8_t {
   none,
   l1_stores,      ///< memset of 16 KiB for each thread, again and again
-  tile_stores,    ///< memset of as many bytes as a tile's words for each thread, again and again: the first cache may be too small for them
+  tile_stores,    ///< memset of as many bytes as a tile's words for each thread, again and again: the first
+                  ///< cache may be too small for them
   memory_stores,  ///< memset of as many bytes as the frame stores
   memory_copies,  ///< memcpy of them: bytes read and bytes written both count
   memory_loads    ///< memchr of them, for what is not there
@@ -39,12 +41,12 @@ struct FrameWork {
   std::uint64_t pixels = 0;     ///< of the frame buffer
   std::uint64_t triangles = 0;  ///< or lines, or points
   std::uint64_t vertices = 0;
-  std::uint64_t fragments = 0;  ///< shaded, or blended, or tested: as the workload counts them
-  std::uint64_t bytes = 0;      ///< read and written in memory by its nature: meshes, planes, the image
-  std::uint64_t kept_bytes = 0; ///< of the frame buffer's planes and the image
-  Limit limit = Limit::none;    ///< what it is held against
+  std::uint64_t fragments = 0;   ///< shaded, or blended, or tested: as the workload counts them
+  std::uint64_t bytes = 0;       ///< read and written in memory by its nature: meshes, planes, the image
+  std::uint64_t kept_bytes = 0;  ///< of the frame buffer's planes and the image
+  Limit limit = Limit::none;     ///< what it is held against
   std::uint64_t limited_bytes = 0;
-  std::uint64_t tile_bytes = 0; ///< a tile's words, where they are what the limit stores
+  std::uint64_t tile_bytes = 0;  ///< a tile's words, where they are what the limit stores
 };
 
 class Workload {
@@ -61,12 +63,14 @@ class Workload {
 
 struct WorkloadEntry {
   std::string name;
-  std::string what;             ///< one line, for the list
-  bool is_in_mean = true;       ///< of ratios to rivals
+  std::string what;        ///< one line, for the list
+  bool is_in_mean = true;  ///< of ratios to rivals
   std::function<std::unique_ptr<Workload>(const WorkloadSetup&)> make{};
-  std::function<std::optional<RivalForm>(const WorkloadSetup&)> rival{};  ///< the same for rivals, where they can draw it
+  std::function<std::optional<RivalForm>(const WorkloadSetup&)>
+      rival{};                             ///< the same for rivals, where they can draw it
   std::function<std::string()> lacks{};    ///< what it needs and is not installed, or nothing. May be empty
-  std::function<std::string()> prepare{};  ///< reads what it needs, before any thread runs; says why it cannot, or nothing. May be empty
+  std::function<std::string()> prepare{};  ///< reads what it needs, before any thread runs; says why it
+                                           ///< cannot, or nothing. May be empty
 };
 
 /// All of them, in the order of the tables.

@@ -4,11 +4,17 @@
 
 namespace tessera::rivals {
 
-MesaArrays::MesaArrays(GLenum mode, std::span<const float> positions, std::span<const std::uint8_t> colors, int width, int height, int threads)
-    : mode_(mode), width_(width), height_(height), count_(static_cast<int>(positions.size() / 3)), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+MesaArrays::MesaArrays(GLenum mode, std::span<const float> positions, std::span<const std::uint8_t> colors,
+                       int width, int height, int threads)
+    : mode_(mode),
+      width_(width),
+      height_(height),
+      count_(static_cast<int>(positions.size() / 3)),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
   context_ = make_context(pixels_.data(), width, height, threads);
   use_program(
-      "#version 330\nlayout(location = 0) in vec3 position;\nlayout(location = 1) in vec4 color;\nout vec4 c_;\nvoid main() { gl_Position = vec4(position, 1.0); c_ = color; }\n",
+      "#version 330\nlayout(location = 0) in vec3 position;\nlayout(location = 1) in vec4 color;\nout vec4 "
+      "c_;\nvoid main() { gl_Position = vec4(position, 1.0); c_ = color; }\n",
       "#version 330\nin vec4 c_;\nout vec4 color;\nvoid main() { color = c_; }\n");
   const auto enable = load<PFNGLENABLEVERTEXATTRIBARRAYPROC>("glEnableVertexAttribArray");
   const auto attribute = load<PFNGLVERTEXATTRIBPOINTERPROC>("glVertexAttribPointer");

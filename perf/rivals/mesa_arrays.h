@@ -1,5 +1,5 @@
-// The rival: Mesa's llvmpipe through OSMesa, drawing coloured vertices that stand in the window already: vertex buffers, the smallest
-// shaders there are, no state change inside a frame.
+// The rival: Mesa's llvmpipe through OSMesa, drawing coloured vertices that stand in the window already:
+// vertex buffers, the smallest shaders there are, no state change inside a frame.
 #pragma once
 
 #include <GL/osmesa.h>
@@ -15,9 +15,11 @@ class MesaArrays {
   /// @param mode       GL_POINTS, GL_LINES, ...
   /// @param positions  x y z in normalized device coordinates
   /// @param colors     r g b a for each
-  /// @param threads    what llvmpipe may use; read by Mesa when its first context is made, so the same for all of a process.
+  /// @param threads    what llvmpipe may use; read by Mesa when its first context is made, so the same for
+  /// all of a process.
   /// @throws std::runtime_error where OSMesa or a shader fails.
-  MesaArrays(GLenum mode, std::span<const float> positions, std::span<const std::uint8_t> colors, int width, int height, int threads);
+  MesaArrays(GLenum mode, std::span<const float> positions, std::span<const std::uint8_t> colors, int width,
+             int height, int threads);
   ~MesaArrays();
   MesaArrays(const MesaArrays&) = delete;
   MesaArrays& operator=(const MesaArrays&) = delete;

@@ -13,7 +13,8 @@ constexpr const char* kLibrary = "libOSMesa.so.8";
 class Library {
  public:
   Library() : handle_(dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL)) {
-    if (handle_ == nullptr) throw std::runtime_error(std::string("rivals need ") + kLibrary + " of Debian's package libosmesa6");
+    if (handle_ == nullptr)
+      throw std::runtime_error(std::string("rivals need ") + kLibrary + " of Debian's package libosmesa6");
     address_of_ = symbol<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
   }
   template <class Function>

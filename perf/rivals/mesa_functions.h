@@ -1,4 +1,5 @@
-// OSMesa, opened when it is asked for: the program does not depend on it, and frames that are measured without it do not share a process with its 100 MB.
+// OSMesa, opened when it is asked for: the program does not depend on it, and frames that are measured
+// without it do not share a process with its 100 MB.
 #pragma once
 
 #include <GL/osmesa.h>

@@ -16,12 +16,19 @@ const DrawCommand& only_draw(const Scene& scene) {
 
 }  // namespace
 
-MesaTeapot::MesaTeapot(const Scene& scene, Shading shading, int width, int height, int threads) : width_(width), height_(height) {
+MesaTeapot::MesaTeapot(const Scene& scene, Shading shading, int width, int height, int threads)
+    : width_(width), height_(height) {
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   context_ = make_context(pixels_.data(), width, height, threads);
   const DrawCommand& draw = only_draw(scene);
   const MeshData& mesh = scene.meshes[draw.mesh];
-  const bench::ShaderSources sources = lit_shaders({.camera = scene.camera.at_aspect(static_cast<double>(width) / height), .transform = draw.state.transform, .lights = scene.lights, .model = scene.light_model, .material = draw.state.material, .shading = shading});
+  const bench::ShaderSources sources =
+      lit_shaders({.camera = scene.camera.at_aspect(static_cast<double>(width) / height),
+                   .transform = draw.state.transform,
+                   .lights = scene.lights,
+                   .model = scene.light_model,
+                   .material = draw.state.material,
+                   .shading = shading});
   use_program(sources.vertex, sources.fragment);
   const auto attribute = [&](GLuint location, const std::vector<float>& values) {
     make_buffer(GL_ARRAY_BUFFER, values.data(), values.size() * sizeof(float));
@@ -35,7 +42,8 @@ MesaTeapot::MesaTeapot(const Scene& scene, Shading shading, int width, int heigh
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_DITHER);
   for (const SceneCommand& command : scene.frame)
-    if (const auto* clear = std::get_if<Clear>(&command.what); clear && clear->color) glClearColor(clear->color->r, clear->color->g, clear->color->b, 1);
+    if (const auto* clear = std::get_if<Clear>(&command.what); clear && clear->color)
+      glClearColor(clear->color->r, clear->color->g, clear->color->b, 1);
   if (glGetError() != GL_NO_ERROR) throw std::runtime_error("the rival's set-up ends in an OpenGL error");
 }
 

@@ -1,5 +1,5 @@
-// The rival: Mesa's llvmpipe through OSMesa, drawing the built-in teapot in its best form: vertex buffers, every constant
-// (matrices, material, light) a literal in its shaders, no state change inside a frame.
+// The rival: Mesa's llvmpipe through OSMesa, drawing the built-in teapot in its best form: vertex buffers,
+// every constant (matrices, material, light) a literal in its shaders, no state change inside a frame.
 #pragma once
 
 #include <GL/osmesa.h>
@@ -13,7 +13,8 @@ namespace tessera::rivals {
 
 class MesaTeapot {
  public:
-  /// @param threads  what llvmpipe may use; read by Mesa when its first context is made, so the same for all of a process.
+  /// @param threads  what llvmpipe may use; read by Mesa when its first context is made, so the same for all
+  /// of a process.
   /// @throws std::runtime_error where OSMesa or a shader fails.
   MesaTeapot(const Scene& scene, Shading shading, int width, int height, int threads);
   ~MesaTeapot();

@@ -14,7 +14,8 @@ void make_texture(const TexturedTriangles& triangles) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
   for (GLint level = 0, side = triangles.side; side > 0; ++level, side /= 2)
-    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, triangles.levels[static_cast<std::size_t>(level)].data());
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 triangles.levels[static_cast<std::size_t>(level)].data());
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, triangles.environment);
   glEnable(GL_TEXTURE_2D);
 }
@@ -24,7 +25,10 @@ const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(byt
 }  // namespace
 
 MesaTextures::MesaTextures(const TexturedTriangles& triangles, int width, int height, int threads)
-    : width_(width), height_(height), count_(static_cast<int>(triangles.vertices.size())), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    : width_(width),
+      height_(height),
+      count_(static_cast<int>(triangles.vertices.size())),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
   context_ = make_context(pixels_.data(), width, height, threads);
   make_buffer(GL_ARRAY_BUFFER, triangles.vertices.data(), triangles.vertices.size_bytes());
   glVertexPointer(4, GL_FLOAT, sizeof(TexturedVertex), offset(offsetof(TexturedVertex, position)));
@@ -36,7 +40,8 @@ MesaTextures::MesaTextures(const TexturedTriangles& triangles, int width, int he
     glEnableClientState(GL_COLOR_ARRAY);
   }
   make_texture(triangles);
-  // The depth buffer stays, unused: without one llvmpipe drops what a triangle covers whole tiles of, and layers below would not be drawn.
+  // The depth buffer stays, unused: without one llvmpipe drops what a triangle covers whole tiles of, and
+  // layers below would not be drawn.
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_DITHER);
   if (glGetError() != GL_NO_ERROR) throw std::runtime_error("the rival's set-up ends in an OpenGL error");

@@ -21,12 +21,22 @@ class MesaWindow {
   MesaWindow(int width, int height, MesaDriver driver, int threads) : picture_(width, height) {
     setenv("GALLIUM_DRIVER", driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe", 1);
     setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 1);
-    constexpr int kAttributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_STENCIL_BITS, 8, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
+    constexpr int kAttributes[] = {OSMESA_FORMAT,
+                                   OSMESA_RGBA,
+                                   OSMESA_DEPTH_BITS,
+                                   24,
+                                   OSMESA_STENCIL_BITS,
+                                   8,
+                                   OSMESA_PROFILE,
+                                   OSMESA_COMPAT_PROFILE,
+                                   0};
     context_ = mesa().create_context(kAttributes, nullptr);
     if (context_ == nullptr) throw std::runtime_error("OSMesa makes no context");
     make_current();
-    const std::string wanted = driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe", found = text_of(GL_RENDERER);
-    if (found.find(wanted) == std::string::npos) throw std::runtime_error("OSMesa's driver is \"" + found + "\", expected " + wanted);
+    const std::string wanted = driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe",
+                      found = text_of(GL_RENDERER);
+    if (found.find(wanted) == std::string::npos)
+      throw std::runtime_error("OSMesa's driver is \"" + found + "\", expected " + wanted);
     mesa().pixel_store(OSMESA_Y_UP, 0);
   }
   ~MesaWindow() { mesa().destroy_context(context_); }
@@ -34,7 +44,9 @@ class MesaWindow {
   MesaWindow& operator=(const MesaWindow&) = delete;
 
   void make_current() {
-    if (!mesa().make_current(context_, picture_.rgba.data(), GL_UNSIGNED_BYTE, picture_.width, picture_.height)) throw std::runtime_error("OSMesa does not draw into a picture of this size");
+    if (!mesa().make_current(context_, picture_.rgba.data(), GL_UNSIGNED_BYTE, picture_.width,
+                             picture_.height))
+      throw std::runtime_error("OSMesa does not draw into a picture of this size");
   }
   const Picture& picture() const { return picture_; }
 
@@ -70,7 +82,8 @@ void fill_buffer(GLenum target, const std::vector<Number>& values) {
   GLuint name = 0;
   mesa().gen_buffers(1, &name);
   mesa().bind_buffer(target, name);
-  mesa().buffer_data(target, static_cast<GLsizeiptr>(values.size() * sizeof(Number)), values.data(), GL_STATIC_DRAW);
+  mesa().buffer_data(target, static_cast<GLsizeiptr>(values.size() * sizeof(Number)), values.data(),
+                     GL_STATIC_DRAW);
 }
 
 void give_attribute(GLuint location, GLint components, const std::vector<float>& values) {
@@ -93,7 +106,8 @@ GLint filter_of(TextureFilter filter) {
 
 void give_texture(const RivalForm& form) {
   mesa().bind_texture(GL_TEXTURE_2D, 0);
-  mesa().tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, form.texture_size, form.texture_size, 0, GL_RGBA, GL_UNSIGNED_BYTE, form.texels.data());
+  mesa().tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, form.texture_size, form.texture_size, 0, GL_RGBA,
+                      GL_UNSIGNED_BYTE, form.texels.data());
   mesa().generate_mipmap(GL_TEXTURE_2D);
   mesa().tex_parameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter_of(form.sampler.mag));
   mesa().tex_parameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter_of(form.sampler.min));
@@ -110,7 +124,8 @@ GLenum mode_of(Primitive primitive) {
 
 class MesaWorkload : public bench::Workload {
  public:
-  MesaWorkload(const RivalForm& form, int width, int height, MesaDriver driver, int threads) : window_(width, height, driver, threads), mode_(mode_of(form.mesh.primitive)) {
+  MesaWorkload(const RivalForm& form, int width, int height, MesaDriver driver, int threads)
+      : window_(width, height, driver, threads), mode_(mode_of(form.mesh.primitive)) {
     use_shaders(form.shaders);
     give_attribute(0, form.mesh.position_components, form.mesh.positions);
     give_attribute(1, 3, form.mesh.normals);
@@ -140,15 +155,14 @@ class MesaWorkload : public bench::Workload {
       cleared_ |= kDepthAndStencil;
     }
     mesa().clear_color(form.clear_color.r, form.clear_color.g, form.clear_color.b, 1);
-    if (mesa().get_error() != GL_NO_ERROR) throw std::runtime_error("the rival's set-up ends in an OpenGL error");
+    if (mesa().get_error() != GL_NO_ERROR)
+      throw std::runtime_error("the rival's set-up ends in an OpenGL error");
   }
 
   FrameStats draw() override {
     mesa().clear(cleared_);
-    if (index_count_ > 0)
-      mesa().draw_elements(mode_, index_count_, GL_UNSIGNED_INT, nullptr);
-    else
-      mesa().draw_arrays(mode_, 0, vertex_count_);
+    if (index_count_ > 0) mesa().draw_elements(mode_, index_count_, GL_UNSIGNED_INT, nullptr);
+    else mesa().draw_arrays(mode_, 0, vertex_count_);
     mesa().finish();
     return {};
   }
@@ -164,13 +178,16 @@ class MesaWorkload : public bench::Workload {
   void reveal() {
     mesa().color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     mesa().depth_func(GL_EQUAL);
-    mesa().draw_elements(mode_, revealed_indices_, GL_UNSIGNED_INT, reinterpret_cast<const void*>(sizeof(GLuint) * static_cast<std::size_t>(index_count_ - revealed_indices_)));
+    mesa().draw_elements(mode_, revealed_indices_, GL_UNSIGNED_INT,
+                         reinterpret_cast<const void*>(
+                             sizeof(GLuint) * static_cast<std::size_t>(index_count_ - revealed_indices_)));
     mesa().finish();
     mesa().depth_func(GL_LESS);
     mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   }
 
-  static constexpr GLbitfield kDepthAndStencil = GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;  // they share words: one alone would be read and written
+  static constexpr GLbitfield kDepthAndStencil =
+      GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;  // they share words: one alone would be read and written
 
   MesaWindow window_;
   GLenum mode_;
@@ -180,7 +197,8 @@ class MesaWorkload : public bench::Workload {
 
 }  // namespace
 
-std::unique_ptr<bench::Workload> mesa_workload(const RivalForm& form, int width, int height, MesaDriver driver, int threads) {
+std::unique_ptr<bench::Workload> mesa_workload(const RivalForm& form, int width, int height,
+                                               MesaDriver driver, int threads) {
   return std::make_unique<MesaWorkload>(form, width, height, driver, threads);
 }
 
@@ -196,7 +214,8 @@ double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {
     const auto start = std::chrono::steady_clock::now();
     mesa().clear(GL_COLOR_BUFFER_BIT);
     mesa().finish();
-    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
   return times[kFrames / 2];

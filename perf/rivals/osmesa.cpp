@@ -6,9 +6,11 @@ namespace tessera::rivals {
 
 OSMesaContext make_context(void* pixels, int width, int height, int threads) {
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  constexpr int kAttributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
+  constexpr int kAttributes[] = {
+      OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
   OSMesaContext context = OSMesaCreateContextAttribs(kAttributes, nullptr);
-  if (context == nullptr || !OSMesaMakeCurrent(context, pixels, GL_UNSIGNED_BYTE, width, height)) throw std::runtime_error("OSMesa makes no context");
+  if (context == nullptr || !OSMesaMakeCurrent(context, pixels, GL_UNSIGNED_BYTE, width, height))
+    throw std::runtime_error("OSMesa makes no context");
   return context;
 }
 

@@ -1,4 +1,5 @@
-// Draws a white quadrilateral over the middle of a small picture and prints the pixels' sum: the same for every way of linking.
+// Draws a white quadrilateral over the middle of a small picture and prints the pixels' sum: the same for
+// every way of linking.
 #include <tessera/tessera.hpp>
 
 #include <cstdint>
@@ -21,8 +22,10 @@ int main() {
   tessera::FrameBuffer buffer({.width = kWidth, .height = kHeight});
   tessera::Frame frame(buffer);
   frame.clear({.color = tessera::Color{0, 0, 0, 1}, .depth = 1.0});
-  frame.draw({.positions = positions, .indices = indices}, {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false});
-  renderer.finish(frame, {.pixels = pixels.data(), .width = kWidth, .height = kHeight, .stride_bytes = 4 * kWidth});
+  frame.draw({.positions = positions, .indices = indices},
+             {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false});
+  renderer.finish(frame,
+                  {.pixels = pixels.data(), .width = kWidth, .height = kHeight, .stride_bytes = 4 * kWidth});
   unsigned long long sum = 0;
   for (const std::uint8_t byte : pixels) sum += byte;
   std::printf("%llu\n", sum);

@@ -1,4 +1,5 @@
-// The accumulation buffer as callers see it: what frames do to it, what is kept, where it stands, what is refused.
+// The accumulation buffer as callers see it: what frames do to it, what is kept, where it stands, what is
+// refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,11 +33,14 @@ std::vector<float> accumulated(const FrameBuffer& buffer) {
 float at(const FrameBuffer& buffer, int x, int y, std::size_t c) {
   return accumulated(buffer)[4 * static_cast<std::size_t>(y * buffer.format().width + x) + c];
 }
-std::uint32_t word_at(const FrameBuffer& buffer, int x, int y) { return color_words(buffer)[static_cast<std::size_t>(y * buffer.format().width + x)]; }
+std::uint32_t word_at(const FrameBuffer& buffer, int x, int y) {
+  return color_words(buffer)[static_cast<std::size_t>(y * buffer.format().width + x)];
+}
 
 std::vector<std::uint64_t> plane_hashes(const FrameBuffer& buffer) {
   std::vector<std::uint64_t> hashes;
-  for (int k = 0; k < buffer.plane_count(Buffer::accumulation); ++k) hashes.push_back(hash_of(buffer.plane(Buffer::accumulation, k)));
+  for (int k = 0; k < buffer.plane_count(Buffer::accumulation); ++k)
+    hashes.push_back(hash_of(buffer.plane(Buffer::accumulation, k)));
   return hashes;
 }
 
@@ -76,8 +80,10 @@ TEST_F(Accumulating, ObeysTheScissorToThePixel) {
   std::size_t i = 0;
   for (int y = 0; y < kFormat.height; ++y)
     for (int x = 0; x < kFormat.width; ++x) {
-      const bool added = x >= 30 && x < 71 && y >= 30 && y < 61, cleared = x >= 61 && x < 68 && y >= 63 && y < 68;
-      for (int c = 0; c < 4; ++c) ASSERT_NEAR(rgba[i++], added ? 0.75 : cleared ? -1 : 0.25, 1e-4) << x << ", " << y;
+      const bool added = x >= 30 && x < 71 && y >= 30 && y < 61,
+                 cleared = x >= 61 && x < 68 && y >= 63 && y < 68;
+      for (int c = 0; c < 4; ++c)
+        ASSERT_NEAR(rgba[i++], added ? 0.75 : cleared ? -1 : 0.25, 1e-4) << x << ", " << y;
     }
 }
 
@@ -86,13 +92,15 @@ TEST_F(Accumulating, HasThePlanesOfItsComponentsOneAfterTheOther) {
   renderer.finish(frame);
   EXPECT_EQ(buffer.allocated_bytes(Buffer::accumulation), 0u) << "one colour needs no planes";
   ASSERT_EQ(buffer.plane_count(Buffer::accumulation), 64);
-  const std::uint16_t levels[] = {8192, static_cast<std::uint16_t>(-8192), 32767, static_cast<std::uint16_t>(-32767)};
+  const std::uint16_t levels[] = {8192, static_cast<std::uint16_t>(-8192), 32767,
+                                  static_cast<std::uint16_t>(-32767)};
   for (int k = 0; k < 64; ++k) {
     const PlaneView plane = buffer.plane(Buffer::accumulation, k);
     EXPECT_EQ(plane.bits[0], (levels[k / 16] >> k % 16 & 1) != 0 ? 0xff : 0) << k;
   }
   EXPECT_GE(buffer.allocated_bytes(Buffer::accumulation), 64u * 71 * 17);
-  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::accumulation, 64); }).value_or(""), HasSubstr("plane 64 of the accumulation buffer, which has planes 0 to 63"));
+  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::accumulation, 64); }).value_or(""),
+              HasSubstr("plane 64 of the accumulation buffer, which has planes 0 to 63"));
 }
 
 TEST_F(Accumulating, RunsInTheOrderOfRecording) {
@@ -109,7 +117,8 @@ TEST_F(Accumulating, RunsInTheOrderOfRecording) {
   frame.clear({.color = Color{1, 1, 1, 0}});
   renderer.finish(frame);
   const auto expect_pixel = [&](int x, std::array<double, 4> rgba) {
-    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(at(buffer, x, 20, c), rgba[c], 1e-4) << x << ", component " << c;
+    for (std::size_t c = 0; c < 4; ++c)
+      EXPECT_NEAR(at(buffer, x, 20, c), rgba[c], 1e-4) << x << ", component " << c;
   };
   expect_pixel(10, {0.25, 0.75, 0.25, 0.875});
   expect_pixel(120, {0.25, 0.25, 0.75, 0.875});
@@ -132,8 +141,10 @@ TEST_F(Accumulating, ReachesTilesWithoutTriangles) {
 
 TEST_F(Accumulating, ReturnsThroughTheColorMask) {
   frame.clear({.color = Color{0, 0, 0, 0}, .accumulation = Color{1, 1, 1, 1}});
-  frame.accumulate({.op = AccumOp::return_, .scissor = Rect{0, 0, 40, 71}, .color_mask = {true, false, false, false}});
-  frame.accumulate({.op = AccumOp::return_, .scissor = Rect{40, 0, 40, 71}, .color_mask = {false, true, false, true}});
+  frame.accumulate(
+      {.op = AccumOp::return_, .scissor = Rect{0, 0, 40, 71}, .color_mask = {true, false, false, false}});
+  frame.accumulate(
+      {.op = AccumOp::return_, .scissor = Rect{40, 0, 40, 71}, .color_mask = {false, true, false, true}});
   frame.accumulate({.op = AccumOp::return_, .value = -1, .scissor = Rect{80, 0, 40, 71}});
   renderer.finish(frame);
   EXPECT_EQ(word_at(buffer, 20, 20), 0x00ff0000u);
@@ -144,7 +155,11 @@ TEST_F(Accumulating, ReturnsThroughTheColorMask) {
 
 TEST_F(Accumulating, ReturnsWithTheDitherOfEveryOtherWrite) {
   for (const int color_bits : {2, 8, 24}) {
-    FrameBuffer dithered({.width = 70, .height = 41, .color_bits = color_bits, .dither = Dither::bayer8, .accumulation_bits = 32});
+    FrameBuffer dithered({.width = 70,
+                          .height = 41,
+                          .color_bits = color_bits,
+                          .dither = Dither::bayer8,
+                          .accumulation_bits = 32});
     Frame f(dithered);
     const Color color{0.2987f, 0.4321f, 0.7123f, 1};
     f.clear({.color = color});
@@ -192,17 +207,23 @@ TEST_F(Accumulating, LosesWhatIsNotKeptAndSaysSo) {
   frame.clear({.color = Color{1, 0, 0, 1}});
   frame.accumulate({.value = 0.5});
   renderer.finish(frame, image.target());
-  EXPECT_THAT(error_of([&] { accumulated(buffer); }).value_or(""), HasSubstr("did not keep the accumulation buffer"));
+  EXPECT_THAT(error_of([&] { accumulated(buffer); }).value_or(""),
+              HasSubstr("did not keep the accumulation buffer"));
   frame.clear({.color = Color{1, 0, 0, 1}});
   frame.accumulate({.value = 0.5});
-  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""), HasSubstr("starts from the accumulation buffer"));
+  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
+              HasSubstr("starts from the accumulation buffer"));
   frame.reset();
   frame.accumulate({.op = AccumOp::load});
-  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""), HasSubstr("starts from the colour buffer")) << "accumulation reads it";
+  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
+              HasSubstr("starts from the colour buffer"))
+      << "accumulation reads it";
   frame.reset();
   frame.clear({.accumulation = Color{0.5f, 0.5f, 0.5f, 0.5f}});
   frame.accumulate({.op = AccumOp::return_, .scissor = Rect{0, 0, 5, 5}});
-  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""), HasSubstr("starts from the colour buffer")) << "a part of it stays";
+  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
+              HasSubstr("starts from the colour buffer"))
+      << "a part of it stays";
   frame.reset();
   // Nothing of either is looked at before it is replaced.
   frame.clear({.accumulation = Color{0.5f, 0.5f, 0.5f, 0.5f}});
@@ -248,7 +269,9 @@ std::vector<std::function<void(Frame&)>> commands_of(const RandomFrame& scene) {
   };
   const auto accum = [](Accum a) { return [a](Frame& f) { f.accumulate(a); }; };
   const auto clear = [](Clear c) { return [c](Frame& f) { f.clear(c); }; };
-  return {clear({.color = Color{0.1f, 0.2f, 0.3f, 0.4f}, .depth = 1.0, .accumulation = Color{0.1f, -0.2f, 0, 0.3f}}),
+  return {clear({.color = Color{0.1f, 0.2f, 0.3f, 0.4f},
+                 .depth = 1.0,
+                 .accumulation = Color{0.1f, -0.2f, 0, 0.3f}}),
           draw({1, 0.5f, 0.2f, 0.7f}, 0, Shading::phong),
           accum({.value = 0.3}),
           clear({.color = Color{0.9f, 0.8f, 0.1f, 0.2f}, .depth = 1.0, .scissor = Rect{17, 9, 300, 40}}),
@@ -256,7 +279,10 @@ std::vector<std::function<void(Frame&)>> commands_of(const RandomFrame& scene) {
           draw({0, 0.7f, 0.9f, 1}, 0.5, Shading::gouraud),
           accum({.value = 0.6}),
           accum({.op = AccumOp::mult, .value = -1.3, .scissor = Rect{-5, -5, 80, 40}}),
-          accum({.op = AccumOp::return_, .value = 1.7, .scissor = Rect{11, 13, 100, 41}, .color_mask = {true, true, false, true}}),
+          accum({.op = AccumOp::return_,
+                 .value = 1.7,
+                 .scissor = Rect{11, 13, 100, 41},
+                 .color_mask = {true, true, false, true}}),
           accum({.op = AccumOp::add, .value = 0.05}),
           clear({.accumulation = Color{0.5f, 0.6f, 0.7f, 0.8f}, .scissor = Rect{100, 50, 20, 20}}),
           draw({0.6f, 0.1f, 0.9f, 0.5f}, -0.5, Shading::flat),
@@ -269,7 +295,8 @@ TEST(Accumulation, GivesTheSameBitsForEveryTileSizeNumberOfThreadsAndInstruction
     for (const Dither dither : {Dither::none, Dither::bayer4}) {
       FrameBufferFormat format = with_bits(bits);
       format.dither = dither;
-      if (dither == Dither::none) format.alpha_bits = 0;  // nothing is left to do to fragments: shading is deferred
+      if (dither == Dither::none)
+        format.alpha_bits = 0;  // nothing is left to do to fragments: shading is deferred
       const RandomFrame scene(format, 150);
       std::optional<Fingerprint> expected;
       std::vector<std::uint64_t> expected_planes;
@@ -287,8 +314,10 @@ TEST(Accumulation, GivesTheSameBitsForEveryTileSizeNumberOfThreadsAndInstruction
               }
               if (!cut) renderer.finish(frame);
               if (!expected) expected = fingerprint(buffer), expected_planes = plane_hashes(buffer);
-              EXPECT_EQ(fingerprint(buffer), *expected) << tile_size << ", " << threads << " threads, " << name(set) << (cut ? ", cut" : "");
-              EXPECT_EQ(plane_hashes(buffer), expected_planes) << tile_size << ", " << threads << " threads, " << name(set) << (cut ? ", cut" : "");
+              EXPECT_EQ(fingerprint(buffer), *expected)
+                  << tile_size << ", " << threads << " threads, " << name(set) << (cut ? ", cut" : "");
+              EXPECT_EQ(plane_hashes(buffer), expected_planes)
+                  << tile_size << ", " << threads << " threads, " << name(set) << (cut ? ", cut" : "");
             }
     }
 }
@@ -298,8 +327,9 @@ TEST(Accumulation, StandsInLentMemoryAfterStencil) {
     const FrameBufferFormat format = with_bits(bits);
     const std::size_t size = FrameBuffer::memory_bytes(format);
     EXPECT_GE(size - FrameBuffer::memory_bytes(with_bits(0)), static_cast<std::size_t>(4 * bits * 71 * 17));
-    const std::unique_ptr<std::byte[], void (*)(std::byte*)> memory(static_cast<std::byte*>(::operator new[](size, std::align_val_t{64})),
-                                                                    [](std::byte* at) { ::operator delete[](at, std::align_val_t{64}); });
+    const std::unique_ptr<std::byte[], void (*)(std::byte*)> memory(
+        static_cast<std::byte*>(::operator new[](size, std::align_val_t{64})),
+        [](std::byte* at) { ::operator delete[](at, std::align_val_t{64}); });
     std::fill_n(memory.get(), size, std::byte{0xcd});
     FrameBuffer own(format), lent(format, {memory.get(), size});
     EXPECT_EQ(plane_hashes(own), plane_hashes(lent)) << "a new one";
@@ -323,9 +353,13 @@ TEST(Accumulation, StandsInLentMemoryAfterStencil) {
 
 TEST(Accumulation, IsRefusedWhereItCannotBe) {
   const auto says = [](const std::function<void()>& act) { return error_of(act).value_or("no error"); };
-  EXPECT_THAT(says([] { FrameBuffer({.accumulation_bits = 8}); }), HasSubstr("accumulation_bits is 8, must be 0, 16 or 32"));
-  EXPECT_THAT(says([] { FrameBuffer({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16}); }), HasSubstr("colour mode is index"));
-  FrameBuffer without({.width = 8, .height = 8}), index({.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 8}),
+  EXPECT_THAT(says([] { FrameBuffer({.accumulation_bits = 8}); }),
+              HasSubstr("accumulation_bits is 8, must be 0, 16 or 32"));
+  EXPECT_THAT(
+      says([] { FrameBuffer({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16}); }),
+      HasSubstr("colour mode is index"));
+  FrameBuffer without({.width = 8, .height = 8}),
+      index({.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 8}),
       grey({.width = 8, .height = 8, .color_bits = 2, .accumulation_bits = 16});
   Frame none(without), indices(index), greys(grey);
   EXPECT_THAT(says([&] { none.accumulate({}); }), HasSubstr("has no accumulation buffer"));
@@ -334,11 +368,19 @@ TEST(Accumulation, IsRefusedWhereItCannotBe) {
   std::vector<float> rgba(256);
   EXPECT_THAT(says([&] { without.read_accumulation(rgba); }), HasSubstr("has no accumulation buffer"));
   EXPECT_THAT(says([&] { indices.accumulate({}); }), HasSubstr("indices"));
-  EXPECT_THAT(says([&] { greys.accumulate({.value = std::numeric_limits<double>::quiet_NaN()}); }), HasSubstr("value holds nan, must be finite"));
-  EXPECT_THAT(says([&] { greys.accumulate({.value = std::numeric_limits<double>::infinity()}); }), HasSubstr("must be finite"));
+  EXPECT_THAT(says([&] { greys.accumulate({.value = std::numeric_limits<double>::quiet_NaN()}); }),
+              HasSubstr("value holds nan, must be finite"));
+  EXPECT_THAT(says([&] { greys.accumulate({.value = std::numeric_limits<double>::infinity()}); }),
+              HasSubstr("must be finite"));
   EXPECT_THAT(says([&] { greys.accumulate({.scissor = Rect{0, 0, -1, 4}}); }), HasSubstr("scissor"));
-  EXPECT_THAT(says([&] { greys.accumulate({.color_mask = {true, false, true, true}}); }), HasSubstr("luminance alone"));
-  EXPECT_THAT(says([&] { greys.clear({.accumulation = Color{0, 0, 1.5f, 0}}); }), HasSubstr("accumulation is 1.5, must be -1 to 1"));
+  EXPECT_THAT(says([&] {
+                greys.accumulate({.color_mask = {true, false, true, true}});
+              }),
+              HasSubstr("luminance alone"));
+  EXPECT_THAT(says([&] {
+                greys.clear({.accumulation = Color{0, 0, 1.5f, 0}});
+              }),
+              HasSubstr("accumulation is 1.5, must be -1 to 1"));
   EXPECT_EQ(says([&] { greys.accumulate({.color_mask = {false, false, false, true}}); }), "no error");
 }
 

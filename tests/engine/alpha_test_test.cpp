@@ -1,5 +1,5 @@
-// What the alpha test looks at; of draws that store no colour, too: depth and stencil of cut-outs are those that the same draw leaves
-// with its colour.
+// What the alpha test looks at; of draws that store no colour, too: depth and stencil of cut-outs are those
+// that the same draw leaves with its colour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,9 @@ Tested drawn(const Mesh& mesh, DrawState state, const LightModel& model, bool st
   return {depth_words(buffer), stencil_values(buffer)};
 }
 
-std::size_t passed(const Tested& tested) { return static_cast<std::size_t>(std::count(tested.stencil.begin(), tested.stencil.end(), 1)); }
+std::size_t passed(const Tested& tested) {
+  return static_cast<std::size_t>(std::count(tested.stencil.begin(), tested.stencil.end(), 1));
+}
 
 MeshData ramp() {
   MeshData mesh = whole_window(0.25f);
@@ -54,7 +56,8 @@ TEST(AlphaTestWithoutColor, LooksAtTheMaterial) {
 TEST(AlphaTestWithoutColor, LooksAtTheVerticesInEveryShading) {
   const MeshData mesh = ramp();
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
-    for (const ColorMaterial mode : {ColorMaterial::none, ColorMaterial::diffuse, ColorMaterial::ambient_and_diffuse, ColorMaterial::specular})
+    for (const ColorMaterial mode : {ColorMaterial::none, ColorMaterial::diffuse,
+                                     ColorMaterial::ambient_and_diffuse, ColorMaterial::specular})
       for (const bool lighting : {false, true}) {
         DrawState state;
         state.lighting = lighting;
@@ -62,15 +65,18 @@ TEST(AlphaTestWithoutColor, LooksAtTheVerticesInEveryShading) {
         state.color_material = mode;
         state.material.diffuse.a = 0.1f;
         const Tested tested = drawn(mesh.view(), state, {}, false);
-        EXPECT_EQ(tested, drawn(mesh.view(), state, {}, true)) << static_cast<int>(shading) << " " << static_cast<int>(mode) << (lighting ? " lit" : "");
-        const bool by_vertices = !lighting || mode == ColorMaterial::diffuse || mode == ColorMaterial::ambient_and_diffuse;
+        EXPECT_EQ(tested, drawn(mesh.view(), state, {}, true))
+            << static_cast<int>(shading) << " " << static_cast<int>(mode) << (lighting ? " lit" : "");
+        const bool by_vertices =
+            !lighting || mode == ColorMaterial::diffuse || mode == ColorMaterial::ambient_and_diffuse;
         if (shading != Shading::flat) {
           EXPECT_EQ(passed(tested), by_vertices ? 40u * 24 / 2 : 0u);
         }
       }
 }
 
-// Colours are clamped where they are lit: at the vertices, or at the pixels, whose alpha is beyond 0.5 in another place then.
+// Colours are clamped where they are lit: at the vertices, or at the pixels, whose alpha is beyond 0.5 in
+// another place then.
 TEST(AlphaTest, LooksAtAlphaThatIsClampedWhereItIsLit) {
   MeshData mesh = whole_window(0.25f);
   mesh.colors = {1, 1, 1, -1, 1, 1, 1, 3, 1, 1, 1, 3, 1, 1, 1, -1};
@@ -79,13 +85,16 @@ TEST(AlphaTest, LooksAtAlphaThatIsClampedWhereItIsLit) {
   for (const Shading shading : {Shading::gouraud, Shading::phong})
     for (const bool stores_color : {false, true}) {
       state.shading = shading;
-      EXPECT_EQ(passed(drawn(mesh.view(), state, {}, stores_color)), (shading == Shading::phong ? 25u : 20u) * 24) << static_cast<int>(shading) << stores_color;
+      EXPECT_EQ(passed(drawn(mesh.view(), state, {}, stores_color)),
+                (shading == Shading::phong ? 25u : 20u) * 24)
+          << static_cast<int>(shading) << stores_color;
     }
   state.lighting = false;
   EXPECT_EQ(passed(drawn(mesh.view(), state, {}, false)), 20u * 24) << "nothing is lit";
 }
 
-// So it is by every way that alpha takes to the pixels: mixed at once or one pixel after the other, of samples, under textures, of outlines.
+// So it is by every way that alpha takes to the pixels: mixed at once or one pixel after the other, of
+// samples, under textures, of outlines.
 TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
   MeshData mesh = rectangle(-1, -0.5f, 1, 0.5f, 0.25f);  // its lower side is between rows 17 and 18
   mesh.primitive = Primitive::quads;
@@ -112,8 +121,11 @@ TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
           Renderer().finish(frame);
           const std::vector<std::uint32_t> words = color_words(buffer);
           for (std::size_t x = 3; x < 37; ++x) {  // beside what the other sides cover
-            const double along = (static_cast<double>(x) + 0.5) / 40, alpha = std::clamp(shading == Shading::phong ? -1 + 4 * along : along, 0.0, 1.0);
-            ASSERT_NEAR(words[17 * 40 + x] >> 16 & 255, 255 * alpha, 1) << x << ", " << static_cast<int>(shading) << " " << samples << " " << (under != nullptr) << " " << static_cast<int>(mode);
+            const double along = (static_cast<double>(x) + 0.5) / 40,
+                         alpha = std::clamp(shading == Shading::phong ? -1 + 4 * along : along, 0.0, 1.0);
+            ASSERT_NEAR(words[17 * 40 + x] >> 16 & 255, 255 * alpha, 1)
+                << x << ", " << static_cast<int>(shading) << " " << samples << " " << (under != nullptr)
+                << " " << static_cast<int>(mode);
           }
         }
 }
@@ -125,7 +137,8 @@ TEST(AlphaTestWithoutColor, LooksAtEachFacesMaterial) {
     state.front_face = front;
     state.material.diffuse.a = 0.2f;
     state.back_material = Material{.diffuse = {1, 1, 1, 0.8f}};
-    EXPECT_EQ(passed(drawn(mesh.view(), state, {.two_sided = true}, false)), front == FrontFace::cw ? 40u * 24 : 0u);
+    EXPECT_EQ(passed(drawn(mesh.view(), state, {.two_sided = true}, false)),
+              front == FrontFace::cw ? 40u * 24 : 0u);
     EXPECT_EQ(passed(drawn(mesh.view(), state, {.two_sided = false}, false)), 0u);
   }
 }

@@ -1,4 +1,5 @@
-// Frame buffers, palettes, renderers and matrices refuse what they cannot be, and say what was found and what was needed.
+// Frame buffers, palettes, renderers and matrices refuse what they cannot be, and say what was found and what
+// was needed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                 kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 struct Misuse {
@@ -39,7 +41,11 @@ std::function<void()> make(FrameBufferFormat format) {
   return [format] { FrameBuffer{format}; };
 }
 FrameBufferFormat index_format(int bits, std::vector<Color> palette) {
-  return {.width = 4, .height = 4, .color_mode = ColorMode::index, .color_bits = bits, .palette = std::move(palette)};
+  return {.width = 4,
+          .height = 4,
+          .color_mode = ColorMode::index,
+          .color_bits = bits,
+          .palette = std::move(palette)};
 }
 
 TEST(ErrorsOfFrameBuffers, NameSizesAndBitsOutOfRange) {
@@ -63,18 +69,28 @@ TEST(ErrorsOfFrameBuffers, NamePlanesAndSamplesThatThereAreNot) {
   const std::vector<Misuse> misuses{
       {"4 alpha bits", make({.alpha_bits = 4}), {"alpha_bits is 4", "0 or 8"}},
       {"-8 alpha bits", make({.alpha_bits = -8}), {"alpha_bits is -8", "0 or 8"}},
-      {"alpha of indices", make({.color_mode = ColorMode::index, .color_bits = 8, .alpha_bits = 8}), {"alpha planes", "index", "rgb"}},
+      {"alpha of indices",
+       make({.color_mode = ColorMode::index, .color_bits = 8, .alpha_bits = 8}),
+       {"alpha planes", "index", "rgb"}},
       {"0 samples", make({.samples = 0}), {"samples is 0", "1, 4 or 8"}},
       {"2 samples", make({.samples = 2}), {"samples is 2", "1, 4 or 8"}},
       {"16 samples", make({.samples = 16}), {"samples is 16", "1, 4 or 8"}},
-      {"samples of indices", make({.color_mode = ColorMode::index, .color_bits = 8, .samples = 4}), {"samples", "index", "no mean"}},
+      {"samples of indices",
+       make({.color_mode = ColorMode::index, .color_bits = 8, .samples = 4}),
+       {"samples", "index", "no mean"}},
       {"24 accumulation bits", make({.accumulation_bits = 24}), {"accumulation_bits is 24", "0, 16 or 32"}},
-      {"-16 accumulation bits", make({.accumulation_bits = -16}), {"accumulation_bits is -16", "0, 16 or 32"}},
-      {"accumulation of indices", make({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16}), {"accumulation buffer", "index", "rgb"}},
+      {"-16 accumulation bits",
+       make({.accumulation_bits = -16}),
+       {"accumulation_bits is -16", "0, 16 or 32"}},
+      {"accumulation of indices",
+       make({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16}),
+       {"accumulation buffer", "index", "rgb"}},
   };
   expect_errors(misuses);
   // Whoever asks for the memory first is told the same.
-  const auto bytes = [](FrameBufferFormat format) { return [format] { (void)FrameBuffer::memory_bytes(format); }; };
+  const auto bytes = [](FrameBufferFormat format) {
+    return [format] { (void)FrameBuffer::memory_bytes(format); };
+  };
   expect_errors({
       {"5 alpha bits", bytes({.alpha_bits = 5}), {"alpha_bits is 5", "0 or 8"}},
       {"6 samples", bytes({.samples = 6}), {"samples is 6", "1, 4 or 8"}},
@@ -90,7 +106,9 @@ TEST(ErrorsOfFrameBuffers, NameWhatIsWrongWithAPalette) {
       {"below 0", make(index_format(2, {{0, 0, -0.5f, 1}})), {"entry 0", "-0.5", "0 to 1"}},
       {"not a number", make(index_format(2, {{}, {}, {kNanF, 0, 0, 1}})), {"entry 2", "nan", "0 to 1"}},
       {"alpha above 1", make(index_format(2, {{0, 0, 0, 2}})), {"entry 0", "2", "0 to 1"}},
-      {"a name that there is not", [] { named_palette("vga", 8); }, {"\"vga\"", "bw", "gray", "ega16", "vga256", "web216"}},
+      {"a name that there is not",
+       [] { named_palette("vga", 8); },
+       {"\"vga\"", "bw", "gray", "ega16", "vga256", "web216"}},
       {"no name", [] { named_palette("", 8); }, {"unknown"}},
       {"vga256 in 7 bits", [] { named_palette("vga256", 7); }, {"256 entries", "7 bits", "128"}},
       {"web216 in 7 bits", [] { named_palette("web216", 7); }, {"216 entries", "7 bits", "128"}},
@@ -113,7 +131,9 @@ TEST(ErrorsOfRenderers, NameOptionsOutOfRange) {
       {"tiles of 33", start({.tile_size = 33}), {"tile_size is 33", "32, 64 or 128"}},
       {"tiles of -64", start({.tile_size = -64}), {"tile_size is -64", "32, 64 or 128"}},
       {"tiles of 256", start({.tile_size = 256}), {"tile_size is 256", "32, 64 or 128"}},
-      {"no instruction set at all", start({.instruction_set = static_cast<InstructionSet>(77)}), {"instruction set", "scalar"}},
+      {"no instruction set at all",
+       start({.instruction_set = static_cast<InstructionSet>(77)}),
+       {"instruction set", "scalar"}},
   });
 }
 
@@ -125,7 +145,8 @@ TEST(ErrorsOfRenderers, NameTheInstructionSetThatIsNotThere) {
     const bool has = std::find(there.begin(), there.end(), set) != there.end();
     EXPECT_EQ(!error, has) << name(set);
     if (!has) {
-      EXPECT_THAT(error.value_or(""), testing::AllOf(HasSubstr(std::string(name(set))), HasSubstr(std::string(name(there.front())))));
+      EXPECT_THAT(error.value_or(""), testing::AllOf(HasSubstr(std::string(name(set))),
+                                                     HasSubstr(std::string(name(there.front())))));
     }
   }
 }
@@ -137,10 +158,26 @@ TEST(ErrorsOfMatrices, NameEmptyAndNonFiniteVolumes) {
       {"axis infinite", [] { rotate(10, 0, kInfinity, 1); }, {"axis"}},
       {"angle nan", [] { rotate(kNan, 0, 0, 1); }, {"angle"}},
       {"angle infinite", [] { rotate(kInfinity, 0, 0, 1); }, {"angle"}},
-      {"eye in the target", [] { look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0}); }, {"eye", "target", "up"}},
-      {"up along the view", [] { look_at({0, 5, 0}, {0, 0, 0}, {0, 1, 0}); }, {"eye", "target", "up"}},
-      {"up 0", [] { look_at({0, 0, 5}, {0, 0, 0}, {0, 0, 0}); }, {"up"}},
-      {"eye nan", [] { look_at({kNan, 0, 5}, {0, 0, 0}, {0, 1, 0}); }, {"eye"}},
+      {"eye in the target",
+       [] {
+         look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0});
+       },
+       {"eye", "target", "up"}},
+      {"up along the view",
+       [] {
+         look_at({0, 5, 0}, {0, 0, 0}, {0, 1, 0});
+       },
+       {"eye", "target", "up"}},
+      {"up 0",
+       [] {
+         look_at({0, 0, 5}, {0, 0, 0}, {0, 0, 0});
+       },
+       {"up"}},
+      {"eye nan",
+       [] {
+         look_at({kNan, 0, 5}, {0, 0, 0}, {0, 1, 0});
+       },
+       {"eye"}},
       {"fovy 0", [] { perspective(0, 1, 1, 2); }, {"fovy", "0", "180"}},
       {"fovy 180", [] { perspective(180, 1, 1, 2); }, {"fovy", "180"}},
       {"fovy nan", [] { perspective(kNan, 1, 1, 2); }, {"fovy", "nan"}},

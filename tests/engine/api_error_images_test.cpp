@@ -1,4 +1,5 @@
-// Images that do not fit and buffers that are not there are refused before a pixel is touched; a refused frame is still recorded.
+// Images that do not fit and buffers that are not there are refused before a pixel is touched; a refused
+// frame is still recorded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,14 +93,19 @@ TEST(ErrorsOfReading, NameSpansOfTheWrongSize) {
   std::vector<std::uint32_t> words(199);
   std::vector<float> depth(201);
   std::vector<std::uint8_t> stencil(0);
-  EXPECT_THAT(error_of([&] { buffer.read_color_words(words); }).value_or(""), AllOf(HasSubstr("199"), HasSubstr("200")));
-  EXPECT_THAT(error_of([&] { buffer.read_depth_words(words); }).value_or(""), AllOf(HasSubstr("199"), HasSubstr("200")));
-  EXPECT_THAT(error_of([&] { buffer.read_depth(depth); }).value_or(""), AllOf(HasSubstr("201"), HasSubstr("200")));
-  EXPECT_THAT(error_of([&] { buffer.read_stencil(stencil); }).value_or(""), AllOf(HasSubstr("0"), HasSubstr("200")));
+  EXPECT_THAT(error_of([&] { buffer.read_color_words(words); }).value_or(""),
+              AllOf(HasSubstr("199"), HasSubstr("200")));
+  EXPECT_THAT(error_of([&] { buffer.read_depth_words(words); }).value_or(""),
+              AllOf(HasSubstr("199"), HasSubstr("200")));
+  EXPECT_THAT(error_of([&] { buffer.read_depth(depth); }).value_or(""),
+              AllOf(HasSubstr("201"), HasSubstr("200")));
+  EXPECT_THAT(error_of([&] { buffer.read_stencil(stencil); }).value_or(""),
+              AllOf(HasSubstr("0"), HasSubstr("200")));
 }
 
 TEST(ErrorsOfReading, NameBuffersAndPlanesThatDoNotExist) {
-  const FrameBuffer buffer({.width = 20, .height = 10, .color_bits = 15, .depth = DepthFormat::none, .stencil_bits = 0});
+  const FrameBuffer buffer(
+      {.width = 20, .height = 10, .color_bits = 15, .depth = DepthFormat::none, .stencil_bits = 0});
   std::vector<std::uint32_t> words(200);
   std::vector<float> depth(200);
   std::vector<std::uint8_t> stencil(200);
@@ -107,9 +113,12 @@ TEST(ErrorsOfReading, NameBuffersAndPlanesThatDoNotExist) {
   EXPECT_THAT(error_of([&] { buffer.read_depth_words(words); }).value_or(""), HasSubstr("no depth buffer"));
   EXPECT_THAT(error_of([&] { buffer.read_stencil(stencil); }).value_or(""), HasSubstr("no stencil buffer"));
   EXPECT_THAT(error_of([&] { buffer.plane(Buffer::depth, 0); }).value_or(""), HasSubstr("no depth buffer"));
-  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::stencil, 0); }).value_or(""), HasSubstr("no stencil buffer"));
-  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::color, 15); }).value_or(""), AllOf(HasSubstr("plane 15"), HasSubstr("0 to 14")));
-  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::color, -1); }).value_or(""), AllOf(HasSubstr("plane -1"), HasSubstr("0 to 14")));
+  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::stencil, 0); }).value_or(""),
+              HasSubstr("no stencil buffer"));
+  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::color, 15); }).value_or(""),
+              AllOf(HasSubstr("plane 15"), HasSubstr("0 to 14")));
+  EXPECT_THAT(error_of([&] { buffer.plane(Buffer::color, -1); }).value_or(""),
+              AllOf(HasSubstr("plane -1"), HasSubstr("0 to 14")));
   EXPECT_FALSE(error_of([&] { buffer.plane(Buffer::color, 14); }));
 }
 

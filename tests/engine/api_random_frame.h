@@ -1,5 +1,5 @@
-// A frame that has a bit of everything: triangles of all sizes in random order, many of them cut by the near and far planes
-// and the edges of the window, layer upon layer, in every kind of shading.
+// A frame that has a bit of everything: triangles of all sizes in random order, many of them cut by the near
+// and far planes and the edges of the window, layer upon layer, in every kind of shading.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,8 @@ struct RandomFrame {
   std::vector<Light> lights;
   Camera camera;
 
-  explicit RandomFrame(FrameBufferFormat f = {.width = 330, .height = 210}, int count = 1500) : format(std::move(f)) {
+  explicit RandomFrame(FrameBufferFormat f = {.width = 330, .height = 210}, int count = 1500)
+      : format(std::move(f)) {
     Random random(20);
     for (int i = 0; i < count; ++i) {
       const float size = i % 16 == 0 ? 6.0f : i % 4 == 0 ? 0.8f : 0.08f;
@@ -29,7 +30,9 @@ struct RandomFrame {
     const std::uint32_t side = 12;
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x)
-        for (const float c : {static_cast<float>(x) - 5.5f, static_cast<float>(y) - 5.5f, random.between(-7, -3)}) strip.positions.push_back(c * 0.8f);
+        for (const float c :
+             {static_cast<float>(x) - 5.5f, static_cast<float>(y) - 5.5f, random.between(-7, -3)})
+          strip.positions.push_back(c * 0.8f);
     for (std::uint32_t y = 0; y + 1 < side; ++y)
       for (std::uint32_t x = 0; x + 1 < side; ++x) {
         const std::uint32_t a = y * side + x;
@@ -61,9 +64,12 @@ struct RandomFrame {
     state.material.shininess = 12;
     for (const Shading shading : {Shading::gouraud, Shading::flat, Shading::phong}) {
       state.shading = shading;
-      frame.set_light_model({.local_viewer = shading != Shading::flat, .two_sided = shading == Shading::phong});
-      state.color_material = shading == Shading::flat ? ColorMaterial::ambient_and_diffuse : ColorMaterial::none;
-      state.transform = translate(0.1 * static_cast<int>(shading), 0, 0) * rotate(20.0 * static_cast<int>(shading), 0, 0, 1);
+      frame.set_light_model(
+          {.local_viewer = shading != Shading::flat, .two_sided = shading == Shading::phong});
+      state.color_material =
+          shading == Shading::flat ? ColorMaterial::ambient_and_diffuse : ColorMaterial::none;
+      state.transform = translate(0.1 * static_cast<int>(shading), 0, 0) *
+                        rotate(20.0 * static_cast<int>(shading), 0, 0, 1);
       frame.draw(triangles.view(), state);
       frame.draw(strip.view(), state);
     }

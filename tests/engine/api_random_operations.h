@@ -1,5 +1,6 @@
-// A frame in which every operation on fragments happens: triangles of all sizes, every other primitive, bitmaps and images in draws that each switch on another
-// part of the operations, with clears of parts and accumulation in between. Each operation, factor and function has its turn.
+// A frame in which every operation on fragments happens: triangles of all sizes, every other primitive,
+// bitmaps and images in draws that each switch on another part of the operations, with clears of parts and
+// accumulation in between. Each operation, factor and function has its turn.
 #pragma once
 
 #include <vector>
@@ -12,13 +13,14 @@ struct RandomOperations {
   FrameBufferFormat format;
   int draws;
   MeshData small, mixed;
-  std::vector<MeshData> elements;   // one of each primitive
+  std::vector<MeshData> elements;  // one of each primitive
   std::vector<std::uint8_t> texels;
   std::vector<Texture> textures;
   std::vector<Light> lights;
   Camera camera;
 
-  explicit RandomOperations(FrameBufferFormat f, int draw_count = 48) : format(std::move(f)), draws(draw_count) {
+  explicit RandomOperations(FrameBufferFormat f, int draw_count = 48)
+      : format(std::move(f)), draws(draw_count) {
     Random random(7), of_texels(8);
     for (int i = 0; i < 40 * 40 * 4; ++i) texels.push_back(static_cast<std::uint8_t>(of_texels.next()));
     small = triangles(random, 60, 0.12f);
@@ -27,11 +29,17 @@ struct RandomOperations {
     for (int primitive = 0; primitive <= static_cast<int>(Primitive::polygon); ++primitive) {
       MeshData& mesh = elements.emplace_back(triangles(of_elements, 4, primitive % 2 == 0 ? 0.5f : 0));
       mesh.primitive = static_cast<Primitive>(primitive);
-      for (int i = 0; i < 12; ++i) mesh.texcoords.push_back(of_elements.between(-2, 3)), mesh.texcoords.push_back(of_elements.between(-2, 3));
+      for (int i = 0; i < 12; ++i)
+        mesh.texcoords.push_back(of_elements.between(-2, 3)),
+            mesh.texcoords.push_back(of_elements.between(-2, 3));
     }
     for (int i = 0; i < 6; ++i)
-      textures.emplace_back(TextureImage{.pixels = texels.data(), .width = 17 + i, .height = i == 1 ? 1 : 13, .channels = 1 + i % 4},
-                            TextureSampler{.mag = i % 2 == 0 ? TextureFilter::linear : TextureFilter::nearest, .min = static_cast<TextureFilter>(i), .wrap_s = static_cast<TextureWrap>(i % 3)});
+      textures.emplace_back(
+          TextureImage{
+              .pixels = texels.data(), .width = 17 + i, .height = i == 1 ? 1 : 13, .channels = 1 + i % 4},
+          TextureSampler{.mag = i % 2 == 0 ? TextureFilter::linear : TextureFilter::nearest,
+                         .min = static_cast<TextureFilter>(i),
+                         .wrap_s = static_cast<TextureWrap>(i % 3)});
     Light point;
     point.position = {1, 2, 0, 1};
     point.diffuse = {0.9f, 0.6f, 0.3f, 1};
@@ -64,7 +72,8 @@ struct RandomOperations {
     MeshData mesh;
     for (int i = 0; i < count; ++i) {
       const float half = size > 0 ? size : i % 6 == 0 ? 4.0f : i % 2 == 0 ? 0.9f : 0.3f;
-      const float center[3] = {random.between(-2.5f, 2.5f), random.between(-1.8f, 1.8f), random.between(-7, -1)};
+      const float center[3] = {random.between(-2.5f, 2.5f), random.between(-1.8f, 1.8f),
+                               random.between(-7, -1)};
       for (int k = 0; k < 3; ++k) {
         for (const float c : center) mesh.positions.push_back(c + random.between(-half, half));
         for (int c = 0; c < 3; ++c) mesh.normals.push_back(random.between(-1, 1));
@@ -78,14 +87,29 @@ struct RandomOperations {
   // A bitmap, or an image of 1 to 4 channels and any zoom.
   void draw_pixels(Frame& frame, Random& random, int i) const {
     const DrawState s = state(random, i);
-    const double x = random.between(-20, static_cast<float>(format.width)), y = random.between(-20, static_cast<float>(format.height));
+    const double x = random.between(-20, static_cast<float>(format.width)),
+                 y = random.between(-20, static_cast<float>(format.height));
     const double depth = random.between(0, 1), zoom_x = random.between(-4, 6), zoom_y = random.between(-4, 6);
     const int width = 1 + below(random, 40), height = 1 + below(random, 40), channels = 1 + i / 2 % 4;
     if (i % 2 == 0)
-      frame.draw_bitmap({.bits = texels.data(), .width = 8 * width, .height = height, .x = x, .y = y, .depth = depth, .color = color(random)},
+      frame.draw_bitmap({.bits = texels.data(),
+                         .width = 8 * width,
+                         .height = height,
+                         .x = x,
+                         .y = y,
+                         .depth = depth,
+                         .color = color(random)},
                         fragment_state_of(s));
     else
-      frame.draw_image({.pixels = texels.data(), .width = width, .height = height, .channels = channels, .x = x, .y = y, .zoom_x = zoom_x, .zoom_y = zoom_y, .depth = depth},
+      frame.draw_image({.pixels = texels.data(),
+                        .width = width,
+                        .height = height,
+                        .channels = channels,
+                        .x = x,
+                        .y = y,
+                        .zoom_x = zoom_x,
+                        .zoom_y = zoom_y,
+                        .depth = depth},
                        fragment_state_of(s));
   }
 
@@ -93,10 +117,12 @@ struct RandomOperations {
   void draw_element(Frame& frame, Random& random, int i) const {
     DrawState s = state(random, i);
     s.shading = static_cast<Shading>(i / 3 % 3);
-    s.front_mode = static_cast<PolygonMode>(below(random, 3)), s.back_mode = static_cast<PolygonMode>(below(random, 3));
+    s.front_mode = static_cast<PolygonMode>(below(random, 3)),
+    s.back_mode = static_cast<PolygonMode>(below(random, 3));
     s.point_size = random.between(0.5f, 12), s.line_width = random.between(0.5f, 7);
     s.provoking_vertex = coin(random) ? ProvokingVertex::first : ProvokingVertex::last;
-    if (coin(random)) s.texture = &textures[static_cast<std::size_t>(below(random, static_cast<int>(textures.size())))];
+    if (coin(random))
+      s.texture = &textures[static_cast<std::size_t>(below(random, static_cast<int>(textures.size())))];
     s.texture_env = static_cast<TextureEnv>(i % 5);
     s.texture_env_color = color(random);
     if (i % 7 == 6) s.shadow_on = ShadowOn{.plane = {0, 1, 0.1, 2}, .light = 1, .color = color(random)};
@@ -104,8 +130,12 @@ struct RandomOperations {
   }
 
   static bool coin(Random& random) { return random.next() % 2 == 0; }
-  static int below(Random& random, int n) { return static_cast<int>(random.next() % static_cast<std::uint32_t>(n)); }
-  Color color(Random& random) const { return {random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)}; }
+  static int below(Random& random, int n) {
+    return static_cast<int>(random.next() % static_cast<std::uint32_t>(n));
+  }
+  Color color(Random& random) const {
+    return {random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+  }
   Rect part(Random& random) const {
     const int w = 1 + below(random, format.width), h = 1 + below(random, format.height);
     return {below(random, format.width) - w / 4, below(random, format.height) - h / 4, w, h};
@@ -129,7 +159,8 @@ struct RandomOperations {
     Accum accum{.op = static_cast<AccumOp>(turn % 5), .value = random.between(-0.3f, 1)};
     if (accum.op == AccumOp::return_) accum.value = 1;
     if (coin(random)) accum.scissor = part(random);
-    if (format.color_bits > 2 && coin(random)) accum.color_mask = {coin(random), coin(random), true, coin(random)};
+    if (format.color_bits > 2 && coin(random))
+      accum.color_mask = {coin(random), coin(random), true, coin(random)};
     return accum;
   }
 
@@ -144,13 +175,16 @@ struct RandomOperations {
   }
 
   void choose_tests(Random& random, int i, DrawState& s) const {
-    if (i % 3 == 1 && !is_index()) s.alpha_test = AlphaTest{static_cast<Compare>(i / 3 % 8), random.between(0, 1)};
+    if (i % 3 == 1 && !is_index())
+      s.alpha_test = AlphaTest{static_cast<Compare>(i / 3 % 8), random.between(0, 1)};
     if (i % 4 != 1 && format.stencil_bits > 0) {
       s.stencil = StencilState{.front = face(random, i)};
       if (i % 2 == 0) s.stencil->back = face(random, i + 3);
     }
     if (!has_depth()) return;
-    s.depth = {.enabled = i % 7 != 0, .test = i % 2 == 0 ? Compare::lequal : static_cast<Compare>(i / 2 % 8), .write = i % 5 != 2};
+    s.depth = {.enabled = i % 7 != 0,
+               .test = i % 2 == 0 ? Compare::lequal : static_cast<Compare>(i / 2 % 8),
+               .write = i % 5 != 2};
     if (coin(random)) s.polygon_offset = {random.between(-2, 2), random.between(-500, 500)};
     if (coin(random)) s.depth_near = random.between(0, 0.3f), s.depth_far = random.between(0.6f, 1);
   }
@@ -158,8 +192,10 @@ struct RandomOperations {
   void choose_writes(Random& random, int i, DrawState& s) const {
     const int turn = i / 2;
     if (i % 2 == 0 && !is_index()) {
-      s.blend = BlendState{.src = static_cast<BlendFactor>((7 * turn + 6) % 15), .dst = static_cast<BlendFactor>((4 * turn + 7) % 15),
-                           .equation = static_cast<BlendEquation>(turn % 3 == 0 ? turn / 3 % 5 : 0), .color = color(random)};
+      s.blend = BlendState{.src = static_cast<BlendFactor>((7 * turn + 6) % 15),
+                           .dst = static_cast<BlendFactor>((4 * turn + 7) % 15),
+                           .equation = static_cast<BlendEquation>(turn % 3 == 0 ? turn / 3 % 5 : 0),
+                           .color = color(random)};
       if (coin(random)) s.blend->src_alpha = static_cast<BlendFactor>((2 * turn + 1) % 15);
       if (coin(random)) s.blend->dst_alpha = static_cast<BlendFactor>((11 * turn + 2) % 15);
     } else if (i % 4 == 1) {
@@ -168,7 +204,8 @@ struct RandomOperations {
     if (i % 6 == 5) s.plane_mask = random.next();
     if (i % 5 != 3) return;
     const bool all = is_index() || format.color_bits <= 2;
-    s.color_mask = all ? std::array<bool, 4>{true, true, true, coin(random)} : std::array<bool, 4>{coin(random), coin(random), true, coin(random)};
+    s.color_mask = all ? std::array<bool, 4>{true, true, true, coin(random)}
+                       : std::array<bool, 4>{coin(random), coin(random), true, coin(random)};
   }
 
   DrawState state(Random& random, int i) const {
@@ -183,7 +220,8 @@ struct RandomOperations {
     if (coin(random)) s.color_material = ColorMaterial::ambient_and_diffuse;
     if (i % 8 == 6) s.cull = coin(random) ? Cull::back : Cull::front;
     if (i % 9 == 7) s.front_face = FrontFace::cw;
-    const float x = random.between(-0.6f, 0.6f), y = random.between(-0.4f, 0.4f), z = random.between(-0.5f, 0.5f);  // in an order that all compilers keep
+    const float x = random.between(-0.6f, 0.6f), y = random.between(-0.4f, 0.4f),
+                z = random.between(-0.5f, 0.5f);  // in an order that all compilers keep
     s.transform = translate(x, y, z) * rotate(random.between(0, 360), 0, 0, 1);
     if (i % 3 == 2) s.scissor = part(random);
     choose_tests(random, i, s);

@@ -1,4 +1,5 @@
-// What the tests of the public interface share: small meshes, images, messages; and what frame buffers hold (fingerprint.h).
+// What the tests of the public interface share: small meshes, images, messages; and what frame buffers hold
+// (fingerprint.h).
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,9 @@ class Random {
     return static_cast<std::uint32_t>(state_ * 0x2545f4914f6cdd1du >> 32);
   }
   /// 24 bits, so that every step is exact but the last.
-  float between(float low, float high) { return low + (high - low) * (static_cast<float>(next() >> 8) / 16777216.0f); }
+  float between(float low, float high) {
+    return low + (high - low) * (static_cast<float>(next() >> 8) / 16777216.0f);
+  }
 
  private:
   std::uint64_t state_;
@@ -50,9 +53,14 @@ inline DrawState unlit(Color color) {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> bytes;
-  explicit Image(const FrameBuffer& buffer) : width(buffer.format().width), height(buffer.format().height), bytes(4 * pixel_count(buffer)) {}
+  explicit Image(const FrameBuffer& buffer)
+      : width(buffer.format().width), height(buffer.format().height), bytes(4 * pixel_count(buffer)) {}
   ImageTarget target(PixelOrder order = PixelOrder::rgba8) {
-    return {.pixels = bytes.data(), .width = width, .height = height, .stride_bytes = std::ptrdiff_t{4} * width, .order = order};
+    return {.pixels = bytes.data(),
+            .width = width,
+            .height = height,
+            .stride_bytes = std::ptrdiff_t{4} * width,
+            .order = order};
   }
 };
 

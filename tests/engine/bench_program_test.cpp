@@ -29,13 +29,17 @@ class BenchProgram : public Program {
 TEST_F(BenchProgram, ListsItsWorkloads) {
   const Result list = run("bench --list");
   EXPECT_EQ(list.code, 0) << list.err;
-  for (const char* name : {"fill-flat", "fill-blend", "fill-trilinear", "grid-2M", "vertex-500k-8", "phong-20k-8-spot", "points-1M", "lines-1M", "bunny"}) EXPECT_TRUE(contains(list.out, std::string(name) + " ")) << name;
+  for (const char* name : {"fill-flat", "fill-blend", "fill-trilinear", "grid-2M", "vertex-500k-8",
+                           "phong-20k-8-spot", "points-1M", "lines-1M", "bunny"})
+    EXPECT_TRUE(contains(list.out, std::string(name) + " ")) << name;
 }
 
 TEST_F(BenchProgram, MeasuresWhatItChecked) {
   const Result table = run(std::string(kQuick) + "--json report.json --csv report.csv");
   ASSERT_EQ(table.code, 0) << table.out << table.err;
-  for (const char* part : {"CPU", "instruction sets", "64x48", "fill-gouraud-z", "noise: fill-flat against itself", "stores in L1"}) EXPECT_TRUE(contains(table.out, part)) << part << "\n" << table.out;
+  for (const char* part : {"CPU", "instruction sets", "64x48", "fill-gouraud-z",
+                           "noise: fill-flat against itself", "stores in L1"})
+    EXPECT_TRUE(contains(table.out, part)) << part << "\n" << table.out;
   const Json report = Json::parse(content("report.json"));
   EXPECT_EQ(report["width"], 64);
   EXPECT_TRUE(report["machine"].contains("CPU"));
@@ -48,22 +52,34 @@ TEST_F(BenchProgram, MeasuresWhatItChecked) {
     EXPECT_LE(row["median_ms"], row["percentile_99_ms"]);
     // Of hidden layers nothing is stored sixteen times.
     EXPECT_EQ(row.value("limit", ""), row["name"] == "fill-hidden" ? "" : "stores of a tile's words");
-    EXPECT_EQ(row.value("share_of_limit", 0.0) * row.value("limit_gigabytes_per_second", 0.0) > 0, row.contains("limit")) << row;
-    EXPECT_EQ(row.value("share_of_l1_stores", 0.0) * row.value("l1_stores_gigabytes_per_second", 0.0) > 0, row.contains("limit")) << row;
+    EXPECT_EQ(row.value("share_of_limit", 0.0) * row.value("limit_gigabytes_per_second", 0.0) > 0,
+              row.contains("limit"))
+        << row;
+    EXPECT_EQ(row.value("share_of_l1_stores", 0.0) * row.value("l1_stores_gigabytes_per_second", 0.0) > 0,
+              row.contains("limit"))
+        << row;
     if (row["name"] != "fill-hidden") {
-      EXPECT_EQ(row["tile_bytes"], (row["name"] == "fill-gouraud-z" || row["name"] == "fill-stencil" ? 8 : 4) * 64 * 48) << "a word for each plane that is written";
-      EXPECT_NEAR(row["megafragments_per_second"].get<double>() / row["megapixels_per_second"].get<double>(), 16, 1e-6) << row;
+      EXPECT_EQ(row["tile_bytes"],
+                (row["name"] == "fill-gouraud-z" || row["name"] == "fill-stencil" ? 8 : 4) * 64 * 48)
+          << "a word for each plane that is written";
+      EXPECT_NEAR(row["megafragments_per_second"].get<double>() / row["megapixels_per_second"].get<double>(),
+                  16, 1e-6)
+          << row;
     }
     const double pixels_a_second = row["megapixels_per_second"].get<double>() * 1e6, ms = row["median_ms"];
     EXPECT_NEAR(pixels_a_second * ms * 1e-3, 64 * 48, 1);
   }
-  for (const char* limit : {"l1_stores", "tile_stores", "memory_stores", "memory_loads", "memory_loads_of_one_core"}) EXPECT_GT(report["limits_gigabytes_per_second"][limit], 0) << limit;
+  for (const char* limit :
+       {"l1_stores", "tile_stores", "memory_stores", "memory_loads", "memory_loads_of_one_core"})
+    EXPECT_GT(report["limits_gigabytes_per_second"][limit], 0) << limit;
   // A heading and as many rows of as many fields.
   const std::string csv = content("report.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);
   const auto commas = [](const std::string& line) {  // between fields
     bool is_quoted = false;
-    return std::count_if(line.begin(), line.end(), [&](char letter) { return is_quoted ^= letter == '"', letter == ',' && !is_quoted; });
+    return std::count_if(line.begin(), line.end(), [&](char letter) {
+      return is_quoted ^= letter == '"', letter == ',' && !is_quoted;
+    });
   };
   const auto columns = commas(csv.substr(0, csv.find('\n')));
   std::istringstream lines(csv);
@@ -79,7 +95,8 @@ TEST_F(BenchProgram, CountsTheMemoryOfEachWorkload) {
   ASSERT_EQ(result.code, 0) << result.err;
   const Json rows = Json::parse(result.out)["workloads"];
   ASSERT_EQ(rows.size(), 3u);
-  for (const Json& row : rows) EXPECT_TRUE(row["bytes_per_triangle"] > 4 && row["bytes_per_triangle"] < 64) << row;
+  for (const Json& row : rows)
+    EXPECT_TRUE(row["bytes_per_triangle"] > 4 && row["bytes_per_triangle"] < 64) << row;
 }
 #endif
 
@@ -100,7 +117,9 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   EXPECT_FALSE(contains(faster.out, "not the same setting")) << faster.out;
   earlier["threads"] = 77;
   write("other.json", earlier.dump());
-  const Result others = run("bench fill-flat --size 64x48 --threads 1 --isa scalar --repeats 2 --seconds 0.001 --compare other.json");
+  const Result others =
+      run("bench fill-flat --size 64x48 --threads 1 --isa scalar --repeats 2 --seconds 0.001 --compare "
+          "other.json");
   EXPECT_TRUE(contains(others.out, "not the same setting: 64x48, 77 threads, ")) << others.out;
   EXPECT_TRUE(contains(others.out, " in other.json, now 64x48, 1 thread, scalar\n")) << others.out;
   EXPECT_TRUE(contains(others.out, "fill-blend: only in other.json")) << others.out;
@@ -118,7 +137,10 @@ TEST_F(BenchProgram, ComparesWithAnEarlierRun) {
   const Result nothing = run("bench fill-flat --size 64x48 --repeats 2 --seconds 0.001 --compare one.json");
   EXPECT_EQ(nothing.code, 1);
   EXPECT_TRUE(contains(nothing.err, "one.json: found none of the workloads to be measured")) << nothing.err;
-  EXPECT_EQ(run("bench fill-gouraud --size 64x48 --repeats 2 --seconds 0.001 --compare one.json --allowed 100").code, 3);
+  EXPECT_EQ(
+      run("bench fill-gouraud --size 64x48 --repeats 2 --seconds 0.001 --compare one.json --allowed 100")
+          .code,
+      3);
   earlier = Json::parse(content("now.json"));
   // On a busy machine frames of some microseconds may take several times as long as before.
   for (Json& row : earlier["workloads"]) row["median_ms"] = row["median_ms"].get<double>() / 4;
@@ -141,15 +163,18 @@ TEST_F(BenchProgram, TellsWhatIsNotAsItWas) {
   write("other.json", earlier.dump());
   const Result compared = run(kOne + "--seed 5 --tile-size 64 --compare other.json");
   EXPECT_EQ(compared.code, 0) << compared.err;
-  for (const char* what : {"not the same tile_size: 0 in other.json, now 64\n", "not the same seed: 1 in other.json, now 5\n", "not the same CPU: \"another one\" in other.json, now \"",
-                           "not the same compiler: \"cfront 3.0\" in other.json, now \""})
+  for (const char* what :
+       {"not the same tile_size: 0 in other.json, now 64\n", "not the same seed: 1 in other.json, now 5\n",
+        "not the same CPU: \"another one\" in other.json, now \"",
+        "not the same compiler: \"cfront 3.0\" in other.json, now \""})
     EXPECT_TRUE(contains(compared.out, what)) << what << "\n" << compared.out;
   EXPECT_FALSE(contains(compared.out, "not the same kept_on_cores")) << compared.out;
   // Where the standard output is for programs, people read the other one.
   const std::string core = a_core();
   const Result silent = run(kOne + "--cores " + core + " --json - --compare other.json");
   EXPECT_EQ(Json::parse(silent.out)["seed"], 1);
-  EXPECT_TRUE(contains(silent.err, "not the same kept_on_cores: [] in other.json, now [" + core + "]\n")) << silent.err;
+  EXPECT_TRUE(contains(silent.err, "not the same kept_on_cores: [] in other.json, now [" + core + "]\n"))
+      << silent.err;
   EXPECT_TRUE(contains(silent.err, "earlier/now")) << silent.err;
 }
 
@@ -173,7 +198,8 @@ TEST_F(BenchProgram, StandsBesideRivals) {
   const Result table = run(std::string(kQuick) + "--rivals --json report.json");
   if (contains(table.err, "libosmesa6")) GTEST_SKIP() << table.err;
   ASSERT_EQ(table.code, 0) << table.out << table.err;
-  for (const char* part : {"rival: llvmpipe", "geometric mean of 9 ratios", "fill-flat against itself"}) EXPECT_TRUE(contains(table.out, part)) << part << "\n" << table.out;
+  for (const char* part : {"rival: llvmpipe", "geometric mean of 9 ratios", "fill-flat against itself"})
+    EXPECT_TRUE(contains(table.out, part)) << part << "\n" << table.out;
   const Json rivalry = Json::parse(content("report.json"))["rivalry"];
   ASSERT_EQ(rivalry["workloads"].size(), 9u);
   EXPECT_GT(rivalry["finish_ms"], 0);
@@ -184,15 +210,18 @@ TEST_F(BenchProgram, StandsBesideRivals) {
       EXPECT_LE(row[std::string(whose) + "low_quartile_ms"], row[std::string(whose) + "median_ms"]);
       EXPECT_LE(row[std::string(whose) + "median_ms"], row[std::string(whose) + "high_quartile_ms"]);
     }
-    EXPECT_NEAR(row["ratio"].get<double>(), row["rival_median_ms"].get<double>() / row["median_ms"].get<double>(), 1e-9);
+    EXPECT_NEAR(row["ratio"].get<double>(),
+                row["rival_median_ms"].get<double>() / row["median_ms"].get<double>(), 1e-9);
     EXPECT_LE(row["low_ratio"], row["ratio"]);
     EXPECT_LE(row["ratio"], row["high_ratio"]);
   }
 }
 
 TEST_F(BenchProgram, MeasuresPlanesAndPicturesBesideTheMean) {
-  for (const char* names : {"clear scan-out accumulation", "planes", "depth samples draws fill-hidden size-320x200"}) {
-    const Result result = run("bench " + std::string(names) + " --size 64x48 --repeats 1 --seconds 0.001 --json -");
+  for (const char* names :
+       {"clear scan-out accumulation", "planes", "depth samples draws fill-hidden size-320x200"}) {
+    const Result result =
+        run("bench " + std::string(names) + " --size 64x48 --repeats 1 --seconds 0.001 --json -");
     ASSERT_EQ(result.code, 0) << result.out << result.err;
     const Json rows = Json::parse(result.out)["workloads"];
     EXPECT_GE(rows.size(), 3u) << names;
@@ -201,7 +230,9 @@ TEST_F(BenchProgram, MeasuresPlanesAndPicturesBesideTheMean) {
 }
 
 TEST_F(BenchProgram, MeasuresMeshesPointsAndLines) {
-  const Result result = run("bench vertex-20k-8 phong-20k-8-spot points-1M lines-1M --size 64x48 --repeats 1 --seconds 0.001 --json -");
+  const Result result =
+      run("bench vertex-20k-8 phong-20k-8-spot points-1M lines-1M --size 64x48 --repeats 1 --seconds 0.001 "
+          "--json -");
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json rows = Json::parse(result.out)["workloads"];
   EXPECT_EQ(rows.size(), 4u);
@@ -210,7 +241,10 @@ TEST_F(BenchProgram, MeasuresMeshesPointsAndLines) {
 
 TEST_F(BenchProgram, DrawsAsItIsTold) {
   const std::string core = a_core();
-  const Result result = run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar --tile-size 64 --threads 1 --json - --cores " + core);
+  const Result result =
+      run("bench grid-20k store-24 --size 64x48 --repeats 1 --seconds 0.001 --seed 7 --isa scalar "
+          "--tile-size 64 --threads 1 --json - --cores " +
+          core);
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json report = Json::parse(result.out);
   EXPECT_EQ(report["instruction_set"], "scalar");
@@ -222,7 +256,9 @@ TEST_F(BenchProgram, DrawsAsItIsTold) {
 }
 
 TEST_F(BenchProgram, LightsAsRivalsDo) {
-  const Result table = run("bench vertex-20k-8 phong-20k-1 phong-20k-8-spot --rivals --size 320x200 --repeats 1 --seconds 0.001 --json -");
+  const Result table =
+      run("bench vertex-20k-8 phong-20k-1 phong-20k-8-spot --rivals --size 320x200 --repeats 1 --seconds "
+          "0.001 --json -");
   if (contains(table.err, "libosmesa6")) GTEST_SKIP() << table.err;
   ASSERT_EQ(table.code, 0) << table.out << table.err;
   const Json report = Json::parse(table.out);
@@ -254,18 +290,21 @@ TEST_F(BenchProgram, ShowsWhatTilesCost) {
 }
 
 TEST_F(BenchProgram, PredictsMoreCores) {
-  const Result result = run("bench grid-20k --size 96x64 --threads 2 --repeats 2 --seconds 0.001 --scaling --json report.json");
+  const Result result =
+      run("bench grid-20k --size 96x64 --threads 2 --repeats 2 --seconds 0.001 --scaling --json report.json");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "one core copies")) << result.out;
   const Json report = Json::parse(content("report.json")), scaling = report["scaling"];
   EXPECT_EQ(report["core_model"]["most_cores_of_memory"], 8);
-  for (const char* measured : {"copies_of_one_core_gigabytes_per_second", "pass_begins_in_seconds"}) EXPECT_GT(report["core_model"][measured], 0) << measured;
+  for (const char* measured : {"copies_of_one_core_gigabytes_per_second", "pass_begins_in_seconds"})
+    EXPECT_GT(report["core_model"][measured], 0) << measured;
   ASSERT_EQ(scaling.size(), 1u);
   EXPECT_GT(scaling[0]["measured"]["2"]["speed_up"], 0.0);
   EXPECT_LE(scaling[0]["measured"]["2"]["low"], scaling[0]["measured"]["2"]["high"]);
   EXPECT_GT(scaling[0]["two_apart"]["speed_up"], 0.0);
   EXPECT_TRUE(contains(result.out, " 2 apart ")) << result.out;
-  for (const char* cores : {"2", "4", "8", "16", "32", "64", "128"}) EXPECT_GT(scaling[0]["computed"][cores], 0.0) << cores;
+  for (const char* cores : {"2", "4", "8", "16", "32", "64", "128"})
+    EXPECT_GT(scaling[0]["computed"][cores], 0.0) << cores;
 }
 
 TEST_F(BenchProgram, HasTheThreadsOfTheEnvironment) {
@@ -284,30 +323,43 @@ TEST_F(BenchProgram, HasTheThreadsOfTheEnvironment) {
 // A refusal costs nothing: neither the time of measuring or drawing, nor a file.
 TEST_F(BenchProgram, RefusesBeforeItBegins) {
   write("kept.json", "kept");
-  write("larger.json", R"({"width": 65, "height": 48, "threads": 1, "instruction_set": "scalar", "workloads": [{"name": "fill-flat", "median_ms": 1}]})");
+  write(
+      "larger.json",
+      R"({"width": 65, "height": 48, "threads": 1, "instruction_set": "scalar", "workloads": [{"name": "fill-flat", "median_ms": 1}]})");
   std::filesystem::create_symlink("none/report.json", folder_ / "broken.json");
   std::filesystem::create_symlink("none_yet.json", folder_ / "broken_too.json");
   const struct {
     const char *arguments, *message;
     int code;
-  } cases[] = {{"fill --json new.json --cores 1023,1022", "--cores: found 1023,1022, which this process may not use, expected some of ", 2},
-               {"fill --pictures new.json --cores 1023", "--cores: found 1023, which this process may not use, expected some of ", 2},
-               {"fill --json kept.json --cores 1023", "--cores: found 1023, which this process may not use, expected some of ", 2},
-               {"fill --json new.json --compare larger.json", "larger.json: found frames of 65x48, expected 64x48, as they are now", 1},
-               {"fill --json new.json --csv none/report.csv", "cannot write \"none/report.csv\": there is no folder \"none\"", 1},
-               {"fill --json kept.json/report.json", "cannot write \"kept.json/report.json\": there is no folder \"kept.json\"", 1},
-               {"fill --json broken.json", "cannot write \"broken.json\": there is no folder \"none\"", 1},
-               {"fill --json new.json --pictures kept.json", "cannot make the folder \"kept.json\"", 1},
-               {"fill --json new.json --csv ./new.json", "--csv: found \"./new.json\", as for --json, expected another one", 2},
-               {"fill --json new.json --pictures new.json", "--pictures: found \"new.json\", as for --json", 2},
-               {"fill --json broken_too.json --csv none_yet.json", "--csv: found \"none_yet.json\", as for --json", 2},
-               {"fill --json new.json --pictures new.json/", "--pictures: found \"new.json/\", as for --json", 2},
-               {"fill --json new.json --pictures new.json/all", "--pictures: found \"new.json/all\", as for --json", 2},
-               {"fill --trace new.json --heatmap map.png", "--heatmap: found 10 workloads", 2},
-               {"fill-flat --trace new.json --heatmap map", "cannot write \"map\": its name has no ending", 1},
-               {"fill-flat --trace - --heatmap none/map.ppm", "cannot write \"none/map.ppm\": there is no folder \"none\"", 1},
-               {"store-24 --trace new.json --heatmap map.ppm", "store-24: no renderer draws it, so there is no heatmap", 1},
-               {"--growth none/growth.svg", "cannot write \"none/growth.svg\"", 1}};
+  } cases[] = {
+      {"fill --json new.json --cores 1023,1022",
+       "--cores: found 1023,1022, which this process may not use, expected some of ", 2},
+      {"fill --pictures new.json --cores 1023",
+       "--cores: found 1023, which this process may not use, expected some of ", 2},
+      {"fill --json kept.json --cores 1023",
+       "--cores: found 1023, which this process may not use, expected some of ", 2},
+      {"fill --json new.json --compare larger.json",
+       "larger.json: found frames of 65x48, expected 64x48, as they are now", 1},
+      {"fill --json new.json --csv none/report.csv",
+       "cannot write \"none/report.csv\": there is no folder \"none\"", 1},
+      {"fill --json kept.json/report.json",
+       "cannot write \"kept.json/report.json\": there is no folder \"kept.json\"", 1},
+      {"fill --json broken.json", "cannot write \"broken.json\": there is no folder \"none\"", 1},
+      {"fill --json new.json --pictures kept.json", "cannot make the folder \"kept.json\"", 1},
+      {"fill --json new.json --csv ./new.json",
+       "--csv: found \"./new.json\", as for --json, expected another one", 2},
+      {"fill --json new.json --pictures new.json", "--pictures: found \"new.json\", as for --json", 2},
+      {"fill --json broken_too.json --csv none_yet.json", "--csv: found \"none_yet.json\", as for --json", 2},
+      {"fill --json new.json --pictures new.json/", "--pictures: found \"new.json/\", as for --json", 2},
+      {"fill --json new.json --pictures new.json/all", "--pictures: found \"new.json/all\", as for --json",
+       2},
+      {"fill --trace new.json --heatmap map.png", "--heatmap: found 10 workloads", 2},
+      {"fill-flat --trace new.json --heatmap map", "cannot write \"map\": its name has no ending", 1},
+      {"fill-flat --trace - --heatmap none/map.ppm",
+       "cannot write \"none/map.ppm\": there is no folder \"none\"", 1},
+      {"store-24 --trace new.json --heatmap map.ppm",
+       "store-24: no renderer draws it, so there is no heatmap", 1},
+      {"--growth none/growth.svg", "cannot write \"none/growth.svg\"", 1}};
   for (const auto& [arguments, message, code] : cases) {
     const Result refused = run("bench --size 64x48 --repeats 2 --seconds 0.001 " + std::string(arguments));
     EXPECT_EQ(refused.code, code) << arguments << "\n" << refused.err;
@@ -324,26 +376,36 @@ TEST_F(BenchProgram, RefusesBeforeItBegins) {
 
 // That others run is no comfort to who asked for this one.
 TEST_F(BenchProgram, RefusesANameOfWhichNothingCanRun) {
-  if (std::filesystem::exists("/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply")) GTEST_SKIP() << "the model is there";
+  if (std::filesystem::exists("/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply"))
+    GTEST_SKIP() << "the model is there";
   for (const char* names : {"model-rs1", "fill-flat model-rs1"}) {
     const Result result = run("bench --size 32x32 --repeats 1 --seconds 0.001 " + std::string(names));
     EXPECT_EQ(result.code, 1) << names;
-    EXPECT_TRUE(contains(result.err, "found nothing to measure of \"model-rs1\": it needs /usr/share/doc/opencv-doc/")) << names << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err,
+                         "found nothing to measure of \"model-rs1\": it needs /usr/share/doc/opencv-doc/"))
+        << names << "\n"
+        << result.err;
   }
   EXPECT_TRUE(contains(run("bench --list").out, "(beside the mean): needs /usr/share/doc/opencv-doc/"));
 }
 
 TEST_F(BenchProgram, WhatItCouldNotSayIsAnError) {
   if (!has_full_disk()) GTEST_SKIP() << "no /dev/full";
-  for (const char* arguments : {"bench --help", "bench --list", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --csv -"}) {
+  for (const char* arguments :
+       {"bench --help", "bench --list", "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001",
+        "bench fill-flat --size 32x32 --repeats 1 --seconds 0.001 --csv -"}) {
     const Result result = run_without_room(arguments);
     EXPECT_EQ(result.code, 1) << arguments;
-    EXPECT_TRUE(contains(result.err, "tessera bench: error: cannot write to the standard output")) << arguments << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, "tessera bench: error: cannot write to the standard output"))
+        << arguments << "\n"
+        << result.err;
   }
 }
 
 TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
-  write("other.json", R"({"width": 1, "height": 1, "threads": 1, "instruction_set": "avx2", "workloads": [{"median_ms": 1}]})");
+  write(
+      "other.json",
+      R"({"width": 1, "height": 1, "threads": 1, "instruction_set": "avx2", "workloads": [{"median_ms": 1}]})");
   write("older.json", R"({"width": 1, "threads": 1, "instruction_set": "avx2", "workloads": []})");
   const struct {
     const char *arguments, *message;

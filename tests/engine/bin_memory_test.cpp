@@ -1,4 +1,5 @@
-// Frames whose bins would take more memory than is allowed are rendered in parts: the same bits, the same figures.
+// Frames whose bins would take more memory than is allowed are rendered in parts: the same bits, the same
+// figures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,8 @@ RendererOptions in_parts(RendererOptions options = {.threads = 1}) {
 }
 
 std::vector<std::uint64_t> triangle_counts(const FrameStats& s) {
-  return {s.vertices, s.triangles_in, s.dropped_non_finite, s.outside, s.culled, s.zero_area, s.clipped, s.binned, s.bin_entries, s.tiles, s.fragments};
+  return {s.vertices, s.triangles_in, s.dropped_non_finite, s.outside, s.culled,   s.zero_area,
+          s.clipped,  s.binned,       s.bin_entries,        s.tiles,   s.fragments};
 }
 
 /// What a frame leaves behind, and all that it tells of its pixels.
@@ -42,7 +44,9 @@ Outcome render(const Scene& scene, RendererOptions options) {
   Frame frame(buffer);
   scene.record(frame);
   const std::size_t pixels = pixel_count(buffer);
-  Outcome outcome{.objects = std::vector<std::uint32_t>(pixels), .primitives = std::vector<std::uint32_t>(pixels), .normals = std::vector<float>(3 * pixels)};
+  Outcome outcome{.objects = std::vector<std::uint32_t>(pixels),
+                  .primitives = std::vector<std::uint32_t>(pixels),
+                  .normals = std::vector<float>(3 * pixels)};
   frame.capture({.objects = outcome.objects, .primitives = outcome.primitives, .normals = outcome.normals});
   frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
   Image image(buffer);
@@ -66,7 +70,8 @@ void expect_same(const Outcome& found, const Outcome& expected) {
 TEST(BinMemory, FramesInPartsAreTheSameFrames) {
   ThreadLimit limit(4);
   for (const int samples : {1, 4}) {
-    FrameBufferFormat format{.width = 330, .height = 210, .alpha_bits = 8, .accumulation_bits = 16, .samples = samples};
+    FrameBufferFormat format{
+        .width = 330, .height = 210, .alpha_bits = 8, .accumulation_bits = 16, .samples = samples};
     const RandomOperations scene(format);
     const Outcome whole = render(scene, {.threads = 1, .tile_size = 32});
     for (const int threads : {1, 4}) {
@@ -92,8 +97,9 @@ TEST(BinMemory, ASingleTileTakesABatchAtATime) {
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
 
-/// The most bytes that are allocated while a new renderer finishes, twice, a frame of `count` layers, above those before. The layers share their vertices, and half of
-/// them are cut by the near plane: what more of them take is entries of bins and pieces. No layers: a triangle without area.
+/// The most bytes that are allocated while a new renderer finishes, twice, a frame of `count` layers, above
+/// those before. The layers share their vertices, and half of them are cut by the near plane: what more of
+/// them take is entries of bins and pieces. No layers: a triangle without area.
 long most_bytes(int count, RendererOptions options, int tile_size) {
   MeshData layers;
   layers.positions = {-1, -1, 0, 2, -1, 0, -1, 2, 0, -1, -1, 0.5f, 2, -1, -3, -1, 2, 0.5f};
@@ -113,7 +119,8 @@ long most_bytes(int count, RendererOptions options, int tile_size) {
   return most_live_bytes - before;
 }
 
-/// Bytes that each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow the end of a list and its count, and one piece with its attributes.
+/// Bytes that each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow
+/// the end of a list and its count, and one piece with its attributes.
 constexpr long kUnasked = sizeof(Bins::Block) + 16 + sizeof(Piece) + 64 * sizeof(float);
 
 TEST(BinMemory, IsTheMostThatTheBinsTake) {
@@ -125,8 +132,10 @@ TEST(BinMemory, IsTheMostThatTheBinsTake) {
       SCOPED_TRACE(std::to_string(threads) + " threads, tiles of " + std::to_string(tile_size));
       const RendererOptions whole{.threads = threads};
       const long empty = most_bytes(0, whole, tile_size);
-      EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kLeastBinMemory)) << "a frame that is to be in parts";
-      EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty, static_cast<long>(kLeastBinMemory) + kBatches * kUnasked);
+      EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kLeastBinMemory))
+          << "a frame that is to be in parts";
+      EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty,
+                static_cast<long>(kLeastBinMemory) + kBatches * kUnasked);
     }
 }
 
@@ -139,7 +148,8 @@ TEST(BinMemory, IsTheMostThatManyTilesTake) {
   FrameBuffer buffer({.width = 2048, .height = 2048});
   Frame frame(buffer);
   const auto most = [&](std::size_t bin_memory) {
-    Renderer renderer({.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<WorkersInTurn>(4)});
+    Renderer renderer(
+        {.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<WorkersInTurn>(4)});
     frame.keep({});
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     frame.draw(triangles.view(), {.lighting = false});
@@ -156,7 +166,9 @@ TEST(BinMemory, IsTheMostThatManyTilesTake) {
 
 TEST(BinMemory, MayBeAsMuchAsThereIs) {
   const RandomOperations scene({.width = 120, .height = 90});
-  EXPECT_EQ(render(scene, {.threads = 1, .bin_memory = std::numeric_limits<std::size_t>::max()}).stats.bin_passes, 1u);
+  EXPECT_EQ(
+      render(scene, {.threads = 1, .bin_memory = std::numeric_limits<std::size_t>::max()}).stats.bin_passes,
+      1u);
 }
 
 TEST(BinMemory, IsAQuarterOfAGigabyteUnlessSaidOtherwise) {
@@ -180,7 +192,8 @@ TEST(BinMemory, FramesAfterOneInPartsAreWholeIfTheyFit) {
 }
 
 TEST(BinMemory, ALimitThatIsTooSmallIsAnError) {
-  EXPECT_THAT(error_of([] { Renderer renderer({.bin_memory = 1000}); }).value_or(""), testing::AllOf(testing::HasSubstr("bin_memory is 1000"), testing::HasSubstr("65536")));
+  EXPECT_THAT(error_of([] { Renderer renderer({.bin_memory = 1000}); }).value_or(""),
+              testing::AllOf(testing::HasSubstr("bin_memory is 1000"), testing::HasSubstr("65536")));
 }
 
 TEST(BinMemory, ProgressRisesToOneThroughTheParts) {

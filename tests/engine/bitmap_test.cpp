@@ -1,5 +1,5 @@
-// Bitmaps: where their bits fall, by a rule of its own in integers; and that what happens to their pixels is what happens to those of a
-// rectangle of triangles in the same place.
+// Bitmaps: where their bits fall, by a rule of its own in integers; and that what happens to their pixels is
+// what happens to those of a rectangle of triangles in the same place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,11 +38,14 @@ struct OwnBitmap {
       for (int x = 0; x < w; ++x) {
         std::uint8_t& byte = memory[static_cast<std::size_t>(top + stride * (h - 1 - y) + x / 8)];
         const auto bit = static_cast<std::uint8_t>(0x80u >> (x % 8));
-        byte = static_cast<std::uint8_t>(bits[static_cast<std::size_t>(y * w + x)] ? byte | bit : byte & ~bit);
+        byte =
+            static_cast<std::uint8_t>(bits[static_cast<std::size_t>(y * w + x)] ? byte | bit : byte & ~bit);
       }
     bitmap = {.bits = memory.data() + top, .width = w, .height = h, .stride_bytes = stride};
   }
-  bool at(std::int64_t x, std::int64_t y) const { return x >= 0 && x < width && y >= 0 && y < height && bits[static_cast<std::size_t>(y * width + x)]; }
+  bool at(std::int64_t x, std::int64_t y) const {
+    return x >= 0 && x < width && y >= 0 && y < height && bits[static_cast<std::size_t>(y * width + x)];
+  }
 };
 
 // In 1/16 pixel: also beside the window, and far outside of it.
@@ -68,7 +71,8 @@ TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
         bitmaps.reserve(60);
         std::uint64_t touched = 0;
         for (int i = 0; i < 60; ++i) {
-          const auto width = 1 + static_cast<int>(below(random, i % 2 == 0 ? 140 : 20)), height = 1 + static_cast<int>(below(random, i % 3 == 0 ? 120 : 20));
+          const auto width = 1 + static_cast<int>(below(random, i % 2 == 0 ? 140 : 20)),
+                     height = 1 + static_cast<int>(below(random, i % 3 == 0 ? 120 : 20));
           OwnBitmap& own = bitmaps.emplace_back(random, width, height, i % 3 + 1);
           const std::int64_t x = random_position(random, kWidth), y = random_position(random, kHeight);
           const std::uint32_t word = random.next() & 0xffffff;
@@ -80,10 +84,12 @@ TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
           const std::int64_t left = x >> 4, bottom = y >> 4;
           for (int row = 0; row < kHeight; ++row)
             for (int column = 0; column < kWidth; ++column)
-              if (own.at(column - left, kHeight - 1 - row - bottom)) expected[static_cast<std::size_t>(row * kWidth + column)] = word, ++touched;
+              if (own.at(column - left, kHeight - 1 - row - bottom))
+                expected[static_cast<std::size_t>(row * kWidth + column)] = word, ++touched;
         }
         renderer.finish(frame);
-        EXPECT_EQ(color_words(buffer), expected) << samples << " samples, tiles of " << tile_size << ", " << name(set);
+        EXPECT_EQ(color_words(buffer), expected)
+            << samples << " samples, tiles of " << tile_size << ", " << name(set);
         EXPECT_GT(touched, 10000u);
       }
 }
@@ -94,16 +100,20 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
     for (int turn = 0; turn < 60; ++turn) {
       Random random(100 + static_cast<std::uint64_t>(turn));
       const Rect place = random_place(random);
-      const std::vector<std::uint8_t> ones(static_cast<std::size_t>((place.width + 7) / 8 * place.height), 0xff);
-      const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)};
-      const double depth = static_cast<double>(below(random, 257)) / 256;  // exact in every format's way to it
+      const std::vector<std::uint8_t> ones(static_cast<std::size_t>((place.width + 7) / 8 * place.height),
+                                           0xff);
+      const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1),
+                        random.between(0, 1)};
+      const double depth =
+          static_cast<double>(below(random, 257)) / 256;  // exact in every format's way to it
       const FragmentState state = random_fragment_state(random, format, turn);
       const auto background = [&](Frame& frame) { draw_background(frame, format); };
       FrameBuffer by_bits(format), by_triangles(format);
       Frame bits(by_bits), triangles(by_triangles);
       background(bits);
       background(triangles);
-      Bitmap bitmap{.bits = ones.data(), .width = place.width, .height = place.height, .depth = depth, .color = color};
+      Bitmap bitmap{
+          .bits = ones.data(), .width = place.width, .height = place.height, .depth = depth, .color = color};
       bitmap.x = place.x, bitmap.y = place.y;
       bits.draw_bitmap(bitmap, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
@@ -115,23 +125,27 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
       Renderer renderer({.threads = 1, .tile_size = 32});
       renderer.finish(bits);
       renderer.finish(triangles);
-      EXPECT_EQ(fingerprint(by_bits), fingerprint(by_triangles)) << "turn " << turn << ", " << describe(format);
+      EXPECT_EQ(fingerprint(by_bits), fingerprint(by_triangles))
+          << "turn " << turn << ", " << describe(format);
     }
 }
 
 TEST(Bitmap, DepthIsQuantizedLikeAClear) {
   const std::uint8_t one = 0x80;
-  for (const DepthFormat format : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
+  for (const DepthFormat format :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
     const int bits = format == DepthFormat::unorm16 ? 16 : format == DepthFormat::unorm24 ? 24 : 32;
     for (const double depth : {0.0, 1.0, 0.5, 0.1, 1.0 / 3, 0.999999, 1e-9, 0.7000001}) {
       FrameBuffer buffer({.width = 5, .height = 3, .depth = format});
       Frame frame(buffer);
       frame.clear({.color = Color{}, .depth = 1.0});
-      frame.draw_bitmap({.bits = &one, .width = 1, .height = 1, .x = 2, .y = 1, .depth = depth}, {.depth = {.test = Compare::always}});
+      frame.draw_bitmap({.bits = &one, .width = 1, .height = 1, .x = 2, .y = 1, .depth = depth},
+                        {.depth = {.test = Compare::always}});
       Renderer({.threads = 1}).finish(frame);
       const long double scaled = static_cast<long double>(depth) * (std::ldexp(1.0L, bits) - 1);
       const bool is_float = format == DepthFormat::float32;
-      const std::uint32_t level = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(depth)) : static_cast<std::uint32_t>(std::floor(scaled + 0.5L));
+      const std::uint32_t level = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(depth))
+                                           : static_cast<std::uint32_t>(std::floor(scaled + 0.5L));
       EXPECT_EQ(depth_words(buffer)[7], level) << depth << " in " << bits << " bits";
     }
   }
@@ -140,7 +154,8 @@ TEST(Bitmap, DepthIsQuantizedLikeAClear) {
 TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
   const std::vector<std::uint8_t> ones(8, 0xff);
   const auto square = [&](double x, double y, Color color, double depth = 0) {
-    return Bitmap{.bits = ones.data(), .width = 8, .height = 8, .x = x, .y = y, .depth = depth, .color = color};
+    return Bitmap{
+        .bits = ones.data(), .width = 8, .height = 8, .x = x, .y = y, .depth = depth, .color = color};
   };
   for (const int samples : {1, 4})
     for (const bool defer : {true, false}) {
@@ -153,12 +168,12 @@ TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
       frame.set_lights({red});
       frame.set_light_model({.ambient = {0, 0, 0, 1}});
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-      frame.draw_bitmap(square(0, 0, {0, 1, 0, 1}, 0.9));               // covered by what comes
-      frame.draw(whole.view(), {.shading = Shading::phong});            // pixels that wait for their light
-      frame.draw_bitmap(square(10, 0, {0, 0, 1, 1}, 0.25));             // before it
-      frame.draw_bitmap(square(20, 0, {0, 0, 1, 1}, 0.8));              // behind it
+      frame.draw_bitmap(square(0, 0, {0, 1, 0, 1}, 0.9));     // covered by what comes
+      frame.draw(whole.view(), {.shading = Shading::phong});  // pixels that wait for their light
+      frame.draw_bitmap(square(10, 0, {0, 0, 1, 1}, 0.25));   // before it
+      frame.draw_bitmap(square(20, 0, {0, 0, 1, 1}, 0.8));    // behind it
       frame.accumulate({.op = AccumOp::load, .value = 1});
-      frame.draw_bitmap(square(30, 0, {1, 1, 1, 1}));                   // not accumulated
+      frame.draw_bitmap(square(30, 0, {1, 1, 1, 1}));  // not accumulated
       frame.accumulate({.op = AccumOp::return_, .value = 1, .scissor = Rect{30, 0, 4, 8}});
       frame.clear({.color = Color{1, 1, 0, 1}, .scissor = Rect{10, 0, 4, 8}});
       frame.draw_bitmap(square(40, 4, {0, 1, 1, 1}));
@@ -190,15 +205,18 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
       if (with_operations) state.stencil = StencilState{.front = {.zpass = StencilOp::incr}};
       frame.draw(whole.view(), {});
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 64, .x = 30, .y = -4}, state);
-      frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 100, .y = 0}, state);  // outside
+      frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 100, .y = 0},
+                        state);  // outside
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 0, .y = 3}, state);
       EXPECT_EQ(frame.draw_count(), 4u);
-      EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("a bitmap of 8 x 64: one colour"), HasSubstr("depth test"), testing::Not(HasSubstr("left out"))));
+      EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("a bitmap of 8 x 64: one colour"),
+                                          HasSubstr("depth test"), testing::Not(HasSubstr("left out"))));
       EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
       std::vector<std::uint32_t> objects(pixel_count(buffer)), primitives(objects.size());
       std::vector<float> normals(3 * objects.size());
       frame.capture({.objects = objects, .primitives = primitives, .normals = normals});
-      const FrameStats stats = Renderer({.threads = 1, .tile_size = 32, .count_fragments = true}).finish(frame);
+      const FrameStats stats =
+          Renderer({.threads = 1, .tile_size = 32, .count_fragments = true}).finish(frame);
       EXPECT_EQ(stats.fragments, 70u * 50 + 4 * 50 + 4);
       EXPECT_EQ(stats.triangles_in, 2u);
       std::size_t drawn = 0;
@@ -220,7 +238,11 @@ TEST(Bitmap, CountsTheTilesThatItTouches) {
   FrameBuffer buffer({.width = 128, .height = 96});
   Frame frame(buffer);
   frame.clear({.color = Color{}, .depth = 1.0});
-  frame.draw_bitmap({.bits = ones.data(), .width = 64, .height = 8, .x = 31, .y = 28});  // columns 31..94, rows 60..67 from the top
+  frame.draw_bitmap({.bits = ones.data(),
+                     .width = 64,
+                     .height = 8,
+                     .x = 31,
+                     .y = 28});  // columns 31..94, rows 60..67 from the top
   const FrameStats stats = Renderer({.threads = 1, .tile_size = 32}).finish(frame);
   EXPECT_EQ(stats.tiles_touched, 6u);
   EXPECT_EQ(stats.bin_entries, 6u);
@@ -229,9 +251,11 @@ TEST(Bitmap, CountsTheTilesThatItTouches) {
 
 TEST(Bitmap, RefusesWhatItCannotDraw) {
   const std::uint8_t byte = 0xff;
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   const Bitmap good{.bits = &byte, .width = 8, .height = 1};
-  FrameBuffer rgb({.width = 16, .height = 16}), index({.width = 16, .height = 16, .color_mode = ColorMode::index, .color_bits = 4}),
+  FrameBuffer rgb({.width = 16, .height = 16}),
+      index({.width = 16, .height = 16, .color_mode = ColorMode::index, .color_bits = 4}),
       bare({.width = 16, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0});
   const auto error = [&](const auto& change, const FragmentState& state, FrameBuffer& buffer) {
     Bitmap bitmap = good;
@@ -243,26 +267,37 @@ TEST(Bitmap, RefusesWhatItCannotDraw) {
   };
   const auto of = [&](const auto& change) { return error(change, {}, rgb); };
   EXPECT_THAT(of([](Bitmap& b) { b.bits = nullptr; }), HasSubstr("Frame::draw_bitmap: bits is null"));
-  EXPECT_THAT(of([](Bitmap& b) { b.width = 0; }), HasSubstr("Frame::draw_bitmap: width is 0, must be 1 to 16384"));
+  EXPECT_THAT(of([](Bitmap& b) { b.width = 0; }),
+              HasSubstr("Frame::draw_bitmap: width is 0, must be 1 to 16384"));
   EXPECT_THAT(of([](Bitmap& b) { b.height = -3; }), HasSubstr("height is -3, must be 1 to 16384"));
   EXPECT_THAT(of([](Bitmap& b) { b.width = 16385; }), HasSubstr("width is 16385"));
-  EXPECT_THAT(of([](Bitmap& b) { b.width = 9, b.height = 2, b.stride_bytes = -1; }), HasSubstr("stride_bytes is -1, a row takes 2 bytes"));
+  EXPECT_THAT(of([](Bitmap& b) { b.width = 9, b.height = 2, b.stride_bytes = -1; }),
+              HasSubstr("stride_bytes is -1, a row takes 2 bytes"));
   EXPECT_THAT(of([&](Bitmap& b) { b.x = nan; }), HasSubstr("position holds nan, must be finite"));
   EXPECT_THAT(of([&](Bitmap& b) { b.y = -infinity; }), HasSubstr("position holds -inf, must be finite"));
   EXPECT_THAT(of([](Bitmap& b) { b.depth = 1.5; }), HasSubstr("depth is 1.5, must be 0 to 1"));
   EXPECT_THAT(of([&](Bitmap& b) { b.depth = nan; }), HasSubstr("depth is nan"));
-  EXPECT_THAT(of([&](Bitmap& b) { b.color.g = static_cast<float>(nan); }), HasSubstr("color holds nan, must be finite"));
+  EXPECT_THAT(of([&](Bitmap& b) { b.color.g = static_cast<float>(nan); }),
+              HasSubstr("color holds nan, must be finite"));
   const auto as_is = [](Bitmap&) {};
-  EXPECT_THAT(error(as_is, {.scissor = Rect{0, 0, 4, -1}}, rgb), HasSubstr("Frame::draw_bitmap: scissor is 4 x -1 pixels"));
-  EXPECT_THAT(error(as_is, {.alpha_test = AlphaTest{.ref = 2}}, rgb), HasSubstr("Frame::draw_bitmap: alpha_test.ref is 2"));
-  EXPECT_THAT(error(as_is, {.blend = BlendState{}, .logic_op = LogicOp::xor_}, rgb), HasSubstr("Frame::draw_bitmap: blending and a logic operation"));
+  EXPECT_THAT(error(as_is, {.scissor = Rect{0, 0, 4, -1}}, rgb),
+              HasSubstr("Frame::draw_bitmap: scissor is 4 x -1 pixels"));
+  EXPECT_THAT(error(as_is, {.alpha_test = AlphaTest{.ref = 2}}, rgb),
+              HasSubstr("Frame::draw_bitmap: alpha_test.ref is 2"));
+  EXPECT_THAT(error(as_is, {.blend = BlendState{}, .logic_op = LogicOp::xor_}, rgb),
+              HasSubstr("Frame::draw_bitmap: blending and a logic operation"));
   EXPECT_THAT(error(as_is, {.blend = BlendState{}}, index), HasSubstr("indices, which do not blend"));
   EXPECT_THAT(error(as_is, {.alpha_test = AlphaTest{}}, index), HasSubstr("indices, which have no alpha"));
   EXPECT_THAT(error(as_is, {.color_mask = {true, false, true, true}}, index), HasSubstr("all or none"));
   EXPECT_THAT(error(as_is, {.stencil = StencilState{}}, bare), HasSubstr("no stencil buffer"));
   EXPECT_EQ(error(as_is, {}, bare), "(no error)") << "a depth that no buffer looks at";
-  EXPECT_EQ(of([](Bitmap& b) { b.x = -1e300, b.y = 1e300, b.color = {-5, 7, 0, 2}; }), "(no error)") << "far outside; colours are clamped";
-  EXPECT_EQ(of([](Bitmap& b) { b.height = 1, b.stride_bytes = -100; }), "(no error)") << "one row needs no stride";
+  EXPECT_EQ(of([](Bitmap& b) {
+              b.x = -1e300, b.y = 1e300, b.color = {-5, 7, 0, 2};
+            }),
+            "(no error)")
+      << "far outside; colours are clamped";
+  EXPECT_EQ(of([](Bitmap& b) { b.height = 1, b.stride_bytes = -100; }), "(no error)")
+      << "one row needs no stride";
 }
 
 }  // namespace

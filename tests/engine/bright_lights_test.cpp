@@ -12,18 +12,21 @@ namespace {
 
 struct Bright {
   const char* name;
-  float brightness;       // of the light
-  double attenuation;     // its constant
-  bool colors_vertices;   // the vertices have the highlight's colour
+  float brightness;      // of the light
+  double attenuation;    // its constant
+  bool colors_vertices;  // the vertices have the highlight's colour
 };
 
-// Least and most red of a triangle whose normals lean by an angle of that cosine from the light and the viewer, who are in the same direction: S.n is that cosine.
-std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, float shininess, Shading shading) {
+// Least and most red of a triangle whose normals lean by an angle of that cosine from the light and the
+// viewer, who are in the same direction: S.n is that cosine.
+std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, float shininess,
+                                 Shading shading) {
   MeshData mesh;
   mesh.positions = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
   for (int vertex = 0; vertex < 3; ++vertex) {
     mesh.normals.insert(mesh.normals.end(), {std::sqrt(1 - cosine * cosine), 0, cosine});
-    if (light_and_colors.colors_vertices) mesh.colors.insert(mesh.colors.end(), {light_and_colors.brightness, 0, 0, 1});
+    if (light_and_colors.colors_vertices)
+      mesh.colors.insert(mesh.colors.end(), {light_and_colors.brightness, 0, 0, 1});
   }
   Light light;
   light.ambient = light.diffuse = {0, 0, 0, 1};
@@ -51,7 +54,9 @@ std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, f
 }
 
 TEST(BrightLights, ShowTheFeetOfTheirHighlights) {
-  for (const Bright& bright : {Bright{"light", 2e9f, 1, false}, Bright{"brighter", 3e20f, 1, false}, Bright{"attenuation", 1, 5e-10, false}, Bright{"vertex colours", 2e9f, 1, true}})
+  for (const Bright& bright :
+       {Bright{"light", 2e9f, 1, false}, Bright{"brighter", 3e20f, 1, false},
+        Bright{"attenuation", 1, 5e-10, false}, Bright{"vertex colours", 2e9f, 1, true}})
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
       for (const float shininess : {10.0f, 60.0f})
         for (const double share : {0.1, 0.4, 0.8}) {  // that is to be seen
@@ -59,8 +64,10 @@ TEST(BrightLights, ShowTheFeetOfTheirHighlights) {
           const auto cosine = static_cast<float>(std::pow(share / factor, 1 / double{shininess}));
           const double expected = 255 * factor * std::pow(double{cosine}, double{shininess});
           const auto [least, most] = red_of(bright, cosine, shininess, shading);
-          EXPECT_NEAR(least, expected, 1) << bright.name << ", exponent " << shininess << ", " << static_cast<int>(shading);
-          EXPECT_NEAR(most, expected, 1) << bright.name << ", exponent " << shininess << ", " << static_cast<int>(shading);
+          EXPECT_NEAR(least, expected, 1)
+              << bright.name << ", exponent " << shininess << ", " << static_cast<int>(shading);
+          EXPECT_NEAR(most, expected, 1)
+              << bright.name << ", exponent " << shininess << ", " << static_cast<int>(shading);
         }
 }
 

@@ -1,4 +1,5 @@
-// The built-in meshes are what the scene format says: closed where they should be, wound outwards, with matching normals.
+// The built-in meshes are what the scene format says: closed where they should be, wound outwards, with
+// matching normals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,11 +16,16 @@ namespace {
 
 using Position = std::array<float, 3>;
 
-Position position(const MeshData& mesh, std::size_t vertex) { return {mesh.positions[3 * vertex], mesh.positions[3 * vertex + 1], mesh.positions[3 * vertex + 2]}; }
+Position position(const MeshData& mesh, std::size_t vertex) {
+  return {mesh.positions[3 * vertex], mesh.positions[3 * vertex + 1], mesh.positions[3 * vertex + 2]};
+}
 
 Vec3 face_normal(const MeshData& mesh, std::size_t triangle) {  // twice the area long
-  const Position a = position(mesh, mesh.indices[3 * triangle]), b = position(mesh, mesh.indices[3 * triangle + 1]), c = position(mesh, mesh.indices[3 * triangle + 2]);
-  const double u[3] = {double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]}, v[3] = {double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
+  const Position a = position(mesh, mesh.indices[3 * triangle]),
+                 b = position(mesh, mesh.indices[3 * triangle + 1]),
+                 c = position(mesh, mesh.indices[3 * triangle + 2]);
+  const double u[3] = {double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]},
+               v[3] = {double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
@@ -38,23 +44,25 @@ struct Topology {
   long euler;  // V - E + F
 };
 
-// Of the mesh with vertices at one place made one. An edge is open if its other side has no triangle running the other way.
+// Of the mesh with vertices at one place made one. An edge is open if its other side has no triangle running
+// the other way.
 Topology topology(const MeshData& mesh) {
   std::map<Position, std::size_t> welded;
-  const auto id = [&](std::uint32_t vertex) { return welded.try_emplace(position(mesh, vertex), welded.size()).first->second; };
+  const auto id = [&](std::uint32_t vertex) {
+    return welded.try_emplace(position(mesh, vertex), welded.size()).first->second;
+  };
   std::map<std::pair<std::size_t, std::size_t>, int> edges;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
     for (std::size_t k = 0; k < 3; ++k) ++edges[{id(mesh.indices[i + k]), id(mesh.indices[i + (k + 1) % 3])}];
   std::size_t open = 0, pairs = 0;
   for (const auto& [edge, count] : edges) {
     const auto back = edges.find({edge.second, edge.first});
-    if (back == edges.end() || back->second != count)
-      ++open;
-    else
-      ++pairs;
+    if (back == edges.end() || back->second != count) ++open;
+    else ++pairs;
   }
   const long edge_count = static_cast<long>(open + pairs / 2);
-  return {welded.size(), open, static_cast<long>(welded.size()) - edge_count + static_cast<long>(mesh.triangle_count())};
+  return {welded.size(), open,
+          static_cast<long>(welded.size()) - edge_count + static_cast<long>(mesh.triangle_count())};
 }
 
 // The largest angle, in degrees, between a triangle and the normals at its corners.
@@ -78,9 +86,12 @@ TEST(BuiltinMesh, EveryMeshHasUnitNormalsThatAgreeWithItsTriangles) {
       ASSERT_GT(mesh.triangle_count(), 0u) << name;
       ASSERT_EQ(mesh.normals.size(), mesh.positions.size()) << name;
       for (std::size_t i = 0; i < mesh.normals.size(); i += 3)
-        EXPECT_NEAR(std::hypot(mesh.normals[i], mesh.normals[i + 1], mesh.normals[i + 2]), 1, 1e-6) << name << " " << detail << " vertex " << i / 3;
+        EXPECT_NEAR(std::hypot(mesh.normals[i], mesh.normals[i + 1], mesh.normals[i + 2]), 1, 1e-6)
+            << name << " " << detail << " vertex " << i / 3;
       for (const std::uint32_t index : mesh.indices) EXPECT_LT(index, mesh.vertex_count());
-      if (detail >= 8) { EXPECT_LT(worst_angle(mesh), name == "teapot" ? 80 : 25) << name << " " << detail; }  // the teapot bends sharply at its rim and knob
+      if (detail >= 8) {
+        EXPECT_LT(worst_angle(mesh), name == "teapot" ? 80 : 25) << name << " " << detail;
+      }  // the teapot bends sharply at its rim and knob
     }
 }
 
@@ -89,7 +100,11 @@ TEST(BuiltinMesh, SolidsAreClosedAndHaveTheirVolumes) {
     const char* name;
     double volume;
     long euler;
-  } kSolids[] = {{"sphere", 4.18879, 2}, {"torus", 1.24363, 0}, {"cube", 8, 2}, {"cylinder", 6.28319, 2}, {"cone", 2.09440, 2}};
+  } kSolids[] = {{"sphere", 4.18879, 2},
+                 {"torus", 1.24363, 0},
+                 {"cube", 8, 2},
+                 {"cylinder", 6.28319, 2},
+                 {"cone", 2.09440, 2}};
   for (const auto& [name, exact, euler] : kSolids)
     for (const int detail : {3, 7, 16, 64}) {
       const MeshData mesh = builtin_mesh(name, detail);
@@ -97,7 +112,9 @@ TEST(BuiltinMesh, SolidsAreClosedAndHaveTheirVolumes) {
       EXPECT_EQ(found.open_edges, 0u) << name << " " << detail;
       EXPECT_EQ(found.euler, euler) << name << " " << detail;
       EXPECT_GT(volume(mesh), 0) << name << " " << detail;
-      if (detail == 64) { EXPECT_NEAR(volume(mesh) / exact, 1, 0.005) << name; }
+      if (detail == 64) {
+        EXPECT_NEAR(volume(mesh) / exact, 1, 0.005) << name;
+      }
     }
 }
 
@@ -107,12 +124,14 @@ TEST(BuiltinMesh, QuadAndGridAreOneSquare) {
   EXPECT_EQ(builtin_mesh("grid", 5).vertex_count(), 36u);
   const MeshData quad = builtin_mesh("quad", 7);
   EXPECT_EQ(quad.positions, (std::vector<float>{-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}));
-  EXPECT_EQ(quad.indices, (std::vector<std::uint32_t>{0, 1, 3, 0, 3, 2}));  // the diagonal starts at the lowest s and t
+  EXPECT_EQ(quad.indices,
+            (std::vector<std::uint32_t>{0, 1, 3, 0, 3, 2}));  // the diagonal starts at the lowest s and t
 }
 
 TEST(BuiltinMesh, CountsFollowTheDetail) {
   EXPECT_EQ(builtin_mesh("cube", 4).triangle_count(), 6u * 4 * 4 * 2);
-  EXPECT_EQ(builtin_mesh("sphere", 4).triangle_count(), 2u * 8 * 4 - 2 * 8);  // one triangle less at each pole
+  EXPECT_EQ(builtin_mesh("sphere", 4).triangle_count(),
+            2u * 8 * 4 - 2 * 8);  // one triangle less at each pole
   EXPECT_EQ(builtin_mesh("torus", 4).triangle_count(), 2u * 8 * 4);
   EXPECT_EQ(builtin_mesh("cylinder", 4).triangle_count(), 2u * 8 + 2 * 8);
   EXPECT_EQ(builtin_mesh("cone", 4).triangle_count(), 8u + 8);
@@ -132,7 +151,8 @@ TEST(BuiltinMesh, TheTeapotIsCentredAndItsLongestSideSpansMinusOneToOne) {
   }
 }
 
-// The spout and the handle are open where they pierce the body, the rim is open under the lid; patches meet without a gap.
+// The spout and the handle are open where they pierce the body, the rim is open under the lid; patches meet
+// without a gap.
 TEST(BuiltinMesh, TheTeapotIsWoundOutwardsAndItsPatchesMeet) {
   const MeshData pot = builtin_mesh("teapot", 10);
   EXPECT_GT(volume(pot), 0);

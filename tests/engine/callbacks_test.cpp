@@ -58,7 +58,8 @@ TEST(Progress, RisesToOneAndIsNeverCalledByTwoAtOnce) {
   }
 }
 
-// From the callback's thread and from another one, neither of which waits for workers that wait for the callback.
+// From the callback's thread and from another one, neither of which waits for workers that wait for the
+// callback.
 TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
   const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
   std::vector<std::uint32_t> many(90'000);
@@ -76,12 +77,11 @@ TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
                          const auto draw = [&] {
                            FrameBuffer next_buffer({.width = 8, .height = 8});
                            Frame next(next_buffer, *helper);
-                           told += error_of([&] { next.draw({.positions = triangle, .indices = many}); }) ? 1 : 0;
+                           told +=
+                               error_of([&] { next.draw({.positions = triangle, .indices = many}); }) ? 1 : 0;
                          };
-                         if (++drawn % 2 == 0)
-                           draw();
-                         else
-                           std::thread(draw).join();
+                         if (++drawn % 2 == 0) draw();
+                         else std::thread(draw).join();
                          return true;
                        }});
     helper = &renderer;
@@ -109,7 +109,8 @@ class Depth : public WorkersInTurn {
   int depth_ = 0;
 };
 
-/// One thread, which does whatever work there is while it waits: also that of a call that it is in the midst of.
+/// One thread, which does whatever work there is while it waits: also that of a call that it is in the midst
+/// of.
 class Helping : public Executor {
  public:
   int workers() const noexcept override { return 3; }
@@ -131,7 +132,8 @@ class Helping : public Executor {
   std::deque<std::function<void()>> jobs_;
 };
 
-/// A frame in the midst of whose work another renderer of its executor finishes frames, and what they have to be.
+/// A frame in the midst of whose work another renderer of its executor finishes frames, and what they have to
+/// be.
 void expect_frames_within_a_frame(const std::shared_ptr<Executor>& executor) {
   Renderer plain({.threads = 1});
   FrameBuffer fresh(scene().format);
@@ -183,7 +185,8 @@ TEST(Progress, MustNotFinishFramesOfItsRenderer) {
     ASSERT_GE(calls, 2);
     EXPECT_THAT(errors, testing::Each(testing::HasSubstr("called by this renderer's own progress callback")));
     plain.finish(next);
-    EXPECT_THAT(color_words(next_buffer), testing::AllOf(testing::SizeIs(64), testing::Each(0x0000ffu))) << "nothing of it is lost";
+    EXPECT_THAT(color_words(next_buffer), testing::AllOf(testing::SizeIs(64), testing::Each(0x0000ffu)))
+        << "nothing of it is lost";
   }
 }
 
@@ -242,7 +245,9 @@ TEST(Progress, MayCancelWhileTwoThreadsWork) {
   int cancelled = 0;
   for (int round = 0; round < 20; ++round) {
     bool armed = true;
-    Renderer renderer({.threads = 2, .tile_size = 32, .progress = [&](double done) { return !armed || done < round / 20.0; }});
+    Renderer renderer({.threads = 2, .tile_size = 32, .progress = [&](double done) {
+                         return !armed || done < round / 20.0;
+                       }});
     const std::size_t size = FrameBuffer::memory_bytes(scene().format);
     std::vector<std::byte> memory(size + 64);
     void* at = memory.data();
@@ -296,8 +301,8 @@ TEST(Progress, AnExceptionOfTheCallersComesBackToTheCaller) {
 }
 
 TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
-  // The frame before is one colour, the cancelled one another: nothing else may be seen. Tiles take their time, so that the
-  // callback is heard between two of them.
+  // The frame before is one colour, the cancelled one another: nothing else may be seen. Tiles take their
+  // time, so that the callback is heard between two of them.
   int call = 0;
   bool armed = false;
   class Slow : public Executor {
@@ -308,7 +313,9 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
     }
   };
   Renderer renderer({.tile_size = 32, .executor = std::make_shared<Slow>(), .progress = [&](double done) {
-                       if (armed) std::this_thread::sleep_for(std::chrono::milliseconds(15));  // longer than the pause between two calls
+                       if (armed)
+                         std::this_thread::sleep_for(
+                             std::chrono::milliseconds(15));  // longer than the pause between two calls
                        return !armed || done < 0.5 || call++ < 3;
                      }});
   FrameBuffer buffer({.width = 300, .height = 200});
@@ -318,7 +325,12 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
   renderer.finish(frame);
   armed = true;
   frame.clear({.depth = 1.0});
-  for (int i = 0; i < 200; ++i) frame.draw(whole.view(), [] { DrawState s = unlit({0, 1, 0, 1}); s.depth.test = Compare::always; return s; }());
+  for (int i = 0; i < 200; ++i)
+    frame.draw(whole.view(), [] {
+      DrawState s = unlit({0, 1, 0, 1});
+      s.depth.test = Compare::always;
+      return s;
+    }());
   EXPECT_THROW(renderer.finish(frame), Cancelled);
   std::size_t before = 0, after = 0;
   for (const std::uint32_t word : color_words(buffer)) {
@@ -331,7 +343,8 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
 
 TEST(Log, SaysWhatRunsAndWarnsOfDroppedTriangles) {
   std::vector<std::pair<LogLevel, std::string>> lines;
-  Renderer renderer({.threads = 1, .log = [&](LogLevel level, std::string_view text) { lines.emplace_back(level, text); }});
+  Renderer renderer(
+      {.threads = 1, .log = [&](LogLevel level, std::string_view text) { lines.emplace_back(level, text); }});
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].first, LogLevel::info);
   EXPECT_THAT(lines[0].second, testing::HasSubstr("1 thread, "));

@@ -19,7 +19,10 @@ constexpr FrameBufferFormat kFormat{.width = 150, .height = 110};
 struct Pixels {
   std::vector<std::uint32_t> objects, primitives;
   std::vector<float> normals;
-  explicit Pixels(const FrameBuffer& buffer) : objects(pixel_count(buffer), 7), primitives(pixel_count(buffer), 7), normals(3 * pixel_count(buffer), 7.0f) {}
+  explicit Pixels(const FrameBuffer& buffer)
+      : objects(pixel_count(buffer), 7),
+        primitives(pixel_count(buffer), 7),
+        normals(3 * pixel_count(buffer), 7.0f) {}
   Capture all() { return {.objects = objects, .primitives = primitives, .normals = normals}; }
 };
 
@@ -49,10 +52,13 @@ TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
           MeshData& one = single.emplace_back();
           for (std::uint32_t k = 0; k < 3; ++k) {
             const std::size_t v = mesh->indices.empty() ? 3 * t + k : mesh->indices[3 * t + k];
-            one.positions.insert(one.positions.end(), {mesh->positions[3 * v], mesh->positions[3 * v + 1], mesh->positions[3 * v + 2]});
+            one.positions.insert(one.positions.end(), {mesh->positions[3 * v], mesh->positions[3 * v + 1],
+                                                       mesh->positions[3 * v + 2]});
           }
           const auto number = static_cast<std::uint32_t>(who.size());
-          DrawState plain = unlit({static_cast<float>(number >> 16 & 255) / 255, static_cast<float>(number >> 8 & 255) / 255, static_cast<float>(number & 255) / 255, 1});
+          DrawState plain =
+              unlit({static_cast<float>(number >> 16 & 255) / 255,
+                     static_cast<float>(number >> 8 & 255) / 255, static_cast<float>(number & 255) / 255, 1});
           plain.cull = state.cull;
           numbers.draw(one.view(), plain);
         }
@@ -68,7 +74,8 @@ TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
         const bool nothing = words[i] == 0;
         ASSERT_EQ(pixels.objects[i], nothing ? Capture::kNothing : who[words[i] - 1].first) << i;
         ASSERT_EQ(pixels.primitives[i], nothing ? Capture::kNothing : who[words[i] - 1].second) << i;
-        const double length = std::hypot(pixels.normals[3 * i], pixels.normals[3 * i + 1], pixels.normals[3 * i + 2]);
+        const double length =
+            std::hypot(pixels.normals[3 * i], pixels.normals[3 * i + 1], pixels.normals[3 * i + 2]);
         ASSERT_NEAR(length, nothing ? 0 : 1, 1e-5) << i;
         drawn += nothing ? 0 : 1;
       }
@@ -128,7 +135,8 @@ TEST(Capture, NormalsAreThoseOfASphere) {
       Frame frame(buffer);
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
       // A view that turns: eye space is not world space.
-      frame.set_camera({.view = rotate(70, 1, 2, 3), .projection = orthographic(-1.1, 1.1, -1.1, 1.1, -2, 2)});
+      frame.set_camera(
+          {.view = rotate(70, 1, 2, 3), .projection = orthographic(-1.1, 1.1, -1.1, 1.1, -2, 2)});
       Mesh mesh = sphere.view();
       if (!given) mesh.normals = {};
       frame.draw(mesh, {.shading = shading});
@@ -140,7 +148,8 @@ TEST(Capture, NormalsAreThoseOfASphere) {
       int checked = 0;
       for (int y = 0; y < 101; ++y)
         for (int x = 0; x < 101; ++x) {
-          const double nx = (x - 50) * (2.2 / 101) / radius, ny = (50 - y) * (2.2 / 101) / radius, squared = nx * nx + ny * ny;
+          const double nx = (x - 50) * (2.2 / 101) / radius, ny = (50 - y) * (2.2 / 101) / radius,
+                       squared = nx * nx + ny * ny;
           if (squared > 0.8) continue;
           const float* n = &pixels.normals[3 * static_cast<std::size_t>(101 * y + x)];
           ASSERT_NEAR(n[0], nx, 0.01) << x << ' ' << y;
@@ -169,7 +178,8 @@ TEST(Capture, FollowsClearsMasksAndLaterDraws) {
   frame.capture({.objects = pixels.objects, .primitives = pixels.primitives});
   renderer.finish(frame);
   for (std::size_t y = 0; y < 8; ++y)
-    for (std::size_t x = 0; x < 8; ++x) EXPECT_EQ(pixels.objects[8 * y + x], y < 4 ? 0u : x < 4 ? 2u : Capture::kNothing) << x << ' ' << y;
+    for (std::size_t x = 0; x < 8; ++x)
+      EXPECT_EQ(pixels.objects[8 * y + x], y < 4 ? 0u : x < 4 ? 2u : Capture::kNothing) << x << ' ' << y;
   EXPECT_EQ(pixels.normals[0], 7.0f) << "not asked for";
 }
 
@@ -178,9 +188,13 @@ TEST(Capture, RefusesSpansOfAnotherSize) {
   Frame frame(buffer);
   std::vector<std::uint32_t> ids(10);
   std::vector<float> normals(pixel_count(buffer));
-  EXPECT_THAT(error_of([&] { frame.capture({.objects = ids}); }).value_or(""), testing::AllOf(testing::HasSubstr("objects"), testing::HasSubstr("10"), testing::HasSubstr("16500")));
-  EXPECT_THAT(error_of([&] { frame.capture({.primitives = ids}); }).value_or(""), testing::HasSubstr("primitives"));
-  EXPECT_THAT(error_of([&] { frame.capture({.normals = normals}); }).value_or(""), testing::HasSubstr("49500"));
+  EXPECT_THAT(
+      error_of([&] { frame.capture({.objects = ids}); }).value_or(""),
+      testing::AllOf(testing::HasSubstr("objects"), testing::HasSubstr("10"), testing::HasSubstr("16500")));
+  EXPECT_THAT(error_of([&] { frame.capture({.primitives = ids}); }).value_or(""),
+              testing::HasSubstr("primitives"));
+  EXPECT_THAT(error_of([&] { frame.capture({.normals = normals}); }).value_or(""),
+              testing::HasSubstr("49500"));
 }
 
 TEST(Fragments, AreCountedBeforeAnyTestAndOnlyOnRequest) {

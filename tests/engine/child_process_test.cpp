@@ -24,23 +24,38 @@ TEST(ChildProcess, IsStoppedByItsLimitsAndSaysWhy) {
   EXPECT_EQ(message({}, [] { return std::string(200000, 'x'); }), "result " + std::string(200000, 'x'));
   EXPECT_EQ(message({}, []() -> std::string { throw Error("file:3: bad"); }), "file:3: bad");
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(message({.time = std::chrono::milliseconds(1000)}, [] {
-              std::this_thread::sleep_for(std::chrono::seconds(30));
-              return std::string();
-            }), "file took more than 1 seconds; given up");
+  EXPECT_EQ(message({.time = std::chrono::milliseconds(1000)},
+                    [] {
+                      std::this_thread::sleep_for(std::chrono::seconds(30));
+                      return std::string();
+                    }),
+            "file took more than 1 seconds; given up");
   int asked = 0;
-  EXPECT_EQ(message({.go_on = [&] { return ++asked < 4; }}, [] {
-              std::this_thread::sleep_for(std::chrono::seconds(30));
-              return std::string();
-            }), "file was interrupted");
+  EXPECT_EQ(message({.go_on = [&] { return ++asked < 4; }},
+                    [] {
+                      std::this_thread::sleep_for(std::chrono::seconds(30));
+                      return std::string();
+                    }),
+            "file was interrupted");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
   EXPECT_NE(message({}, []() -> std::string { std::abort(); }).find("broke down"), std::string::npos);
-  EXPECT_NE(message({.result_bytes = 1 << 20}, [] { return std::string(3 << 20, 'x'); }).find("gives 3 MiB, at most 1 MiB"), std::string::npos);
+  EXPECT_NE(message({.result_bytes = 1 << 20}, [] { return std::string(3 << 20, 'x'); })
+                .find("gives 3 MiB, at most 1 MiB"),
+            std::string::npos);
   EXPECT_NE(message({}, []() -> std::string { throw std::bad_alloc(); }).find("1024 MiB"), std::string::npos);
   EXPECT_NE(message({}, []() -> std::string { throw 3; }).find("no known kind"), std::string::npos);
-  EXPECT_NE(message({}, []() -> std::string { ::raise(SIGINT); return ""; }).find("interrupted"), std::string::npos);
+  EXPECT_NE(message({},
+                    []() -> std::string {
+                      ::raise(SIGINT);
+                      return "";
+                    })
+                .find("interrupted"),
+            std::string::npos);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_NE(message({.memory_bytes = std::size_t{1} << 30}, [] { return std::string(std::size_t{3} << 30, 'x'); }).find("1024 MiB"), std::string::npos);
+  EXPECT_NE(
+      message({.memory_bytes = std::size_t{1} << 30}, [] { return std::string(std::size_t{3} << 30, 'x'); })
+          .find("1024 MiB"),
+      std::string::npos);
 #endif
 }
 
@@ -50,11 +65,20 @@ Model small_model() {
   model.mesh.normals = {0, 0, 1, 0, 1, 0};
   model.mesh.colors = {1, 2, 3, 4, 5, 6, 7, 8};
   model.mesh.indices = {0, 1, 0, 1, 1, 0};
-  model.parts = {{.material_name = "a", .material = {.shininess = 3}, .first_index = 0, .index_count = 3, .uses_colors = true},
-                 {.material_name = "", .material = {.emission = {1, 2, 3, 4}}, .first_index = 3, .index_count = 3}};
+  model.parts = {
+      {.material_name = "a",
+       .material = {.shininess = 3},
+       .first_index = 0,
+       .index_count = 3,
+       .uses_colors = true},
+      {.material_name = "", .material = {.emission = {1, 2, 3, 4}}, .first_index = 3, .index_count = 3}};
   model.warnings = {"w", ""};
   model.cameras = {{.view = translate(1, 2, 3), .is_orthographic = true, .half_height = 30, .far = 7}};
-  model.lights = {Light{.diffuse = {5, 6, 7, 8}, .position = {9, 8, 7, 6}, .spot_direction = {1, 2, 4}, .spot_cutoff = 12, .attenuation_quadratic = 2}};
+  model.lights = {Light{.diffuse = {5, 6, 7, 8},
+                        .position = {9, 8, 7, 6},
+                        .spot_direction = {1, 2, 4},
+                        .spot_cutoff = 12,
+                        .attenuation_quadratic = 2}};
   model.ambient_light = Color{4, 3, 2, 1};
   model.files = {"a.png", "", "b c.mtl"};
   return model;
@@ -92,9 +116,15 @@ TEST(ModelBytes, OfABrokenProcessAreRefused) {
   const std::string bytes = to_bytes(small_model());
   for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_TRUE(refused(bytes.substr(0, size))) << size;
   EXPECT_TRUE(refused(bytes + "x"));
-  void (*const kUnsound[])(Model&) = {[](Model& m) { m.mesh.indices[4] = 2; }, [](Model& m) { m.mesh.positions.pop_back(); }, [](Model& m) { m.mesh.normals.push_back(0); },
-                                      [](Model& m) { m.mesh.colors.pop_back(); }, [](Model& m) { m.parts.clear(); }, [](Model& m) { m.parts[1].first_index = 0; },
-                                      [](Model& m) { m.parts[1].index_count = 6; }, [](Model& m) { m.parts[1].index_count = ~std::size_t{0} - 2; }, [](Model& m) { m.parts.pop_back(); }};
+  void (*const kUnsound[])(Model&) = {[](Model& m) { m.mesh.indices[4] = 2; },
+                                      [](Model& m) { m.mesh.positions.pop_back(); },
+                                      [](Model& m) { m.mesh.normals.push_back(0); },
+                                      [](Model& m) { m.mesh.colors.pop_back(); },
+                                      [](Model& m) { m.parts.clear(); },
+                                      [](Model& m) { m.parts[1].first_index = 0; },
+                                      [](Model& m) { m.parts[1].index_count = 6; },
+                                      [](Model& m) { m.parts[1].index_count = ~std::size_t{0} - 2; },
+                                      [](Model& m) { m.parts.pop_back(); }};
   for (const auto& spoil : kUnsound) {
     Model model = small_model();
     spoil(model);
@@ -102,14 +132,16 @@ TEST(ModelBytes, OfABrokenProcessAreRefused) {
   }
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need more memory than a limit leaves
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // they need more memory than a limit leaves
 TEST(ModelBytes, OfABrokenProcessTakeNoMoreMemoryThanTheyAreLong) {
   constexpr std::size_t kParts = 16 << 20;
   std::string bytes(40, '\0');  // five empty arrays, then parts
   bytes.append(reinterpret_cast<const char*>(&kParts), sizeof kParts);
   bytes.append(kParts, '\xff');  // the name of the first is longer than all that follows
   try {
-    run_in_child("reading", {.memory_bytes = 256 << 20}, [&] { return to_bytes(model_from_bytes(bytes, "file")); });
+    run_in_child("reading", {.memory_bytes = 256 << 20},
+                 [&] { return to_bytes(model_from_bytes(bytes, "file")); });
     FAIL() << "bytes of no model became one";
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "file: the reading process sent no sound model");

@@ -16,7 +16,11 @@ using testing::Not;
 double masked(double index, double count) { return index - count * std::floor(index / count); }
 
 TEST(ColorIndex, IsInterpolatedFromMaskedVertices) {
-  const float corners[][3] = {{2, 34, 10}, {-3, 70, 64.25f}, {63.75f, 63.75f, 62.875f}, {1000.25f, -1000.75f, 0.25f}, {-128, 6.5e4f, 17}};
+  const float corners[][3] = {{2, 34, 10},
+                              {-3, 70, 64.25f},
+                              {63.75f, 63.75f, 62.875f},
+                              {1000.25f, -1000.75f, 0.25f},
+                              {-128, 6.5e4f, 17}};
   for (const auto& [a, b, c] : corners) {
     const MeshData mesh = large_triangle(a, b, c);
     const double at[3] = {masked(a, 64), masked(b, 64), masked(c, 64)};
@@ -27,7 +31,8 @@ TEST(ColorIndex, IsInterpolatedFromMaskedVertices) {
           const double index = at[0] + (at[1] - at[0]) * (x + 0.5) / 128 + (at[2] - at[0]) * (y + 0.5) / 64;
           if (std::abs(index + 0.5 - std::round(index + 0.5)) < 1e-4) continue;
           const auto expected = static_cast<std::uint32_t>(masked(std::floor(index + 0.5), 64));
-          ASSERT_EQ(words[static_cast<std::size_t>((31 - y) * 64 + x)], expected) << "at " << x << " " << y << " of " << a << " " << b << " " << c << ": " << index;
+          ASSERT_EQ(words[static_cast<std::size_t>((31 - y) * 64 + x)], expected)
+              << "at " << x << " " << y << " of " << a << " " << b << " " << c << ": " << index;
         }
     }
   }
@@ -40,13 +45,19 @@ TEST(ColorIndex, IsRoundedToTheNearestAndMaskedAgain) {
     float index;
     std::uint32_t word, deep_word;
   };
-  const Case cases[] = {{2.5f, 3, 3}, {3.5f, 4, 4}, {3.4999f, 3, 3}, {0.49999997f, 0, 0}, {63.5f, 0, 64}, {63.25f, 63, 63}, {-0.5f, 0, 0}, {-0.75f, 63, 16777215},
-                        {8388609, 1, 8388609}, {16777215, 63, 16777215}, {16777216, 0, 0}, {-1e-30f, 0, 0}, {3e38f, 0, 0}};
+  const Case cases[] = {{2.5f, 3, 3},          {3.5f, 4, 4},
+                        {3.4999f, 3, 3},       {0.49999997f, 0, 0},
+                        {63.5f, 0, 64},        {63.25f, 63, 63},
+                        {-0.5f, 0, 0},         {-0.75f, 63, 16777215},
+                        {8388609, 1, 8388609}, {16777215, 63, 16777215},
+                        {16777216, 0, 0},      {-1e-30f, 0, 0},
+                        {3e38f, 0, 0}};
   for (const Case& c : cases) {
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
       SCOPED_TRACE(c.index);
       expect_everywhere(c.word, large_triangle(c.index, c.index, c.index), index_state(shading));
-      if (c.index != -0.75f) expect_everywhere(c.deep_word, large_triangle(c.index, c.index, c.index), index_state(shading), deep);
+      if (c.index != -0.75f)
+        expect_everywhere(c.deep_word, large_triangle(c.index, c.index, c.index), index_state(shading), deep);
     }
   }
 }
@@ -121,11 +132,13 @@ TEST(ColorIndex, ErrorsNameWhatIsWrong) {
   Frame frame(buffer);
   MeshData mesh = large_triangle(1, 2, 3);
   mesh.color_indices.pop_back();
-  EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), index_state()); }).value_or(""), AllOf(HasSubstr("2 floats of color_indices"), HasSubstr("3 vertices")));
+  EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), index_state()); }).value_or(""),
+              AllOf(HasSubstr("2 floats of color_indices"), HasSubstr("3 vertices")));
   mesh.color_indices = {1, 2, 3};
   DrawState state;
   state.material = index_material(0, std::numeric_limits<float>::infinity(), 1, 0);
-  EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), state); }).value_or(""), AllOf(HasSubstr("material.color_indexes"), HasSubstr("finite")));
+  EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), state); }).value_or(""),
+              AllOf(HasSubstr("material.color_indexes"), HasSubstr("finite")));
   state = index_state();
   state.blend = BlendState{};
   EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), state); }).value_or(""), HasSubstr("do not blend"));
@@ -137,7 +150,8 @@ TEST(ColorIndex, ErrorsNameWhatIsWrong) {
 TEST(ColorIndex, NotFiniteDropsItsTriangleWhereItIsUsed) {
   MeshData mesh = two_faces();
   mesh.color_indices.assign(8, 7);
-  for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const float wrong :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     mesh.color_indices[2] = wrong;
     for (const Shading shading : {Shading::flat, Shading::gouraud}) {
       const auto dropped = [&](const FrameBufferFormat& format, DrawState state) {
@@ -159,8 +173,10 @@ TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
   Random random(5);
   MeshData mesh;
   for (int i = 0; i < 600; ++i) {
-    mesh.positions.insert(mesh.positions.end(), {random.between(-1.3f, 1.3f), random.between(-1.3f, 1.3f), random.between(-1.1f, 0.9f)});
-    mesh.normals.insert(mesh.normals.end(), {random.between(-1, 1), random.between(-1, 1), random.between(0, 1)});
+    mesh.positions.insert(mesh.positions.end(), {random.between(-1.3f, 1.3f), random.between(-1.3f, 1.3f),
+                                                 random.between(-1.1f, 0.9f)});
+    mesh.normals.insert(mesh.normals.end(),
+                        {random.between(-1, 1), random.between(-1, 1), random.between(0, 1)});
     mesh.color_indices.push_back(random.between(-300, 300));
   }
   FrameBufferFormat format = kIndexFormat;
@@ -191,7 +207,12 @@ TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
     for (const int tile_size : {32, 64, 128})
       for (const int threads : {1, 3})
         for (const bool defer : {true, false})
-          ASSERT_EQ(drawn(format, record, {.threads = threads, .tile_size = tile_size, .instruction_set = set, .defer_shading = defer}), expected)
+          ASSERT_EQ(drawn(format, record,
+                          {.threads = threads,
+                           .tile_size = tile_size,
+                           .instruction_set = set,
+                           .defer_shading = defer}),
+                    expected)
               << name(set) << ", tiles of " << tile_size << ", " << threads << " threads, deferred " << defer;
 }
 
@@ -226,15 +247,22 @@ TEST(ColorIndex, ExplainTellsWhatIsNotUsed) {
   mesh.colors.assign(12, 1);
   FrameBufferFormat dithered = kIndexFormat;
   dithered.dither = Dither::bayer2;
-  EXPECT_THAT(explain(dithered, mesh, index_state()), AllOf(HasSubstr("indices of the vertices"), HasSubstr("colours are not used: it has color_indices"), HasSubstr("not dithered")));
+  EXPECT_THAT(explain(dithered, mesh, index_state()),
+              AllOf(HasSubstr("indices of the vertices"),
+                    HasSubstr("colours are not used: it has color_indices"), HasSubstr("not dithered")));
   const FrameBufferFormat rgb{.width = 4, .height = 4};
-  EXPECT_THAT(explain(rgb, mesh, index_state()), HasSubstr("color_indices are not used: the buffer holds RGB"));
-  EXPECT_THAT(explain(kIndexFormat, mesh, {}), AllOf(HasSubstr("color_indices are not used: it is lit"), Not(HasSubstr("index lighting"))));
+  EXPECT_THAT(explain(rgb, mesh, index_state()),
+              HasSubstr("color_indices are not used: the buffer holds RGB"));
+  EXPECT_THAT(explain(kIndexFormat, mesh, {}),
+              AllOf(HasSubstr("color_indices are not used: it is lit"), Not(HasSubstr("index lighting"))));
   DrawState state;
   state.color_material = ColorMaterial::diffuse;
   state.material = index_material(0, 1, 2, 3);
-  EXPECT_THAT(explain(kIndexFormat, mesh, state), AllOf(HasSubstr("index lighting"), HasSubstr("Blinn highlight"), HasSubstr("colours are not used: the material has color_indexes")));
-  EXPECT_THAT(explain(rgb, mesh, state), AllOf(HasSubstr("color_indexes are not used: the buffer holds RGB"), Not(HasSubstr("index lighting"))));
+  EXPECT_THAT(explain(kIndexFormat, mesh, state),
+              AllOf(HasSubstr("index lighting"), HasSubstr("Blinn highlight"),
+                    HasSubstr("colours are not used: the material has color_indexes")));
+  EXPECT_THAT(explain(rgb, mesh, state), AllOf(HasSubstr("color_indexes are not used: the buffer holds RGB"),
+                                               Not(HasSubstr("index lighting"))));
 }
 
 }  // namespace

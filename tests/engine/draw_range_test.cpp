@@ -13,7 +13,8 @@ TEST(DrawRanges, CoverEachDrawInOrder) {
   DrawRanges ranges;
   for (const std::size_t each : {std::size_t{1}, std::size_t{3}, std::size_t{4}, std::size_t{100}}) {
     SCOPED_TRACE(each);
-    ranges.cut(counts.size(), [&](std::size_t draw) { return counts[draw]; }, each);
+    ranges.cut(
+        counts.size(), [&](std::size_t draw) { return counts[draw]; }, each);
     std::size_t i = 0;
     for (std::size_t draw = 0; draw < counts.size(); ++draw)
       for (std::size_t first = 0; first < counts[draw]; first += each, ++i) {
@@ -25,7 +26,8 @@ TEST(DrawRanges, CoverEachDrawInOrder) {
       }
     EXPECT_EQ(i, ranges.size());
   }
-  ranges.cut(3, [](std::size_t) { return std::size_t{0}; }, 4);
+  ranges.cut(
+      3, [](std::size_t) { return std::size_t{0}; }, 4);
   EXPECT_EQ(ranges.size(), 0u);
 }
 

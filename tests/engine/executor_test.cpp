@@ -67,8 +67,8 @@ TEST(Executors, GiveTheSameBits) {
   EXPECT_EQ(drawn({.executor = std::make_shared<WorkersInTurn>(5, 4)}), expected);
 }
 
-/// Small triangles on the left, then clipped ones everywhere, then small lines and points on the right, then a triangle everywhere: of many batches most tiles
-/// find something in some that do not follow each other.
+/// Small triangles on the left, then clipped ones everywhere, then small lines and points on the right, then
+/// a triangle everywhere: of many batches most tiles find something in some that do not follow each other.
 struct ManyBatches {
   static constexpr int kSmall = 30000;
   std::vector<float> triangles, lines, points, colors;
@@ -84,19 +84,25 @@ struct ManyBatches {
   }
   static void add(std::vector<float>& positions, float x, float y, float z, int corners) {
     constexpr float kOffset[3][2] = {{0, 0}, {0.04f, 0.01f}, {0.01f, 0.05f}};
-    for (int k = 0; k < corners; ++k) positions.insert(positions.end(), {x + kOffset[k][0], y + kOffset[k][1], z});
+    for (int k = 0; k < corners; ++k)
+      positions.insert(positions.end(), {x + kOffset[k][0], y + kOffset[k][1], z});
   }
-  /// Of a frame, a smaller one of half of it, and the first one again, one renderer's: nothing of one is left in the next.
+  /// Of a frame, a smaller one of half of it, and the first one again, one renderer's: nothing of one is left
+  /// in the next.
   ///
   /// @param binned  batches of the last frame's first binning pass
   std::vector<Fingerprint> drawn(RendererOptions options, std::size_t& binned) const {
     options.trace = [&](std::span<const FrameTask> tasks) {
-      const auto first = std::find_if(tasks.begin(), tasks.end(), [](const FrameTask& task) { return task.stage == FrameStage::binning; });
-      binned = static_cast<std::size_t>(std::count_if(first, tasks.end(), [&](const FrameTask& task) { return task.pass == first->pass; }));
+      const auto first = std::find_if(tasks.begin(), tasks.end(), [](const FrameTask& task) {
+        return task.stage == FrameStage::binning;
+      });
+      binned = static_cast<std::size_t>(
+          std::count_if(first, tasks.end(), [&](const FrameTask& task) { return task.pass == first->pass; }));
     };
     Renderer renderer(std::move(options));
     std::vector<Fingerprint> all;
-    for (const auto& [width, height, share] : {std::tuple{300, 200, 1}, std::tuple{170, 90, 2}, std::tuple{300, 200, 1}}) {
+    for (const auto& [width, height, share] :
+         {std::tuple{300, 200, 1}, std::tuple{170, 90, 2}, std::tuple{300, 200, 1}}) {
       FrameBuffer buffer({.width = width, .height = height});
       Frame frame(buffer);
       record(frame, share);
@@ -109,11 +115,18 @@ struct ManyBatches {
  private:
   /// One of `share` parts of each mesh.
   void record(Frame& frame, std::size_t share) const {
-    static constexpr float kClipped[] = {-3, -2, -4, 3, -2, 0.9f, 0, 5, 0.2f, -2, 3, 0.1f, 2, 3, 3, 0, -4, 0.3f}, kWide[] = {-0.9f, -0.8f, 0.2f, 0.9f, -0.7f, -0.4f, 0.1f, 0.95f, 0.1f};
+    static constexpr float kClipped[] = {-3, -2, -4,   3, -2, 0.9f, 0, 5,  0.2f,
+                                         -2, 3,  0.1f, 2, 3,  3,    0, -4, 0.3f},
+                           kWide[] = {-0.9f, -0.8f, 0.2f, 0.9f, -0.7f, -0.4f, 0.1f, 0.95f, 0.1f};
     const auto draw = [&](Primitive primitive, std::span<const float> positions) {
-      frame.draw({.primitive = primitive, .positions = positions, .colors = std::span(colors).first(positions.size() / 3 * 4)}, {.lighting = false});
+      frame.draw({.primitive = primitive,
+                  .positions = positions,
+                  .colors = std::span(colors).first(positions.size() / 3 * 4)},
+                 {.lighting = false});
     };
-    const auto part = [&](const std::vector<float>& positions) { return std::span<const float>(positions).first(positions.size() / share); };
+    const auto part = [&](const std::vector<float>& positions) {
+      return std::span<const float>(positions).first(positions.size() / share);
+    };
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     draw(Primitive::triangles, part(triangles));
     draw(Primitive::triangles, kClipped);
@@ -129,7 +142,10 @@ TEST(Executors, OfManyWorkersGiveTheSameBits) {
   const std::vector<Fingerprint> expected = scene.drawn({.threads = 1, .tile_size = 32}, batches);
   EXPECT_EQ(batches, 4);
   for (const int workers : {3, 17, 32, 64}) {
-    EXPECT_TRUE(scene.drawn({.tile_size = 32, .executor = std::make_shared<WorkersInTurn>(workers, workers - 1)}, batches) == expected) << workers;
+    EXPECT_TRUE(
+        scene.drawn({.tile_size = 32, .executor = std::make_shared<WorkersInTurn>(workers, workers - 1)},
+                    batches) == expected)
+        << workers;
     EXPECT_EQ(batches, std::min(4 * workers, 3 * ManyBatches::kSmall / 1024)) << workers;
   }
 }
@@ -141,11 +157,16 @@ TEST(Executors, NumberOfWorkersIsTheNumberOfThreads) {
 }
 
 TEST(Executors, ThatDoNotDoTheirWorkAreNamed) {
-  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Idle>()}); }).value_or(""), testing::HasSubstr("executor returned before its work was done"));
-  EXPECT_THAT(error_of([] { Renderer({.executor = std::make_shared<Nobody>()}); }).value_or(""), testing::HasSubstr("0 workers"));
-  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(4)}); }).value_or(""), testing::HasSubstr("executor called work for worker 4, run() must call it for 0 .. "));
-  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(-1)}); }).value_or(""), testing::HasSubstr("executor called work for worker -1, run() must call it for 0 .. "));
-  EXPECT_THROW(drawn({.executor = std::make_shared<Throwing>()}), std::length_error) << "its own exceptions pass through";
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Idle>()}); }).value_or(""),
+              testing::HasSubstr("executor returned before its work was done"));
+  EXPECT_THAT(error_of([] { Renderer({.executor = std::make_shared<Nobody>()}); }).value_or(""),
+              testing::HasSubstr("0 workers"));
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(4)}); }).value_or(""),
+              testing::HasSubstr("executor called work for worker 4, run() must call it for 0 .. "));
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(-1)}); }).value_or(""),
+              testing::HasSubstr("executor called work for worker -1, run() must call it for 0 .. "));
+  EXPECT_THROW(drawn({.executor = std::make_shared<Throwing>()}), std::length_error)
+      << "its own exceptions pass through";
 }
 
 }  // namespace

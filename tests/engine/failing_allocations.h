@@ -1,5 +1,5 @@
-// Allocations that fail one after the other: the first, the second, each one there is; and how many bytes are allocated. The operators that count them stand in
-// out_of_memory_test.cpp.
+// Allocations that fail one after the other: the first, the second, each one there is; and how many bytes are
+// allocated. The operators that count them stand in out_of_memory_test.cpp.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -29,15 +29,17 @@ namespace tessera::test {
 
 /// How many succeed before one fails, on whatever thread; below 0: as many as anybody likes.
 extern std::atomic<long> allocations_left;
-/// Bytes that are allocated now, and the most that were at any time since it was set; with what the allocator rounds them up to.
+/// Bytes that are allocated now, and the most that were at any time since it was set; with what the allocator
+/// rounds them up to.
 extern std::atomic<long> live_bytes, most_live_bytes;
 
 inline void refuse_lost(int at) { ADD_FAILURE() << "allocation " << at << " was lost"; }
 
-/// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at what is left; `after_loss` where `act` went on
-/// without. Returns how many there were.
+/// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at
+/// what is left; `after_loss` where `act` went on without. Returns how many there were.
 template <class Act, class AfterFailure, class AfterLoss = void (*)(int)>
-int fail_every_allocation(const Act& act, const AfterFailure& after_failure, const AfterLoss& after_loss = refuse_lost) {
+int fail_every_allocation(const Act& act, const AfterFailure& after_failure,
+                          const AfterLoss& after_loss = refuse_lost) {
   for (int at = 0; at < 100000; ++at) {
     allocations_left = at;
     std::string message;

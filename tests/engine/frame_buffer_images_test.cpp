@@ -1,4 +1,5 @@
-// Scan-out and read-back write the pixels of the picture and nothing else, in either byte order, whichever way the rows go.
+// Scan-out and read-back write the pixels of the picture and nothing else, in either byte order, whichever
+// way the rows go.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,10 +21,14 @@ struct Layout {
   PixelOrder order;
 };
 const Layout kLayouts[] = {
-    {"tight rows", 0, 0, false, PixelOrder::rgba8},        {"tight rows, BGRA", 0, 0, false, PixelOrder::bgra8},
-    {"rows upwards", 0, 0, true, PixelOrder::rgba8},       {"gaps between rows", 12, 0, false, PixelOrder::rgba8},
-    {"gaps of odd bytes", 13, 0, false, PixelOrder::bgra8}, {"unaligned pixels", 0, 1, false, PixelOrder::rgba8},
-    {"all at once", 7, 3, true, PixelOrder::bgra8},         {"gaps wider than rows", 5000, 2, false, PixelOrder::rgba8},
+    {"tight rows", 0, 0, false, PixelOrder::rgba8},
+    {"tight rows, BGRA", 0, 0, false, PixelOrder::bgra8},
+    {"rows upwards", 0, 0, true, PixelOrder::rgba8},
+    {"gaps between rows", 12, 0, false, PixelOrder::rgba8},
+    {"gaps of odd bytes", 13, 0, false, PixelOrder::bgra8},
+    {"unaligned pixels", 0, 1, false, PixelOrder::rgba8},
+    {"all at once", 7, 3, true, PixelOrder::bgra8},
+    {"gaps wider than rows", 5000, 2, false, PixelOrder::rgba8},
 };
 
 const FrameBufferFormat kFormats[] = {
@@ -44,7 +49,12 @@ struct GuardedImage {
   std::vector<std::uint8_t> memory;
   std::uint8_t* first;  ///< of the lowest address
 
-  GuardedImage(const FrameBufferFormat& format, const Layout& l) : width(format.width), height(format.height), layout(l), row_bytes(4 * width), stride(row_bytes + l.extra_bytes) {
+  GuardedImage(const FrameBufferFormat& format, const Layout& l)
+      : width(format.width),
+        height(format.height),
+        layout(l),
+        row_bytes(4 * width),
+        stride(row_bytes + l.extra_bytes) {
     memory.assign(static_cast<std::size_t>(stride * height) + 512, kUntouched);
     first = memory.data() + 128;
     first += (64 - reinterpret_cast<std::uintptr_t>(first) % 64) % 64 + layout.offset;
@@ -76,7 +86,8 @@ TEST(FrameBufferImages, ScanOutAndReadBackWriteExactlyThePicture) {
       Image plain(buffer);
       buffer.read_color(plain.target());
       for (const Layout& layout : kLayouts) {
-        SCOPED_TRACE(std::string(layout.what) + ", " + std::string(name(set)) + ", width " + std::to_string(format.width));
+        SCOPED_TRACE(std::string(layout.what) + ", " + std::string(name(set)) + ", width " +
+                     std::to_string(format.width));
         GuardedImage read(format, layout), shown(format, layout);
         buffer.read_color(read.target());
         read.expect_picture(plain.bytes);

@@ -128,7 +128,8 @@ TEST_F(FrameBufferMemory, LostBuffersNameKeep) {
   const char* const names[] = {"colour", "depth", "stencil"};
   for (int i = 0; i < 3; ++i) {
     EXPECT_THAT(error_of_reading(kBuffers[i]).value_or(""), AllOf(HasSubstr("keep"), HasSubstr(names[i])));
-    EXPECT_THAT(error_of([&] { buffer.plane(kBuffers[i], 0); }).value_or(""), AllOf(HasSubstr("keep"), HasSubstr(names[i])));
+    EXPECT_THAT(error_of([&] { buffer.plane(kBuffers[i], 0); }).value_or(""),
+                AllOf(HasSubstr("keep"), HasSubstr(names[i])));
   }
   EXPECT_THAT(error_of([&] { buffer.read_color(image.target()); }).value_or(""), HasSubstr("keep"));
 }
@@ -167,11 +168,13 @@ TEST_F(FrameBufferMemory, AFrameCannotStartFromALostBuffer) {
   renderer.finish(frame, image.target());
 
   frame.draw(kMesh.view(), {});
-  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""), AllOf(HasSubstr("keep"), HasSubstr("clear")));
+  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
+              AllOf(HasSubstr("keep"), HasSubstr("clear")));
   EXPECT_EQ(frame.draw_count(), 1u) << "the frame is still recorded";
 
   Frame shown(buffer);
-  EXPECT_THAT(error_of([&] { renderer.finish(shown, image.target()); }).value_or(""), HasSubstr("colour")) << "an empty frame shows a lost picture";
+  EXPECT_THAT(error_of([&] { renderer.finish(shown, image.target()); }).value_or(""), HasSubstr("colour"))
+      << "an empty frame shows a lost picture";
 
   Frame after_color(buffer);
   after_color.clear({.color = Color{}});
@@ -181,7 +184,8 @@ TEST_F(FrameBufferMemory, AFrameCannotStartFromALostBuffer) {
   Frame after_draw(buffer);
   after_draw.draw(kMesh.view(), unlit({1, 1, 1, 1}));
   after_draw.clear({.color = Color{}, .depth = 1.0});
-  EXPECT_THAT(error_of([&] { renderer.finish(after_draw); }).value_or(""), HasSubstr("keep")) << "the clear comes too late for the depth test";
+  EXPECT_THAT(error_of([&] { renderer.finish(after_draw); }).value_or(""), HasSubstr("keep"))
+      << "the clear comes too late for the depth test";
 
   Frame partly(buffer);
   partly.clear({.color = Color{}, .scissor = Rect{0, 0, 99, 60}});
@@ -201,7 +205,8 @@ TEST_F(FrameBufferMemory, ALostStencilBufferIsNamedBeforeAPixelIsTouched) {
   frame.clear({.color = Color{1, 1, 1, 1}, .depth = 0.25});
   frame.draw(kMesh.view(), {});
   frame.clear({.stencil = 2u, .scissor = Rect{0, 0, 5, 5}});
-  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""), AllOf(HasSubstr("stencil"), HasSubstr("clear")));
+  EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
+              AllOf(HasSubstr("stencil"), HasSubstr("clear")));
   EXPECT_EQ(fingerprint(buffer), before);
   EXPECT_EQ(frame.draw_count(), 1u);
 }

@@ -1,4 +1,5 @@
-// Planes are literal: bit 7 - x % 8 of byte x / 8 of a row of plane k is bit k of the pixel's word, whatever was drawn.
+// Planes are literal: bit 7 - x % 8 of byte x / 8 of a row of plane k is bit k of the pixel's word, whatever
+// was drawn.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +13,9 @@ namespace {
 
 using namespace test;
 
-int bit_at(const PlaneView& plane, int x, int y) { return plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1; }
+int bit_at(const PlaneView& plane, int x, int y) {
+  return plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1;
+}
 
 // Bits are the words'; what lies beyond a row's last pixel is 0.
 void expect_literal_planes(const FrameBuffer& buffer, Buffer which, const std::vector<std::uint32_t>& words) {
@@ -26,9 +29,9 @@ void expect_literal_planes(const FrameBuffer& buffer, Buffer which, const std::v
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < 8 * static_cast<int>(plane.stride_bytes); ++x) {
         if (x < width)
-          wrong += bit_at(plane, x, y) != static_cast<int>(words[static_cast<std::size_t>(y * width + x)] >> k & 1);
-        else
-          set_beyond += bit_at(plane, x, y);
+          wrong += bit_at(plane, x, y) !=
+                   static_cast<int>(words[static_cast<std::size_t>(y * width + x)] >> k & 1);
+        else set_beyond += bit_at(plane, x, y);
       }
     EXPECT_EQ(wrong, 0) << "plane " << k;
     EXPECT_EQ(set_beyond, 0) << "plane " << k;
@@ -44,7 +47,8 @@ void draw_random(FrameBuffer& buffer) {
 }
 
 FrameBufferFormat format_of(ColorMode mode, int bits, DepthFormat depth = DepthFormat::none) {
-  return {.width = 139, .height = 75, .color_mode = mode, .color_bits = bits, .depth = depth, .stencil_bits = 0};
+  return {
+      .width = 139, .height = 75, .color_mode = mode, .color_bits = bits, .depth = depth, .stencil_bits = 0};
 }
 
 TEST(FrameBufferPlanes, AreTheBitsOfTheWordsInEveryColorDepth) {
@@ -67,8 +71,11 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheIndicesInEveryIndexMode) {
 }
 
 TEST(FrameBufferPlanes, AreTheBitsOfTheDepthsInEveryFormat) {
-  const std::pair<DepthFormat, int> formats[] = {
-      {DepthFormat::none, 0}, {DepthFormat::unorm16, 16}, {DepthFormat::unorm24, 24}, {DepthFormat::unorm32, 32}, {DepthFormat::float32, 32}};
+  const std::pair<DepthFormat, int> formats[] = {{DepthFormat::none, 0},
+                                                 {DepthFormat::unorm16, 16},
+                                                 {DepthFormat::unorm24, 24},
+                                                 {DepthFormat::unorm32, 32},
+                                                 {DepthFormat::float32, 32}};
   for (const auto& [depth, bits] : formats) {
     SCOPED_TRACE(bits);
     FrameBuffer buffer(format_of(ColorMode::rgb, 24, depth));
@@ -107,7 +114,8 @@ TEST(FrameBufferPlanes, OfTheStencilBufferHoldWhatWasCleared) {
 }
 
 TEST(FrameBufferPlanes, OfANewBufferHoldColor0Depth1Stencil0) {
-  for (const DepthFormat depth : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
+  for (const DepthFormat depth :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
     const FrameBuffer buffer({.width = 33, .height = 5, .depth = depth});
     std::vector<float> depths(33 * 5);
     buffer.read_depth(depths);
@@ -120,14 +128,18 @@ TEST(FrameBufferPlanes, OfANewBufferHoldColor0Depth1Stencil0) {
 }
 
 // The split of the bits and the rounding, written out once more.
-std::uint32_t level(double c, int bits) { return static_cast<std::uint32_t>(std::floor(c * ((1 << bits) - 1) + 0.5)); }
+std::uint32_t level(double c, int bits) {
+  return static_cast<std::uint32_t>(std::floor(c * ((1 << bits) - 1) + 0.5));
+}
 std::uint32_t expected_word(const Color& c, int bits) {
   const double r = c.r, g = c.g, b = c.b;
   if (bits <= 2) return level(0.30 * r + 0.59 * g + 0.11 * b, bits);
   const int each = bits / 3, g_bits = each + (bits % 3 > 0), r_bits = each + (bits % 3 > 1);
   return level(r, r_bits) << (g_bits + each) | level(g, g_bits) << each | level(b, each);
 }
-std::uint8_t expected_shown(std::uint32_t level, int bits) { return static_cast<std::uint8_t>(std::lround(255.0 * level / ((1 << bits) - 1))); }
+std::uint8_t expected_shown(std::uint32_t level, int bits) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * level / ((1 << bits) - 1)));
+}
 
 TEST(FrameBufferColors, AreSplitAndRoundedAlikeByClearsDrawsAndScanOut) {
   Renderer renderer({.threads = 1});
@@ -164,7 +176,11 @@ TEST(FrameBufferColors, AreSplitAndRoundedAlikeByClearsDrawsAndScanOut) {
 }
 
 TEST(FrameBufferColors, OfAnIndexBufferGoToTheNearestEntryAndUnsetEntriesShowBlack) {
-  FrameBuffer buffer({.width = 4, .height = 3, .color_mode = ColorMode::index, .color_bits = 3, .palette = {{1, 1, 1, 1}, {1, 0, 0, 1}, {0, 0, 0.6f, 1}, {1, 0, 0, 1}}});
+  FrameBuffer buffer({.width = 4,
+                      .height = 3,
+                      .color_mode = ColorMode::index,
+                      .color_bits = 3,
+                      .palette = {{1, 1, 1, 1}, {1, 0, 0, 1}, {0, 0, 0.6f, 1}, {1, 0, 0, 1}}});
   Renderer renderer({.threads = 1});
   Frame frame(buffer);
   const auto word_of_clear = [&](const Clear& clear) {
@@ -175,7 +191,8 @@ TEST(FrameBufferColors, OfAnIndexBufferGoToTheNearestEntryAndUnsetEntriesShowBla
   EXPECT_EQ(word_of_clear({.color = Color{0.9f, 0.8f, 0.9f, 1}}), 0u);
   EXPECT_EQ(word_of_clear({.color = Color{0.9f, 0.1f, 0.1f, 1}}), 1u) << "ties go to the lowest index";
   EXPECT_EQ(word_of_clear({.color = Color{0.1f, 0.1f, 0.5f, 1}}), 2u);
-  EXPECT_EQ(word_of_clear({.color = Color{0, 0.1f, 0, 1}}), 2u) << "nobody chose the entries that are not set, black as they are";
+  EXPECT_EQ(word_of_clear({.color = Color{0, 0.1f, 0, 1}}), 2u)
+      << "nobody chose the entries that are not set, black as they are";
   EXPECT_EQ(word_of_clear({.index = 7u}), 7u);
   Image image(buffer);
   buffer.read_color(image.target());

@@ -39,9 +39,11 @@ Light point_light() {
 
 TEST(Explain, ABlackSpecularProductHasNoHighlight) {
   Setting s;
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("light 0"), HasSubstr("directional"), HasSubstr("no highlight"), HasSubstr("black")));
+  EXPECT_THAT(explain(s), AllOf(HasSubstr("light 0"), HasSubstr("directional"), HasSubstr("no highlight"),
+                                HasSubstr("black")));
   s.state.material.specular = {0.5f, 0, 0, 1};
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("Blinn highlight, infinite viewer"), Not(HasSubstr("no highlight"))));
+  EXPECT_THAT(explain(s),
+              AllOf(HasSubstr("Blinn highlight, infinite viewer"), Not(HasSubstr("no highlight"))));
   s.model.local_viewer = true;
   s.model.specular = Highlight::phong;
   EXPECT_THAT(explain(s), HasSubstr("Phong highlight, local viewer"));
@@ -71,7 +73,8 @@ TEST(Explain, LightsThatAddBlackAreLeftOut) {
   Setting s;
   s.lights.assign(3, Light{});
   s.lights[1].diffuse = s.lights[1].specular = {0, 0, 0, 1};
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("light 1: left out"), Not(HasSubstr("light 0: left out")), Not(HasSubstr("light 2: left out"))));
+  EXPECT_THAT(explain(s), AllOf(HasSubstr("light 1: left out"), Not(HasSubstr("light 0: left out")),
+                                Not(HasSubstr("light 2: left out"))));
   s.lights[1].ambient = {0.1f, 0, 0, 1};
   EXPECT_THAT(explain(s), AllOf(HasSubstr("light 1: "), HasSubstr("constant ambient")));
 }
@@ -88,9 +91,11 @@ TEST(Explain, WithoutLightsTheDrawHasOneColor) {
 TEST(Explain, UnlitDrawsTellWhereTheirColorComesFrom) {
   Setting s;
   s.state.lighting = false;
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("unlit"), HasSubstr("no vertex colours"), HasSubstr("one colour"), Not(HasSubstr("light 0"))));
+  EXPECT_THAT(explain(s), AllOf(HasSubstr("unlit"), HasSubstr("no vertex colours"), HasSubstr("one colour"),
+                                Not(HasSubstr("light 0"))));
   s.colors = true;
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("unlit vertex colours"), Not(HasSubstr("one colour for the draw"))));
+  EXPECT_THAT(explain(s),
+              AllOf(HasSubstr("unlit vertex colours"), Not(HasSubstr("one colour for the draw"))));
 }
 
 TEST(Explain, VertexColorsMatterOnlyWhereAMaterialFollowsThem) {
@@ -109,7 +114,8 @@ TEST(Explain, MasksTellWhetherColorIsThereAtAll) {
   s.state.plane_mask = 0xff00;
   EXPECT_THAT(explain(s), HasSubstr("some colour planes are masked"));
   s.state.plane_mask = 0xff000000;
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("no colour plane changes"), HasSubstr("depth alone"), Not(HasSubstr("light 0"))));
+  EXPECT_THAT(explain(s), AllOf(HasSubstr("no colour plane changes"), HasSubstr("depth alone"),
+                                Not(HasSubstr("light 0"))));
   s.state.plane_mask = 0xffffffff;
   s.state.color_mask = {false, true, true, true};
   EXPECT_THAT(explain(s), HasSubstr("some colour planes are masked"));
@@ -119,7 +125,8 @@ TEST(Explain, MasksTellWhetherColorIsThereAtAll) {
 
 TEST(Explain, DepthThatCannotMatterIsLeftOut) {
   Setting s;
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("depth test"), Not(HasSubstr("no depth test")), Not(HasSubstr("no write"))));
+  EXPECT_THAT(explain(s),
+              AllOf(HasSubstr("depth test"), Not(HasSubstr("no depth test")), Not(HasSubstr("no write"))));
   s.state.depth.write = false;
   EXPECT_THAT(explain(s), HasSubstr("no write"));
   s.state.depth.test = Compare::always;
@@ -147,7 +154,8 @@ TEST(Explain, TwoSidedLightingHasASecondProgramUnlessBacksAreCulled) {
   EXPECT_THAT(explain(s), Not(HasSubstr("back faces")));
   s.model.two_sided = true;
   s.state.back_material = Material{.specular = {1, 1, 1, 1}};
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("back faces"), HasSubstr("no highlight"), HasSubstr("Blinn highlight")));
+  EXPECT_THAT(explain(s),
+              AllOf(HasSubstr("back faces"), HasSubstr("no highlight"), HasSubstr("Blinn highlight")));
   s.state.cull = Cull::back;
   EXPECT_THAT(explain(s), Not(HasSubstr("back faces")));
 }

@@ -18,7 +18,8 @@ using namespace test;
 const FrameBufferFormat kFormat{.width = 96, .height = 80};
 constexpr Shading kShadings[] = {Shading::flat, Shading::gouraud, Shading::phong};
 
-std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state, const LightModel& model = {}) {
+std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state,
+                                    const LightModel& model = {}) {
   FrameBuffer buffer(kFormat);
   Frame frame(buffer);
   Camera camera;
@@ -35,8 +36,12 @@ std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state
   Renderer({.threads = 1}).finish(frame);
   return color_words(buffer);
 }
-std::uint32_t corner(const MeshData& mesh, std::size_t i) { return mesh.indices.empty() ? static_cast<std::uint32_t>(i) : mesh.indices[i]; }
-std::size_t corner_count(const MeshData& mesh) { return mesh.indices.empty() ? mesh.vertex_count() : mesh.indices.size(); }
+std::uint32_t corner(const MeshData& mesh, std::size_t i) {
+  return mesh.indices.empty() ? static_cast<std::uint32_t>(i) : mesh.indices[i];
+}
+std::size_t corner_count(const MeshData& mesh) {
+  return mesh.indices.empty() ? mesh.vertex_count() : mesh.indices.size();
+}
 
 // A bumpy sheet with triangles of very different sizes.
 MeshData sheet(std::uint32_t side = 6) {
@@ -44,8 +49,10 @@ MeshData sheet(std::uint32_t side = 6) {
   const auto last = static_cast<float>(side - 1);
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
-      const float u = 2 * static_cast<float>(x * x) / (last * last) - 1, v = 2 * static_cast<float>(y) / last - 1;
-      mesh.positions.insert(mesh.positions.end(), {1.4f * u, 1.4f * v, 0.3f * std::sin(2 * u) * static_cast<float>(y % 3)});
+      const float u = 2 * static_cast<float>(x * x) / (last * last) - 1,
+                  v = 2 * static_cast<float>(y) / last - 1;
+      mesh.positions.insert(mesh.positions.end(),
+                            {1.4f * u, 1.4f * v, 0.3f * std::sin(2 * u) * static_cast<float>(y % 3)});
     }
   for (std::uint32_t y = 0; y + 1 < side; ++y)
     for (std::uint32_t x = 0; x + 1 < side; ++x) {
@@ -59,7 +66,9 @@ MeshData split_up(const MeshData& mesh) {
   MeshData result;
   for (std::size_t i = 0; i < corner_count(mesh); ++i) {
     const std::size_t v = corner(mesh, i);
-    result.positions.insert(result.positions.end(), mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * v), mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * v + 3));
+    result.positions.insert(result.positions.end(),
+                            mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * v),
+                            mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * v + 3));
   }
   return result;
 }
@@ -69,7 +78,8 @@ Vector doubled_area(const MeshData& mesh, std::size_t triangle) {
   Vector p[3];
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t c = 0; c < 3; ++c) p[k][c] = mesh.positions[3 * corner(mesh, 3 * triangle + k) + c];
-  const Vector u{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]}, v{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+  const Vector u{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
+      v{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 void append_unit(const Vector& n, std::vector<float>& out) {
@@ -84,7 +94,9 @@ MeshData with_face_normals(const MeshData& mesh) {
 }
 MeshData with_smooth_normals(const MeshData& mesh) {
   MeshData result = mesh;
-  const auto position = [&](std::size_t v) { return Vector{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]}; };
+  const auto position = [&](std::size_t v) {
+    return Vector{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
+  };
   std::map<Vector, Vector> sums;  // 0 and -0 are the same there
   for (std::size_t i = 0; i < corner_count(mesh); ++i) {
     Vector& sum = sums[position(corner(mesh, i))];
@@ -140,7 +152,8 @@ TEST(GeneratedNormals, OfManyMeshesInAFrameAreTheSame) {
     for (int round = 0; round < 10; ++round)
       for (std::size_t i = 0; i < all.size(); ++i) {
         DrawState state = shaded(round % 2 == 0 ? Shading::gouraud : Shading::phong);
-        state.transform = translate(0.18 * round - 0.9, 0.15 * static_cast<double>(i) - 0.8, 0) * scale(0.08, 0.08, 0.5) * rotate(7.0 * round, 1, 1, 0);
+        state.transform = translate(0.18 * round - 0.9, 0.15 * static_cast<double>(i) - 0.8, 0) *
+                          scale(0.08, 0.08, 0.5) * rotate(7.0 * round, 1, 1, 0);
         if ((static_cast<std::size_t>(round) + i) % 5 == 0) state.color_mask = {false, false, false, false};
         state.depth.enabled = state.color_mask[0];
         frame.draw(all[i].view(), state);
@@ -154,7 +167,8 @@ TEST(GeneratedNormals, OfManyMeshesInAFrameAreTheSame) {
 }
 
 TEST(GeneratedNormals, BelongToPositionsNotToVertices) {
-  for (const Shading shading : kShadings) EXPECT_EQ(words_of(sheet(), shaded(shading)), words_of(split_up(sheet()), shaded(shading)));
+  for (const Shading shading : kShadings)
+    EXPECT_EQ(words_of(sheet(), shaded(shading)), words_of(split_up(sheet()), shaded(shading)));
 }
 
 // Quads with two corners in one place are the triangles that are left of them.
@@ -165,8 +179,10 @@ TEST(GeneratedNormals, CountAFaceOnceWhereSeveralOfItsCornersAre) {
     quads.primitive = Primitive::quads;
     quads.indices.clear();
     for (std::size_t t = 0; t < triangles.indices.size(); t += 3)
-      for (std::size_t k = 0; k < 4; ++k) quads.indices.push_back(triangles.indices[t + (k > twice ? k - 1 : k)]);
-    for (const Shading shading : kShadings) EXPECT_EQ(words_of(quads, shaded(shading)), words_of(triangles, shaded(shading))) << twice;
+      for (std::size_t k = 0; k < 4; ++k)
+        quads.indices.push_back(triangles.indices[t + (k > twice ? k - 1 : k)]);
+    for (const Shading shading : kShadings)
+      EXPECT_EQ(words_of(quads, shaded(shading)), words_of(triangles, shaded(shading))) << twice;
   }
 }
 
@@ -176,7 +192,8 @@ TEST(GeneratedNormals, CountZeroAndMinusZeroAsOnePosition) {
   MeshData signed_roof = roof;
   signed_roof.positions[3] = signed_roof.positions[6] = -0.0f;
   EXPECT_EQ(words_of(signed_roof, shaded(Shading::gouraud)), words_of(roof, shaded(Shading::gouraud)));
-  EXPECT_EQ(words_of(roof, shaded(Shading::gouraud)), words_of(with_smooth_normals(roof), shaded(Shading::gouraud)));
+  EXPECT_EQ(words_of(roof, shaded(Shading::gouraud)),
+            words_of(with_smooth_normals(roof), shaded(Shading::gouraud)));
 }
 
 TEST(GeneratedNormals, TakeNoNoticeOfTrianglesThatAreDropped) {
@@ -185,7 +202,8 @@ TEST(GeneratedNormals, TakeNoNoticeOfTrianglesThatAreDropped) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   mesh.positions.insert(mesh.positions.end(), mesh.positions.begin(), mesh.positions.begin() + 6);
   mesh.positions.insert(mesh.positions.end(), {nan, 0, 0});
-  for (const Shading shading : kShadings) EXPECT_EQ(words_of(mesh, shaded(shading)), words_of(whole, shaded(shading)));
+  for (const Shading shading : kShadings)
+    EXPECT_EQ(words_of(mesh, shaded(shading)), words_of(whole, shaded(shading)));
 }
 
 TEST(GeneratedNormals, FollowTheTransform) {
@@ -198,7 +216,8 @@ TEST(GeneratedNormals, FollowTheTransform) {
 
 TEST(ProvokingVertex, GivesAFlatTriangleItsColor) {
   MeshData mesh = split_up(rectangle(-1, -1, 1, 1));
-  for (const float c : {0.f, 1.f, 0.2f, 0.4f, 0.6f, 0.8f}) mesh.colors.insert(mesh.colors.end(), {c, 0, 0, 1});
+  for (const float c : {0.f, 1.f, 0.2f, 0.4f, 0.6f, 0.8f})
+    mesh.colors.insert(mesh.colors.end(), {c, 0, 0, 1});
   const auto reds = [&](const DrawState& state) {
     std::vector<std::uint32_t> found;
     for (const std::uint32_t word : words_of(mesh, state))

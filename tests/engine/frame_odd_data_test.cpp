@@ -13,14 +13,16 @@ namespace {
 
 using namespace test;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                kInfinity = std::numeric_limits<float>::infinity();
 const FrameBufferFormat kFormat{.width = 90, .height = 70};
 
 struct Result {
   FrameStats stats;
   Fingerprint pixels;
 };
-Result draw(const MeshData& mesh, const DrawState& state, RendererOptions options = {.threads = 1}, const Camera& camera = {}) {
+Result draw(const MeshData& mesh, const DrawState& state, RendererOptions options = {.threads = 1},
+            const Camera& camera = {}) {
   FrameBuffer buffer(kFormat);
   Frame frame(buffer);
   frame.clear({.color = Color{0.1f, 0.1f, 0.1f, 1}});
@@ -36,7 +38,8 @@ Result draw(const MeshData& mesh, const DrawState& state, RendererOptions option
 MeshData row_of_triangles(int count) {
   MeshData mesh;
   for (int i = 0; i < count; ++i) {
-    const float x = -0.95f + 1.9f * static_cast<float>(i) / static_cast<float>(count), step = 1.5f / static_cast<float>(count);
+    const float x = -0.95f + 1.9f * static_cast<float>(i) / static_cast<float>(count),
+                step = 1.5f / static_cast<float>(count);
     const float corners[3][2] = {{x, -0.8f}, {x + step, -0.7f}, {x, 0.8f}};
     for (const auto& corner : corners) {
       mesh.positions.insert(mesh.positions.end(), {corner[0], corner[1], 0.1f * static_cast<float>(i % 3)});
@@ -59,9 +62,12 @@ MeshData without(const MeshData& mesh, std::size_t triangle) {
   return result;
 }
 
-std::uint64_t sum(const FrameStats& s) { return s.dropped_non_finite + s.outside + s.culled + s.zero_area + s.clipped + s.binned; }
+std::uint64_t sum(const FrameStats& s) {
+  return s.dropped_non_finite + s.outside + s.culled + s.zero_area + s.clipped + s.binned;
+}
 
-void expect_dropped(const std::function<void(MeshData&)>& spoil, std::size_t triangle, const DrawState& state) {
+void expect_dropped(const std::function<void(MeshData&)>& spoil, std::size_t triangle,
+                    const DrawState& state) {
   const MeshData good = row_of_triangles(9);
   MeshData bad = good;
   spoil(bad);
@@ -118,12 +124,14 @@ TEST(OddData, NonFiniteNormalsAreNoneToACaptureThatAloneAsksForThem) {
   Frame frame(buffer);
   MeshData mesh;
   mesh.positions = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
-  mesh.normals = {0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 1, std::numeric_limits<float>::infinity(), 0, 0};
+  mesh.normals = {
+      0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 1, std::numeric_limits<float>::infinity(), 0, 0};
   std::vector<float> normals(3 * 16 * 16, 7.0f);
   frame.capture({.normals = normals});
   frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
   Renderer({.threads = 1}).finish(frame);
-  for (std::size_t i = 0; i < normals.size(); ++i) ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);  // the first vertex's, which is left
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);  // the first vertex's, which is left
   const std::vector<std::uint32_t> words = color_words(buffer);
   EXPECT_EQ(std::count(words.begin(), words.end(), 0xffffffu), 16 * 16);
 }
@@ -148,7 +156,9 @@ TEST(OddData, NonFiniteColorsDropTheirTriangleWhereColorsMatter) {
 TEST(OddData, ANonFiniteVertexDropsEveryTriangleThatUsesIt) {
   MeshData fan;
   fan.positions = {0, 0, 0};
-  for (int i = 0; i < 8; ++i) fan.positions.insert(fan.positions.end(), {std::cos(0.785f * static_cast<float>(i)), std::sin(0.785f * static_cast<float>(i)), 0});
+  for (int i = 0; i < 8; ++i)
+    fan.positions.insert(fan.positions.end(), {std::cos(0.785f * static_cast<float>(i)),
+                                               std::sin(0.785f * static_cast<float>(i)), 0});
   for (std::uint32_t i = 1; i <= 7; ++i) fan.indices.insert(fan.indices.end(), {0, i, i + 1});
   fan.positions[3 * 3] = kNan;
   EXPECT_EQ(draw(fan, {}).stats.dropped_non_finite, 2u);
@@ -169,10 +179,18 @@ TEST(OddData, ANonFiniteVertexThatNoTriangleUsesDropsNone) {
 
 TEST(OddData, TrianglesWithoutAreaAreCountedAndDrawNothing) {
   MeshData mesh;
-  mesh.positions = {0, 0, 0, 0, 0, 0, 0, 0, 0,               // a point
-                    -0.5f, -0.5f, 0, 0, 0, 0, 0.5f, 0.5f, 0,  // a line
-                    0.1f, 0.1f, 0, 0.1f, 0.1f, 0, 0.5f, 0, 0, // two corners in one
-                    0.2f, 0.2f, 0, 0.2f + 1e-6f, 0.2f, 0, 0.2f, 0.2f + 1e-6f, 0};  // below the grid of 1/256 pixel
+  mesh.positions = {0,     0,     0,    0,
+                    0,     0,     0,    0,
+                    0,  // a point
+                    -0.5f, -0.5f, 0,    0,
+                    0,     0,     0.5f, 0.5f,
+                    0,  // a line
+                    0.1f,  0.1f,  0,    0.1f,
+                    0.1f,  0,     0.5f, 0,
+                    0,  // two corners in one
+                    0.2f,  0.2f,  0,    0.2f + 1e-6f,
+                    0.2f,  0,     0.2f, 0.2f + 1e-6f,
+                    0};  // below the grid of 1/256 pixel
   const Result result = draw(mesh, {}), empty = draw({}, {});
   EXPECT_EQ(result.stats.triangles_in, 4u);
   EXPECT_EQ(result.stats.zero_area, 4u);
@@ -197,11 +215,13 @@ TEST(OddData, TrianglesBehindTheEyeAreOutside) {
   Camera camera;
   camera.projection = perspective(60, 9.0 / 7, 0.5, 50);
   MeshData mesh = row_of_triangles(6);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = 3;  // the camera looks along -z
+  for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
+    mesh.positions[i] = 3;  // the camera looks along -z
   const Result behind = draw(mesh, {}, {.threads = 1}, camera), empty = draw({}, {}, {.threads = 1}, camera);
   EXPECT_EQ(behind.stats.outside, 6u);
   EXPECT_EQ(behind.pixels, empty.pixels);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = 0;  // in the eye's own plane: w is 0
+  for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
+    mesh.positions[i] = 0;  // in the eye's own plane: w is 0
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.outside, 6u);
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = -60;  // behind the far plane
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.outside, 6u);
@@ -213,9 +233,13 @@ TEST(FrameStatistics, AddUpWithoutClipping) {
   Random random(9);
   MeshData mesh;
   const auto add = [&](float x, float y, float size) {
-    for (int k = 0; k < 3; ++k) mesh.positions.insert(mesh.positions.end(), {x + random.between(-size, size), y + random.between(-size, size), random.between(-0.9f, 0.9f)});
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.insert(
+          mesh.positions.end(),
+          {x + random.between(-size, size), y + random.between(-size, size), random.between(-0.9f, 0.9f)});
   };
-  for (int i = 0; i < 3000; ++i) add(random.between(-2, 2), random.between(-2, 2), i % 3 == 0 ? 0.3f : i % 3 == 1 ? 0.02f : 1e-5f);
+  for (int i = 0; i < 3000; ++i)
+    add(random.between(-2, 2), random.between(-2, 2), i % 3 == 0 ? 0.3f : i % 3 == 1 ? 0.02f : 1e-5f);
   for (int i = 0; i < 40; ++i) mesh.positions[static_cast<std::size_t>(9 * 17 * i + i % 9)] = kNan;
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
     DrawState state;
@@ -223,7 +247,8 @@ TEST(FrameStatistics, AddUpWithoutClipping) {
     FrameStats first;
     for (const InstructionSet set : available_instruction_sets())
       for (const int tile_size : {32, 128}) {
-        const FrameStats stats = draw(mesh, state, {.threads = 2, .tile_size = tile_size, .instruction_set = set}).stats;
+        const FrameStats stats =
+            draw(mesh, state, {.threads = 2, .tile_size = tile_size, .instruction_set = set}).stats;
         EXPECT_EQ(stats.vertices, 9000u);
         EXPECT_EQ(stats.triangles_in, 3000u);
         EXPECT_EQ(stats.dropped_non_finite, 40u);

@@ -5,15 +5,17 @@
 
 namespace tessera::test {
 
-/// Triangles, lines and points of which one tile alone has more than the least memory for bins holds; among them many that are clipped, draws that blend,
-/// and a clear in between.
+/// Triangles, lines and points of which one tile alone has more than the least memory for bins holds; among
+/// them many that are clipped, draws that blend, and a clear in between.
 struct FullTile {
   FrameBufferFormat format;
   MeshData triangles, lines, points;
   explicit FullTile(FrameBufferFormat f, int count = 9000) : format(std::move(f)) {
     Random random(3);
     for (MeshData* mesh : {&triangles, &lines, &points}) {
-      mesh->primitive = mesh == &triangles ? Primitive::triangles : mesh == &lines ? Primitive::lines : Primitive::points;
+      mesh->primitive = mesh == &triangles ? Primitive::triangles
+                        : mesh == &lines   ? Primitive::lines
+                                           : Primitive::points;
       for (int i = 0; i < count; ++i) {
         for (int c = 0; c < 3; ++c) mesh->positions.push_back(random.between(-1.2f, 1.2f));
         for (int c = 0; c < 4; ++c) mesh->colors.push_back(random.between(0, 1));

@@ -1,4 +1,5 @@
-// Scan-out of a part: the pixels inside are those of the whole picture, the rest of the caller's memory stays.
+// Scan-out of a part: the pixels inside are those of the whole picture, the rest of the caller's memory
+// stays.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +30,8 @@ TEST(ImagePart, IsWrittenAloneByFinishAndByReadColor) {
   Random random(5);
   for (int round = 0; round < 24; ++round) {
     const bool sparse = round % 2 == 1;  // most tiles show the clear alone
-    Rect rect{static_cast<int>(random.next() % 260) - 40, static_cast<int>(random.next() % 200) - 40, static_cast<int>(random.next() % 200), static_cast<int>(random.next() % 150)};
+    Rect rect{static_cast<int>(random.next() % 260) - 40, static_cast<int>(random.next() % 200) - 40,
+              static_cast<int>(random.next() % 200), static_cast<int>(random.next() % 150)};
     if (round == 0) rect = {0, 0, 203, 141};
     if (round == 2) rect = {64, 13, 64, 64};
     Renderer renderer({.threads = 2, .tile_size = round % 3 == 0 ? 32 : round % 3 == 1 ? 64 : 128});
@@ -48,7 +50,8 @@ TEST(ImagePart, IsWrittenAloneByFinishAndByReadColor) {
       renderer.finish(frame, target);
     };
     Image whole(buffer), part(buffer), read(buffer), kept(buffer);
-    for (Image* image : {&part, &read, &kept}) std::fill(image->bytes.begin(), image->bytes.end(), kUntouched);
+    for (Image* image : {&part, &read, &kept})
+      std::fill(image->bytes.begin(), image->bytes.end(), kUntouched);
     draw(std::nullopt, whole, false);
     draw(rect, part, false);
     expect_part(part, whole, rect, "finish");
@@ -69,7 +72,8 @@ TEST(ImagePart, MustNotBeNegative) {
   Image image(buffer);
   ImageTarget target = image.target();
   target.part = Rect{0, 0, -1, 4};
-  EXPECT_THAT(error_of([&] { buffer.read_color(target); }).value_or(""), testing::HasSubstr("part is -1 x 4"));
+  EXPECT_THAT(error_of([&] { buffer.read_color(target); }).value_or(""),
+              testing::HasSubstr("part is -1 x 4"));
 }
 
 }  // namespace

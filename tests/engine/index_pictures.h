@@ -14,9 +14,11 @@ namespace tessera::test {
 using Words = std::vector<std::uint32_t>;
 using Record = std::function<void(Frame&)>;
 
-inline const FrameBufferFormat kIndexFormat{.width = 64, .height = 32, .color_mode = ColorMode::index, .color_bits = 6};
+inline const FrameBufferFormat kIndexFormat{
+    .width = 64, .height = 32, .color_mode = ColorMode::index, .color_bits = 6};
 
-inline Words drawn(const FrameBufferFormat& format, const Record& record, const RendererOptions& options = {.threads = 1}) {
+inline Words drawn(const FrameBufferFormat& format, const Record& record,
+                   const RendererOptions& options = {.threads = 1}) {
   FrameBuffer buffer(format);
   Frame frame(buffer);
   frame.clear({.index = 0, .depth = 1.0});
@@ -25,7 +27,8 @@ inline Words drawn(const FrameBufferFormat& format, const Record& record, const 
   return color_words(buffer);
 }
 
-// Covers the window; at pixel (x, y) from the lower left what is interpolated is a + (b - a) (x + 0.5) / 128 + (c - a) (y + 0.5) / 64.
+// Covers the window; at pixel (x, y) from the lower left what is interpolated is a + (b - a) (x + 0.5) / 128
+// + (c - a) (y + 0.5) / 64.
 inline MeshData large_triangle(float a, float b, float c) {
   MeshData mesh;
   mesh.positions = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
@@ -40,7 +43,8 @@ inline DrawState index_state(Shading shading = Shading::gouraud) {
   return state;
 }
 
-// The same picture by every way through the pixels: at once or later, with operations whose order matters or does not.
+// The same picture by every way through the pixels: at once or later, with operations whose order matters or
+// does not.
 inline std::vector<DrawState> every_way(const DrawState& plain) {
   std::vector<DrawState> states(4, plain);
   states[1].logic_op = LogicOp::or_;
@@ -48,13 +52,17 @@ inline std::vector<DrawState> every_way(const DrawState& plain) {
   states[3].polygon_offset = {0, 1};
   return states;
 }
-inline void expect_everywhere(std::uint32_t word, const MeshData& mesh, const DrawState& plain, const FrameBufferFormat& format = kIndexFormat, const std::vector<Light>& lights = {Light{}}) {
+inline void expect_everywhere(std::uint32_t word, const MeshData& mesh, const DrawState& plain,
+                              const FrameBufferFormat& format = kIndexFormat,
+                              const std::vector<Light>& lights = {Light{}}) {
   for (const DrawState& state : every_way(plain)) {
     const Words words = drawn(format, [&](Frame& frame) {
       frame.set_lights(lights);
       frame.draw(mesh.view(), state);
     });
-    EXPECT_THAT(words, testing::Each(word)) << "shading " << static_cast<int>(state.shading) << ", logic " << static_cast<int>(state.logic_op) << ", stencil " << state.stencil.has_value();
+    EXPECT_THAT(words, testing::Each(word))
+        << "shading " << static_cast<int>(state.shading) << ", logic " << static_cast<int>(state.logic_op)
+        << ", stencil " << state.stencil.has_value();
     if (testing::Test::HasFailure()) return;
   }
 }

@@ -20,7 +20,8 @@ TEST(JsonParse, LongListsOfObjectsTakeTheirLengthInTime) {
 TEST(JsonParse, ObjectsOfManyMembersTakeTheirNumberInTime) {
   constexpr std::size_t kMembers = 1000000;
   std::string text = "{\"first\":0";
-  for (std::size_t i = 1; i < kMembers; ++i) text += ",\"" + std::to_string(i + kMembers) + "\":" + std::to_string(i);
+  for (std::size_t i = 1; i < kMembers; ++i)
+    text += ",\"" + std::to_string(i + kMembers) + "\":" + std::to_string(i);
   const Json object = parse(text + "}", "large.json");
   ASSERT_EQ(object.size(), kMembers);
   EXPECT_EQ(object.begin().key(), "first");
@@ -31,7 +32,8 @@ TEST(JsonParse, ObjectsOfManyMembersTakeTheirNumberInTime) {
 }
 
 TEST(JsonParse, ValuesKeepTheirKindsAndTheirOrder) {
-  const std::string text = R"({"z":[null,true,-1,18446744073709551615,1.5,"a",{},[]],"a":{"y":{"x":[[1],[2]]},"b":""},"m":0})";
+  const std::string text =
+      R"({"z":[null,true,-1,18446744073709551615,1.5,"a",{},[]],"a":{"y":{"x":[[1],[2]]},"b":""},"m":0})";
   const Json parsed = parse(text, "kinds.json");
   EXPECT_EQ(parsed.dump(), text);
   EXPECT_TRUE(parsed.at("m").is_number_unsigned());

@@ -28,13 +28,18 @@ void expect_planes_in(const FrameBuffer& buffer, std::span<std::byte> memory) {
     for (int k = 0; k < buffer.plane_count(which); ++k) {
       const PlaneView plane = buffer.plane(which, k);
       const auto* at = reinterpret_cast<const std::byte*>(plane.bits);
-      EXPECT_TRUE(at >= memory.data() && at + plane.stride_bytes * plane.height <= memory.data() + memory.size());
+      EXPECT_TRUE(at >= memory.data() &&
+                  at + plane.stride_bytes * plane.height <= memory.data() + memory.size());
     }
 }
 
 TEST(LentMemory, HoldsTheSameBits) {
-  for (const FrameBufferFormat& format : {FrameBufferFormat{.width = 133, .height = 71}, FrameBufferFormat{.width = 64, .height = 33, .color_bits = 9, .depth = DepthFormat::float32, .stencil_bits = 3},
-                                          FrameBufferFormat{.width = 50, .height = 40, .color_bits = 1, .depth = DepthFormat::none, .stencil_bits = 0}}) {
+  for (const FrameBufferFormat& format :
+       {FrameBufferFormat{.width = 133, .height = 71},
+        FrameBufferFormat{
+            .width = 64, .height = 33, .color_bits = 9, .depth = DepthFormat::float32, .stencil_bits = 3},
+        FrameBufferFormat{
+            .width = 50, .height = 40, .color_bits = 1, .depth = DepthFormat::none, .stencil_bits = 0}}) {
     const RandomFrame scene(format, 200);
     Renderer renderer({.threads = 2});
     FrameBuffer own(format);
@@ -57,11 +62,15 @@ TEST(LentMemory, HoldsTheSameBits) {
 }
 
 TEST(LentMemory, ShowsClearsAtOnce) {
-  const FrameBufferFormat format{.width = 16, .height = 4, .color_bits = 2, .depth = DepthFormat::none, .stencil_bits = 1};
+  const FrameBufferFormat format{
+      .width = 16, .height = 4, .color_bits = 2, .depth = DepthFormat::none, .stencil_bits = 1};
   const std::size_t size = FrameBuffer::memory_bytes(format);
   Memory memory(size);
   FrameBuffer buffer(format, memory.span(size));
-  const auto ones = [&] { return std::count_if(memory.span(size).begin(), memory.span(size).end(), [](std::byte b) { return b == std::byte{0xff}; }); };
+  const auto ones = [&] {
+    return std::count_if(memory.span(size).begin(), memory.span(size).end(),
+                         [](std::byte b) { return b == std::byte{0xff}; });
+  };
   EXPECT_EQ(ones(), 0) << "new: colour 0, stencil 0";
   Renderer renderer({.threads = 1});
   Frame frame(buffer);
@@ -74,10 +83,15 @@ TEST(LentMemory, IsCheckedForSizeAndAddress) {
   const FrameBufferFormat format{.width = 100, .height = 50};
   const std::size_t size = FrameBuffer::memory_bytes(format);
   Memory memory(size);
-  EXPECT_THAT(error_of([&] { FrameBuffer(format, memory.span(size - 1)); }).value_or(""), testing::HasSubstr("needs " + std::to_string(size)));
+  EXPECT_THAT(error_of([&] { FrameBuffer(format, memory.span(size - 1)); }).value_or(""),
+              testing::HasSubstr("needs " + std::to_string(size)));
   Memory odd(size + 64);
-  EXPECT_THAT(error_of([&] { FrameBuffer(format, {odd.span(size + 64).data() + 8, size}); }).value_or(""), testing::HasSubstr("multiple of 64"));
-  EXPECT_THAT(error_of([&] { FrameBuffer::memory_bytes({.width = 0}); }).value_or(""), testing::HasSubstr("width is 0"));
+  EXPECT_THAT(error_of([&] {
+                FrameBuffer(format, {odd.span(size + 64).data() + 8, size});
+              }).value_or(""),
+              testing::HasSubstr("multiple of 64"));
+  EXPECT_THAT(error_of([&] { FrameBuffer::memory_bytes({.width = 0}); }).value_or(""),
+              testing::HasSubstr("width is 0"));
 }
 
 }  // namespace

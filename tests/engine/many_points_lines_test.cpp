@@ -1,5 +1,5 @@
-// Points and lines by the thousand, in the long tests a million of each, in one draw: every pixel against the rules in exact integers.
-// Many leave the window, and many lines are cut at the near or far plane.
+// Points and lines by the thousand, in the long tests a million of each, in one draw: every pixel against the
+// rules in exact integers. Many leave the window, and many lines are cut at the near or far plane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 1024, kHeight = 512;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
+constexpr int kWidth = 1024,
+              kHeight = 512;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
 
 /// A mesh, and the pixels of each of its elements.
 struct Elements {
@@ -25,18 +26,25 @@ struct Elements {
 
   explicit Elements(Primitive primitive) { mesh.primitive = primitive; }
   void add(const LinePoint& p, float z, std::uint32_t word) {
-    for (const float c : {static_cast<float>(p.x) / (128 * kWidth) - 1, 1 - static_cast<float>(p.y) / (128 * kHeight), z}) mesh.positions.push_back(c);
+    for (const float c :
+         {static_cast<float>(p.x) / (128 * kWidth) - 1, 1 - static_cast<float>(p.y) / (128 * kHeight), z})
+      mesh.positions.push_back(c);
     for (int c = 2; c >= 0; --c) mesh.colors.push_back(static_cast<float>(word >> (8 * c) & 255) / 255.0f);
     mesh.colors.push_back(1);
   }
 };
 
-std::int32_t below(Random& random, std::int32_t n) { return static_cast<std::int32_t>(random.next() % static_cast<std::uint32_t>(n)); }
+std::int32_t below(Random& random, std::int32_t n) {
+  return static_cast<std::int32_t>(random.next() % static_cast<std::uint32_t>(n));
+}
 std::int32_t about(Random& random, std::int32_t n) { return below(random, 2 * n + 1) - n; }
-LinePoint somewhere(Random& random) { return {below(random, (kWidth + 64) * 256) - 32 * 256, below(random, (kHeight + 64) * 256) - 32 * 256}; }
+LinePoint somewhere(Random& random) {
+  return {below(random, (kWidth + 64) * 256) - 32 * 256, below(random, (kHeight + 64) * 256) - 32 * 256};
+}
 int count() { return long_tests() ? 1'000'000 : 20'000; }
 
-// Squares of 3 pixels, around the pixel that holds the point. Of some the centre is before the near plane or behind the far one.
+// Squares of 3 pixels, around the pixel that holds the point. Of some the centre is before the near plane or
+// behind the far one.
 Elements random_points(std::uint64_t seed) {
   Random random(seed);
   Elements points(Primitive::points);
@@ -48,7 +56,8 @@ Elements random_points(std::uint64_t seed) {
     points.add(p, z, word);
     points.words.push_back(word);
     // Of a border, the pixel to the right or above has the point; the view volume has its own border.
-    const bool is_in_view = z >= -1 && z <= 1 && p.x >= 0 && p.x <= kWidth * 256 && p.y >= 0 && p.y <= kHeight * 256;
+    const bool is_in_view =
+        z >= -1 && z <= 1 && p.x >= 0 && p.x <= kWidth * 256 && p.y >= 0 && p.y <= kHeight * 256;
     std::vector<std::pair<int, int>> pixels;
     for (int y = -1; y <= 1 && is_in_view; ++y)
       for (int x = -1; x <= 1; ++x) pixels.push_back({(p.x >> 8) + x, ((p.y - 1) >> 8) + y});
@@ -57,8 +66,8 @@ Elements random_points(std::uint64_t seed) {
   return points;
 }
 
-// A quarter of the lines ends outside of the near or far plane, at half, a quarter or three quarters of its length: there it is cut in whole
-// units of 1/256 pixel.
+// A quarter of the lines ends outside of the near or far plane, at half, a quarter or three quarters of its
+// length: there it is cut in whole units of 1/256 pixel.
 Elements random_lines(std::uint64_t seed) {
   Random random(seed);
   Elements lines(Primitive::lines);
@@ -72,11 +81,13 @@ Elements random_lines(std::uint64_t seed) {
     float z[2] = {0, 0};
     if (i % 4 == 0) {
       // From 1 inside of the plane to 1, 3 or 1/3 outside.
-      const int quarters = 1 + below(random, 3), end = below(random, 2), side = below(random, 2) != 0 ? 1 : -1;
+      const int quarters = 1 + below(random, 3), end = below(random, 2),
+                side = below(random, 2) != 0 ? 1 : -1;
       z[end] = static_cast<float>(side) * (quarters == 1 ? 4.0f : quarters == 2 ? 2.0f : 1.25f);
       z[1 - end] = quarters == 3 ? static_cast<float>(side) * 0.25f : 0.0f;
       const LinePoint inner = end == 1 ? a : b, outer = end == 1 ? b : a;
-      const LinePoint cut{inner.x + (outer.x - inner.x) / 4 * quarters, inner.y + (outer.y - inner.y) / 4 * quarters};
+      const LinePoint cut{inner.x + (outer.x - inner.x) / 4 * quarters,
+                          inner.y + (outer.y - inner.y) / 4 * quarters};
       (end == 1 ? to : from) = cut;
     }
     lines.add(a, z[0], word ^ 0xffffff);
@@ -100,7 +111,8 @@ std::vector<std::uint32_t> by_the_rules(const Elements& elements, const Store& s
   std::vector<std::uint32_t> words(std::size_t{kWidth} * kHeight);
   for (std::size_t i = 0; i < elements.words.size(); ++i)
     for (const auto& [x, y] : elements.pixels[i])
-      if (x >= 0 && x < kWidth && y >= 0 && y < kHeight) store(words[static_cast<std::size_t>(y * kWidth + x)], elements.words[i]);
+      if (x >= 0 && x < kWidth && y >= 0 && y < kHeight)
+        store(words[static_cast<std::size_t>(y * kWidth + x)], elements.words[i]);
   return words;
 }
 std::size_t differing(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
@@ -116,9 +128,15 @@ void expect_by_the_rules(const Elements& elements) {
   state.shading = Shading::flat;
   state.depth.enabled = false;
   state.point_size = 3;
-  EXPECT_EQ(differing(drawn(elements, state), by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored = word; })), 0u);
+  EXPECT_EQ(
+      differing(drawn(elements, state),
+                by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored = word; })),
+      0u);
   state.logic_op = LogicOp::xor_;
-  EXPECT_EQ(differing(drawn(elements, state), by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored ^= word; })), 0u);
+  EXPECT_EQ(
+      differing(drawn(elements, state),
+                by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored ^= word; })),
+      0u);
 }
 
 TEST(ManyPoints, CoverPixelsByTheRule) { expect_by_the_rules(random_points(71)); }

@@ -52,7 +52,9 @@ struct Meshes {
     for (std::size_t i = 0; i < 3 * kVertices; ++i) indices.push_back(random.next() % kVertices);
     short_indices.assign(indices.begin(), indices.end());
   }
-  Mesh packed() const { return {.positions = positions, .normals = normals, .colors = colors, .indices = indices}; }
+  Mesh packed() const {
+    return {.positions = positions, .normals = normals, .colors = colors, .indices = indices};
+  }
 };
 
 Fingerprint drawn(const Mesh& mesh, const DrawState& state) {
@@ -68,7 +70,9 @@ Fingerprint drawn(const Mesh& mesh, const DrawState& state) {
 class MeshArrays : public testing::TestWithParam<DrawState> {
  protected:
   const Meshes m;
-  void expect_same(const char* what, Mesh packed, Mesh mesh) const { EXPECT_EQ(drawn(packed, GetParam()), drawn(mesh, GetParam())) << what; }
+  void expect_same(const char* what, Mesh packed, Mesh mesh) const {
+    EXPECT_EQ(drawn(packed, GetParam()), drawn(mesh, GetParam())) << what;
+  }
 };
 
 TEST_P(MeshArrays, MayBeInterleaved) {
@@ -101,11 +105,12 @@ TEST_P(MeshArrays, MayBePackedBytesAndShortIndices) {
   expect_same("without normals", no_normals, short_no_normals);
 }
 
-INSTANTIATE_TEST_SUITE_P(States, MeshArrays,
-                         testing::Values(DrawState{.shading = Shading::flat, .color_material = ColorMaterial::diffuse},
-                                         DrawState{.shading = Shading::gouraud, .color_material = ColorMaterial::diffuse},
-                                         DrawState{.shading = Shading::phong, .color_material = ColorMaterial::diffuse},
-                                         DrawState{.shading = Shading::gouraud, .lighting = false}));
+INSTANTIATE_TEST_SUITE_P(
+    States, MeshArrays,
+    testing::Values(DrawState{.shading = Shading::flat, .color_material = ColorMaterial::diffuse},
+                    DrawState{.shading = Shading::gouraud, .color_material = ColorMaterial::diffuse},
+                    DrawState{.shading = Shading::phong, .color_material = ColorMaterial::diffuse},
+                    DrawState{.shading = Shading::gouraud, .lighting = false}));
 
 TEST(MeshArraysErrors, NameWhatDoesNotFit) {
   const Meshes m;
@@ -115,35 +120,87 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
     void (*change)(Mesh&, const float*, const Meshes&);
     const char* says;
   } rows[] = {
-      {"stride", [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {p, 6, 14}; }, "stride of 14 bytes for positions, must be a multiple of 4 and at least 12"},
-      {"small stride", [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {p, 6, 8}; }, "stride of 8 bytes for positions"},
-      {"four components", [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {p, 6, 12}, mesh.position_components = 4; }, "at least 16"},
+      {"stride",
+       [](Mesh& mesh, const float* p, const Meshes&) {
+         mesh.positions = {p, 6, 14};
+       },
+       "stride of 14 bytes for positions, must be a multiple of 4 and at least 12"},
+      {"small stride",
+       [](Mesh& mesh, const float* p, const Meshes&) {
+         mesh.positions = {p, 6, 8};
+       },
+       "stride of 8 bytes for positions"},
+      {"four components",
+       [](Mesh& mesh, const float* p, const Meshes&) {
+         mesh.positions = {p, 6, 12}, mesh.position_components = 4;
+       },
+       "at least 16"},
       {"odd address",
-       [](Mesh& mesh, const float* p, const Meshes&) { mesh.positions = {reinterpret_cast<const float*>(reinterpret_cast<const char*>(p) + 2), 6, 12}; },
+       [](Mesh& mesh, const float* p, const Meshes&) {
+         mesh.positions = {reinterpret_cast<const float*>(reinterpret_cast<const char*>(p) + 2), 6, 12};
+       },
        "positions at an address that is no multiple of 4"},
-      {"no address", [](Mesh& mesh, const float*, const Meshes&) { mesh.positions = {nullptr, 6, 12}; }, "no address for positions"},
-      {"normals", [](Mesh& mesh, const float* p, const Meshes&) { mesh.normals = {p, 5, 12}; }, "normals of 5 vertices, but 60 vertices"},
-      {"bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), kVertices, 3}; }, "stride of 3 bytes for colors, must be at least 4"},
-      {"too few bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = {n.bytes.data(), 2, 4}; }, "colors of 2 vertices"},
-      {"half a colour", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = std::span(n.bytes).first(4 * kVertices - 1); }, "239 bytes of colors, its 60 vertices need 240"},
-      {"both", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.floats = n.colors; }, "colors twice"},
-      {"packed with a stride", [](Mesh& mesh, const float*, const Meshes&) { mesh.positions.stride_bytes = 12; }, "180 packed floats of positions and also 0 vertices with a stride of 12 bytes"},
-      {"packed of vertices", [](Mesh& mesh, const float*, const Meshes&) { mesh.normals.vertices = 60; }, "180 packed floats of normals and also 60 vertices"},
-      {"packed bytes with a stride", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.bytes, mesh.colors.stride_bytes = 4096; }, "240 packed bytes of colors and also 0 vertices with a stride of 4096 bytes"},
-      {"stride of no bytes", [](Mesh& mesh, const float*, const Meshes& n) { mesh.colors = n.colors, mesh.colors.stride_bytes = 32; }, "a stride of 32 bytes for colors, but no bytes of colors"},
-      {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; }, "indices of 8 bits, must be 16 or 32"},
+      {"no address",
+       [](Mesh& mesh, const float*, const Meshes&) {
+         mesh.positions = {nullptr, 6, 12};
+       },
+       "no address for positions"},
+      {"normals",
+       [](Mesh& mesh, const float* p, const Meshes&) {
+         mesh.normals = {p, 5, 12};
+       },
+       "normals of 5 vertices, but 60 vertices"},
+      {"bytes",
+       [](Mesh& mesh, const float*, const Meshes& n) {
+         mesh.colors = {n.bytes.data(), kVertices, 3};
+       },
+       "stride of 3 bytes for colors, must be at least 4"},
+      {"too few bytes",
+       [](Mesh& mesh, const float*, const Meshes& n) {
+         mesh.colors = {n.bytes.data(), 2, 4};
+       },
+       "colors of 2 vertices"},
+      {"half a colour",
+       [](Mesh& mesh, const float*, const Meshes& n) {
+         mesh.colors = std::span(n.bytes).first(4 * kVertices - 1);
+       },
+       "239 bytes of colors, its 60 vertices need 240"},
+      {"both",
+       [](Mesh& mesh, const float*, const Meshes& n) {
+         mesh.colors = n.bytes, mesh.colors.floats = n.colors;
+       },
+       "colors twice"},
+      {"packed with a stride",
+       [](Mesh& mesh, const float*, const Meshes&) { mesh.positions.stride_bytes = 12; },
+       "180 packed floats of positions and also 0 vertices with a stride of 12 bytes"},
+      {"packed of vertices", [](Mesh& mesh, const float*, const Meshes&) { mesh.normals.vertices = 60; },
+       "180 packed floats of normals and also 60 vertices"},
+      {"packed bytes with a stride",
+       [](Mesh& mesh, const float*, const Meshes& n) {
+         mesh.colors = n.bytes, mesh.colors.stride_bytes = 4096;
+       },
+       "240 packed bytes of colors and also 0 vertices with a stride of 4096 bytes"},
+      {"stride of no bytes",
+       [](Mesh& mesh, const float*, const Meshes& n) {
+         mesh.colors = n.colors, mesh.colors.stride_bytes = 32;
+       },
+       "a stride of 32 bytes for colors, but no bytes of colors"},
+      {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; },
+       "indices of 8 bits, must be 16 or 32"},
   };
   for (const auto& row : rows) {
     FrameBuffer buffer(kFormat);
     Frame frame(buffer);
     Mesh mesh = m.packed();
     row.change(mesh, floats, m);
-    EXPECT_THAT(error_of([&] { frame.draw(mesh, {}); }).value_or("(none)"), testing::HasSubstr(row.says)) << row.what;
+    EXPECT_THAT(error_of([&] { frame.draw(mesh, {}); }).value_or("(none)"), testing::HasSubstr(row.says))
+        << row.what;
     EXPECT_EQ(frame.draw_count(), 0u);
   }
 }
 
-// Few are looked through by the caller, many by all that help; the first wrong one is named, and what was recorded before stays.
+// Few are looked through by the caller, many by all that help; the first wrong one is named, and what was
+// recorded before stays.
 TEST(MeshIndices, AreNamedWhereOutOfBounds) {
   const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
   const auto indices = [](auto first, std::size_t count, std::size_t wrong_at, auto wrong) {
@@ -153,8 +210,10 @@ TEST(MeshIndices, AreNamedWhereOutOfBounds) {
     return all;
   };
   const auto good = indices(std::uint32_t{}, 90'000, 90'000, std::uint32_t{});
-  const auto last = indices(std::uint32_t{}, 90'000, 89'999, std::uint32_t{3}), middle = indices(std::uint32_t{}, 90'000, 50'000, 0xffff'ffffu);
-  const auto first = indices(std::uint16_t{}, 90'000, 0, std::uint16_t{0xffff}), few = indices(std::uint16_t{}, 300, 155, std::uint16_t{4});
+  const auto last = indices(std::uint32_t{}, 90'000, 89'999, std::uint32_t{3}),
+             middle = indices(std::uint32_t{}, 90'000, 50'000, 0xffff'ffffu);
+  const auto first = indices(std::uint16_t{}, 90'000, 0, std::uint16_t{0xffff}),
+             few = indices(std::uint16_t{}, 300, 155, std::uint16_t{4});
   const struct {
     IndexArray indices;
     const char* says;
@@ -172,7 +231,9 @@ TEST(MeshIndices, AreNamedWhereOutOfBounds) {
       Renderer renderer({.threads = std::max(1, helpers)});
       Frame frame = helpers == 0 ? Frame(buffer) : Frame(buffer, renderer);
       frame.draw({.positions = triangle, .indices = good}, {.lighting = false});
-      EXPECT_THAT(error_of([&] { frame.draw({.positions = triangle, .indices = row.indices}); }).value_or("(none)"), testing::StartsWith(row.says));
+      EXPECT_THAT(
+          error_of([&] { frame.draw({.positions = triangle, .indices = row.indices}); }).value_or("(none)"),
+          testing::StartsWith(row.says));
       EXPECT_EQ(frame.draw_count(), 1u);
       EXPECT_EQ(renderer.finish(frame).triangles_in, 30'000u);
     }
@@ -202,7 +263,8 @@ TEST(MeshIndices, AreLookedThroughByARenderersWorkersWhereManyAndTold) {
   helped.draw({.positions = triangle, .indices = few});
   EXPECT_EQ(executor->asked, 0);
   Renderer moved(std::move(renderer));
-  EXPECT_THAT(error_of([&] { Frame frame(buffer, renderer); }).value_or("(none)"), testing::HasSubstr("the renderer was moved from"));
+  EXPECT_THAT(error_of([&] { Frame frame(buffer, renderer); }).value_or("(none)"),
+              testing::HasSubstr("the renderer was moved from"));
   helped.draw({.positions = triangle, .indices = many});
   EXPECT_EQ(executor->asked, 1);
   EXPECT_EQ(executor->most, 3);

@@ -25,7 +25,9 @@ const fs::path kModels = "/usr/share/assimp/models";
 
 class ModelImport : public testing::Test {
  protected:
-  ModelImport() : folder_(fs::temp_directory_path() / ("tessera_models_" + std::to_string(::getpid()))) { fs::create_directories(folder_); }
+  ModelImport() : folder_(fs::temp_directory_path() / ("tessera_models_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
   ~ModelImport() override { fs::remove_all(folder_); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -67,21 +69,28 @@ bool renders(const std::string& path) {
 }
 
 TEST_F(ModelImport, ReadsPlyAndStl) {
-  const Model stl = import_model(write("t.stl", "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 3 0\nendloop\nendfacet\nendsolid t\n"));
+  const Model stl = import_model(write("t.stl",
+                                       "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 "
+                                       "0\nvertex 0 3 0\nendloop\nendfacet\nendsolid t\n"));
   ASSERT_EQ(stl.mesh.indices.size(), 3u);
   EXPECT_EQ(stl.mesh.vertex_count(), 3u);
   EXPECT_FLOAT_EQ(*std::max_element(stl.mesh.positions.begin(), stl.mesh.positions.end()), 3);
-  const Model ply = import_model(write("t.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                                                "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"));
+  const Model ply = import_model(
+      write("t.ply",
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+            "z\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"));
   EXPECT_EQ(ply.mesh.indices.size(), 6u);
-  for (std::size_t i = 2; i < ply.mesh.normals.size(); i += 3) EXPECT_FLOAT_EQ(std::abs(ply.mesh.normals[i]), 1);
+  for (std::size_t i = 2; i < ply.mesh.normals.size(); i += 3)
+    EXPECT_FLOAT_EQ(std::abs(ply.mesh.normals[i]), 1);
 }
 
-// What is in all files of one animal is the same shape, whatever reader brought it: as many triangles, and the same picture,
-// but for the normals that some of them give.
+// What is in all files of one animal is the same shape, whatever reader brought it: as many triangles, and
+// the same picture, but for the normals that some of them give.
 TEST_F(ModelImport, OneModelIsTheSamePictureInSixFormats) {
   std::vector<std::uint8_t> first;
-  for (const char* name : {"OBJ/WusonOBJ.obj", "PLY/Wuson.ply", "STL/Wuson.stl", "OFF/Wuson.off", "MS3D/Wuson.ms3d", "XGL/Wuson.zgl"}) {
+  for (const char* name : {"OBJ/WusonOBJ.obj", "PLY/Wuson.ply", "STL/Wuson.stl", "OFF/Wuson.off",
+                           "MS3D/Wuson.ms3d", "XGL/Wuson.zgl"}) {
     const Model model = import_model((kModels / name).string(), ModelUse::display);
     EXPECT_EQ(model.mesh.indices.size() / 3, 3732u) << name;
     Scene scene = model_scene(model, name, 320, 240);
@@ -113,13 +122,18 @@ TEST_F(ModelImport, ColorsOfManyVerticesTakeNoTime) {
 #else
   constexpr int kSide = 400;
 #endif
-  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kSide * kSide) + "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
-                     "property uchar blue\nelement face " + std::to_string((kSide - 1) * (kSide - 1)) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (int i = 0; i < kSide * kSide; ++i) text += std::to_string(i % kSide) + " " + std::to_string(i / kSide) + " 0 255 0 51\n";
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kSide * kSide) +
+      "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nelement face " +
+      std::to_string((kSide - 1) * (kSide - 1)) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < kSide * kSide; ++i)
+    text += std::to_string(i % kSide) + " " + std::to_string(i / kSide) + " 0 255 0 51\n";
   for (int y = 0; y + 1 < kSide; ++y)
     for (int x = 0; x + 1 < kSide; ++x) {
       const int v = y * kSide + x;
-      text += "4 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + kSide + 1) + " " + std::to_string(v + kSide) + "\n";
+      text += "4 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + kSide + 1) +
+              " " + std::to_string(v + kSide) + "\n";
     }
   const Model model = import_model(write("colors.ply", text));
   ASSERT_EQ(model.mesh.colors.size(), 4u * kSide * kSide);
@@ -131,8 +145,10 @@ TEST_F(ModelImport, ColorsOfManyVerticesTakeNoTime) {
 TEST_F(ModelImport, LightsOfCollada) {
   const Model model = import_model((kModels / "Collada/lights.dae").string());
   ASSERT_GE(model.lights.size(), 3u);
-  const auto sun = std::find_if(model.lights.begin(), model.lights.end(), [](const Light& l) { return l.position[3] == 0; });
-  const auto spot = std::find_if(model.lights.begin(), model.lights.end(), [](const Light& l) { return l.spot_cutoff != 180; });
+  const auto sun = std::find_if(model.lights.begin(), model.lights.end(),
+                                [](const Light& l) { return l.position[3] == 0; });
+  const auto spot = std::find_if(model.lights.begin(), model.lights.end(),
+                                 [](const Light& l) { return l.spot_cutoff != 180; });
   ASSERT_TRUE(sun != model.lights.end() && spot != model.lights.end());
   EXPECT_NEAR(spot->spot_cutoff, 45, 1e-3);
   EXPECT_NEAR(spot->attenuation_quadratic, 0.00159997, 1e-7);
@@ -140,18 +156,21 @@ TEST_F(ModelImport, LightsOfCollada) {
   EXPECT_FLOAT_EQ(model.ambient_light->g, 1);
 }
 
-// The corpus of assimp, whole and broken files; then the smallest file of each format: empty, cut off, and with wrong bytes.
+// The corpus of assimp, whole and broken files; then the smallest file of each format: empty, cut off, and
+// with wrong bytes.
 TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
   int read = 0, refused = 0;
   std::map<std::string, fs::path> smallest;
   const std::vector<std::string> endings = model_endings();
   for (const auto& entry : fs::recursive_directory_iterator(kModels)) {
     const std::string ending = lower_case_ending(entry.path().string());
-    if (!entry.is_regular_file() || std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
+    if (!entry.is_regular_file() || std::find(endings.begin(), endings.end(), ending) == endings.end())
+      continue;
     const bool is_read = renders(entry.path().string());
     ++(is_read ? read : refused);
     fs::path& of_format = smallest[ending];
-    if (is_read && (of_format.empty() || fs::file_size(of_format) > entry.file_size())) of_format = entry.path();
+    if (is_read && (of_format.empty() || fs::file_size(of_format) > entry.file_size()))
+      of_format = entry.path();
   }
   std::erase_if(smallest, [](const auto& format) { return format.second.empty(); });
   EXPECT_GE(read, 300);
@@ -160,7 +179,8 @@ TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
   std::uint32_t random = 1;
   for (const auto& [ending, path] : smallest) {
     const std::string whole = content(path);
-    std::vector<std::string> broken = {"", whole.substr(0, 1), whole.substr(0, whole.size() / 3), whole.substr(0, whole.size() - 1)};
+    std::vector<std::string> broken = {"", whole.substr(0, 1), whole.substr(0, whole.size() / 3),
+                                       whole.substr(0, whole.size() - 1)};
     for (const int bytes : {1, 5, 20, 100}) {
       std::string& scrambled = broken.emplace_back(whole);
       for (int i = 0; i < bytes; ++i) {
@@ -168,12 +188,14 @@ TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
         scrambled[(random >> 8) % scrambled.size()] = static_cast<char>(random >> 24);
       }
     }
-    for (const std::string& text : broken) ++(renders(write("broken" + ending, text)) ? broken_read : broken_refused);
+    for (const std::string& text : broken)
+      ++(renders(write("broken" + ending, text)) ? broken_read : broken_refused);
     EXPECT_FALSE(renders(write("empty" + ending, ""))) << ending;
   }
   EXPECT_GT(broken_refused, 100);
   EXPECT_GT(broken_read, 20);
-  std::printf("%d models drawn, %d refused, %zu formats; of broken files %d drawn, %d refused\n", read, refused, smallest.size(), broken_read, broken_refused);
+  std::printf("%d models drawn, %d refused, %zu formats; of broken files %d drawn, %d refused\n", read,
+              refused, smallest.size(), broken_read, broken_refused);
 }
 
 }  // namespace

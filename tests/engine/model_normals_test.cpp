@@ -12,8 +12,11 @@ namespace {
 // Eight shared vertices, wound counter-clockwise seen from outside.
 MeshData cube() {
   MeshData mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.insert(mesh.positions.end(), {static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)});
-  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.insert(mesh.positions.end(), {static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1),
+                                                 static_cast<float>(i >> 2)});
+  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                  2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
   return mesh;
 }
 
@@ -47,11 +50,14 @@ TEST(CreasedNormals, AWideAngleMakesACubeSmooth) {
   MeshData mesh = cube();
   add_creased_normals(mesh, 100);
   EXPECT_EQ(mesh.vertex_count(), 8u);
-  for (std::size_t v = 0; v < 8; ++v) EXPECT_GT(std::abs(mesh.normals[3 * v] * mesh.normals[3 * v + 1] * mesh.normals[3 * v + 2]), 0.05) << "between three faces";
+  for (std::size_t v = 0; v < 8; ++v)
+    EXPECT_GT(std::abs(mesh.normals[3 * v] * mesh.normals[3 * v + 1] * mesh.normals[3 * v + 2]), 0.05)
+        << "between three faces";
 }
 
 TEST(CreasedNormals, MeansAreWeightedByAreaOverPositionsNotVertices) {
-  MeshData mesh;  // two triangles that meet at a right angle along an edge, without shared vertices; the second is twice as large
+  MeshData mesh;  // two triangles that meet at a right angle along an edge, without shared vertices; the
+                  // second is twice as large
   mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ -0.0f, 0, 0, 0, 1, 0, 0, 0, 2};
   mesh.indices = {0, 1, 2, 3, 4, 5};
   add_creased_normals(mesh, 90);
@@ -70,7 +76,8 @@ TEST(CreasedNormals, GivenOnesStayAndOddPositionsHarmNobody) {
   mesh.indices.insert(mesh.indices.end(), {8, 9, 10});
   add_creased_normals(mesh);
   EXPECT_EQ(mesh.normals[3 * 5 + 1], -1);
-  EXPECT_EQ(normal(mesh, 0), (std::array<float, 3>{0, 0, -1})) << "a triangle without a place does not take part";
+  EXPECT_EQ(normal(mesh, 0), (std::array<float, 3>{0, 0, -1}))
+      << "a triangle without a place does not take part";
 }
 
 // More triangles at one place than are compared with each other: one smooth surface, and soon done.
@@ -80,7 +87,8 @@ TEST(CreasedNormals, AFanOfManyTrianglesTakesNoTime) {
   mesh.positions = {0, 0, 1};
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     const double angle = 2 * 3.14159265358979 * i / kTriangles;
-    mesh.positions.insert(mesh.positions.end(), {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+    mesh.positions.insert(mesh.positions.end(),
+                          {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
     mesh.indices.insert(mesh.indices.end(), {0, 1 + i, 1 + (i + 1) % kTriangles});
   }
   add_creased_normals(mesh);
@@ -91,7 +99,8 @@ TEST(WindByNormals, TurnsTheTrianglesThatFaceAwayFromTheirNormals) {
   MeshData mesh = cube();
   add_creased_normals(mesh);
   const std::vector<std::uint32_t> right = mesh.indices;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 6) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 6)
+    std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
   wind_by_normals(mesh);
   EXPECT_EQ(mesh.indices, right);
 }

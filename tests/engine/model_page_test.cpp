@@ -1,4 +1,5 @@
-// The page of models in the README is what this version draws. TESSERA_WRITE_PAGE=1 writes it anew; then look at it.
+// The page of models in the README is what this version draws. TESSERA_WRITE_PAGE=1 writes it anew; then look
+// at it.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -20,12 +21,14 @@ Picture draw_page() {
   Picture page(kColumns * kWidth, rows * kHeight);
   Renderer renderer;
   for (int i = 0; i < static_cast<int>(models.size()); ++i) {
-    const Scene scene = model_scene(import_model(models[static_cast<std::size_t>(i)], ModelUse::display), models[static_cast<std::size_t>(i)], kWidth, kHeight);
+    const Scene scene = model_scene(import_model(models[static_cast<std::size_t>(i)], ModelUse::display),
+                                    models[static_cast<std::size_t>(i)], kWidth, kHeight);
     FrameBuffer buffer(scene.framebuffer);
     Frame frame(buffer);
     record(scene, frame);
     ImageTarget target = page.target();
-    target.pixels = page.rgba.data() + i / kColumns * kHeight * target.stride_bytes + 4 * std::ptrdiff_t{kWidth} * (i % kColumns);
+    target.pixels = page.rgba.data() + i / kColumns * kHeight * target.stride_bytes +
+                    4 * std::ptrdiff_t{kWidth} * (i % kColumns);
     target.width = kWidth;
     target.height = kHeight;
     renderer.finish(frame, target);
@@ -34,7 +37,8 @@ Picture draw_page() {
 }
 
 TEST(ModelPage, IsWhatTheReadmeShows) {
-  for (const std::string& model : test::page_models()) ASSERT_TRUE(std::filesystem::exists(model)) << model << ": bash .ci/packages installs it";
+  for (const std::string& model : test::page_models())
+    ASSERT_TRUE(std::filesystem::exists(model)) << model << ": bash .ci/packages installs it";
   ASSERT_GE(test::page_models().size(), 15u);
   const Picture page = draw_page();
   if (std::getenv("TESSERA_WRITE_PAGE") != nullptr) write_picture(page, kPage, 9);

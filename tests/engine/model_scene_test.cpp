@@ -7,7 +7,8 @@ namespace tessera {
 namespace {
 
 TEST(ModelScene, ALensBeyondNumbersIsNotTaken) {
-  for (const ModelCamera& camera : {ModelCamera{.view = {}, .is_orthographic = true, .half_height = 1.7e308}, ModelCamera{.view = {}, .half_height = 5e-324, .near = 0.25}}) {
+  for (const ModelCamera& camera : {ModelCamera{.view = {}, .is_orthographic = true, .half_height = 1.7e308},
+                                    ModelCamera{.view = {}, .half_height = 5e-324, .near = 0.25}}) {
     Model model;
     model.mesh.positions = {-1, -1, -5, 1, -1, -5, 0, 1, -5};
     model.mesh.indices = {0, 1, 2};

@@ -1,5 +1,6 @@
-// Every call of the interface with each of its allocations failing once: an Error that speaks of memory, everything as it was before, and what comes after is as if nothing had happened.
-// Frames of every kind of draw, on one thread and on two.
+// Every call of the interface with each of its allocations failing once: an Error that speaks of memory,
+// everything as it was before, and what comes after is as if nothing had happened. Frames of every kind of
+// draw, on one thread and on two.
 #include "tests/engine/failing_allocations.h"
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
@@ -22,15 +23,19 @@ using namespace test;
 std::vector<FrameBufferFormat> formats() {
   const FrameBufferFormat base{.width = 40, .height = 34, .accumulation_bits = 16};
   std::vector<FrameBufferFormat> all(4, base);
-  all[1].samples = 4, all[1].depth = DepthFormat::float32, all[1].alpha_bits = 8, all[1].accumulation_bits = 32;
-  all[2].color_mode = ColorMode::index, all[2].color_bits = 4, all[2].dither = Dither::bayer2, all[2].accumulation_bits = 0;
-  all[2].palette = {{0, 0, 0, 1}, {0.3f, 0.7f, 0.1f, 1}, {1, 1, 1, 1}};  // the search of a large one is thousands of allocations
+  all[1].samples = 4, all[1].depth = DepthFormat::float32, all[1].alpha_bits = 8,
+  all[1].accumulation_bits = 32;
+  all[2].color_mode = ColorMode::index, all[2].color_bits = 4, all[2].dither = Dither::bayer2,
+  all[2].accumulation_bits = 0;
+  all[2].palette = {{0, 0, 0, 1},
+                    {0.3f, 0.7f, 0.1f, 1},
+                    {1, 1, 1, 1}};  // the search of a large one is thousands of allocations
   all[3].color_bits = 2, all[3].depth = DepthFormat::none, all[3].stencil_bits = 0;
   return all;
 }
 
-// Points, lines, polygons in each mode, textures, shadows, bitmaps, images, index lighting, accumulation. A frame that starts with clears may be finished after all; what it adds to is
-// cleared, too.
+// Points, lines, polygons in each mode, textures, shadows, bitmaps, images, index lighting, accumulation. A
+// frame that starts with clears may be finished after all; what it adds to is cleared, too.
 template <class Scene>
 void record(const Scene& scene, Frame& frame) {
   if (scene.format.accumulation_bits > 0) frame.clear({.accumulation = Color{0, 0, 0, 0}});
@@ -40,7 +45,8 @@ void record(const Scene& scene, Frame& frame) {
 // Returns how many allocations there were.
 template <class Scene>
 int expect_that_it_can_be_finished_afterwards(const Scene& scene, const RendererOptions& options) {
-  SCOPED_TRACE(describe(scene.format) + ", " + std::to_string(options.threads) + (options.threads > 1 ? " threads" : " thread"));
+  SCOPED_TRACE(describe(scene.format) + ", " + std::to_string(options.threads) +
+               (options.threads > 1 ? " threads" : " thread"));
   FrameBuffer plain(scene.format);
   Frame once(plain);
   record(scene, once);
@@ -85,8 +91,12 @@ void expect_frames_that_can_be_finished_afterwards(int threads, int draws) {
 }
 
 // With so many draws, each of the ten primitives is among them.
-TEST(OutOfMemoryAnywhere, FramesOfEveryKindCanBeFinishedAfterwards) { expect_frames_that_can_be_finished_afterwards(1, long_tests() ? 40 : 21); }
-TEST(OutOfMemoryAnywhere, SoCanThoseOfTwoThreads) { expect_frames_that_can_be_finished_afterwards(2, long_tests() ? 40 : 5); }
+TEST(OutOfMemoryAnywhere, FramesOfEveryKindCanBeFinishedAfterwards) {
+  expect_frames_that_can_be_finished_afterwards(1, long_tests() ? 40 : 21);
+}
+TEST(OutOfMemoryAnywhere, SoCanThoseOfTwoThreads) {
+  expect_frames_that_can_be_finished_afterwards(2, long_tests() ? 40 : 5);
+}
 
 TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
   const FullTile scene({.width = 120, .height = 60}, 510);
@@ -98,7 +108,10 @@ TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
   EXPECT_GT(expect_that_it_can_be_finished_afterwards(scene, options), 200);
 }
 TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewBatchesAtATime) {
-  EXPECT_GT(expect_that_it_can_be_finished_afterwards(FullTile({.width = 60, .height = 50}, 2502), {.threads = 1, .tile_size = 64, .bin_memory = kLeastBinMemory}), 100);
+  EXPECT_GT(expect_that_it_can_be_finished_afterwards(
+                FullTile({.width = 60, .height = 50}, 2502),
+                {.threads = 1, .tile_size = 64, .bin_memory = kLeastBinMemory}),
+            100);
 }
 
 // What was recorded before a call that fails is drawn, and nothing of the call.
@@ -127,17 +140,21 @@ TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {
     const char* name;
     std::function<void(Frame&)> run;
   };
-  const std::vector<Call> calls{{"set_camera", [](Frame& f) { f.set_camera({.projection = perspective(50, 1, 1, 5)}); }},
-                                {"set_lights", [&](Frame& f) { f.set_lights(lights); }},
-                                {"set_light_model", [](Frame& f) { f.set_light_model({.two_sided = true}); }},
-                                {"clear", [](Frame& f) { f.clear({.color = Color{1, 1, 1, 1}}); }},
-                                {"accumulate", [](Frame& f) { f.accumulate({.op = AccumOp::return_}); }},
-                                {"draw", [&](Frame& f) { f.draw(mesh.view(), {}); }},
-                                {"draw a shadow", [&](Frame& f) { f.draw(mesh.view(), shadow); }},
-                                {"draw textured", [&](Frame& f) { f.draw(mesh.view(), textured); }},
-                                {"draw_bitmap", [&](Frame& f) { f.draw_bitmap({.bits = bytes.data(), .width = 8, .height = 8}); }},
-                                {"draw_image", [&](Frame& f) { f.draw_image({.pixels = bytes.data(), .width = 8, .height = 8}); }},
-                                {"explain", [](Frame& f) { (void)f.explain(0); }}};
+  const std::vector<Call> calls{
+      {"set_camera", [](Frame& f) { f.set_camera({.projection = perspective(50, 1, 1, 5)}); }},
+      {"set_lights", [&](Frame& f) { f.set_lights(lights); }},
+      {"set_light_model", [](Frame& f) { f.set_light_model({.two_sided = true}); }},
+      {"clear",
+       [](Frame& f) {
+         f.clear({.color = Color{1, 1, 1, 1}});
+       }},
+      {"accumulate", [](Frame& f) { f.accumulate({.op = AccumOp::return_}); }},
+      {"draw", [&](Frame& f) { f.draw(mesh.view(), {}); }},
+      {"draw a shadow", [&](Frame& f) { f.draw(mesh.view(), shadow); }},
+      {"draw textured", [&](Frame& f) { f.draw(mesh.view(), textured); }},
+      {"draw_bitmap", [&](Frame& f) { f.draw_bitmap({.bits = bytes.data(), .width = 8, .height = 8}); }},
+      {"draw_image", [&](Frame& f) { f.draw_image({.pixels = bytes.data(), .width = 8, .height = 8}); }},
+      {"explain", [](Frame& f) { (void)f.explain(0); }}};
   for (const Call& call : calls) {
     SCOPED_TRACE(call.name);
     std::optional<FrameBuffer> buffer;
@@ -162,8 +179,13 @@ TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {
 }
 
 TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
-  const FrameBufferFormat format{.width = 40, .height = 30, .color_mode = ColorMode::index, .color_bits = 8, .palette = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}};
-  const FrameBufferFormat rgb{.width = 40, .height = 30, .alpha_bits = 8, .accumulation_bits = 16, .samples = 4};
+  const FrameBufferFormat format{.width = 40,
+                                 .height = 30,
+                                 .color_mode = ColorMode::index,
+                                 .color_bits = 8,
+                                 .palette = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}};
+  const FrameBufferFormat rgb{
+      .width = 40, .height = 30, .alpha_bits = 8, .accumulation_bits = 16, .samples = 4};
   const std::vector<std::uint8_t> bytes(4 * 17 * 13, 0x35);
   const std::vector<Color> other{{0.5f, 0.5f, 0, 1}, {0, 0, 1, 1}};
   FrameBuffer indices(format), colors(rgb);
@@ -189,14 +211,19 @@ TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
   const TextureSampler mipmaps, plain{.min = TextureFilter::linear};
   std::vector<FrameBufferFormat> copies(200, format);  // a copy of its palette is the caller's own
   const std::pair<const char*, std::function<void()>> calls[] = {
-      {"FrameBuffer of indices", [&] {
+      {"FrameBuffer of indices",
+       [&] {
          FrameBufferFormat copy = std::move(copies.back());
          copies.pop_back();
          FrameBuffer fresh(std::move(copy));
        }},
       {"FrameBuffer of colours", [&] { FrameBuffer fresh(rgb); }},
-      {"FrameBuffer in lent memory", [&] { FrameBuffer fresh(rgb, {aligned, FrameBuffer::memory_bytes(rgb)}); }},
-      {"Texture with mipmaps", [&] { Texture fresh({.pixels = bytes.data(), .width = 17, .height = 13}, mipmaps); }},
+      {"FrameBuffer in lent memory",
+       [&] {
+         FrameBuffer fresh(rgb, {aligned, FrameBuffer::memory_bytes(rgb)});
+       }},
+      {"Texture with mipmaps",
+       [&] { Texture fresh({.pixels = bytes.data(), .width = 17, .height = 13}, mipmaps); }},
       {"Texture without", [&] { Texture fresh({.pixels = bytes.data(), .width = 17, .height = 13}, plain); }},
       {"Renderer", [&] { Renderer fresh({.threads = 1, .log = [](LogLevel, std::string_view) {}}); }},
       {"Renderer of two threads", [&] { Renderer fresh({.threads = 2}); }},

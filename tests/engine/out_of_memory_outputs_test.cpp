@@ -1,5 +1,6 @@
-// Allocations that fail, one after the other, in frames with an ImageTarget, captures and a trace, of renderers that are new and of ones that have to grow: pictures and captures are in the
-// end what they would have been. Of a trace alone, which nobody waits for, an allocation may be lost.
+// Allocations that fail, one after the other, in frames with an ImageTarget, captures and a trace, of
+// renderers that are new and of ones that have to grow: pictures and captures are in the end what they would
+// have been. Of a trace alone, which nobody waits for, an allocation may be lost.
 #include "tests/engine/failing_allocations.h"
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
@@ -23,16 +24,22 @@ struct Outputs {
   std::vector<std::uint32_t> objects, primitives;
   std::vector<float> normals;
 
-  explicit Outputs(const FrameBuffer& buffer) : image(buffer), objects(pixel_count(buffer)), primitives(objects.size()), normals(3 * objects.size()) { forget(); }
+  explicit Outputs(const FrameBuffer& buffer)
+      : image(buffer), objects(pixel_count(buffer)), primitives(objects.size()), normals(3 * objects.size()) {
+    forget();
+  }
   void forget() {
     std::fill(image.bytes.begin(), image.bytes.end(), std::uint8_t{0xcd});
-    std::fill(objects.begin(), objects.end(), 7u), std::fill(primitives.begin(), primitives.end(), 7u), std::fill(normals.begin(), normals.end(), 7.0f);
+    std::fill(objects.begin(), objects.end(), 7u), std::fill(primitives.begin(), primitives.end(), 7u),
+        std::fill(normals.begin(), normals.end(), 7.0f);
   }
   Capture capture() { return {.objects = objects, .primitives = primitives, .normals = normals}; }
 };
 void expect_same(const Outputs& found, const Outputs& expected, int at) {
   EXPECT_TRUE(found.image.bytes == expected.image.bytes) << "picture, allocation " << at;
-  EXPECT_TRUE(found.objects == expected.objects && found.primitives == expected.primitives && found.normals == expected.normals) << "captures, allocation " << at;
+  EXPECT_TRUE(found.objects == expected.objects && found.primitives == expected.primitives &&
+              found.normals == expected.normals)
+      << "captures, allocation " << at;
 }
 
 struct Wanted {
@@ -41,8 +48,10 @@ struct Wanted {
 
 // Returns how many allocations there were. `before`, if any, is what the renderer has finished already.
 template <class Scene>
-int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wanted& wanted, RendererOptions options) {
-  SCOPED_TRACE(std::string(before ? "used" : "new") + (wanted.captures ? ", captures" : "") + (wanted.trace ? ", trace" : "") + ", threads: " + std::to_string(options.threads));
+int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wanted& wanted,
+                              RendererOptions options) {
+  SCOPED_TRACE(std::string(before ? "used" : "new") + (wanted.captures ? ", captures" : "") +
+               (wanted.trace ? ", trace" : "") + ", threads: " + std::to_string(options.threads));
   std::optional<FrameBuffer> buffer(scene.format);
   std::optional<Renderer> renderer;
   std::optional<Frame> frame;
@@ -82,7 +91,8 @@ int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wan
                                  start();
                                },
                                [&](int at) {
-                                 EXPECT_TRUE(wanted.trace && traced == 0) << "allocation " << at << " was lost";
+                                 EXPECT_TRUE(wanted.trace && traced == 0)
+                                     << "allocation " << at << " was lost";
                                  expect_same(found, expected, at);
                                  start();
                                });
@@ -90,23 +100,32 @@ int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wan
 
 constexpr Wanted kWanted[] = {{}, {.captures = true}, {.trace = true}, {.captures = true, .trace = true}};
 
-// Of a picture that starts from a clear and stores nothing, tiles without triangles are copied from a row of their own.
+// Of a picture that starts from a clear and stores nothing, tiles without triangles are copied from a row of
+// their own.
 TEST(OutOfMemoryOutputs, PicturesCapturesAndTracesOfNewRenderers) {
   const RandomFrame scene({.width = 150, .height = 90}, 60);
-  for (const Wanted& wanted : kWanted) EXPECT_GT(expect_outputs_afterwards<RandomFrame>(scene, nullptr, wanted, {.threads = 1, .tile_size = 32}), 20);
+  for (const Wanted& wanted : kWanted)
+    EXPECT_GT(expect_outputs_afterwards<RandomFrame>(scene, nullptr, wanted, {.threads = 1, .tile_size = 32}),
+              20);
 }
 
 // Whatever has grown once has to grow again: more draws, more pixels, larger tiles' memory, samples.
 TEST(OutOfMemoryOutputs, OfRenderersThatHaveToGrow) {
   const RandomFrame small({.width = 20, .height = 20}, 3), large({.width = 300, .height = 90}, 400);
-  for (const Wanted& wanted : kWanted) EXPECT_GT(expect_outputs_afterwards(large, &small, wanted, {.threads = 1}), 10);
+  for (const Wanted& wanted : kWanted)
+    EXPECT_GT(expect_outputs_afterwards(large, &small, wanted, {.threads = 1}), 10);
 }
 TEST(OutOfMemoryOutputs, OfRenderersThatHaveToGrowForEveryOperation) {
   const ThreadLimit limit(2);
   const RandomOperations small({.width = 20, .height = 20}, 1);
-  const RandomOperations accumulated({.width = 40, .height = 34, .alpha_bits = 8, .accumulation_bits = 16}, 9), sampled({.width = 40, .height = 34, .samples = 4}, 9);
+  const RandomOperations accumulated({.width = 40, .height = 34, .alpha_bits = 8, .accumulation_bits = 16},
+                                     9),
+      sampled({.width = 40, .height = 34, .samples = 4}, 9);
   for (const RandomOperations* const large : {&accumulated, &sampled})
-    for (const int threads : {1, 2}) EXPECT_GT(expect_outputs_afterwards(*large, &small, {.captures = true}, {.threads = threads, .tile_size = 32}), 20);
+    for (const int threads : {1, 2})
+      EXPECT_GT(expect_outputs_afterwards(*large, &small, {.captures = true},
+                                          {.threads = threads, .tile_size = 32}),
+                20);
 }
 
 }  // namespace

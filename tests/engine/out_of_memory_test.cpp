@@ -1,4 +1,5 @@
-// Every allocation of a frame fails once, one after the other: each failure is one Error, and nothing is lost by it.
+// Every allocation of a frame fails once, one after the other: each failure is one Error, and nothing is lost
+// by it.
 #include <gtest/gtest.h>
 
 #include <malloc.h>
@@ -36,9 +37,13 @@ void* take(std::size_t size, std::size_t alignment) {
 }  // namespace
 
 void* operator new(std::size_t size) { return take(size == 0 ? 1 : size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return take(size == 0 ? 1 : size, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return take(size == 0 ? 1 : size, static_cast<std::size_t>(alignment));
+}
 // Who asks this way can do without: std::stable_sort.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(std::malloc(size == 0 ? 1 : size)); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(std::malloc(size == 0 ? 1 : size));
+}
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
@@ -51,7 +56,8 @@ using namespace test;
 
 TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
   const RandomFrame scene({.width = 150, .height = 90, .accumulation_bits = 16}, 60);
-  // What fails after the last tile (the log's message) leaves a picture behind: what is added to is cleared before.
+  // What fails after the last tile (the log's message) leaves a picture behind: what is added to is cleared
+  // before.
   const auto record_more = [](Frame& frame) {
     frame.clear({.stencil = 3u, .accumulation = Color{0, 0, 0, 0}});
     frame.clear({.stencil = 5u, .scissor = Rect{1, 1, 5, 5}});
@@ -79,7 +85,8 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
       frame.reset();
       buffer.emplace(scene.format);
       // Without working memory yet; somebody listens.
-      renderer.emplace(RendererOptions{.threads = 1, .count_fragments = stencil, .log = [](LogLevel, std::string_view) {}});
+      renderer.emplace(RendererOptions{
+          .threads = 1, .count_fragments = stencil, .log = [](LogLevel, std::string_view) {}});
       frame.emplace(*buffer);
       scene.record(*frame);
       if (stencil) {
@@ -88,16 +95,17 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
       }
     };
     start();
-    const int allocations = fail_every_allocation([&] { renderer->finish(*frame); },
-                                                  [&](int at) {
-                                                    EXPECT_GT(frame->draw_count(), 0u) << "still recorded";
-                                                    renderer->finish(*frame);
-                                                    EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
-                                                    if (stencil) {
-                                                      EXPECT_EQ(objects, expected_objects) << "asked for before, and still";
-                                                    }
-                                                    start();
-                                                  });
+    const int allocations =
+        fail_every_allocation([&] { renderer->finish(*frame); },
+                              [&](int at) {
+                                EXPECT_GT(frame->draw_count(), 0u) << "still recorded";
+                                renderer->finish(*frame);
+                                EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
+                                if (stencil) {
+                                  EXPECT_EQ(objects, expected_objects) << "asked for before, and still";
+                                }
+                                start();
+                              });
     EXPECT_GT(allocations, 20);
   }
 }

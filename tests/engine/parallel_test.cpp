@@ -25,8 +25,7 @@ namespace {
 
 void spin(std::chrono::microseconds time) {
   const auto end = std::chrono::steady_clock::now() + time;
-  while (std::chrono::steady_clock::now() < end) {
-  }
+  while (std::chrono::steady_clock::now() < end) {}
 }
 
 TEST(Parallel, EightThreadsAreEightDistinctWorkers) {
@@ -50,7 +49,9 @@ TEST(Parallel, EachTaskRunsOnceForAnyNumberOfThreads) {
       for (const std::size_t count : {0, 1, 2, 7, 12, 1000}) {
         std::vector<std::atomic<int>> runs(count);
         parallel.for_each(count, [&](std::size_t task, int) { ++runs.at(task); });
-        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(runs[i], 1) << "task " << i << " of " << count << " on " << threads << " threads in order " << order;
+        for (std::size_t i = 0; i < count; ++i)
+          EXPECT_EQ(runs[i], 1) << "task " << i << " of " << count << " on " << threads
+                                << " threads in order " << order;
       }
     }
   }
@@ -75,7 +76,8 @@ TEST(Parallel, SharesFollowEachOtherAndAreAsLarge) {
       EXPECT_EQ(first_of_share(tasks, shares, shares), tasks);
       for (std::size_t s = 0, last = tasks; s < shares; ++s) {
         const std::size_t size = first_of_share(tasks, shares, s + 1) - first_of_share(tasks, shares, s);
-        EXPECT_TRUE(size == tasks / shares || size == tasks / shares + 1) << s << " of " << shares << " shares of " << tasks;
+        EXPECT_TRUE(size == tasks / shares || size == tasks / shares + 1)
+            << s << " of " << shares << " shares of " << tasks;
         EXPECT_LE(size, last) << "the first ones have more";
         last = size;
       }
@@ -95,7 +97,8 @@ TEST(Parallel, AWorkerBeginsWithItsShare) {
       mine = task;
       ++began;
       const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-      while (began != kThreads && std::chrono::steady_clock::now() < late) std::this_thread::yield();  // nobody goes on before all have begun
+      while (began != kThreads && std::chrono::steady_clock::now() < late)
+        std::this_thread::yield();  // nobody goes on before all have begun
     });
     ASSERT_EQ(first, (std::vector<std::size_t>{0, 4, 8}));
   }
@@ -113,7 +116,8 @@ TEST(Parallel, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
   EXPECT_EQ(tasks, (std::vector<std::size_t>{8, 9, 10, 0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
-// A draw in a progress callback, say, that the renderer helps with: nobody there waits for threads that may wait for that callback.
+// A draw in a progress callback, say, that the renderer helps with: nobody there waits for threads that may
+// wait for that callback.
 TEST(Parallel, ATasksCallIsItsThreadsAlone) {
   constexpr int kRounds = 20;
   for (const int threads : {1, 2, 3, 8}) {
@@ -242,7 +246,8 @@ TEST(Parallel, SurvivesBeingMoved) {
 
 #if defined(__x86_64__)
 
-constexpr unsigned kDefaultMode = 0x1f80, kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000, kModeBits = 0xffc0;
+constexpr unsigned kDefaultMode = 0x1f80, kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000,
+                   kModeBits = 0xffc0;
 
 TEST(Parallel, TasksRunInTheDefaultFloatingPointMode) {
   const ThreadLimit limit(8);

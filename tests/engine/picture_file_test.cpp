@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 
 class PictureFile : public testing::Test {
  protected:
-  PictureFile() : folder_(fs::temp_directory_path() / ("tessera_picture_" + std::to_string(::getpid()))) { fs::create_directories(folder_); }
+  PictureFile() : folder_(fs::temp_directory_path() / ("tessera_picture_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
   ~PictureFile() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -37,7 +39,9 @@ class PictureFile : public testing::Test {
     }
     return "(no error)";
   }
-  std::size_t files_in_folder() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+  std::size_t files_in_folder() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
 
   fs::path folder_;
 };
@@ -53,14 +57,16 @@ TEST_F(PictureFile, NetpbmAndRawAreWrittenByteForByte) {
   write_picture(picture, path("a.ppm"));
   EXPECT_EQ(content(path("a.ppm")), std::string("P6\n2 1\n255\n\xff\0\x0a\x01\x02\x03", 17));
   write_picture(picture, path("a.PGM"));
-  EXPECT_EQ(content(path("a.PGM")), std::string("P5\n2 1\n255\n\x4e\x02", 13));  // 0.30 * 255 + 0.11 * 10 = 77.6
+  EXPECT_EQ(content(path("a.PGM")),
+            std::string("P5\n2 1\n255\n\x4e\x02", 13));  // 0.30 * 255 + 0.11 * 10 = 77.6
   write_picture(picture, path("a.raw"));
   EXPECT_EQ(content(path("a.raw")), std::string("\xff\0\x0a\xff\x01\x02\x03\xff", 8));
   EXPECT_EQ(files_in_folder(), 3u);
 }
 
 TEST_F(PictureFile, APlaneIsAPbmWithoutWhatLiesBesideThePicture) {
-  const std::array<std::uint8_t, 6> bits{0xa5, 0xff, 0x77, 0x01, 0xff, 0x77};  // 2 rows of 10 pixels, 3 bytes apart
+  const std::array<std::uint8_t, 6> bits{0xa5, 0xff, 0x77,
+                                         0x01, 0xff, 0x77};  // 2 rows of 10 pixels, 3 bytes apart
   write_plane({.bits = bits.data(), .width = 10, .height = 2, .stride_bytes = 3}, path("plane.pbm"));
   EXPECT_EQ(content(path("plane.pbm")), "P4\n10 2\n\xa5\xc0\x01\xc0");
 }
@@ -117,7 +123,8 @@ TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
   fs::create_directories(folder_ / "folder.ppm");
   EXPECT_NE(message_of(picture, path("folder.ppm")).find("Is a directory"), std::string::npos);
   fs::create_symlink("round.ppm", folder_ / "round.ppm");
-  EXPECT_NE(message_of(picture, path("round.ppm")).find("Too many levels of symbolic links"), std::string::npos);
+  EXPECT_NE(message_of(picture, path("round.ppm")).find("Too many levels of symbolic links"),
+            std::string::npos);
   if (fs::exists("/dev/full")) {
     fs::create_symlink("/dev/full", folder_ / "full.ppm");
     EXPECT_NE(message_of(picture, path("full.ppm")).find("No space left"), std::string::npos);
@@ -128,14 +135,17 @@ TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
 TEST_F(PictureFile, AReadOnlyFolderIsAnErrorAndLosesNothing) {
   write_picture(two_pixels(), path("old.ppm"));
   const std::string before = content(path("old.ppm"));
-  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec);
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_read |
+                               fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec);
   const std::string said = run_in_child("writing", {}, [&] {
     if (::geteuid() == 0 && ::setuid(65534) != 0) return std::string("cannot become nobody");
     return message_of(Picture(3, 3), path("new.ppm")) + "\n" + message_of(Picture(3, 3), path("old.ppm"));
   });
   fs::permissions(folder_, fs::perms::owner_all);
   const std::string first = said.substr(0, said.find('\n'));
-  EXPECT_TRUE(first.find("new.ppm") != std::string::npos && first.find("Permission denied") != std::string::npos) << said;
+  EXPECT_TRUE(first.find("new.ppm") != std::string::npos &&
+              first.find("Permission denied") != std::string::npos)
+      << said;
   EXPECT_TRUE(said.find("old.ppm") != std::string::npos) << said;
   EXPECT_EQ(content(path("old.ppm")), before);
   EXPECT_EQ(files_in_folder(), 1u);

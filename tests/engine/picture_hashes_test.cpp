@@ -20,7 +20,8 @@ TEST(PictureHashLists, AreReadAsTheyAreWritten) {
 }
 
 TEST(PictureHashLists, LinesOfAnotherFormAreErrors) {
-  const std::string two = "0123456789abcdef 0123456789abcdef", four = two + " " + two, good = "a " + four + "\n";
+  const std::string two = "0123456789abcdef 0123456789abcdef", four = two + " " + two,
+                    good = "a " + four + "\n";
   const struct {
     std::string text, message;
   } kBad[] = {
@@ -41,7 +42,10 @@ TEST(PictureHashLists, LinesOfAnotherFormAreErrors) {
       {good + good, "list:2: \"a\" occurs twice"},
       {std::string("\0\xff\x80", 3), "list:1: expected"},
   };
-  for (const auto& [text, message] : kBad) EXPECT_TRUE(error_of([&] { parse_picture_hashes(text, "list"); }).value_or("(no error)").starts_with(message)) << text;
+  for (const auto& [text, message] : kBad)
+    EXPECT_TRUE(
+        error_of([&] { parse_picture_hashes(text, "list"); }).value_or("(no error)").starts_with(message))
+        << text;
 }
 
 }  // namespace

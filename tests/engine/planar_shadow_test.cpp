@@ -1,4 +1,5 @@
-// Planar shadows: the matrix by the geometry that it stands for, and a draw's shadow against a mesh that was flattened by hand.
+// Planar shadows: the matrix by the geometry that it stands for, and a draw's shadow against a mesh that was
+// flattened by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,8 +34,11 @@ double dot(const Plane& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + 
 // Where the line from the light through the point meets the plane: point + t * direction, solved for t.
 std::array<double, 3> cast(const Plane& plane, const Light& light, const Point& p) {
   std::array<double, 3> direction;
-  for (std::size_t i = 0; i < 3; ++i) direction[i] = light.position[3] == 0 ? -double{light.position[i]} : p[i] - double{light.position[i]} / light.position[3];
-  const double t = -dot(plane, p) / (plane[0] * direction[0] + plane[1] * direction[1] + plane[2] * direction[2]);
+  for (std::size_t i = 0; i < 3; ++i)
+    direction[i] = light.position[3] == 0 ? -double{light.position[i]}
+                                          : p[i] - double{light.position[i]} / light.position[3];
+  const double t =
+      -dot(plane, p) / (plane[0] * direction[0] + plane[1] * direction[1] + plane[2] * direction[2]);
   return {p[0] + t * direction[0], p[1] + t * direction[1], p[2] + t * direction[2]};
 }
 
@@ -57,11 +61,15 @@ TEST(PlanarShadow, FallsWhereTheLineFromTheLightMeetsThePlane) {
     if (between) {
       EXPECT_GT(shadow[3], 0) << "clipping keeps it";
       const auto expected = cast(plane, light, p);
-      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(shadow[i] / shadow[3], expected[i], 1e-9 * (1 + std::abs(expected[i])) / std::min(1.0, shadow[3])) << turn;
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(shadow[i] / shadow[3], expected[i],
+                    1e-9 * (1 + std::abs(expected[i])) / std::min(1.0, shadow[3]))
+            << turn;
     } else if (w != 0 && ratio > 1.02) {
       EXPECT_LT(shadow[3], 0) << "beyond the light there is no shadow";
     }
-    const double length = std::abs(shadow[0]) + std::abs(shadow[1]) + std::abs(shadow[2]) + std::abs(shadow[3]);
+    const double length =
+        std::abs(shadow[0]) + std::abs(shadow[1]) + std::abs(shadow[2]) + std::abs(shadow[3]);
     EXPECT_NEAR(dot(plane, shadow) / length, 0, 1e-11) << "it lies in the plane";
   }
 }
@@ -82,10 +90,22 @@ TEST(PlanarShadow, DoesNotDependOnWhichWayTheNormalPoints) {
 // The page's matrix for a direction of travel (dx, dy, dz), which is away from the light.
 TEST(PlanarShadow, IsThePagesMatrixForADirection) {
   const double a = 0.5, b = 2, c = -1, d = 3, dx = -1, dy = -4, dz = 0.5, weight = a * dx + b * dy + c * dz;
-  const double rows[16] = {b * dy + c * dz, -b * dx, -c * dx, -d * dx,  //
-                           -a * dy, a * dx + c * dz, -c * dy, -d * dy,  //
-                           -a * dz, -b * dz, a * dx + b * dy, -d * dz,  //
-                           0, 0, 0, weight};
+  const double rows[16] = {b * dy + c * dz,
+                           -b * dx,
+                           -c * dx,
+                           -d * dx,  //
+                           -a * dy,
+                           a * dx + c * dz,
+                           -c * dy,
+                           -d * dy,  //
+                           -a * dz,
+                           -b * dz,
+                           a * dx + b * dy,
+                           -d * dz,  //
+                           0,
+                           0,
+                           0,
+                           weight};
   const Matrix m = planar_shadow({a, b, c, d}, light_at(1, 4, -0.5f, 0));
   for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(m.m[i], rows[i] / weight, 1e-15) << i;
 }
@@ -94,7 +114,9 @@ MeshData random_caster(Random& random) {
   MeshData mesh;
   // Multiples of 1/64 with heights below 2: flattened by hand without rounding.
   for (int i = 0; i < 60; ++i) {
-    const auto multiple = [&](int low, int high) { return static_cast<float>(low + below(random, high - low)) / 64; };
+    const auto multiple = [&](int low, int high) {
+      return static_cast<float>(low + below(random, high - low)) / 64;
+    };
     mesh.positions.insert(mesh.positions.end(), {multiple(-100, 100), multiple(0, 128), multiple(-100, 100)});
     for (int c = 0; c < 4; ++c) mesh.colors.push_back(random.between(0, 1));
     for (int c = 0; c < 3; ++c) mesh.normals.push_back(random.between(-1, 1));
@@ -112,13 +134,15 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
       const MeshData caster = random_caster(random);
       // Onto y = 0: straight down, or aslant by half the height, on the second of three lights.
       const float slant = turn % 2 == 0 ? 0.0f : 0.5f;
-      const std::vector<Light> lights{light_at(1, 0, 0, 0), light_at(-2 * slant, 2, 0, 0), light_at(0, 0, 1, 0)};
+      const std::vector<Light> lights{light_at(1, 0, 0, 0), light_at(-2 * slant, 2, 0, 0),
+                                      light_at(0, 0, 1, 0)};
       MeshData flat;
       for (std::size_t v = 0; v < caster.positions.size(); v += 3) {
         const float* const p = &caster.positions[v];
         flat.positions.insert(flat.positions.end(), {p[0] + slant * p[1], 0, p[2]});
       }
-      const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+      const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1),
+                        random.between(0, 1)};
       DrawState state = draw_state_of(random_fragment_state(random, format, turn));
       state.cull = static_cast<Cull>(turn % 3);
       if (format.depth != DepthFormat::none) state.polygon_offset = {-1, -4};
@@ -137,7 +161,8 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
         draw_background(frame, format);
         frame.set_lights(lights);
         frame.set_light_model({.two_sided = true});
-        frame.set_camera({.view = look_at({0, 4, 3}, {0, 0, 0}, {0, 1, 0}), .projection = perspective(45, 1.4, 1, 10)});
+        frame.set_camera(
+            {.view = look_at({0, 4, 3}, {0, 0, 0}, {0, 1, 0}), .projection = perspective(45, 1.4, 1, 10)});
         frame.draw(mesh.view(), how);
         Renderer({.threads = 1}).finish(frame);
       };
@@ -156,11 +181,15 @@ TEST(PlanarShadow, OfAPointLightGrowsWithItsDistance) {
   frame.set_camera({.projection = orthographic(-4, 4, -4, 4, -4, 4)});
   const MeshData square = rectangle(-1, -0.5f, 1, 0.5f, 2);
   frame.draw(square.view(), {.shadow_on = ShadowOn{.plane = {0, 0, 1, 0}}});
-  EXPECT_THAT(frame.explain(0), AllOf(HasSubstr("planar shadow"), HasSubstr("unlit"), HasSubstr("one colour for the draw")));
+  EXPECT_THAT(frame.explain(0),
+              AllOf(HasSubstr("planar shadow"), HasSubstr("unlit"), HasSubstr("one colour for the draw")));
   Renderer({.threads = 1}).finish(frame);
   const std::vector<std::uint32_t> words = color_words(buffer);
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) EXPECT_EQ(words[static_cast<std::size_t>(64 * y + x)], x >= 16 && x < 48 && y >= 24 && y < 40 ? 0u : 0xffffffu) << x << ' ' << y;
+    for (int x = 0; x < 64; ++x)
+      EXPECT_EQ(words[static_cast<std::size_t>(64 * y + x)],
+                x >= 16 && x < 48 && y >= 24 && y < 40 ? 0u : 0xffffffu)
+          << x << ' ' << y;
 }
 
 // The object's transform comes first, then the shadow in world space.
@@ -196,23 +225,40 @@ TEST(PlanarShadow, IsRefusedWhereThereIsNone) {
   };
   const std::vector<Light> two{light_at(0, 1, 0, 0), light_at(1, 2, 3, 1)};
   EXPECT_EQ(of(two, {.plane = {0, 1, 0, 0}}), "(no error)");
-  EXPECT_THAT(of(two, {.plane = {0, 0, 0, 5}}), HasSubstr("Frame::draw: shadow_on: the plane is 0 0 0 5, its normal must not be 0 0 0"));
-  EXPECT_THAT(of(two, {.plane = {0, nan, 0, 5}}), HasSubstr("Frame::draw: shadow_on's plane holds nan, must be finite"));
-  EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .light = 2}), HasSubstr("Frame::draw: shadow_on.light is 2, the frame has 2 lights, counted from 0"));
+  EXPECT_THAT(of(two, {.plane = {0, 0, 0, 5}}),
+              HasSubstr("Frame::draw: shadow_on: the plane is 0 0 0 5, its normal must not be 0 0 0"));
+  EXPECT_THAT(of(two, {.plane = {0, nan, 0, 5}}),
+              HasSubstr("Frame::draw: shadow_on's plane holds nan, must be finite"));
+  EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .light = 2}),
+              HasSubstr("Frame::draw: shadow_on.light is 2, the frame has 2 lights, counted from 0"));
   EXPECT_THAT(of({}, {.plane = {0, 1, 0, 0}}), HasSubstr("shadow_on.light is 0, the frame has 0 lights"));
-  EXPECT_THAT(of(two, {.plane = {1, 0, 0, 2}}), HasSubstr("Frame::draw: shadow_on: the light's direction 0 1 0 is parallel to the plane 1 0 0 2"));
-  EXPECT_THAT(of(two, {.plane = {0, 0, 2, -6}, .light = 1}), HasSubstr("Frame::draw: shadow_on: the light at 1 2 3 lies in the plane 0 0 2 -6"));
-  EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .color = {0, 0, static_cast<float>(nan), 1}}), HasSubstr("shadow_on.color holds nan"));
+  EXPECT_THAT(
+      of(two, {.plane = {1, 0, 0, 2}}),
+      HasSubstr("Frame::draw: shadow_on: the light's direction 0 1 0 is parallel to the plane 1 0 0 2"));
+  EXPECT_THAT(of(two, {.plane = {0, 0, 2, -6}, .light = 1}),
+              HasSubstr("Frame::draw: shadow_on: the light at 1 2 3 lies in the plane 0 0 2 -6"));
+  EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .color = {0, 0, static_cast<float>(nan), 1}}),
+              HasSubstr("shadow_on.color holds nan"));
   // Next to it by rounding alone, and next to it by more.
-  EXPECT_THAT(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-14}}), HasSubstr("lies in the plane"));
-  EXPECT_THAT(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -0.6}}), HasSubstr("lies in the plane"));
+  EXPECT_THAT(
+      of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-14}}),
+      HasSubstr("lies in the plane"));
+  EXPECT_THAT(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -0.6}}),
+              HasSubstr("lies in the plane"));
   EXPECT_THAT(of({light_at(0.6f, 0.8f, 0, 0)}, {.plane = {0.8, -0.6, 0, 0}}), HasSubstr("parallel"));
-  EXPECT_EQ(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-5}}), "(no error)");
+  EXPECT_EQ(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-5}}),
+            "(no error)");
   EXPECT_THAT(of({light_at(1, 0, 0, 0)}, {.plane = {1e-300, 0, 0, 1e10}}), HasSubstr("too far away"));
   EXPECT_THAT(of({light_at(0, 0, 0, 0)}, {.plane = {0, 1, 0, 0}}), HasSubstr("parallel"));
-  EXPECT_THAT(error_of([&] { planar_shadow({0, 0, 0, 0}, Light{}); }).value_or(""), HasSubstr("planar_shadow: the plane is 0 0 0 0"));
+  EXPECT_THAT(error_of([&] {
+                planar_shadow({0, 0, 0, 0}, Light{});
+              }).value_or(""),
+              HasSubstr("planar_shadow: the plane is 0 0 0 0"));
   const Light nowhere = light_at(static_cast<float>(nan), 0, 0, 1);
-  EXPECT_THAT(error_of([&] { planar_shadow({0, 0, 1, 0}, nowhere); }).value_or(""), HasSubstr("planar_shadow's light's position holds nan"));
+  EXPECT_THAT(error_of([&] {
+                planar_shadow({0, 0, 1, 0}, nowhere);
+              }).value_or(""),
+              HasSubstr("planar_shadow's light's position holds nan"));
   const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   EXPECT_FALSE(error_of([&] { planar_shadow({0, 0, huge, -huge}, light_at(0, 0, 3e38f, 1)); }));
   EXPECT_FALSE(error_of([&] { planar_shadow({0, tiny, 0, 0}, light_at(0, 1, 0, 0)); }));

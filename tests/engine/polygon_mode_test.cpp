@@ -1,5 +1,6 @@
-// Polygons drawn as lines or points: against the lines and points that their boundaries are, with facing, culling, colours and offset
-// of the whole polygon. Software drivers are known to fail at culled faces and at offsets of outlines; here each has a test.
+// Polygons drawn as lines or points: against the lines and points that their boundaries are, with facing,
+// culling, colours and offset of the whole polygon. Software drivers are known to fail at culled faces and at
+// offsets of outlines; here each has a test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,9 +21,12 @@ constexpr int kWidth = 96, kHeight = 80;
 MeshData ring(Random& random, std::uint32_t corners) {
   MeshData mesh;
   mesh.primitive = corners == 3 ? Primitive::triangles : corners == 4 ? Primitive::quads : Primitive::polygon;
-  const float x = random.between(-0.5f, 0.5f), y = random.between(-0.5f, 0.5f), size = random.between(0.3f, 1.1f), lean = random.between(-0.4f, 0.4f), turn = random.between(0, 6);
+  const float x = random.between(-0.5f, 0.5f), y = random.between(-0.5f, 0.5f),
+              size = random.between(0.3f, 1.1f), lean = random.between(-0.4f, 0.4f),
+              turn = random.between(0, 6);
   for (std::uint32_t i = 0; i < corners; ++i) {
-    const float angle = turn + 6.2831853f * static_cast<float>(i) / static_cast<float>(corners), dx = size * std::cos(angle), dy = size * std::sin(angle);
+    const float angle = turn + 6.2831853f * static_cast<float>(i) / static_cast<float>(corners),
+                dx = size * std::cos(angle), dy = size * std::sin(angle);
     for (const float c : {x + dx, y + dy, lean * dx - 0.2f * lean * dy}) mesh.positions.push_back(c);
     for (int c = 0; c < 4; ++c) mesh.colors.push_back(c == 3 ? 1 : random.between(0.1f, 1));
   }
@@ -66,19 +70,25 @@ std::vector<std::uint32_t> drawn(const std::vector<Step>& steps, int tile_size =
   Renderer({.threads = 1, .tile_size = tile_size}).finish(frame);
   return color_words(buffer);
 }
-std::ptrdiff_t lit(const std::vector<std::uint32_t>& words) { return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; }); }
+std::ptrdiff_t lit(const std::vector<std::uint32_t>& words) {
+  return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; });
+}
 
 TEST(PolygonMode, DrawsTheBoundaryAndNoDiagonal) {
   Random random(61);
   for (int turn = 0; turn < 60; ++turn) {
     const MeshData mesh = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5);
     for (const int samples : {1, 4}) {
-      const std::vector<std::uint32_t> lines = drawn({{as(Primitive::line_loop, mesh), plain()}}, 64, samples), points = drawn({{as(Primitive::points, mesh), plain()}}, 64, samples);
+      const std::vector<std::uint32_t> lines =
+                                           drawn({{as(Primitive::line_loop, mesh), plain()}}, 64, samples),
+                                       points = drawn({{as(Primitive::points, mesh), plain()}}, 64, samples);
       ASSERT_GT(lit(lines), 20);
       ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::line, PolygonMode::fill)}}, 32, samples), lines) << turn;
-      ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::point, PolygonMode::line)}}, 64, samples), points) << turn;
+      ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::point, PolygonMode::line)}}, 64, samples), points)
+          << turn;
     }
-    ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::fill, PolygonMode::point)}}), drawn({{mesh, plain()}})) << turn;
+    ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::fill, PolygonMode::point)}}), drawn({{mesh, plain()}}))
+        << turn;
   }
 }
 
@@ -114,11 +124,12 @@ TEST(PolygonMode, CullsFacesWhateverTheyAreDrawnAs) {
   }
 }
 
-// Outlines on their own polygon: moved nearer they all show, moved away none does that lies inside of it. Mesa's software driver is known to
-// get it wrong.
+// Outlines on their own polygon: moved nearer they all show, moved away none does that lies inside of it.
+// Mesa's software driver is known to get it wrong.
 TEST(PolygonMode, OffsetIsThatOfThePolygon) {
   Random random(64);
-  for (const DepthFormat depth : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
+  for (const DepthFormat depth :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (int turn = 0; turn < 40; ++turn) {
       MeshData mesh = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5), black = mesh;
       for (std::size_t c = 0; c < black.colors.size(); ++c) black.colors[c] = c % 4 == 3 ? 1.0f : 0.0f;
@@ -145,7 +156,8 @@ TEST(PolygonMode, OffsetIsThatOfThePolygon) {
       frame.draw(white.view(), plain());
       Renderer({.threads = 1}).finish(frame);
       const std::vector<std::uint32_t> filled = color_words(buffer);
-      for (std::size_t i = 0; i < hidden.size(); ++i) ASSERT_EQ(hidden[i], filled[i] != 0 ? 0u : alone[i]) << turn << ", pixel " << i;
+      for (std::size_t i = 0; i < hidden.size(); ++i)
+        ASSERT_EQ(hidden[i], filled[i] != 0 ? 0u : alone[i]) << turn << ", pixel " << i;
     }
 }
 
@@ -160,7 +172,8 @@ TEST(PolygonMode, FlatOutlinesHaveTheColorOfTheirPolygon) {
       state.provoking_vertex = convention;
       const std::size_t vertex = corners > 4 || convention == ProvokingVertex::first ? 0 : corners - 1;
       std::uint32_t word = 0;
-      for (std::size_t c = 0; c < 3; ++c) word = word << 8 | static_cast<std::uint32_t>(mesh.colors[4 * vertex + c] * 255 + 0.5f);
+      for (std::size_t c = 0; c < 3; ++c)
+        word = word << 8 | static_cast<std::uint32_t>(mesh.colors[4 * vertex + c] * 255 + 0.5f);
       const std::vector<std::uint32_t> words = drawn({{mesh, state}});
       EXPECT_GT(lit(words), 20);
       EXPECT_EQ(lit(words), std::count(words.begin(), words.end(), word)) << turn;
@@ -200,7 +213,8 @@ TEST(PolygonMode, OffsetIsASlopeAndUnits) {
 TEST(PolygonMode, ClosesTheBoundaryWhereClippingCutIt) {
   MeshData mesh;
   mesh.primitive = Primitive::quads;
-  mesh.positions = {-0.75f, -0.5f, -1.5f, 0.75f, -0.5f, 0.5f, 0.75f, 0.5f, 0.5f, -0.75f, 0.5f, -1.5f};  // x = -0.375 at the near plane
+  mesh.positions = {-0.75f, -0.5f, -1.5f, 0.75f,  -0.5f, 0.5f,
+                    0.75f,  0.5f,  0.5f,  -0.75f, 0.5f,  -1.5f};  // x = -0.375 at the near plane
   mesh.colors.assign(16, 1.0f);
   const std::vector<std::uint32_t> words = drawn({{mesh, outlined(PolygonMode::line, PolygonMode::line)}});
   constexpr std::size_t column = 29;  // the edge lies between 29 and 30, and belongs to the left one
@@ -228,11 +242,14 @@ TEST(PolygonMode, CapturesThePolygonAndItsDraw) {
   frame.clear({.depth = 1});
   frame.draw(second.view(), outlined(PolygonMode::point, PolygonMode::line));
   Renderer({.threads = 1}).finish(frame);
-  const std::vector<std::uint32_t> lines = drawn({{as(Primitive::line_loop, first), plain()}}), points = drawn({{as(Primitive::points, second), plain()}}), late = drawn({{as(Primitive::points, other), plain()}});
+  const std::vector<std::uint32_t> lines = drawn({{as(Primitive::line_loop, first), plain()}}),
+                                   points = drawn({{as(Primitive::points, second), plain()}}),
+                                   late = drawn({{as(Primitive::points, other), plain()}});
   std::ptrdiff_t of_other = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     ASSERT_EQ(objects[i], points[i] != 0 ? 1u : lines[i] != 0 ? 0u : Capture::kNothing);
-    ASSERT_TRUE(primitives[i] == (objects[i] == Capture::kNothing ? Capture::kNothing : 0u) || (primitives[i] == 1 && late[i] != 0));
+    ASSERT_TRUE(primitives[i] == (objects[i] == Capture::kNothing ? Capture::kNothing : 0u) ||
+                (primitives[i] == 1 && late[i] != 0));
     of_other += primitives[i] == 1;
   }
   EXPECT_GT(of_other, 9);

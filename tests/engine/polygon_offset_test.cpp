@@ -1,6 +1,7 @@
-// What polygon offset is for: decals. The same triangles again pass where they are one unit nearer, other polygons on the same
-// plane where they are a slope and a unit nearer; without offset they fight. And the depths that all of this rests on: cleared and
-// screen-parallel ones are exact in every format, at 32 bits too.
+// What polygon offset is for: decals. The same triangles again pass where they are one unit nearer, other
+// polygons on the same plane where they are a slope and a unit nearer; without offset they fight. And the
+// depths that all of this rests on: cleared and screen-parallel ones are exact in every format, at 32 bits
+// too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,9 +23,12 @@ struct Setting {
   bool reversed = false;
   int samples = 1;
 };
-constexpr Setting kSettings[] = {{"Unorm16", DepthFormat::unorm16}, {"Unorm24", DepthFormat::unorm24},
-                                 {"Unorm32", DepthFormat::unorm32}, {"Float32", DepthFormat::float32},
-                                 {"ReversedFloat32", DepthFormat::float32, true}, {"Unorm24FourSamples", DepthFormat::unorm24, false, 4}};
+constexpr Setting kSettings[] = {{"Unorm16", DepthFormat::unorm16},
+                                 {"Unorm24", DepthFormat::unorm24},
+                                 {"Unorm32", DepthFormat::unorm32},
+                                 {"Float32", DepthFormat::float32},
+                                 {"ReversedFloat32", DepthFormat::float32, true},
+                                 {"Unorm24FourSamples", DepthFormat::unorm24, false, 4}};
 const auto kNameOfSetting = [](const auto& setting) { return std::string(setting.param.name); };
 
 constexpr int kWidth = 96, kHeight = 64, kCases = 240;
@@ -36,14 +40,17 @@ class Decals : public testing::TestWithParam<Setting> {
   const Setting setting = GetParam();
   const float nearer = setting.reversed ? 1.0f : -1.0f;
   Renderer renderer{{.threads = 1}};
-  FrameBuffer buffer{{.width = kWidth, .height = kHeight, .depth = setting.depth, .samples = setting.samples}};
+  FrameBuffer buffer{
+      {.width = kWidth, .height = kHeight, .depth = setting.depth, .samples = setting.samples}};
   Frame frame{buffer};
 
   Camera camera() const {
     const double far = setting.reversed ? std::numeric_limits<double>::infinity() : 60;
-    return {.projection = perspective(50, static_cast<double>(kWidth) / kHeight, 0.5, far, setting.reversed), .reversed = setting.reversed};
+    return {.projection = perspective(50, static_cast<double>(kWidth) / kHeight, 0.5, far, setting.reversed),
+            .reversed = setting.reversed};
   }
-  void draw(const MeshData& mesh, const Color& color, const Matrix& transform, const PolygonOffset& offset = {}) {
+  void draw(const MeshData& mesh, const Color& color, const Matrix& transform,
+            const PolygonOffset& offset = {}) {
     DrawState state = unlit(color);
     state.transform = transform;
     state.depth.test = setting.reversed ? Compare::greater : Compare::less;
@@ -62,10 +69,13 @@ class Decals : public testing::TestWithParam<Setting> {
 
 // Some look straight at the plane, some almost, some along it.
 Matrix random_transform(Random& random, int turn) {
-  const double tilt = turn % 10 == 0 ? 0 : turn % 3 == 0 ? std::pow(10.0, random.between(-6, 0)) * 60 : random.between(0, 85);
+  const double tilt = turn % 10 == 0  ? 0
+                      : turn % 3 == 0 ? std::pow(10.0, random.between(-6, 0)) * 60
+                                      : random.between(0, 85);
   const Matrix away = translate(random.between(-1, 1), random.between(-0.7f, 0.7f), random.between(-14, -3));
   if (turn % 10 == 0) return away;
-  return away * rotate(random.between(0, 360), 0, 0, 1) * rotate(tilt, random.between(-1, 1), 1, 0) * rotate(random.between(0, 360), 0, 0, 1);
+  return away * rotate(random.between(0, 360), 0, 0, 1) * rotate(tilt, random.between(-1, 1), 1, 0) *
+         rotate(random.between(0, 360), 0, 0, 1);
 }
 
 // A sheet of 4 x 4 crooked quads.
@@ -75,7 +85,9 @@ MeshData random_sheet(Random& random) {
   for (std::uint32_t y = 0; y < kSide; ++y)
     for (std::uint32_t x = 0; x < kSide; ++x)
       for (const std::uint32_t at : {x, y, kSide})
-        mesh.positions.push_back(at == kSide ? random.between(-0.4f, 0.4f) : (static_cast<float>(at) - 2) * 0.7f + random.between(-0.3f, 0.3f));
+        mesh.positions.push_back(at == kSide
+                                     ? random.between(-0.4f, 0.4f)
+                                     : (static_cast<float>(at) - 2) * 0.7f + random.between(-0.3f, 0.3f));
   for (std::uint32_t y = 0; y + 1 < kSide; ++y)
     for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
       const std::uint32_t a = y * kSide + x;
@@ -117,7 +129,8 @@ MeshData random_decal(Random& random) {
 }
 
 // max(|dz/dx|, |dz/dy|) of the mesh's plane in the window, in multiples of the format's smallest difference.
-double slope_in_units(const Setting& setting, const Camera& camera, const Matrix& transform, const MeshData& mesh) {
+double slope_in_units(const Setting& setting, const Camera& camera, const Matrix& transform,
+                      const MeshData& mesh) {
   const Matrix clip_from_object = camera.projection * camera.view * transform;
   Vec3 window[4];
   double largest = 0;
@@ -125,16 +138,21 @@ double slope_in_units(const Setting& setting, const Camera& camera, const Matrix
     double clip[4];
     for (std::size_t row = 0; row < 4; ++row) {
       const double* const m = clip_from_object.m.data() + 4 * row;
-      clip[row] = m[0] * mesh.positions[3 * v] + m[1] * mesh.positions[3 * v + 1] + m[2] * mesh.positions[3 * v + 2] + m[3];
+      clip[row] = m[0] * mesh.positions[3 * v] + m[1] * mesh.positions[3 * v + 1] +
+                  m[2] * mesh.positions[3 * v + 2] + m[3];
     }
     const double z = clip[2] / clip[3];
-    window[v] = {clip[0] / clip[3] * kWidth / 2, clip[1] / clip[3] * kHeight / 2, camera.reversed ? z : (z + 1) / 2};
+    window[v] = {clip[0] / clip[3] * kWidth / 2, clip[1] / clip[3] * kHeight / 2,
+                 camera.reversed ? z : (z + 1) / 2};
     largest = std::max(largest, std::abs(window[v].z));
   }
-  const auto along = [&](std::size_t v) { return Vec3{window[v].x - window[0].x, window[v].y - window[0].y, window[v].z - window[0].z}; };
+  const auto along = [&](std::size_t v) {
+    return Vec3{window[v].x - window[0].x, window[v].y - window[0].y, window[v].z - window[0].z};
+  };
   const Vec3 a = along(1), b = along(3);
   const double area = a.x * b.y - a.y * b.x;
-  const double slope = std::max(std::abs(a.z * b.y - a.y * b.z), std::abs(a.x * b.z - a.z * b.x)) / std::abs(area);
+  const double slope =
+      std::max(std::abs(a.z * b.y - a.y * b.z), std::abs(a.x * b.z - a.z * b.x)) / std::abs(area);
   switch (setting.depth) {
     case DepthFormat::unorm16: return slope * 65535;
     case DepthFormat::unorm24: return slope * 16777215;
@@ -160,13 +178,16 @@ TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndTheirRoundingNearer) {
       draw(decal, kGreen, transform, offset);
       const std::vector<std::uint32_t> words = words_of_frame();
       int count = 0;
-      for (std::size_t i = 0; i < words.size(); ++i) count += alone[i] == kGreenWord && words[i] != kGreenWord;
+      for (std::size_t i = 0; i < words.size(); ++i)
+        count += alone[i] == kGreenWord && words[i] != kGreenWord;
       return count;
     };
-    // Floats between vertices are rounded, in the plane of either by up to two units: each starts from a vertex of its own.
+    // Floats between vertices are rounded, in the plane of either by up to two units: each starts from a
+    // vertex of its own.
     const double slope = slope_in_units(setting, camera(), transform, base);
     const float units = setting.depth == DepthFormat::float32 ? 5.0f : 1.0f;
-    ASSERT_EQ(hidden({nearer, nearer * units}), 0) << "case " << turn << ", a slope of " << slope << " units a pixel";
+    ASSERT_EQ(hidden({nearer, nearer * units}), 0)
+        << "case " << turn << ", a slope of " << slope << " units a pixel";
     fights += hidden({}) > 0;
     seen += static_cast<std::size_t>(std::count(alone.begin(), alone.end(), kGreenWord));
   }
@@ -176,8 +197,9 @@ TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndTheirRoundingNearer) {
 
 INSTANTIATE_TEST_SUITE_P(Depths, Decals, testing::ValuesIn(kSettings), kNameOfSetting);
 
-// Whether a level is floor(d (2^bits - 1) + 0.5), in integers: d is a whole number of 2^-shift. Within a millionth of a level around
-// the middle between two, doubles round either way (0.3 is one of them at 16 and at 32 bits), so both are right there.
+// Whether a level is floor(d (2^bits - 1) + 0.5), in integers: d is a whole number of 2^-shift. Within a
+// millionth of a level around the middle between two, doubles round either way (0.3 is one of them at 16 and
+// at 32 bits), so both are right there.
 bool is_level_of(std::uint32_t level, double d, int bits) {
   __extension__ using Wide = __int128;
   int exponent = 0;
@@ -185,7 +207,8 @@ bool is_level_of(std::uint32_t level, double d, int bits) {
   const int shift = 53 - exponent;  // at least 52
   if (shift > 90) return level == 0;
   const Wide exact = static_cast<Wide>(std::ldexp(mantissa, 53)) * ((Wide{1} << bits) - 1);
-  const Wide distance = exact - (Wide{level} << shift), half = Wide{1} << (shift - 1), doubt = Wide{1} << (shift - 20);
+  const Wide distance = exact - (Wide{level} << shift), half = Wide{1} << (shift - 1),
+             doubt = Wide{1} << (shift - 20);
   return distance >= -half - doubt && distance < half + doubt;
 }
 bool is_word_of(std::uint32_t word, double d, DepthFormat depth) {
@@ -194,19 +217,24 @@ bool is_word_of(std::uint32_t word, double d, DepthFormat depth) {
 }
 
 std::vector<double> awkward_depths() {
-  std::vector<double> depths{0, 1, 0.5, 0.1, 0.2, 0.3, 1.0 / 3, 2.0 / 3, 0.7, 0.9, 0.99999, 1 - 0x1p-16, 1 - 0x1p-24, 1 - 0x1p-25, 1 - 0x1p-30, 1 - 0x1p-31,
-                             1 - 0x1p-32, 1 - 0x1p-33, 1 - 0x1p-34, 1 - 0x1p-53, 0x1p-16, 0x1p-24, 0x1p-31, 0x1p-32, 0x1p-33, 0x1.8p-32, 0x1p-60};
+  std::vector<double> depths{0,           1,           0.5,         0.1,         0.2,         0.3,
+                             1.0 / 3,     2.0 / 3,     0.7,         0.9,         0.99999,     1 - 0x1p-16,
+                             1 - 0x1p-24, 1 - 0x1p-25, 1 - 0x1p-30, 1 - 0x1p-31, 1 - 0x1p-32, 1 - 0x1p-33,
+                             1 - 0x1p-34, 1 - 0x1p-53, 0x1p-16,     0x1p-24,     0x1p-31,     0x1p-32,
+                             0x1p-33,     0x1.8p-32,   0x1p-60};
   // On both sides of the middle between two levels.
   for (const double level : {0.0, 1.0, 16777216.0, 2147483647.0, 4294967000.0, 4294967293.0}) {
     const double middle = (level + 0.5) / 4294967295.0;
     depths.insert(depths.end(), {middle - 0x1p-50, middle, middle + 0x1p-50});
   }
   Random random(53);
-  for (int i = 0; i < 400; ++i) depths.push_back((random.next() * 0x1p32 + random.next()) * 0x1p-64 * (i % 4 == 0 ? 0x1p-8 : 1));
+  for (int i = 0; i < 400; ++i)
+    depths.push_back((random.next() * 0x1p32 + random.next()) * 0x1p-64 * (i % 4 == 0 ? 0x1p-8 : 1));
   return depths;
 }
 
-// Mesa's own software driver, llvmpipe, is known to fail this at 32 bits: its clears of a 32-bit depth buffer lose precision.
+// Mesa's own software driver, llvmpipe, is known to fail this at 32 bits: its clears of a 32-bit depth buffer
+// lose precision.
 class ExactDepth : public testing::TestWithParam<Setting> {};
 
 TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
@@ -215,7 +243,9 @@ TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
   FrameBuffer buffer({.width = 40, .height = 36, .depth = setting.depth, .samples = setting.samples});
   Frame frame(buffer);
   const MeshData window = whole_window();
-  const auto all_are = [](const std::vector<std::uint32_t>& words, std::uint32_t word) { return std::count(words.begin(), words.end(), word) == std::ssize(words); };
+  const auto all_are = [](const std::vector<std::uint32_t>& words, std::uint32_t word) {
+    return std::count(words.begin(), words.end(), word) == std::ssize(words);
+  };
   for (const double depth : awkward_depths()) {
     SCOPED_TRACE(testing::Message() << std::hexfloat << depth);
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = depth});
@@ -228,10 +258,8 @@ TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
       if (!by_range && depth < 0.5) continue;
       DrawState state = unlit({1, 1, 1, 1});
       state.depth.test = Compare::equal;
-      if (by_range)
-        state.depth_near = state.depth_far = depth;
-      else
-        state.transform = translate(0, 0, 2 * depth - 1);
+      if (by_range) state.depth_near = state.depth_far = depth;
+      else state.transform = translate(0, 0, 2 * depth - 1);
       frame.clear({.color = Color{0, 0, 0, 1}});
       frame.draw(window.view(), state);
       renderer.finish(frame);
@@ -253,13 +281,15 @@ TEST_P(ExactDepth, IsWhatClearsOfPartsStore) {
     renderer.finish(frame);
     const std::vector<std::uint32_t> words = depth_words(buffer);
     for (std::size_t i = 0; i < words.size(); ++i)
-      ASSERT_TRUE(is_word_of(words[i], i % 40 < 7 ? depth : 0.25, setting.depth)) << words[i] << " at " << i % 40 << " of " << std::hexfloat << depth;
+      ASSERT_TRUE(is_word_of(words[i], i % 40 < 7 ? depth : 0.25, setting.depth))
+          << words[i] << " at " << i % 40 << " of " << std::hexfloat << depth;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Depths, ExactDepth, testing::ValuesIn(kSettings), kNameOfSetting);
 
-// In unorm formats a unit is a level, at every pixel: the offset moves the depths that the triangle has anyway.
+// In unorm formats a unit is a level, at every pixel: the offset moves the depths that the triangle has
+// anyway.
 TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
   Random random(77);
   Renderer renderer({.threads = 1});
@@ -269,10 +299,14 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
       MeshData mesh;
       if (round == 0) {
         // All on pixel centres; depths whose steps have no end in binary.
-        mesh.positions = {-0.671875f, -0.671875f, 0, -0.359375f, -0.671875f, 2.3846e-7f, -0.671875f, -0.359375f, 0};
+        mesh.positions = {-0.671875f, -0.671875f, 0,          -0.359375f, -0.671875f,
+                          2.3846e-7f, -0.671875f, -0.359375f, 0};
       } else {
         const float steepness = std::exp2(random.between(-22, -1));
-        for (int i = 0; i < 9; ++i) mesh.positions.push_back(i % 3 == 2 ? steepness * random.between(-0.9f, 0.9f) : std::round(random.between(-31, 31)) / 32 + (round % 2 == 0 ? 1 / 64.0f : 0));
+        for (int i = 0; i < 9; ++i)
+          mesh.positions.push_back(i % 3 == 2 ? steepness * random.between(-0.9f, 0.9f)
+                                              : std::round(random.between(-31, 31)) / 32 +
+                                                    (round % 2 == 0 ? 1 / 64.0f : 0));
       }
       const auto depths = [&](float units) {
         Frame frame(buffer);
@@ -284,20 +318,26 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
         return depth_words(buffer);
       };
       const std::vector<std::uint32_t> plain = depths(0), nearer = depths(-1), farther = depths(3);
-      const std::uint32_t far_end = format == DepthFormat::unorm16 ? 0xffffu : format == DepthFormat::unorm24 ? 0xffffffu : 0xffffffffu;
+      const std::uint32_t far_end = format == DepthFormat::unorm16   ? 0xffffu
+                                    : format == DepthFormat::unorm24 ? 0xffffffu
+                                                                     : 0xffffffffu;
       for (std::size_t i = 0; i < plain.size(); ++i) {
         if (plain[i] == far_end) continue;
-        ASSERT_EQ(nearer[i], plain[i] - 1) << "round " << round << ", pixel " << i << ", " << static_cast<int>(format);
-        ASSERT_EQ(farther[i], plain[i] + 3) << "round " << round << ", pixel " << i << ", " << static_cast<int>(format);
+        ASSERT_EQ(nearer[i], plain[i] - 1)
+            << "round " << round << ", pixel " << i << ", " << static_cast<int>(format);
+        ASSERT_EQ(farther[i], plain[i] + 3)
+            << "round " << round << ", pixel " << i << ", " << static_cast<int>(format);
       }
     }
   }
 }
 
-// Clipping cuts it into pieces with largest depths of 0.3 and 0.9, whose units are not the same. Its neighbour is cut by nothing.
+// Clipping cuts it into pieces with largest depths of 0.3 and 0.9, whose units are not the same. Its
+// neighbour is cut by nothing.
 TEST(PolygonOffset, IsTheSameForAllThatClippingLeavesOfATriangle) {
   MeshData mesh;
-  mesh.positions = {-0.9f, -0.9f, -3, 0.9f, -0.9f, 0.8f, 0, 0.9f, -0.4f, 0.95f, 0.9f, -0.5f, 0.95f, 0, -0.6f, 0.5f, 0.9f, -0.7f};
+  mesh.positions = {-0.9f, -0.9f, -3,    0.9f,  -0.9f, 0.8f,  0,    0.9f, -0.4f,
+                    0.95f, 0.9f,  -0.5f, 0.95f, 0,     -0.6f, 0.5f, 0.9f, -0.7f};
   for (const float factor : {0.0f, 0.25f}) {
     const auto depths = [&](bool offset, bool neighbor_alone = false) {
       FrameBuffer buffer({.width = 64, .height = 64, .depth = DepthFormat::float32});
@@ -337,13 +377,15 @@ TEST(PolygonOffset, IsTheSameForAllThatClippingLeavesOfATriangle) {
 
 // However far it is pushed, a depth ends at 0 or 1, and not beyond them at the other end.
 TEST(PolygonOffset, EndsAtTheEndsOfTheRange) {
-  for (const DepthFormat format : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
+  for (const DepthFormat format :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (const float units : {-5e9f, -1e18f, 5e9f, 1e18f}) {
       FrameBuffer buffer({.width = 64, .height = 64, .depth = format});
       Frame frame(buffer);
       frame.clear({.depth = 0.5});
       MeshData mesh = whole_window();
-      for (std::size_t vertex = 0; vertex < 4; ++vertex) mesh.positions[3 * vertex + 2] = mesh.positions[3 * vertex] > 0 ? 1.0f : -1.0f;
+      for (std::size_t vertex = 0; vertex < 4; ++vertex)
+        mesh.positions[3 * vertex + 2] = mesh.positions[3 * vertex] > 0 ? 1.0f : -1.0f;
       DrawState state = unlit({1, 1, 1, 1});
       state.depth.test = Compare::always;
       state.polygon_offset.units = format == DepthFormat::float32 ? units * 1e15f : units;
@@ -351,7 +393,8 @@ TEST(PolygonOffset, EndsAtTheEndsOfTheRange) {
       Renderer({.threads = 1}).finish(frame);
       std::vector<float> depth(64 * 64);
       buffer.read_depth(depth);
-      for (const float d : depth) ASSERT_EQ(d, units < 0 ? 0.0f : 1.0f) << static_cast<int>(format) << " " << units;
+      for (const float d : depth)
+        ASSERT_EQ(d, units < 0 ? 0.0f : 1.0f) << static_cast<int>(format) << " " << units;
     }
 }
 

@@ -1,4 +1,5 @@
-// Strips, fans, quads and polygons against the triangles that they stand for, which are written down here by hand.
+// Strips, fans, quads and polygons against the triangles that they stand for, which are written down here by
+// hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,11 +33,26 @@ struct PrimitiveCase {
 const std::vector<PrimitiveCase>& cases() {
   static const std::vector<PrimitiveCase> kAll = {
       {"triangles", Primitive::triangles, 6, {{{0, 1, 2}, 2, 0}, {{3, 4, 5}, 5, 3}}},
-      {"strip", Primitive::triangle_strip, 6, {{{0, 1, 2}, 2, 0}, {{2, 1, 3}, 3, 1}, {{2, 3, 4}, 4, 2}, {{4, 3, 5}, 5, 3}}},
-      {"fan", Primitive::triangle_fan, 6, {{{0, 1, 2}, 2, 1}, {{0, 2, 3}, 3, 2}, {{0, 3, 4}, 4, 3}, {{0, 4, 5}, 5, 4}}},
-      {"quads", Primitive::quads, 8, {{{0, 1, 2}, 3, 0}, {{0, 2, 3}, 3, 0}, {{4, 5, 6}, 7, 4}, {{4, 6, 7}, 7, 4}}},
-      {"quad_strip", Primitive::quad_strip, 6, {{{0, 1, 3}, 3, 0}, {{0, 3, 2}, 3, 0}, {{2, 3, 5}, 5, 2}, {{2, 5, 4}, 5, 2}}},
-      {"polygon", Primitive::polygon, 6, {{{0, 1, 2}, 0, 0}, {{0, 2, 3}, 0, 0}, {{0, 3, 4}, 0, 0}, {{0, 4, 5}, 0, 0}}},
+      {"strip",
+       Primitive::triangle_strip,
+       6,
+       {{{0, 1, 2}, 2, 0}, {{2, 1, 3}, 3, 1}, {{2, 3, 4}, 4, 2}, {{4, 3, 5}, 5, 3}}},
+      {"fan",
+       Primitive::triangle_fan,
+       6,
+       {{{0, 1, 2}, 2, 1}, {{0, 2, 3}, 3, 2}, {{0, 3, 4}, 4, 3}, {{0, 4, 5}, 5, 4}}},
+      {"quads",
+       Primitive::quads,
+       8,
+       {{{0, 1, 2}, 3, 0}, {{0, 2, 3}, 3, 0}, {{4, 5, 6}, 7, 4}, {{4, 6, 7}, 7, 4}}},
+      {"quad_strip",
+       Primitive::quad_strip,
+       6,
+       {{{0, 1, 3}, 3, 0}, {{0, 3, 2}, 3, 0}, {{2, 3, 5}, 5, 2}, {{2, 5, 4}, 5, 2}}},
+      {"polygon",
+       Primitive::polygon,
+       6,
+       {{{0, 1, 2}, 0, 0}, {{0, 2, 3}, 0, 0}, {{0, 3, 4}, 0, 0}, {{0, 4, 5}, 0, 0}}},
   };
   return kAll;
 }
@@ -49,7 +65,8 @@ MeshData random_mesh(const PrimitiveCase& of, std::uint64_t seed) {
   MeshData mesh;
   mesh.primitive = of.primitive;
   for (std::uint32_t v = 0; v < of.vertices; ++v) {
-    for (int k = 0; k < 3; ++k) mesh.positions.push_back(random.between(-1.2f, 1.2f) * (k == 2 ? 0.7f : 1.0f));
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.push_back(random.between(-1.2f, 1.2f) * (k == 2 ? 0.7f : 1.0f));
     for (int k = 0; k < 3; ++k) mesh.normals.push_back(random.between(-1, 1));
     for (int k = 0; k < 4; ++k) mesh.colors.push_back(random.between(0, 1));
   }
@@ -57,7 +74,10 @@ MeshData random_mesh(const PrimitiveCase& of, std::uint64_t seed) {
 }
 
 void append(MeshData& to, const MeshData& from, std::uint32_t position, std::uint32_t rest) {
-  const auto copy = [](std::vector<float>& a, const std::vector<float>& b, std::size_t v, std::size_t each) { a.insert(a.end(), b.begin() + static_cast<std::ptrdiff_t>(v * each), b.begin() + static_cast<std::ptrdiff_t>((v + 1) * each)); };
+  const auto copy = [](std::vector<float>& a, const std::vector<float>& b, std::size_t v, std::size_t each) {
+    a.insert(a.end(), b.begin() + static_cast<std::ptrdiff_t>(v * each),
+             b.begin() + static_cast<std::ptrdiff_t>((v + 1) * each));
+  };
   copy(to.positions, from.positions, position, 3);
   copy(to.normals, from.normals, rest, 3);
   copy(to.colors, from.colors, rest, 4);
@@ -67,11 +87,16 @@ void append(MeshData& to, const MeshData& from, std::uint32_t position, std::uin
 MeshData as_triangles(const PrimitiveCase& of, const MeshData& mesh, const DrawState& state) {
   MeshData out;
   for (const Split& t : of.triangles)
-    for (const std::uint32_t corner : t.corners) append(out, mesh, corner, state.shading != Shading::flat ? corner : state.provoking_vertex == ProvokingVertex::last ? t.last : t.first);
+    for (const std::uint32_t corner : t.corners)
+      append(out, mesh, corner,
+             state.shading != Shading::flat                    ? corner
+             : state.provoking_vertex == ProvokingVertex::last ? t.last
+                                                               : t.first);
   return out;
 }
 
-Image drawn(const Mesh& mesh, const DrawState& state, FrameBufferFormat format = {.width = kWidth, .height = kHeight}) {
+Image drawn(const Mesh& mesh, const DrawState& state,
+            FrameBufferFormat format = {.width = kWidth, .height = kHeight}) {
   FrameBuffer buffer(format);
   Frame frame(buffer);
   frame.clear({.color = Color{0.1f, 0.1f, 0.1f, 1}, .depth = 1.0});
@@ -103,9 +128,13 @@ TEST(PolygonPrimitives, LookLikeTheTrianglesTheyStandFor) {
               if (with_operations) state.alpha_test = AlphaTest{.func = Compare::greater, .ref = 0.3f};
               if (with_operations && lighting) state.color_material = ColorMaterial::diffuse;
               const MeshData mesh = random_mesh(of, seed), triangles = as_triangles(of, mesh, state);
-              // Interpolated colours may round differently where a triangle's vertices are taken in another order.
-              EXPECT_LE(largest_difference(drawn(mesh.view(), state), drawn(triangles.view(), state)), shading == Shading::flat ? 0 : 1)
-                  << of.name << ", shading " << static_cast<int>(shading) << ", provoking " << static_cast<int>(provoking) << ", lit " << lighting << ", operations " << with_operations << ", seed " << seed;
+              // Interpolated colours may round differently where a triangle's vertices are taken in another
+              // order.
+              EXPECT_LE(largest_difference(drawn(mesh.view(), state), drawn(triangles.view(), state)),
+                        shading == Shading::flat ? 0 : 1)
+                  << of.name << ", shading " << static_cast<int>(shading) << ", provoking "
+                  << static_cast<int>(provoking) << ", lit " << lighting << ", operations " << with_operations
+                  << ", seed " << seed;
             }
 }
 
@@ -132,13 +161,15 @@ TEST(PolygonPrimitives, TakeIndicesOfEverySize) {
   }
 }
 
-// A bow tie whose left lobe, twice as large, is counter-clockwise and whose right one is not; split along 0-2.
+// A bow tie whose left lobe, twice as large, is counter-clockwise and whose right one is not; split along
+// 0-2.
 MeshData bow_tie(Primitive primitive) {
   MeshData mesh;
   mesh.primitive = primitive;
   const float quad[4][3] = {{-0.9f, -0.8f, 0}, {0.6f, 0.4f, 0}, {0.6f, -0.4f, 0}, {-0.9f, 0.8f, 0}};
   const int order[2][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}};
-  for (const int v : order[primitive == Primitive::quad_strip ? 1 : 0]) mesh.positions.insert(mesh.positions.end(), quad[v], quad[v] + 3);
+  for (const int v : order[primitive == Primitive::quad_strip ? 1 : 0])
+    mesh.positions.insert(mesh.positions.end(), quad[v], quad[v] + 3);
   return mesh;
 }
 std::size_t pixels_of(const MeshData& mesh, Cull cull, FrontFace front) {
@@ -156,7 +187,8 @@ TEST(PolygonPrimitives, HaveOneSideForAllTheirTriangles) {
     const MeshData tie = bow_tie(primitive);
     const std::size_t all = pixels_of(tie, Cull::none, FrontFace::ccw);
     EXPECT_GT(all, 500u);
-    const std::size_t kept[2] = {pixels_of(tie, Cull::back, FrontFace::ccw), pixels_of(tie, Cull::front, FrontFace::ccw)};
+    const std::size_t kept[2] = {pixels_of(tie, Cull::back, FrontFace::ccw),
+                                 pixels_of(tie, Cull::front, FrontFace::ccw)};
     EXPECT_EQ(kept[0], all) << "the larger lobe decides";
     EXPECT_EQ(kept[1], 0u);
     EXPECT_EQ(pixels_of(tie, Cull::back, FrontFace::cw), kept[1]);
@@ -176,7 +208,8 @@ TEST(PolygonPrimitives, HaveTheMaterialOfTheirSide) {
     state.material.emission = {1, 0, 0, 1};
     state.back_material = Material{.emission = {0, 0, 1, 1}};
     state.material.ambient = state.back_material->ambient = {0, 0, 0, 1};
-    if (with_operations) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};
+    if (with_operations)
+      state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};
     frame.draw(tie.view(), state);
     Renderer({.threads = 1}).finish(frame);
     std::size_t red = 0, blue = 0;
@@ -198,15 +231,21 @@ TEST(PolygonPrimitives, HaveOneSideWhereTheyAreClipped) {
     quad.primitive = Primitive::quads;
     quad.position_components = 4;
     for (int v = 0; v < 4; ++v)
-      for (const float x : {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2), random.between(-0.5f, 2)}) quad.positions.push_back(x);
-    const std::size_t all = pixels_of(quad, Cull::none, FrontFace::ccw), front = pixels_of(quad, Cull::back, FrontFace::ccw), back = pixels_of(quad, Cull::front, FrontFace::ccw);
-    EXPECT_TRUE((front == all && back == 0) || (front == 0 && back == all)) << "turn " << turn << ": " << front << " and " << back << " of " << all;
+      for (const float x :
+           {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2), random.between(-0.5f, 2)})
+        quad.positions.push_back(x);
+    const std::size_t all = pixels_of(quad, Cull::none, FrontFace::ccw),
+                      front = pixels_of(quad, Cull::back, FrontFace::ccw),
+                      back = pixels_of(quad, Cull::front, FrontFace::ccw);
+    EXPECT_TRUE((front == all && back == 0) || (front == 0 && back == all))
+        << "turn " << turn << ": " << front << " and " << back << " of " << all;
     drawn_ones += all > 50;
   }
   EXPECT_GT(drawn_ones, 50);
 }
 
-// Not planar: each of its triangles would be moved by a slope of its own, and by a unit of its own largest depth.
+// Not planar: each of its triangles would be moved by a slope of its own, and by a unit of its own largest
+// depth.
 TEST(PolygonPrimitives, HaveOneOffset) {
   const auto depths = [](const std::vector<float>& positions, DepthFormat format, PolygonOffset offset) {
     MeshData quad;
@@ -222,7 +261,8 @@ TEST(PolygonPrimitives, HaveOneOffset) {
     return depth_words(buffer);
   };
   const std::vector<float> folded{-0.8f, -0.8f, 0, 0.8f, -0.8f, 0.6f, 0.8f, 0.8f, 0, -0.8f, 0.8f, 0};
-  const std::vector<std::uint32_t> before = depths(folded, DepthFormat::unorm24, {}), after = depths(folded, DepthFormat::unorm24, {20, 0});
+  const std::vector<std::uint32_t> before = depths(folded, DepthFormat::unorm24, {}),
+                                   after = depths(folded, DepthFormat::unorm24, {20, 0});
   // The first triangle rises by 0.3 of depth over 0.8 of the window's width.
   const double moved = 20 * (0.3 / (0.8 * kHeight)) * 0xffffff;
   int count = 0;
@@ -233,8 +273,10 @@ TEST(PolygonPrimitives, HaveOneOffset) {
   }
   EXPECT_GT(count, 2000);
 
-  const std::vector<float> tilted{-0.8f, -0.8f, -0.1f, 0.8f, -0.8f, 0.2f, 0.8f, 0.8f, -0.1f, -0.8f, 0.8f, -0.4f};  // depths 0.45, 0.6, 0.45, 0.3
-  const std::vector<std::uint32_t> plane = depths(tilted, DepthFormat::float32, {}), unit = depths(tilted, DepthFormat::float32, {0, 1});
+  const std::vector<float> tilted{-0.8f, -0.8f, -0.1f, 0.8f,  -0.8f, 0.2f,
+                                  0.8f,  0.8f,  -0.1f, -0.8f, 0.8f,  -0.4f};  // depths 0.45, 0.6, 0.45, 0.3
+  const std::vector<std::uint32_t> plane = depths(tilted, DepthFormat::float32, {}),
+                                   unit = depths(tilted, DepthFormat::float32, {0, 1});
   for (std::size_t i = 0; i < plane.size(); ++i) {
     if (plane[i] == std::bit_cast<std::uint32_t>(1.0f)) continue;
     const float difference = std::bit_cast<float>(unit[i]) - std::bit_cast<float>(plane[i]);
@@ -275,7 +317,8 @@ TEST(PolygonPrimitives, HaveOneNormalWhereTheMeshHasNone) {
 TEST(PolygonPrimitives, AreDroppedWholeWhereAVertexIsNotFinite) {
   MeshData quads;
   quads.primitive = Primitive::quads;
-  quads.positions = {-0.9f, -0.9f, 0, -0.1f, -0.9f, 0, -0.1f, 0.9f, 0, std::nanf(""), 0.9f, 0, 0.1f, -0.9f, 0, 0.9f, -0.9f, 0, 0.9f, 0.9f, 0, 0.1f, 0.9f, 0};
+  quads.positions = {-0.9f, -0.9f, 0, -0.1f, -0.9f, 0, -0.1f, 0.9f, 0, std::nanf(""), 0.9f, 0,
+                     0.1f,  -0.9f, 0, 0.9f,  -0.9f, 0, 0.9f,  0.9f, 0, 0.1f,          0.9f, 0};
   FrameBuffer buffer({.width = kWidth, .height = kHeight});
   Frame frame(buffer);
   frame.draw(quads.view(), unlit({1, 1, 1, 1}));
@@ -296,7 +339,9 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     frame.capture({.primitives = numbers});
     frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1}).finish(frame);
-    const std::uint32_t each = of.primitive == Primitive::quads || of.primitive == Primitive::quad_strip ? 2 : of.primitive == Primitive::polygon ? 4 : 1;
+    const std::uint32_t each = of.primitive == Primitive::quads || of.primitive == Primitive::quad_strip ? 2
+                               : of.primitive == Primitive::polygon                                      ? 4
+                                                                                                         : 1;
     const std::uint32_t count = static_cast<std::uint32_t>(of.triangles.size()) / each;
     // The same triangles one by one.
     MeshData split = mesh;
@@ -310,7 +355,8 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     Renderer({.threads = 1}).finish(other);
     std::set<std::uint32_t> seen;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      ASSERT_EQ(numbers[i], of_triangles[i] == Capture::kNothing ? Capture::kNothing : of_triangles[i] / each) << of.name;
+      ASSERT_EQ(numbers[i], of_triangles[i] == Capture::kNothing ? Capture::kNothing : of_triangles[i] / each)
+          << of.name;
       seen.insert(numbers[i]);
     }
     seen.erase(Capture::kNothing);
@@ -328,13 +374,18 @@ TEST(PolygonPrimitives, ErrorsTellHowManyVerticesThereAre) {
     Frame frame(buffer);
     return error_of([&] { frame.draw(mesh.view(), {}); }).value_or("");
   };
-  EXPECT_THAT(error(Primitive::quads, 5, false), AllOf(HasSubstr("5 vertices"), HasSubstr("quads need a multiple of 4")));
+  EXPECT_THAT(error(Primitive::quads, 5, false),
+              AllOf(HasSubstr("5 vertices"), HasSubstr("quads need a multiple of 4")));
   EXPECT_THAT(error(Primitive::quads, 6, true), AllOf(HasSubstr("6 indices"), HasSubstr("a multiple of 4")));
-  EXPECT_THAT(error(Primitive::triangles, 4, false), AllOf(HasSubstr("4 vertices"), HasSubstr("triangles need a multiple of 3")));
-  EXPECT_THAT(error(Primitive::triangle_strip, 2, false), AllOf(HasSubstr("2 vertices"), HasSubstr("a triangle strip needs 3 or more")));
-  EXPECT_THAT(error(Primitive::triangle_fan, 1, true), AllOf(HasSubstr("1 indices"), HasSubstr("a triangle fan needs 3 or more")));
+  EXPECT_THAT(error(Primitive::triangles, 4, false),
+              AllOf(HasSubstr("4 vertices"), HasSubstr("triangles need a multiple of 3")));
+  EXPECT_THAT(error(Primitive::triangle_strip, 2, false),
+              AllOf(HasSubstr("2 vertices"), HasSubstr("a triangle strip needs 3 or more")));
+  EXPECT_THAT(error(Primitive::triangle_fan, 1, true),
+              AllOf(HasSubstr("1 indices"), HasSubstr("a triangle fan needs 3 or more")));
   EXPECT_THAT(error(Primitive::polygon, 2, false), HasSubstr("a polygon needs 3 or more"));
-  EXPECT_THAT(error(Primitive::quad_strip, 5, false), AllOf(HasSubstr("5 vertices"), HasSubstr("a quad strip needs 4, 6, 8, ...")));
+  EXPECT_THAT(error(Primitive::quad_strip, 5, false),
+              AllOf(HasSubstr("5 vertices"), HasSubstr("a quad strip needs 4, 6, 8, ...")));
   EXPECT_THAT(error(Primitive::quad_strip, 2, false), HasSubstr("4, 6, 8, ..."));
   for (const PrimitiveCase& of : cases()) EXPECT_EQ(error(of.primitive, 0, false), "") << of.name;
 }

@@ -22,7 +22,10 @@ struct Result {
 /// Runs TESSERA_PROGRAM in a folder of its own.
 class Program : public testing::Test {
  protected:
-  Program() : folder_(std::filesystem::temp_directory_path() / ("tessera_program_" + std::to_string(::getpid()))) { std::filesystem::create_directories(folder_); }
+  Program()
+      : folder_(std::filesystem::temp_directory_path() / ("tessera_program_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
   ~Program() override { std::filesystem::remove_all(folder_); }
 
   Result run(const std::string& arguments) const {
@@ -36,7 +39,9 @@ class Program : public testing::Test {
     const int code = code_of(arguments, "/dev/full");
     return {code, "", content("err.txt")};
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
   std::string content(const std::string& name) const {
     std::ifstream stream(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -47,12 +52,15 @@ class Program : public testing::Test {
 
  private:
   int code_of(const std::string& arguments, const std::string& out) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" TESSERA_PROGRAM "' " + arguments + " >" + out + " 2>err.txt";
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" TESSERA_PROGRAM "' " + arguments + " >" + out + " 2>err.txt";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 };
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace tessera

@@ -25,14 +25,16 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_F(Program, AloneItPrintsHelp) {
-  const Result alone = run(""), help = run("--help"), version = run("--version"), render_help = run("render --help");
+  const Result alone = run(""), help = run("--help"), version = run("--version"),
+               render_help = run("render --help");
   EXPECT_EQ(alone.code, 0);
   EXPECT_EQ(help.code, 0);
   EXPECT_TRUE(contains(alone.out, "Examples:")) << alone.out;
   EXPECT_EQ(version.code, 0);
   EXPECT_TRUE(version.out.starts_with("tessera 0.")) << version.out;
   EXPECT_EQ(render_help.code, 0);
-  for (const char* option : {"--output", "--size", "--shading", "--threads", "--color-bits", "--palette", "--planes", "--tile-size", "--isa", "--explain", "--stats"})
+  for (const char* option : {"--output", "--size", "--shading", "--threads", "--color-bits", "--palette",
+                             "--planes", "--tile-size", "--isa", "--explain", "--stats"})
     EXPECT_TRUE(contains(render_help.out, option)) << option;
 }
 
@@ -117,7 +119,8 @@ TEST_F(Program, FailuresExitWithOneAndOneLine) {
       {"render fine.json -o x.ppm --explain --stats=json", "cannot both go to the standard output"},
       {"render fine.json -o 'x{frame}.ppm' --frames 2 --planes p", "put {frame} into the name"},
       {"render fine.json -o x.ppm --compare nothing.ppm", "cannot read \"nothing.ppm\""},
-      {"render fine.json -o x.ppm --compare bad.ppm", "cannot read \"bad.ppm\": it ends before its last pixel"},
+      {"render fine.json -o x.ppm --compare bad.ppm",
+       "cannot read \"bad.ppm\": it ends before its last pixel"},
       {"render fine.json -o x.ppm --compare bad.json", "cannot read \"bad.json\""},
       {"render fine.json -o x.ppm --compare small.ppm", "the reference 1x1"},
       {"selftest --expect nothing.txt", "cannot read \"nothing.txt\": No such file or directory"},
@@ -141,7 +144,9 @@ TEST_F(Program, TheBuiltInSceneBecomesAPng) {
 }
 
 TEST_F(Program, TheNameOfThePictureComesFromTheScene) {
-  write("my scene.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 4}, "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
+  write(
+      "my scene.json",
+      R"({"tessera": 1, "framebuffer": {"width": 8, "height": 4}, "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
   EXPECT_EQ(run("render 'my scene.json'").code, 0);
   EXPECT_TRUE(exists("my scene.png"));
   EXPECT_EQ(run("render 'my scene.json' -o red.ppm").code, 0);
@@ -151,12 +156,14 @@ TEST_F(Program, TheNameOfThePictureComesFromTheScene) {
 }
 
 TEST_F(Program, TheSameBytesForAnyNumberOfThreads) {
-  for (const char* options : {"--threads 1 -o a.ppm", "--threads 5 -o b.ppm", "--tile-size 32 -o c.ppm", "--isa scalar -o d.ppm"}) {
+  for (const char* options :
+       {"--threads 1 -o a.ppm", "--threads 5 -o b.ppm", "--tile-size 32 -o c.ppm", "--isa scalar -o d.ppm"}) {
     const Result result = run(std::string("render --size 200x150 ") + options);
     EXPECT_EQ(result.code, 0) << result.err;
   }
   EXPECT_GT(content("a.ppm").size(), 90000u);
-  for (const char* other : {"b.ppm", "c.ppm", "d.ppm"}) EXPECT_TRUE(content("a.ppm") == content(other)) << other;
+  for (const char* other : {"b.ppm", "c.ppm", "d.ppm"})
+    EXPECT_TRUE(content("a.ppm") == content(other)) << other;
 }
 
 TEST_F(Program, PlanesAreWrittenOneByOne) {
@@ -218,18 +225,24 @@ TEST_F(Program, AFullDiskIsAnErrorAndLeavesNothing) {
 
 TEST_F(Program, WhatItCouldNotSayIsAnError) {
   if (!has_full_disk()) GTEST_SKIP() << "no /dev/full";
-  for (const char* arguments : {"render --size 8x8 -o term", "render --size 8x8 -o picture.ppm --stats=json", "info", "formats", "completion bash", "man", "--help", "--version", "selftest --help"}) {
+  for (const char* arguments :
+       {"render --size 8x8 -o term", "render --size 8x8 -o picture.ppm --stats=json", "info", "formats",
+        "completion bash", "man", "--help", "--version", "selftest --help"}) {
     const Result result = run_without_room(arguments);
     EXPECT_EQ(result.code, 1) << arguments;
-    EXPECT_TRUE(contains(result.err, "error: cannot write to the standard output")) << arguments << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, "error: cannot write to the standard output")) << arguments << "\n"
+                                                                                    << result.err;
   }
   EXPECT_TRUE(exists("picture.ppm")) << "which was finished before";
   EXPECT_EQ(run("render --size 8x8 --palette bw -o other.ppm").code, 0);
-  EXPECT_EQ(run_without_room("render --size 8x8 -o picture.ppm --stats=json --compare other.ppm").code, 3) << "a verdict stands";
+  EXPECT_EQ(run_without_room("render --size 8x8 -o picture.ppm --stats=json --compare other.ppm").code, 3)
+      << "a verdict stands";
 }
 
 TEST_F(Program, AnimationsMoveAndCountTheirFrames) {
-  write("move.json", R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}, "frame": [{"clear": {"color": [{"keys": [[0, 0], [1, 1]]}, 0, {"keys": [[0, 1], [0.5, 0]]}, 1]}}]})");
+  write(
+      "move.json",
+      R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}, "frame": [{"clear": {"color": [{"keys": [[0, 0], [1, 1]]}, 0, {"keys": [[0, 1], [0.5, 0]]}, 1]}}]})");
   const Result result = run("render move.json --frames 3 -o 'f_{frame}.ppm'");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto pixel = [&](const char* name) { return content(name).substr(11, 3); };
@@ -250,12 +263,17 @@ TEST_F(Program, NumbersThatBeginWithZeroAreDecimal) {
 
 TEST_F(Program, ACameraIsReversedAsTheOneOfTheScene) {
   const auto scene = [](const std::string& camera, const std::string& command) {
-    return R"({"tessera": 1, "framebuffer": {"width": 32, "height": 24}, "camera": {)" + camera + R"(}, "lights": [],
+    return R"({"tessera": 1, "framebuffer": {"width": 32, "height": 24}, "camera": {)" + camera +
+           R"(}, "lights": [],
       "materials": {"red": {"emission": [1, 0, 0, 1]}, "green": {"emission": [0, 1, 0, 1]}},
       "meshes": {"near": {"positions": [[-1, -1, 1], [1, -1, 1], [0, 1, 1]]}, "far": {"positions": [[-2, -2, -1], [2, -2, -1], [0, 2, -1]]}},
-      "frame": [)" + command + R"({"clear": {"color": [0, 0, 1, 1], "depth": 0}}, {"draw": "near", "material": "red", "depth": {"test": "greater"}}, {"draw": "far", "material": "green", "depth": {"test": "greater"}}]})";
+      "frame": [)" +
+           command +
+           R"({"clear": {"color": [0, 0, 1, 1], "depth": 0}}, {"draw": "near", "material": "red", "depth": {"test": "greater"}}, {"draw": "far", "material": "green", "depth": {"test": "greater"}}]})";
   };
-  write("written.json", scene(R"("eye": [0, 0, 5], "projection": {"fovy": 40, "near": 0.05, "far": 500, "reversed": true})", ""));
+  write("written.json",
+        scene(R"("eye": [0, 0, 5], "projection": {"fovy": 40, "near": 0.05, "far": 500, "reversed": true})",
+              ""));
   write("scene.json", scene(R"("projection": {"reversed": true})", ""));
   write("frame.json", scene("", R"({"camera": {"projection": {"reversed": true}}}, )"));
   const Result written = run("render written.json -o written.ppm");
@@ -288,20 +306,24 @@ TEST_F(Program, FewBitsArePngFilesOfFewBits) {
   const struct {
     const char* options;
     char bits, type;  // 3: palette, 0: grey
-  } kRows[] = {{"--palette bw", 1, 3}, {"--palette ega16", 4, 3}, {"--palette gray --color-bits 2", 2, 3}, {"--palette vga256", 8, 3}, {"--color-bits 1", 1, 0}, {"--color-bits 2", 2, 0}, {"--color-bits 3", 8, 2}};
+  } kRows[] = {{"--palette bw", 1, 3},     {"--palette ega16", 4, 3}, {"--palette gray --color-bits 2", 2, 3},
+               {"--palette vga256", 8, 3}, {"--color-bits 1", 1, 0},  {"--color-bits 2", 2, 0},
+               {"--color-bits 3", 8, 2}};
   for (const auto& row : kRows) {
     const Result result = run("render --size 40x30 -o p.png " + std::string(row.options));
     ASSERT_EQ(result.code, 0) << row.options << result.err;
     const std::string png = content("p.png");
     EXPECT_EQ(png[24], row.bits) << row.options;
     EXPECT_EQ(png[25], row.type) << row.options;
-    EXPECT_EQ(run("render --size 40x30 -o q.ppm --compare p.png " + std::string(row.options)).code, 0) << row.options;
+    EXPECT_EQ(run("render --size 40x30 -o q.ppm --compare p.png " + std::string(row.options)).code, 0)
+        << row.options;
   }
 }
 
 TEST_F(Program, OptionsDoNotSwallowTheScene) {
   write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
-  for (const char* options : {"--stats", "--stats=json", "--light 1,0,0", "--light 1,0,0,0 --light 0,1,0", "--explain", "--progress never"}) {
+  for (const char* options : {"--stats", "--stats=json", "--light 1,0,0", "--light 1,0,0,0 --light 0,1,0",
+                              "--explain", "--progress never"}) {
     const Result result = run("render " + std::string(options) + " s.json -o s.ppm");
     EXPECT_EQ(result.code, 0) << options << ": " << result.err;
   }
@@ -310,7 +332,8 @@ TEST_F(Program, OptionsDoNotSwallowTheScene) {
 TEST_F(Program, StatsAreJsonForPrograms) {
   const Result result = run("render --size 64x48 --repeat 3 --stats=json -o a.ppm");
   ASSERT_EQ(result.code, 0) << result.err;
-  for (const char* part : {"\"triangles_in\": 9120", "\"fragments\":", "\"render_ms_median\":", "\"stages_ms\":", "\"buffer_bytes\":", "\"threads\":"})
+  for (const char* part : {"\"triangles_in\": 9120", "\"fragments\":", "\"render_ms_median\":",
+                           "\"stages_ms\":", "\"buffer_bytes\":", "\"threads\":"})
     EXPECT_TRUE(contains(result.out, part)) << part;
   EXPECT_TRUE(result.out.starts_with("{") && result.out.ends_with("}\n"));
   EXPECT_TRUE(contains(run("render --size 64x48 --repeat 3 --stats -o a.ppm").err, "median of 3"));
@@ -320,38 +343,48 @@ TEST_F(Program, EnvironmentAndLogAreHeard) {
   ::setenv("TESSERA_THREADS", "1", 1);
   const Result one = run("render --size 8x8 --log info -o a.ppm");
   ::setenv("TESSERA_THREADS", "010", 1);
-  const Result ten = run("render --size 8x8 --log info -o a.ppm"), as_option = run("render --size 8x8 --threads 010 --log info -o a.ppm");
+  const Result ten = run("render --size 8x8 --log info -o a.ppm"),
+               as_option = run("render --size 8x8 --threads 010 --log info -o a.ppm");
   ::setenv("TESSERA_THREADS", "0x3", 1);
   const Result hexadecimal = run("render --size 8x8 -o a.ppm");
   ::setenv("TESSERA_THREADS", "many", 1);
   const Result wrong = run("render --size 8x8 -o a.ppm");
   ::unsetenv("TESSERA_THREADS");
   EXPECT_TRUE(contains(one.err, "1 thread, ")) << one.err;
-  for (const Result& result : {ten, as_option}) EXPECT_TRUE(contains(result.err, "10 threads, ")) << result.err;
+  for (const Result& result : {ten, as_option})
+    EXPECT_TRUE(contains(result.err, "10 threads, ")) << result.err;
   for (const Result& result : {hexadecimal, wrong}) {
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_TRUE(contains(result.err, "TESSERA_THREADS")) << result.err;
   }
   EXPECT_TRUE(contains(run("render --size 8x8 --log debug -o a.ppm").err, "tessera: debug: frame: "));
-  EXPECT_TRUE(contains(run("render --size 8x8 --progress=always -o a.ppm").err, " left ")) << "a line of progress";
+  EXPECT_TRUE(contains(run("render --size 8x8 --progress=always -o a.ppm").err, " left "))
+      << "a line of progress";
   EXPECT_FALSE(contains(run("render --size 8x8 -o a.ppm").err, "left"));
 }
 
 TEST_F(Program, TellsOfTheMachineAndItself) {
   const Result info = run("info"), formats = run("formats"), man = run("man");
-  for (const char* part : {"instruction sets", "cores", "caches", "CPU"}) EXPECT_TRUE(contains(info.out, part)) << info.out;
-  for (const char* part : {".json", ".obj", ".ppm", ".png"}) EXPECT_TRUE(contains(formats.out, part)) << formats.out;
+  for (const char* part : {"instruction sets", "cores", "caches", "CPU"})
+    EXPECT_TRUE(contains(info.out, part)) << info.out;
+  for (const char* part : {".json", ".obj", ".ppm", ".png"})
+    EXPECT_TRUE(contains(formats.out, part)) << formats.out;
   EXPECT_TRUE(man.out.starts_with(".TH TESSERA 1")) << man.out.substr(0, 80);
   EXPECT_TRUE(contains(man.out, "\\-\\-palette"));
-  for (const char* command : {"render", "info", "selftest", "formats", "completion", "man"}) EXPECT_TRUE(contains(man.out, std::string(".SS tessera ") + command + "\n") || contains(man.out, std::string(".SS tessera ") + command + " ")) << command;
+  for (const char* command : {"render", "info", "selftest", "formats", "completion", "man"})
+    EXPECT_TRUE(contains(man.out, std::string(".SS tessera ") + command + "\n") ||
+                contains(man.out, std::string(".SS tessera ") + command + " "))
+        << command;
   for (const char* shell : {"bash", "zsh", "fish"}) {
     const Result script = run(std::string("completion ") + shell);
     EXPECT_EQ(script.code, 0);
     EXPECT_TRUE(contains(script.out, "palette")) << shell;
   }
-  write("complete.sh", run("completion bash").out + "COMP_WORDS=(tessera render --pal); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n"
-                                                    "COMP_WORDS=(tessera render --shading g); COMP_CWORD=3; _tessera; echo \"${COMPREPLY[0]}\"\n"
-                                                    "COMP_WORDS=(tessera completion z); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n");
+  write("complete.sh",
+        run("completion bash").out +
+            "COMP_WORDS=(tessera render --pal); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n"
+            "COMP_WORDS=(tessera render --shading g); COMP_CWORD=3; _tessera; echo \"${COMPREPLY[0]}\"\n"
+            "COMP_WORDS=(tessera completion z); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n");
   const std::string command = "cd '" + folder_.string() + "' && bash complete.sh > said.txt 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(content("said.txt"), "--palette\ngouraud\nzsh\n");
@@ -360,7 +393,8 @@ TEST_F(Program, TellsOfTheMachineAndItself) {
 double seconds_of_children() {
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
 TEST_F(Program, TheSelfTestPassesInSeconds) {
@@ -369,7 +403,9 @@ TEST_F(Program, TheSelfTestPassesInSeconds) {
   const double seconds = seconds_of_children() - before;
   EXPECT_EQ(result.code, 0) << result.out << result.err;
   EXPECT_TRUE(result.err.empty()) << result.err;
-  for (const char* part : {"CPU   ", "instruction sets   ", "1 and 2 threads, ", "tex_rows_in_scene ", "coverage, ", "0 pixels wrong", "powers, ", "stored levels, ", "verdict            all is well: "})
+  for (const char* part :
+       {"CPU   ", "instruction sets   ", "1 and 2 threads, ", "tex_rows_in_scene ", "coverage, ",
+        "0 pixels wrong", "powers, ", "stored levels, ", "verdict            all is well: "})
     EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_LT(seconds, 10) << "of all cores together";
@@ -384,13 +420,17 @@ TEST_F(Program, TheSelfTestTellsWhatDiffers) {
   std::ifstream stream(TESSERA_SOURCE_DIR "/tests/picture_hashes.txt");
   const std::string kept{std::istreambuf_iterator<char>(stream), {}};
   std::size_t lines = 0;
-  for (std::size_t at = 0, end; (end = hashes.find('\n', at)) != std::string::npos; at = end + 1, ++lines) EXPECT_TRUE(contains("\n" + kept, "\n" + hashes.substr(at, end + 1 - at))) << hashes.substr(at, end - at);
+  for (std::size_t at = 0, end; (end = hashes.find('\n', at)) != std::string::npos; at = end + 1, ++lines)
+    EXPECT_TRUE(contains("\n" + kept, "\n" + hashes.substr(at, end + 1 - at))) << hashes.substr(at, end - at);
   EXPECT_GE(lines, 12u);
 
-  // A digit of one scene's colours, of another one's depths, of a third one's stencil, of a fourth one's accumulation.
-  const std::string colors = "terms_together", depths = "tex_rows_in_scene", stencil = "fx_shadow_volumes_zfail_plain", accumulation = "ops_accum_motion_blur";
+  // A digit of one scene's colours, of another one's depths, of a third one's stencil, of a fourth one's
+  // accumulation.
+  const std::string colors = "terms_together", depths = "tex_rows_in_scene",
+                    stencil = "fx_shadow_volumes_zfail_plain", accumulation = "ops_accum_motion_blur";
   std::string other = "\n" + kept;
-  for (const auto& [scene, digit] : {std::pair{colors, 3}, std::pair{depths, 20}, std::pair{stencil, 37}, std::pair{accumulation, 54}}) {
+  for (const auto& [scene, digit] :
+       {std::pair{colors, 3}, std::pair{depths, 20}, std::pair{stencil, 37}, std::pair{accumulation, 54}}) {
     const std::size_t at = other.find("\n" + scene + " ");
     ASSERT_NE(at, std::string::npos);
     char& changed = other[at + scene.size() + 2 + digit];
@@ -401,7 +441,8 @@ TEST_F(Program, TheSelfTestTellsWhatDiffers) {
   EXPECT_EQ(run("selftest --threads 1 --expect kept.txt").code, 0) << "more scenes than are rendered";
   const Result result = run("selftest --threads 1 --expect other.txt");
   EXPECT_EQ(result.code, 3) << result.out;
-  EXPECT_EQ(result.err, "tessera: error: the self-test failed: " + std::to_string(lines - 4) + " of " + std::to_string(lines) + " scenes and 3 of 3 oracles are right\n");
+  EXPECT_EQ(result.err, "tessera: error: the self-test failed: " + std::to_string(lines - 4) + " of " +
+                            std::to_string(lines) + " scenes and 3 of 3 oracles are right\n");
   EXPECT_TRUE(contains(result.out, "verdict            NOT WELL: ")) << result.out;
   std::vector<std::string> told;
   std::istringstream said(result.out);
@@ -412,8 +453,13 @@ TEST_F(Program, TheSelfTestTellsWhatDiffers) {
   EXPECT_TRUE(told[1].starts_with(stencil + "  shadow volumes")) << told[1];
   EXPECT_TRUE(told[2].starts_with(accumulation + "  accumulation")) << told[2];
   EXPECT_TRUE(told[3].starts_with(depths + "  textures")) << told[3];
-  const std::string times = result.out.substr(result.out.find("each scene         ") + 19), number = times.substr(0, times.find(' '));
-  for (const std::string& line : told) EXPECT_TRUE(contains(line, number + " of " + number + " renderings are wrong; the first: colours, depths, stencil and accumulation come to ")) << line;
+  const std::string times = result.out.substr(result.out.find("each scene         ") + 19),
+                    number = times.substr(0, times.find(' '));
+  for (const std::string& line : told)
+    EXPECT_TRUE(contains(
+        line, number + " of " + number +
+                  " renderings are wrong; the first: colours, depths, stencil and accumulation come to "))
+        << line;
 }
 
 // Things that are no models, and models that are too much: one line, in time, and in little memory.
@@ -426,14 +472,18 @@ TEST_F(Program, HostileModelsCostLittle) {
   write("escape.obj", "v 0 0 \x1b[31mRED\n");
   // 2^30 instances of a triangle.
   std::string nodes = R"({"mesh": 0})";
-  for (int i = 0; i < 30; ++i) nodes += R"(, {"children": [)" + std::to_string(i) + ", " + std::to_string(i) + "]}";
-  write("bomb.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [30]}], "nodes": [)" + nodes + R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+  for (int i = 0; i < 30; ++i)
+    nodes += R"(, {"children": [)" + std::to_string(i) + ", " + std::to_string(i) + "]}";
+  write("bomb.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [30]}], "nodes": [)" +
+                         nodes + R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
   const struct {
     const char *name, *fragment;
-  } kHostile[] = {{"pipe.stl", "no regular file"}, {"zero.stl", "no regular file"}, {"zero.obj", "no regular file"}, {"folder.glb", "a directory"},
-                  {"new\nline.stl", "new\\x0aline.stl"}, {"escape.obj", "\\x1b[31mRED"}, {"bomb.gltf", "bomb.gltf"}};
+  } kHostile[] = {
+      {"pipe.stl", "no regular file"}, {"zero.stl", "no regular file"},       {"zero.obj", "no regular file"},
+      {"folder.glb", "a directory"},   {"new\nline.stl", "new\\x0aline.stl"}, {"escape.obj", "\\x1b[31mRED"},
+      {"bomb.gltf", "bomb.gltf"}};
   for (const auto& [name, fragment] : kHostile) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     if (std::string(name) == "bomb.gltf") continue;  // there the memory has no limit
@@ -453,11 +503,15 @@ TEST_F(Program, HostileModelsCostLittle) {
 }
 
 TEST_F(Program, CtrlCEndsTheReadingOfAModel) {
-  std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1500000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 1500000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
   for (int i = 0; i < 1500000; ++i) text += "3 0 1 2\n";
   write("long.ply", text);
   const auto start = std::chrono::steady_clock::now();
-  const std::string command = "cd '" + folder_.string() + "' && timeout --foreground --preserve-status -s INT 0.3 '" TESSERA_PROGRAM "' render long.ply -o x.ppm 2>err.txt";
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --foreground --preserve-status -s INT 0.3 '" TESSERA_PROGRAM
+                              "' render long.ply -o x.ppm 2>err.txt";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130) << content("err.txt");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
@@ -466,7 +520,9 @@ TEST_F(Program, CtrlCEndsTheReadingOfAModel) {
 
 TEST_F(Program, CtrlCLeavesFinishedPicturesWhole) {
   write("long.json", R"({"tessera": 1, "framebuffer": {"width": 500, "height": 400}})");
-  const std::string command = "cd '" + folder_.string() + "' && timeout --foreground --preserve-status -s INT 1 '" TESSERA_PROGRAM "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --foreground --preserve-status -s INT 1 '" TESSERA_PROGRAM
+                              "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
   EXPECT_TRUE(contains(content("err.txt"), "finished pictures are whole"));

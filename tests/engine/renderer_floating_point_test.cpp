@@ -18,9 +18,10 @@ namespace {
 
 using namespace test;
 
-constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000, kRoundDown = 0x2000, kModeBits = 0xffc0, kMasks = 0x1f80;
-constexpr unsigned kModes[] = {kMasks | kFlushToZero | kDenormalsAreZero, kMasks | kRoundUp, kMasks | kRoundDown,
-                               kMasks | kFlushToZero | kDenormalsAreZero | kRoundUp};
+constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000, kRoundDown = 0x2000,
+                   kModeBits = 0xffc0, kMasks = 0x1f80;
+constexpr unsigned kModes[] = {kMasks | kFlushToZero | kDenormalsAreZero, kMasks | kRoundUp,
+                               kMasks | kRoundDown, kMasks | kFlushToZero | kDenormalsAreZero | kRoundUp};
 
 /// Another mode, as a host program or its plug-ins may leave it behind.
 class HostMode {
@@ -78,13 +79,20 @@ TEST(FloatingPointModeOfTheCaller, ChangesNoBitOnAnyInstructionSetAndThreadCount
   for (const InstructionSet set : available_instruction_sets())
     for (const int threads : {1, 4}) {
       SCOPED_TRACE(std::string(name(set)) + ", " + std::to_string(threads) + " threads");
-      expect_same_bits_in_every_mode({.threads = threads, .instruction_set = set}, {.width = 140, .height = 90});
-      expect_same_bits_in_every_mode({.threads = threads, .instruction_set = set}, {.width = 140, .height = 90, .color_bits = 16, .depth = DepthFormat::float32});
+      expect_same_bits_in_every_mode({.threads = threads, .instruction_set = set},
+                                     {.width = 140, .height = 90});
+      expect_same_bits_in_every_mode(
+          {.threads = threads, .instruction_set = set},
+          {.width = 140, .height = 90, .color_bits = 16, .depth = DepthFormat::float32});
     }
 }
 
 TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfIndexBuffers) {
-  expect_same_bits_in_every_mode({.threads = 1}, {.width = 140, .height = 90, .color_mode = ColorMode::index, .color_bits = 8, .depth = DepthFormat::unorm16});
+  expect_same_bits_in_every_mode({.threads = 1}, {.width = 140,
+                                                  .height = 90,
+                                                  .color_mode = ColorMode::index,
+                                                  .color_bits = 8,
+                                                  .depth = DepthFormat::unorm16});
 }
 
 TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfTheTestScenes) {
@@ -108,7 +116,13 @@ TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfTheTestScenes) {
 }
 
 TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfReadDepthsPalettesAndClears) {
-  const FrameBufferFormat format{.width = 90, .height = 2, .color_mode = ColorMode::index, .color_bits = 4, .palette = {{0.1f, 0.3f, 0.7f, 1}, {0.9f, 0.499f, 0.501f, 1}, {1.5f / 255, 2.5f / 255, 0, 1}}, .depth = DepthFormat::unorm32};
+  const FrameBufferFormat format{
+      .width = 90,
+      .height = 2,
+      .color_mode = ColorMode::index,
+      .color_bits = 4,
+      .palette = {{0.1f, 0.3f, 0.7f, 1}, {0.9f, 0.499f, 0.501f, 1}, {1.5f / 255, 2.5f / 255, 0, 1}},
+      .depth = DepthFormat::unorm32};
   std::vector<float> depths[2];
   std::vector<std::uint8_t> shown[2];
   for (const bool odd : {false, true}) {
@@ -117,7 +131,10 @@ TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfReadDepthsPalettesAndClears) {
     FrameBuffer buffer(format);
     Frame frame(buffer);
     Random random(4);
-    for (int x = 0; x < 90; ++x) frame.clear({.index = static_cast<std::uint32_t>(x % 3), .depth = random.between(0, 1), .scissor = Rect{x, 0, 1, 2}});
+    for (int x = 0; x < 90; ++x)
+      frame.clear({.index = static_cast<std::uint32_t>(x % 3),
+                   .depth = random.between(0, 1),
+                   .scissor = Rect{x, 0, 1, 2}});
     renderer.finish(frame);
     depths[odd].resize(180);
     buffer.read_depth(depths[odd]);

@@ -1,4 +1,5 @@
-// Renderers, frames and frame buffers: used again and again, on threads of their own, moved around, without growing.
+// Renderers, frames and frame buffers: used again and again, on threads of their own, moved around, without
+// growing.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -23,13 +24,16 @@ Fingerprint picture(Renderer& renderer, const RandomFrame& random) {
   renderer.finish(frame);
   return fingerprint(buffer);
 }
-RandomFrame frame_of(int width, int height, ColorMode mode = ColorMode::rgb, int bits = 24, DepthFormat depth = DepthFormat::unorm24) {
-  return RandomFrame({.width = width, .height = height, .color_mode = mode, .color_bits = bits, .depth = depth}, 300);
+RandomFrame frame_of(int width, int height, ColorMode mode = ColorMode::rgb, int bits = 24,
+                     DepthFormat depth = DepthFormat::unorm24) {
+  return RandomFrame(
+      {.width = width, .height = height, .color_mode = mode, .color_bits = bits, .depth = depth}, 300);
 }
 
 TEST(Renderers, OnThreadsOfTheirOwnGiveTheBitsThatTheyGiveAlone) {
   const ThreadLimit limit(4);
-  const RandomFrame wide = frame_of(200, 90), high = frame_of(90, 170, ColorMode::index, 8, DepthFormat::float32);
+  const RandomFrame wide = frame_of(200, 90),
+                    high = frame_of(90, 170, ColorMode::index, 8, DepthFormat::float32);
   Renderer alone({.threads = 1});
   const Fingerprint expected[2] = {picture(alone, wide), picture(alone, high)};
   int wrong[4] = {};
@@ -47,13 +51,15 @@ TEST(Renderers, OnThreadsOfTheirOwnGiveTheBitsThatTheyGiveAlone) {
 }
 
 TEST(Renderers, DrawFramesOfAnySizeAfterEachOther) {
-  const RandomFrame frames[] = {frame_of(300, 200), frame_of(1, 1), frame_of(700, 20, ColorMode::rgb, 8, DepthFormat::none), frame_of(33, 400, ColorMode::index, 4),
-                                frame_of(64, 64, ColorMode::rgb, 1, DepthFormat::unorm32)};
+  const RandomFrame frames[] = {
+      frame_of(300, 200), frame_of(1, 1), frame_of(700, 20, ColorMode::rgb, 8, DepthFormat::none),
+      frame_of(33, 400, ColorMode::index, 4), frame_of(64, 64, ColorMode::rgb, 1, DepthFormat::unorm32)};
   Renderer kept({.threads = 2});
   for (int round = 0; round < 2; ++round)
     for (const RandomFrame& random : frames) {
       Renderer fresh({.threads = 1});
-      EXPECT_EQ(picture(kept, random), picture(fresh, random)) << random.format.width << " x " << random.format.height;
+      EXPECT_EQ(picture(kept, random), picture(fresh, random))
+          << random.format.width << " x " << random.format.height;
     }
 }
 
@@ -75,7 +81,8 @@ TEST(Renderers, SayWhatTheyChose) {
   EXPECT_EQ(Renderer({.threads = 5}).options().threads, 5);
   EXPECT_GE(Renderer().options().threads, 1);
   EXPECT_EQ(Renderer().options().instruction_set, available_instruction_sets().front());
-  EXPECT_EQ(Renderer({.instruction_set = InstructionSet::scalar}).options().instruction_set, InstructionSet::scalar);
+  EXPECT_EQ(Renderer({.instruction_set = InstructionSet::scalar}).options().instruction_set,
+            InstructionSet::scalar);
   EXPECT_EQ(Renderer({.tile_size = 32}).options().tile_size, 32);
   EXPECT_FALSE(Renderer({.defer_shading = false}).options().defer_shading);
 }

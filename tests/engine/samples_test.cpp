@@ -1,5 +1,5 @@
-// Coverage samples as callers see them: which of them a triangle covers, by a rule of its own in exact integers, what is left of
-// them after the frame, and what they cost a buffer that stores none.
+// Coverage samples as callers see them: which of them a triangle covers, by a rule of its own in exact
+// integers, what is left of them after the frame, and what they cost a buffer that stores none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 256, kHeight = 128;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
+constexpr int kWidth = 256,
+              kHeight = 128;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
 constexpr int kScale = 256;
 
 FrameBufferFormat format_of(int samples) { return {.width = kWidth, .height = kHeight, .samples = samples}; }
@@ -42,15 +43,21 @@ const std::vector<Point>& pattern(int samples) {
       kEight{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
   return samples == 1 ? kOne : samples == 4 ? kFour : kEight;
 }
-Point sample_of(int x, int y, const Point& offset) { return {kScale * x + kScale / 2 + offset.x * (kScale / 16), kScale * y + kScale / 2 + offset.y * (kScale / 16)}; }
+Point sample_of(int x, int y, const Point& offset) {
+  return {kScale * x + kScale / 2 + offset.x * (kScale / 16),
+          kScale * y + kScale / 2 + offset.y * (kScale / 16)};
+}
 
-// Whether the triangle covers a point. A point on an edge belongs to it where the edge is a left or a top one: the triangle lies to
-// the right of it, or below.
+// Whether the triangle covers a point. A point on an edge belongs to it where the edge is a left or a top
+// one: the triangle lies to the right of it, or below.
 bool covers(Triangle t, const Point& p) {
-  const auto side = [](const Point& a, const Point& b, const Point& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
+  const auto side = [](const Point& a, const Point& b, const Point& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  };
   const std::int64_t area = side(t[0], t[1], t[2]);
   if (area == 0) return false;
-  if (area < 0) std::swap(t[1], t[2]);  // clockwise as it is seen: edges go up on the left, to the right at the top
+  if (area < 0)
+    std::swap(t[1], t[2]);  // clockwise as it is seen: edges go up on the left, to the right at the top
   for (std::size_t k = 0; k < 3; ++k) {
     const Point &a = t[k], &b = t[(k + 1) % 3];
     const std::int64_t inside = side(a, b, p);
@@ -60,30 +67,49 @@ bool covers(Triangle t, const Point& p) {
   return true;
 }
 int covered_samples(const Triangle& t, int x, int y, int samples) {
-  return static_cast<int>(std::count_if(pattern(samples).begin(), pattern(samples).end(), [&](const Point& offset) { return covers(t, sample_of(x, y, offset)); }));
+  return static_cast<int>(
+      std::count_if(pattern(samples).begin(), pattern(samples).end(),
+                    [&](const Point& offset) { return covers(t, sample_of(x, y, offset)); }));
 }
 bool in(const std::optional<Rect>& scissor, int x, int y) {
   const int from_below = kHeight - 1 - y;
-  return !scissor || (x >= scissor->x && x < scissor->x + scissor->width && from_below >= scissor->y && from_below < scissor->y + scissor->height);
+  return !scissor || (x >= scissor->x && x < scissor->x + scissor->width && from_below >= scissor->y &&
+                      from_below < scissor->y + scissor->height);
 }
-std::uint32_t mean_level(int sum, int samples) { return static_cast<std::uint32_t>(std::floor(static_cast<double>(sum) / samples + 0.5)); }
+std::uint32_t mean_level(int sum, int samples) {
+  return static_cast<std::uint32_t>(std::floor(static_cast<double>(sum) / samples + 0.5));
+}
 
 std::int64_t below(Random& random, std::int64_t n) { return static_cast<std::int64_t>(random.next()) % n; }
-Point random_point(Random& random) { return {below(random, kWidth * kScale), below(random, kHeight * kScale)}; }
+Point random_point(Random& random) {
+  return {below(random, kWidth * kScale), below(random, kHeight * kScale)};
+}
 
-// Tiny and large ones, slivers, ones on sample positions, ones around the borders of tiles, ones that reach far out of the window.
+// Tiny and large ones, slivers, ones on sample positions, ones around the borders of tiles, ones that reach
+// far out of the window.
 Triangle random_triangle(Random& random, int turn) {
   const Point center = random_point(random);
   Triangle t;
   for (Point& p : t) {
-    const auto around = [&](std::int64_t reach) { return Point{center.x + below(random, 2 * reach + 1) - reach, center.y + below(random, 2 * reach + 1) - reach}; };
+    const auto around = [&](std::int64_t reach) {
+      return Point{center.x + below(random, 2 * reach + 1) - reach,
+                   center.y + below(random, 2 * reach + 1) - reach};
+    };
     switch (turn % 6) {
       case 0: p = around(300); break;
       case 1: p = around(8 * kScale); break;
       case 2: p = random_point(random); break;
-      case 3: p = {20 * below(random, kWidth * kScale) - 8 * kWidth * kScale, 20 * below(random, kHeight * kScale) - 8 * kHeight * kScale}; break;
-      case 4: p = sample_of(static_cast<int>(below(random, kWidth)), static_cast<int>(below(random, kHeight)), pattern(8)[random.next() % 8]); break;
-      default: p = {32 * kScale * (below(random, 3) + 3) + below(random, 257) - 128, 32 * kScale * (below(random, 3) + 1) + below(random, 257) - 128};
+      case 3:
+        p = {20 * below(random, kWidth * kScale) - 8 * kWidth * kScale,
+             20 * below(random, kHeight * kScale) - 8 * kHeight * kScale};
+        break;
+      case 4:
+        p = sample_of(static_cast<int>(below(random, kWidth)), static_cast<int>(below(random, kHeight)),
+                      pattern(8)[random.next() % 8]);
+        break;
+      default:
+        p = {32 * kScale * (below(random, 3) + 3) + below(random, 257) - 128,
+             32 * kScale * (below(random, 3) + 1) + below(random, 257) - 128};
     }
   }
   return t;
@@ -95,7 +121,9 @@ class Samples : public testing::TestWithParam<int> {
 };
 
 TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
-  Renderer renderers[3] = {Renderer({.threads = 1, .tile_size = 32}), Renderer({.threads = 1, .tile_size = 64}), Renderer({.threads = 1, .tile_size = 128})};
+  Renderer renderers[3] = {Renderer({.threads = 1, .tile_size = 32}),
+                           Renderer({.threads = 1, .tile_size = 64}),
+                           Renderer({.threads = 1, .tile_size = 128})};
   Random random(31);
   std::uint64_t in_part = 0;
   for (int turn = 0; turn < 180; ++turn) {
@@ -104,7 +132,8 @@ TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
     DrawState white = unlit({1, 1, 1, 1});
     if (turn % 4 == 3) {
       const int x = static_cast<int>(below(random, kWidth)), y = static_cast<int>(below(random, kHeight));
-      white.scissor = Rect{x / 2, y / 2, 1 + static_cast<int>(below(random, kWidth)), 1 + static_cast<int>(below(random, kHeight))};
+      white.scissor = Rect{x / 2, y / 2, 1 + static_cast<int>(below(random, kWidth)),
+                           1 + static_cast<int>(below(random, kHeight))};
     }
     std::vector<std::uint32_t> expected;
     std::uint64_t shaded = 0;
@@ -119,17 +148,21 @@ TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
       FrameBuffer buffer(format_of(samples));
       Frame frame(buffer);
       frame.draw(mesh.view(), white);
-      ASSERT_EQ(renderer.finish(frame).shaded_pixels, shaded) << "triangle " << turn << ", tiles of " << renderer.options().tile_size;
+      ASSERT_EQ(renderer.finish(frame).shaded_pixels, shaded)
+          << "triangle " << turn << ", tiles of " << renderer.options().tile_size;
       const std::vector<std::uint32_t> found = color_words(buffer);
       const auto differ = std::mismatch(found.begin(), found.end(), expected.begin());
-      ASSERT_TRUE(differ.first == found.end()) << "triangle " << turn << ", tiles of " << renderer.options().tile_size << ", pixel " << (differ.first - found.begin()) % kWidth << ", "
-                                               << (differ.first - found.begin()) / kWidth << ": " << std::hex << *differ.first << ", not " << *differ.second;
+      ASSERT_TRUE(differ.first == found.end())
+          << "triangle " << turn << ", tiles of " << renderer.options().tile_size << ", pixel "
+          << (differ.first - found.begin()) % kWidth << ", " << (differ.first - found.begin()) / kWidth
+          << ": " << std::hex << *differ.first << ", not " << *differ.second;
     }
   }
   EXPECT_GE(in_part, samples > 1 ? 10000u : 0u);
 }
 
-// A sheet of triangles whose inner corners lie anywhere, each added to what is there: a sample that belonged to two or to none would show.
+// A sheet of triangles whose inner corners lie anywhere, each added to what is there: a sample that belonged
+// to two or to none would show.
 TEST_P(Samples, BelongToOneOfTheTrianglesThatShareAnEdge) {
   Renderer renderer({.threads = 1});
   Random random(32);
@@ -149,10 +182,8 @@ TEST_P(Samples, BelongToOneOfTheTrianglesThatShareAnEdge) {
     for (std::uint32_t row = 0; row < kRows; ++row)
       for (std::uint32_t column = 0; column < kColumns; ++column) {
         const std::uint32_t a = row * (kColumns + 1) + column, b = a + 1, c = a + kColumns + 1, d = c + 1;
-        if (random.next() % 2 == 0)
-          mesh.indices.insert(mesh.indices.end(), {a, b, c, b, c, d});
-        else
-          mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+        if (random.next() % 2 == 0) mesh.indices.insert(mesh.indices.end(), {a, b, c, b, c, d});
+        else mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
       }
     FrameBuffer buffer(format_of(samples));
     Frame frame(buffer);
@@ -162,18 +193,22 @@ TEST_P(Samples, BelongToOneOfTheTrianglesThatShareAnEdge) {
     frame.draw(mesh.view(), grey);
     renderer.finish(frame);
     const std::vector<std::uint32_t> words = color_words(buffer);
-    ASSERT_EQ(std::count(words.begin(), words.end(), 0x404040u), std::ptrdiff_t{kWidth} * kHeight) << "sheet " << turn;
+    ASSERT_EQ(std::count(words.begin(), words.end(), 0x404040u), std::ptrdiff_t{kWidth} * kHeight)
+        << "sheet " << turn;
   }
 }
 
 TEST_P(Samples, AreKeptToTheEndOfTheFrame) {
   Renderer renderer({.threads = 1});
   Random random(33);
-  // Two triangles that share the long edge: in one frame they are white all over, in two the edge has gone grey in between.
+  // Two triangles that share the long edge: in one frame they are white all over, in two the edge has gone
+  // grey in between.
   for (const bool in_one_frame : {true, false}) {
     for (int turn = 0; turn < 10; ++turn) {
-      const Point a{below(random, 20 * kScale), below(random, kHeight * kScale)}, b{kWidth * kScale - below(random, 20 * kScale), below(random, kHeight * kScale)};
-      const Triangle upper{a, b, Point{kWidth * kScale / 2, -200 * kScale}}, lower{a, b, Point{kWidth * kScale / 2, 300 * kScale}};
+      const Point a{below(random, 20 * kScale), below(random, kHeight * kScale)},
+          b{kWidth * kScale - below(random, 20 * kScale), below(random, kHeight * kScale)};
+      const Triangle upper{a, b, Point{kWidth * kScale / 2, -200 * kScale}},
+          lower{a, b, Point{kWidth * kScale / 2, 300 * kScale}};
       const MeshData first = mesh_of(upper), second = mesh_of(lower);
       FrameBuffer buffer(format_of(samples));
       Frame frame(buffer);
@@ -186,11 +221,14 @@ TEST_P(Samples, AreKeptToTheEndOfTheFrame) {
       const std::vector<std::uint32_t> words = color_words(buffer);
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-          const int before = covered_samples(upper, x, y, samples), after = covered_samples(lower, x, y, samples);
+          const int before = covered_samples(upper, x, y, samples),
+                    after = covered_samples(lower, x, y, samples);
           const std::uint32_t between = mean_level(255 * before, samples);
           const std::uint32_t expected =
-              in_one_frame ? mean_level(255 * (before + after), samples) : mean_level(255 * after + static_cast<int>(between) * (samples - after), samples);
-          ASSERT_EQ(words[static_cast<std::size_t>(y * kWidth + x)], 0x010101u * expected) << x << ", " << y << (in_one_frame ? " in one frame" : " in two frames");
+              in_one_frame ? mean_level(255 * (before + after), samples)
+                           : mean_level(255 * after + static_cast<int>(between) * (samples - after), samples);
+          ASSERT_EQ(words[static_cast<std::size_t>(y * kWidth + x)], 0x010101u * expected)
+              << x << ", " << y << (in_one_frame ? " in one frame" : " in two frames");
         }
     }
   }
@@ -203,7 +241,10 @@ TEST_P(Samples, LeaveDepthAndStencilOfTheFirst) {
     const Triangle triangle = random_triangle(random, 2);
     // Depth rises to the right and downwards: 0.25 + x / 1024 + y / 512, with x and y in pixels.
     MeshData mesh;
-    const auto depth_at = [](const Point& p) { return 0.25 + static_cast<double>(p.x) / (1024.0 * kScale) + static_cast<double>(p.y) / (512.0 * kScale); };
+    const auto depth_at = [](const Point& p) {
+      return 0.25 + static_cast<double>(p.x) / (1024.0 * kScale) +
+             static_cast<double>(p.y) / (512.0 * kScale);
+    };
     for (const Point& p : triangle) add(mesh, p, static_cast<float>(2 * depth_at(p) - 1));
     FrameBuffer buffer(format_of(samples));
     Frame frame(buffer);
@@ -221,12 +262,14 @@ TEST_P(Samples, LeaveDepthAndStencilOfTheFirst) {
         const bool covered = covers(triangle, first);
         ASSERT_EQ(stencil[i], covered ? 9 : 3) << x << ", " << y;
         const double level = covered ? std::floor(depth_at(first) * 0xffffff + 0.5) : 0xffffff;
-        ASSERT_NEAR(levels[i], level, covered ? 2 : 0) << x << ", " << y;  // a pixel to the right is 16384 levels
+        ASSERT_NEAR(levels[i], level, covered ? 2 : 0)
+            << x << ", " << y;  // a pixel to the right is 16384 levels
       }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, Samples, testing::Values(1, 4, 8), [](const auto& count) { return "Of" + std::to_string(count.param); });
+INSTANTIATE_TEST_SUITE_P(Patterns, Samples, testing::Values(1, 4, 8),
+                         [](const auto& count) { return "Of" + std::to_string(count.param); });
 
 TEST(SamplesInMemory, TakeNoneBetweenFrames) {
   constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
@@ -247,7 +290,8 @@ TEST(SamplesInMemory, TakeNoneBetweenFrames) {
       frame.draw(triangle.view(), unlit({1, 1, 1, 1}));
       renderer.finish(frame);
     }
-    for (const Buffer which : kBuffers) EXPECT_EQ(sampled.allocated_bytes(which), plain.allocated_bytes(which)) << static_cast<int>(which);
+    for (const Buffer which : kBuffers)
+      EXPECT_EQ(sampled.allocated_bytes(which), plain.allocated_bytes(which)) << static_cast<int>(which);
     EXPECT_GT(sampled.allocated_bytes(Buffer::color), 0u);
   }
 }

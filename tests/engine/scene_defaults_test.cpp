@@ -9,8 +9,12 @@
 namespace tessera {
 namespace {
 
-Scene parse(const std::string& keys) { return parse_scene("{\"tessera\": 1" + (keys.empty() ? "" : ", " + keys) + "}", "test.json"); }
-const DrawCommand& draw_of(const Scene& scene, std::size_t i) { return std::get<DrawCommand>(scene.frame.at(i).what); }
+Scene parse(const std::string& keys) {
+  return parse_scene("{\"tessera\": 1" + (keys.empty() ? "" : ", " + keys) + "}", "test.json");
+}
+const DrawCommand& draw_of(const Scene& scene, std::size_t i) {
+  return std::get<DrawCommand>(scene.frame.at(i).what);
+}
 const Clear& clear_of(const Scene& scene, std::size_t i) { return std::get<Clear>(scene.frame.at(i).what); }
 bool same(const Matrix& a, const Matrix& b) { return a.m == b.m; }
 bool same(Color a, Color b) { return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a; }
@@ -34,7 +38,8 @@ TEST(SceneDefaults, AnEmptySceneIsOneClear) {
 }
 
 TEST(SceneDefaults, TheDefaultFrameDrawsEveryMeshInTheOrderOfTheFile) {
-  const Scene scene = parse(R"("meshes": {"z": {"builtin": "cube"}, "a": {"builtin": "quad"}, "m": {"builtin": "grid", "detail": 2}})");
+  const Scene scene = parse(
+      R"("meshes": {"z": {"builtin": "cube"}, "a": {"builtin": "quad"}, "m": {"builtin": "grid", "detail": 2}})");
   ASSERT_EQ(scene.frame.size(), 4u);
   EXPECT_EQ(scene.meshes[draw_of(scene, 1).mesh].name, "z");
   EXPECT_EQ(scene.meshes[draw_of(scene, 2).mesh].name, "a");
@@ -46,7 +51,8 @@ TEST(SceneDefaults, TheDefaultFrameDrawsEveryMeshInTheOrderOfTheFile) {
 }
 
 TEST(SceneDefaults, AReversedProjectionTurnsTheDefaultFrameRound) {
-  const Scene scene = parse(R"("meshes": {"m": {"builtin": "cube"}}, "camera": {"projection": {"reversed": true, "far": "infinity"}})");
+  const Scene scene = parse(
+      R"("meshes": {"m": {"builtin": "cube"}}, "camera": {"projection": {"reversed": true, "far": "infinity"}})");
   EXPECT_TRUE(scene.camera.reversed);
   EXPECT_EQ(std::get<Lens>(scene.camera.projection).far, std::numeric_limits<double>::infinity());
   EXPECT_EQ(clear_of(scene, 0).depth, 0.0);
@@ -54,18 +60,21 @@ TEST(SceneDefaults, AReversedProjectionTurnsTheDefaultFrameRound) {
 }
 
 TEST(SceneDefaults, WithoutDepthAndStencilNothingClearsOrTestsThem) {
-  const Scene scene = parse(R"("framebuffer": {"depth": "none", "stencil": 0}, "meshes": {"m": {"builtin": "cube"}})");
+  const Scene scene =
+      parse(R"("framebuffer": {"depth": "none", "stencil": 0}, "meshes": {"m": {"builtin": "cube"}})");
   EXPECT_FALSE(clear_of(scene, 0).depth);
   EXPECT_FALSE(clear_of(scene, 0).stencil);
   EXPECT_FALSE(draw_of(scene, 1).state.depth.enabled);
-  const Scene written = parse(R"("framebuffer": {"depth": "none"}, "meshes": {"m": {"builtin": "cube"}}, "frame": [{"draw": "m"}, {"draw": "m", "depth": false}])");
+  const Scene written = parse(
+      R"("framebuffer": {"depth": "none"}, "meshes": {"m": {"builtin": "cube"}}, "frame": [{"draw": "m"}, {"draw": "m", "depth": false}])");
   EXPECT_FALSE(draw_of(written, 0).state.depth.enabled);
   EXPECT_FALSE(draw_of(written, 1).state.depth.enabled);
 }
 
 TEST(SceneDefaults, AnEmptyListOfLightsIsNone) {
   EXPECT_TRUE(parse(R"("lights": [])").lights.empty());
-  const Scene scene = parse(R"("lights": [{}, {"position": [1, 2, 3, 1], "spot_cutoff": 30, "attenuation": [0, 1, 2]}])");
+  const Scene scene =
+      parse(R"("lights": [{}, {"position": [1, 2, 3, 1], "spot_cutoff": 30, "attenuation": [0, 1, 2]}])");
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.lights[0].spot_cutoff, 180);
   EXPECT_EQ(scene.lights[1].position[1], 2);
@@ -153,7 +162,8 @@ TEST(SceneDefaults, NumbersOfLongListsMayChangeToo) {
 }
 
 TEST(SceneDefaults, CamerasAndLightsChangeInBetween) {
-  const Scene scene = parse(R"("frame": [{"camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,-5, 0,0,0,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "reversed": true}},
+  const Scene scene = parse(
+      R"("frame": [{"camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,-5, 0,0,0,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "reversed": true}},
                                          {"lights": []}, {"lights": [{}, {}]}])");
   const auto& camera = std::get<SceneCamera>(scene.frame[0].what);
   EXPECT_TRUE(camera.reversed);
@@ -206,7 +216,8 @@ TEST(SceneOverrides, BitsAndPaletteMustFit) {
   Scene grey = builtin_scene();
   apply({.color_bits = 3, .palette = "gray"}, grey);
   EXPECT_EQ(grey.framebuffer.palette.size(), 8u);
-  Scene own = parse(R"("framebuffer": {"color": {"mode": "index", "bits": 2}, "palette": [[0,0,0],[1,0,0],[1,1,1]]})");
+  Scene own = parse(
+      R"("framebuffer": {"color": {"mode": "index", "bits": 2}, "palette": [[0,0,0],[1,0,0],[1,1,1]]})");
   EXPECT_THROW(apply({.color_bits = 1}, own), Error);
   Scene rgb = builtin_scene();
   apply({.color_bits = 16}, rgb);

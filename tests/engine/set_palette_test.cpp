@@ -58,16 +58,19 @@ TEST(Palette, ErrorsChangeNothing) {
   Renderer({.threads = 1}).finish(frame);
   const auto before = shown(buffer);
   std::vector<Color> entries(65);
-  EXPECT_THAT(error_of([&] { buffer.set_palette(entries); }).value_or(""), AllOf(HasSubstr("65"), HasSubstr("at most 64")));
+  EXPECT_THAT(error_of([&] { buffer.set_palette(entries); }).value_or(""),
+              AllOf(HasSubstr("65"), HasSubstr("at most 64")));
   entries.resize(10);
   for (const float wrong : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
     entries[7].g = wrong;
-    EXPECT_THAT(error_of([&] { buffer.set_palette(entries); }).value_or(""), AllOf(HasSubstr("entry 7"), HasSubstr("0 to 1")));
+    EXPECT_THAT(error_of([&] { buffer.set_palette(entries); }).value_or(""),
+                AllOf(HasSubstr("entry 7"), HasSubstr("0 to 1")));
   }
   EXPECT_EQ(shown(buffer), before);
   EXPECT_EQ(buffer.format().palette.size(), 16u);
   entries[7].g = 1;
-  EXPECT_THAT(error_of([&] { rgb.set_palette(entries); }).value_or(""), AllOf(HasSubstr("set_palette"), HasSubstr("rgb")));
+  EXPECT_THAT(error_of([&] { rgb.set_palette(entries); }).value_or(""),
+              AllOf(HasSubstr("set_palette"), HasSubstr("rgb")));
   EXPECT_EQ(error_of([&] { buffer.set_palette(entries); }), std::nullopt);
 }
 

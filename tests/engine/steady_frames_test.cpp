@@ -32,13 +32,19 @@ long allocations_of(const Act& act) {
 
 /// @param before_the_last  is called before the frame that may take none
 template <class Scene>
-void expect_steady(const Scene& scene, const RendererOptions& options, bool keeps_planes, const std::function<void()>& before_the_last = [] {}) {
-  SCOPED_TRACE(std::to_string(options.threads) + (options.threads > 1 ? " threads" : " thread") + (keeps_planes ? ", planes" : ", an image"));
+void expect_steady(
+    const Scene& scene, const RendererOptions& options, bool keeps_planes,
+    const std::function<void()>& before_the_last = [] {}) {
+  SCOPED_TRACE(std::to_string(options.threads) + (options.threads > 1 ? " threads" : " thread") +
+               (keeps_planes ? ", planes" : ", an image"));
   Renderer renderer(options);
   FrameBuffer buffer(scene.format);
   Frame frame(buffer);
   std::vector<std::uint8_t> image(4 * pixel_count(buffer));
-  const ImageTarget target{.pixels = image.data(), .width = scene.format.width, .height = scene.format.height, .stride_bytes = 4 * scene.format.width};
+  const ImageTarget target{.pixels = image.data(),
+                           .width = scene.format.width,
+                           .height = scene.format.height,
+                           .stride_bytes = 4 * scene.format.width};
   const auto draw = [&] {
     scene.record(frame);
     keeps_planes ? renderer.finish(frame) : renderer.finish(frame, target);
@@ -49,13 +55,15 @@ void expect_steady(const Scene& scene, const RendererOptions& options, bool keep
   EXPECT_EQ(allocations_of(draw), 0);
 }
 
-/// Whatever is made on the way: corners of strips, normals, outlines that are clipped, palette entries; with a camera that moves.
+/// Whatever is made on the way: corners of strips, normals, outlines that are clipped, palette entries; with
+/// a camera that moves.
 struct MadeOnTheWay {
   FrameBufferFormat format{.width = 300, .height = 200, .color_mode = ColorMode::index, .color_bits = 8};
   std::vector<MeshData> meshes;
   std::vector<Light> lights{3};
   MadeOnTheWay() {
-    for (const Primitive primitive : {Primitive::triangle_strip, Primitive::quads, Primitive::polygon, Primitive::line_loop}) {
+    for (const Primitive primitive :
+         {Primitive::triangle_strip, Primitive::quads, Primitive::polygon, Primitive::line_loop}) {
       MeshData& mesh = meshes.emplace_back();
       mesh.primitive = primitive;
       Random random(17);
@@ -83,7 +91,8 @@ struct ManySmallMeshes {
   ManySmallMeshes() {
     Random random(23);
     for (int i = 0; i < 60; ++i)
-      for (int v = 0; v < 3 * 3 * (1 + 40 * (i % 30)); ++v) (v == 0 ? meshes.emplace_back() : meshes.back()).positions.push_back(random.between(-0.9f, 0.9f));
+      for (int v = 0; v < 3 * 3 * (1 + 40 * (i % 30)); ++v)
+        (v == 0 ? meshes.emplace_back() : meshes.back()).positions.push_back(random.between(-0.9f, 0.9f));
   }
   void record(Frame& frame) const {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
@@ -102,15 +111,18 @@ TEST(SteadyFrames, AllocateNothing) {
     for (const int threads : {1, 2}) expect_steady(MadeOnTheWay(), {.threads = threads}, keeps_planes);
     expect_steady(FullTile({.width = 300, .height = 200}), {.threads = 2}, keeps_planes);
     expect_steady(FullTile({.width = 300, .height = 200}), {.threads = 1}, keeps_planes);
-    expect_steady(RandomOperations({.width = 300, .height = 200, .alpha_bits = 8}), {.threads = 1}, keeps_planes);
-    expect_steady(RandomOperations({.width = 300, .height = 200, .samples = 4}), {.threads = 1}, keeps_planes);
+    expect_steady(RandomOperations({.width = 300, .height = 200, .alpha_bits = 8}), {.threads = 1},
+                  keeps_planes);
+    expect_steady(RandomOperations({.width = 300, .height = 200, .samples = 4}), {.threads = 1},
+                  keeps_planes);
   }
 }
 
 TEST(SteadyFrames, AllocateNothingWhicheverWorkerRuns) {
   for (const bool keeps_planes : {false, true}) {
     const auto executor = std::make_shared<WorkersInTurn>(2);
-    expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes, [&] { executor->begin_with(1); });
+    expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes,
+                  [&] { executor->begin_with(1); });
   }
 }
 

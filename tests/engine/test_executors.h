@@ -9,7 +9,8 @@
 
 namespace tessera::test {
 
-/// Workers that run one after the other on the caller's thread, so that the first of them finds all the tasks.
+/// Workers that run one after the other on the caller's thread, so that the first of them finds all the
+/// tasks.
 class WorkersInTurn : public Executor {
  public:
   /// @param first  the one that begins, or the last one where there are fewer; those after it follow

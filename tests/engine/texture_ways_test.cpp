@@ -1,5 +1,6 @@
-// Textured triangles whose pixels are shaded at once take a way of their own. A stencil test that all fragments pass leads through what
-// fragments of operations go through: the same words, and as many pixels shaded.
+// Textured triangles whose pixels are shaded at once take a way of their own. A stencil test that all
+// fragments pass leads through what fragments of operations go through: the same words, and as many pixels
+// shaded.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -21,7 +22,9 @@ MeshData triangles(Random& random) {
     const float size = i % 3 == 0 ? 3.0f : 0.6f, x = random.between(-1, 1), y = random.between(-1, 1);
     for (int k = 0; k < 3; ++k) {
       const float w = i % 2 == 0 ? 1.0f : random.between(0.3f, 3);
-      mesh.positions.insert(mesh.positions.end(), {w * (x + random.between(-size, size)), w * (y + random.between(-size, size)), w * random.between(-0.9f, 0.9f), w});
+      mesh.positions.insert(mesh.positions.end(),
+                            {w * (x + random.between(-size, size)), w * (y + random.between(-size, size)),
+                             w * random.between(-0.9f, 0.9f), w});
       for (int c = 0; c < 4; ++c) mesh.colors.push_back(random.between(0, 1));
       for (int c = 0; c < 2; ++c) mesh.texcoords.push_back(random.between(-3, 3));
     }
@@ -33,13 +36,16 @@ struct Result {
   std::vector<std::uint32_t> words;
   std::uint64_t shaded;
 };
-Result drawn(const MeshData& mesh, DrawState state, InstructionSet set, bool with_operations, const FrameBufferFormat& config) {
-  if (with_operations) state.stencil = StencilState{.front = {.func = Compare::equal}};  // to 0, which is all there is
+Result drawn(const MeshData& mesh, DrawState state, InstructionSet set, bool with_operations,
+             const FrameBufferFormat& config) {
+  if (with_operations)
+    state.stencil = StencilState{.front = {.func = Compare::equal}};  // to 0, which is all there is
   FrameBuffer buffer(config);
   Frame frame(buffer);
   frame.clear({.color = Color{0.2f, 0.4f, 0.6f, 1}, .depth = 0.8, .stencil = 0u});
   frame.draw(mesh.view(), state);
-  const FrameStats stats = Renderer({.threads = 1, .instruction_set = set, .defer_shading = false}).finish(frame);
+  const FrameStats stats =
+      Renderer({.threads = 1, .instruction_set = set, .defer_shading = false}).finish(frame);
   return {color_words(buffer), stats.shaded_pixels};
 }
 
@@ -47,19 +53,25 @@ TEST(TextureWays, OfTrianglesAtOnceComeToTheSame) {
   Random random(31);
   std::vector<std::uint8_t> pixels(4 * 32 * 16);
   for (std::uint8_t& byte : pixels) byte = static_cast<std::uint8_t>(random.next());
-  constexpr TextureFilter kMins[] = {TextureFilter::nearest,  TextureFilter::linear, TextureFilter::linear_mipmap_linear, TextureFilter::linear_mipmap_nearest, TextureFilter::nearest_mipmap_linear};
+  constexpr TextureFilter kMins[] = {
+      TextureFilter::nearest, TextureFilter::linear, TextureFilter::linear_mipmap_linear,
+      TextureFilter::linear_mipmap_nearest, TextureFilter::nearest_mipmap_linear};
   std::uint64_t seen = 0;
   for (int round = 0; round < 240; ++round) {
     const MeshData mesh = triangles(random);
     const TextureFilter min = kMins[round % 5];
-    const Texture texture({.pixels = pixels.data(), .width = 32, .height = round % 7 == 0 ? 1 : 16, .channels = 3 + round % 2},
-                          {.mag = min == TextureFilter::nearest ? TextureFilter::nearest : TextureFilter::linear,
-                           .min = min,
-                           .wrap_s = static_cast<TextureWrap>(round / 5 % 3),
-                           .wrap_t = static_cast<TextureWrap>(round / 15 % 3)});
+    const Texture texture(
+        {.pixels = pixels.data(), .width = 32, .height = round % 7 == 0 ? 1 : 16, .channels = 3 + round % 2},
+        {.mag = min == TextureFilter::nearest ? TextureFilter::nearest : TextureFilter::linear,
+         .min = min,
+         .wrap_s = static_cast<TextureWrap>(round / 5 % 3),
+         .wrap_t = static_cast<TextureWrap>(round / 15 % 3)});
     DrawState state = unlit({0.9f, 0.7f, 0.5f, 1});
     state.texture = &texture;
-    state.texture_env = round % 10 == 0 ? TextureEnv::replace : static_cast<TextureEnv>(random.next() % 5);  // nearest texels alone have rows of their own
+    state.texture_env =
+        round % 10 == 0
+            ? TextureEnv::replace
+            : static_cast<TextureEnv>(random.next() % 5);  // nearest texels alone have rows of their own
     state.texture_env_color = {0.3f, 0.9f, 0.1f, 1};
     state.depth = {.enabled = round % 2 == 1, .write = round % 4 == 1};
     if (round % 3 == 1) state.scissor = Rect{.x = 0, .y = 0, .width = 128, .height = 64};

@@ -1,4 +1,5 @@
-// The work of frames on a thread pool of the caller's own: fifty lines of it. Two renderers draw with the same one at the same time.
+// The work of frames on a thread pool of the caller's own: fifty lines of it. Two renderers draw with the
+// same one at the same time.
 #include <tessera/tessera.hpp>
 
 #include <algorithm>
@@ -9,15 +10,18 @@
 #include <thread>
 #include <vector>
 
-// With a list of jobs, because several renderers may call run() at the same time, or one of them within another's work. For a single
-// renderer one job at a time would do.
+// With a list of jobs, because several renderers may call run() at the same time, or one of them within
+// another's work. For a single renderer one job at a time would do.
 class Pool : public tessera::Executor {
  public:
   explicit Pool(int threads) {
     for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { serve(); });
   }
   ~Pool() override {
-    { const std::lock_guard lock(mutex_); ends_ = true; }
+    {
+      const std::lock_guard lock(mutex_);
+      ends_ = true;
+    }
     wake_.notify_all();
     for (std::thread& thread : threads_) thread.join();
   }
@@ -42,11 +46,10 @@ class Pool : public tessera::Executor {
   void serve() {
     std::unique_lock lock(mutex_);
     while (!ends_) {
-      const auto job = std::find_if(jobs_.begin(), jobs_.end(), [](const Job* any) { return any->begun < any->count; });
-      if (job == jobs_.end())
-        wake_.wait(lock);
-      else
-        take(**job, lock);
+      const auto job =
+          std::find_if(jobs_.begin(), jobs_.end(), [](const Job* any) { return any->begun < any->count; });
+      if (job == jobs_.end()) wake_.wait(lock);
+      else take(**job, lock);
     }
   }
   void take(Job& job, std::unique_lock<std::mutex>& lock) {
@@ -85,6 +88,7 @@ int main() {
   beside.join();
   const auto expected = picture({.threads = 1});
   const bool same = own == expected && other == expected;
-  std::printf("two renderers on a pool of three draw %s as one thread\n", same ? "the same" : "something else");
+  std::printf("two renderers on a pool of three draw %s as one thread\n",
+              same ? "the same" : "something else");
   return same ? 0 : 1;
 }

@@ -14,11 +14,13 @@ int main() {
   tessera::Renderer renderer;
   tessera::FrameBuffer buffer({.width = kWidth, .height = kHeight});
   tessera::Frame frame(buffer);
-  const tessera::Camera camera{.view = tessera::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}), .projection = tessera::perspective(40, double(kWidth) / kHeight, 1, 10)};
+  const tessera::Camera camera{.view = tessera::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}),
+                               .projection = tessera::perspective(40, double(kWidth) / kHeight, 1, 10)};
   frame.set_camera(camera);
   frame.clear({.depth = 1.0});
-  frame.draw(mesh, {.transform = tessera::translate(-1, 0, 0)});                               // object 0
-  frame.draw(mesh, {.transform = tessera::translate(1, 0, 1) * tessera::rotate(45, 0, 1, 0)});  // object 1, before it
+  frame.draw(mesh, {.transform = tessera::translate(-1, 0, 0)});  // object 0
+  frame.draw(mesh, {.transform =
+                        tessera::translate(1, 0, 1) * tessera::rotate(45, 0, 1, 0)});  // object 1, before it
 
   std::vector<std::uint32_t> objects(kWidth * kHeight), triangles(kWidth * kHeight);
   std::vector<float> normals(3 * kWidth * kHeight), distances(kWidth * kHeight);
@@ -29,10 +31,10 @@ int main() {
 
   const auto tell = [&](int x, int y) {
     const std::size_t at = std::size_t(y) * kWidth + std::size_t(x);
-    if (objects[at] == tessera::Capture::kNothing)
-      std::printf("%d, %d: nothing\n", x, y);
+    if (objects[at] == tessera::Capture::kNothing) std::printf("%d, %d: nothing\n", x, y);
     else
-      std::printf("%d, %d: object %u, triangle %u, normal %.2f %.2f %.2f, %.2f away\n", x, y, objects[at], triangles[at], normals[3 * at], normals[3 * at + 1], normals[3 * at + 2], distances[at]);
+      std::printf("%d, %d: object %u, triangle %u, normal %.2f %.2f %.2f, %.2f away\n", x, y, objects[at],
+                  triangles[at], normals[3 * at], normals[3 * at + 1], normals[3 * at + 2], distances[at]);
     return objects[at];
   };
   const bool right = tell(15, 24) == 0 && tell(45, 24) == 1 && tell(1, 1) == tessera::Capture::kNothing;

@@ -15,8 +15,10 @@ int main() {
     tessera::Frame frame(buffer);
     for (int i = 0; i < kFrames; ++i) {
       frame.clear({.color = tessera::Color{0, 0, 0, 1}, .depth = 1.0});
-      frame.draw({.positions = positions}, {.transform = tessera::rotate(10.0 * i, 0, 0, 1), .shading = tessera::Shading::phong});
-      renderer.finish(frame, {.pixels = pixels.data(), .width = kWidth, .height = kHeight, .stride_bytes = 4 * kWidth});
+      frame.draw({.positions = positions},
+                 {.transform = tessera::rotate(10.0 * i, 0, 0, 1), .shading = tessera::Shading::phong});
+      renderer.finish(
+          frame, {.pixels = pixels.data(), .width = kWidth, .height = kHeight, .stride_bytes = 4 * kWidth});
     }
   };
   std::vector<std::uint8_t> left(4 * kWidth * kHeight), right(4 * kWidth * kHeight);

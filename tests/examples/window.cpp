@@ -1,5 +1,5 @@
-// A software window: frames into the window's own RGBA pixels, at a steady rate. The window here is memory; a real one gives
-// the address and the stride of its pixels instead (SDL_LockTexture, wl_shm, XShmPutImage).
+// A software window: frames into the window's own RGBA pixels, at a steady rate. The window here is memory; a
+// real one gives the address and the stride of its pixels instead (SDL_LockTexture, wl_shm, XShmPutImage).
 #include <tessera/tessera.hpp>
 
 #include <chrono>
@@ -31,8 +31,13 @@ int main() {
   int late = 0;
   for (int i = 0; i < kFrames; ++i) {
     frame.clear({.color = tessera::Color{0.1f, 0.1f, 0.1f, 1}, .depth = 1.0});
-    frame.draw({.positions = positions, .colors = colors}, {.transform = tessera::rotate(6.0 * i, 0, 1, 0), .lighting = false});
-    renderer.finish(frame, {.pixels = window.pixels.data(), .width = window.width, .height = window.height, .stride_bytes = window.stride_bytes, .order = tessera::PixelOrder::bgra8});
+    frame.draw({.positions = positions, .colors = colors},
+               {.transform = tessera::rotate(6.0 * i, 0, 1, 0), .lighting = false});
+    renderer.finish(frame, {.pixels = window.pixels.data(),
+                            .width = window.width,
+                            .height = window.height,
+                            .stride_bytes = window.stride_bytes,
+                            .order = tessera::PixelOrder::bgra8});
     window.present();
     const auto next = start + (i + 1) * kPeriod;
     if (std::chrono::steady_clock::now() > next) ++late;

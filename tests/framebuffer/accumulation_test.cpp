@@ -29,19 +29,27 @@ std::int32_t expected(Op op, double value, std::int32_t acc, long double color, 
 
 // r g b a of a stored word.
 std::array<long double, 4> color_of(std::uint32_t word, const ColorLayout& layout) {
-  const auto field = [&](int shift, int bits) { return static_cast<long double>(word >> shift & ((1u << bits) - 1)) / ((1u << bits) - 1); };
+  const auto field = [&](int shift, int bits) {
+    return static_cast<long double>(word >> shift & ((1u << bits) - 1)) / ((1u << bits) - 1);
+  };
   const long double alpha = layout.alpha_bits == 0 ? 1 : field(layout.bits, layout.alpha_bits);
   if (layout.luminance) return {field(0, layout.bits), field(0, layout.bits), field(0, layout.bits), alpha};
-  return {field(layout.r_shift(), layout.r_bits), field(layout.g_shift(), layout.g_bits), field(0, layout.b_bits), alpha};
+  return {field(layout.r_shift(), layout.r_bits), field(layout.g_shift(), layout.g_bits),
+          field(0, layout.b_bits), alpha};
 }
 
-std::uint32_t expected_word(double value, const AccumulatedPixel& acc, int bits, const ColorLayout& layout, long double threshold) {
+std::uint32_t expected_word(double value, const AccumulatedPixel& acc, int bits, const ColorLayout& layout,
+                            long double threshold) {
   std::array<long double, 4> c;
   for (std::size_t i = 0; i < 4; ++i) c[i] = std::clamp(value * (acc[i] / one(bits)), 0.0L, 1.0L);
-  const auto level = [&](long double x, int b) { return static_cast<std::uint32_t>(std::floor(x * ((1 << b) - 1) + threshold)); };
+  const auto level = [&](long double x, int b) {
+    return static_cast<std::uint32_t>(std::floor(x * ((1 << b) - 1) + threshold));
+  };
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : level(c[3], layout.alpha_bits) << layout.bits;
-  if (layout.luminance) return alpha | level(std::min(0.30L * c[0] + 0.59L * c[1] + 0.11L * c[2], 1.0L), layout.bits);
-  return alpha | level(c[0], layout.r_bits) << layout.r_shift() | level(c[1], layout.g_bits) << layout.g_shift() | level(c[2], layout.b_bits);
+  if (layout.luminance)
+    return alpha | level(std::min(0.30L * c[0] + 0.59L * c[1] + 0.11L * c[2], 1.0L), layout.bits);
+  return alpha | level(c[0], layout.r_bits) << layout.r_shift() |
+         level(c[1], layout.g_bits) << layout.g_shift() | level(c[2], layout.b_bits);
 }
 
 std::vector<ColorLayout> layouts() {
@@ -60,12 +68,14 @@ std::uint32_t next_random() {
 }
 
 // Of many digits, so that no product falls on a half.
-constexpr double kValues[] = {1, -1, 0, 0.2987654321, -0.7123456789, 1 / 256.0, -2.4987654321, 1e-9, 1e20, -1e300};
+constexpr double kValues[] = {1,    -1,   0,     0.2987654321, -0.7123456789, 1 / 256.0, -2.4987654321,
+                              1e-9, 1e20, -1e300};
 
 // Levels at the ends, near them, near 0, and anywhere.
 std::vector<AccumulatedPixel> levels_of(int bits) {
   const auto most = static_cast<std::int32_t>(one(bits));
-  std::vector<AccumulatedPixel> pixels{{most, -most - 1, 0, 1}, {-1, most - 1, -most, most / 2}, {most / 3, -most / 3, 2, -2}};
+  std::vector<AccumulatedPixel> pixels{
+      {most, -most - 1, 0, 1}, {-1, most - 1, -most, most / 2}, {most / 3, -most / 3, 2, -2}};
   for (int i = 0; i < 60; ++i) {
     AccumulatedPixel pixel;
     for (std::int32_t& level : pixel) level = accumulation_level_from_word(next_random(), bits);
@@ -89,12 +99,16 @@ TEST(Accumulation, IsThatOfLongDoubleForEveryDepthOpAndSign) {
             words.push_back(next_random());  // bits beyond the planes are nobody's
             for (std::size_t c = 0; c < 4; ++c) after[c].push_back(pixel[c]);
           }
-          accumulation.run(words.data(), {after[0].data(), after[1].data(), after[2].data(), after[3].data()}, count);
+          accumulation.run(words.data(), {after[0].data(), after[1].data(), after[2].data(), after[3].data()},
+                           count);
           for (std::size_t i = 0; i < before.size(); ++i)
             for (std::size_t c = 0; c < 4; ++c) {
-              const std::int32_t wanted = expected(op, value, before[i][c], color_of(words[i], layout)[c], bits);
-              ASSERT_EQ(after[c][i], wanted) << bits << " bits, colour " << layout.bits << "+" << layout.alpha_bits << ", op " << int(op) << ", value " << value
-                                             << ", component " << c << ", before " << before[i][c] << ", word " << words[i];
+              const std::int32_t wanted =
+                  expected(op, value, before[i][c], color_of(words[i], layout)[c], bits);
+              ASSERT_EQ(after[c][i], wanted)
+                  << bits << " bits, colour " << layout.bits << "+" << layout.alpha_bits << ", op " << int(op)
+                  << ", value " << value << ", component " << c << ", before " << before[i][c] << ", word "
+                  << words[i];
               low_ends += wanted == -one(bits) - 1;
               high_ends += wanted == one(bits);
             }
@@ -110,7 +124,8 @@ TEST(Accumulation, GivesBackTheWordOfLongDouble) {
       for (const double value : kValues)
         for (const AccumulatedPixel& pixel : levels_of(bits))
           for (const double threshold : {0.5, 0.0078125, 0.9921875}) {
-            const std::uint32_t word = Accumulation(Op::give_back, value, bits, layout).word(pixel, threshold);
+            const std::uint32_t word =
+                Accumulation(Op::give_back, value, bits, layout).word(pixel, threshold);
             ASSERT_EQ(word & ~(layout.word_mask() | layout.alpha_mask()), 0u);
             differing += word != expected_word(value, pixel, bits, layout, threshold);
             ++all;
@@ -131,7 +146,8 @@ TEST(Accumulation, RoundsHalvesUp) {
 // Every level of 8 bits, added up from 256 parts and given back: how far it is off at most.
 int largest_loss(int bits) {
   const ColorLayout layout = rgb_layout(24);
-  const Accumulation accumulate(Op::accumulate, 1 / 256.0, bits, layout), give_back(Op::give_back, 1, bits, layout);
+  const Accumulation accumulate(Op::accumulate, 1 / 256.0, bits, layout),
+      give_back(Op::give_back, 1, bits, layout);
   int loss = 0;
   for (std::uint32_t level = 0; level < 256; ++level) {
     const std::uint32_t word = level * 0x010101u;

@@ -13,7 +13,8 @@ namespace {
 /// Bits set in the bytes of a row of a plane, pad included.
 int bits_in_row(const BitplaneStack& stack, int k, int y) {
   int count = 0;
-  for (std::ptrdiff_t i = 0; i < stack.stride_bytes(); ++i) count += __builtin_popcount(stack.plane(k)[y * stack.stride_bytes() + i]);
+  for (std::ptrdiff_t i = 0; i < stack.stride_bytes(); ++i)
+    count += __builtin_popcount(stack.plane(k)[y * stack.stride_bytes() + i]);
   return count;
 }
 
@@ -66,7 +67,8 @@ TEST(Bitplane, FillSetsEveryPixelAndNoPadBit) {
     stack.fill(0x80000005u);
     for (int y = 0; y < 5; ++y) {
       for (int x = 0; x < width; ++x) ASSERT_EQ(stack.word(x, y), 0x80000005u);
-      for (int k = 0; k < 32; ++k) ASSERT_EQ(bits_in_row(stack, k, y), (0x80000005u >> k & 1) != 0 ? width : 0);
+      for (int k = 0; k < 32; ++k)
+        ASSERT_EQ(bits_in_row(stack, k, y), (0x80000005u >> k & 1) != 0 ? width : 0);
     }
   }
 }
@@ -109,7 +111,8 @@ TEST(Bitplane, MovingHandsTheMemoryOn) {
   EXPECT_FALSE(from.allocated());  // NOLINT: that is what is tested
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
 TEST(Bitplane, ThrowsBadAllocWhereMemoryRunsOutAndStaysUnallocated) {
   const int most = std::numeric_limits<int>::max();
   BitplaneStack stack(most, most, 32);  // 18 exabytes

@@ -24,18 +24,20 @@ Palette random_palette(int bits, std::size_t given, std::uint32_t seed, int leve
 std::vector<Palette> palettes() {
   std::vector<Palette> all;
   for (int bits = 1; bits <= 8; ++bits) all.push_back(default_palette_of(bits));
-  for (const char* name : {"bw", "gray", "ega16", "vga256", "web216"}) all.push_back({.bits = 8, .entries = *palette_entries(name, 8)});
-  all.push_back({.bits = 1, .entries = {}});                                 // all black
-  all.push_back({.bits = 4, .entries = {{255, 0, 0}, {255, 0, 0}}});         // a tie of twins, black behind them
+  for (const char* name : {"bw", "gray", "ega16", "vga256", "web216"})
+    all.push_back({.bits = 8, .entries = *palette_entries(name, 8)});
+  all.push_back({.bits = 1, .entries = {}});                          // all black
+  all.push_back({.bits = 4, .entries = {{255, 0, 0}, {255, 0, 0}}});  // a tie of twins, black behind them
   all.push_back({.bits = 2, .entries = {{9, 9, 9}, {0, 0, 0}, {3, 3, 3}}});  // black before the unset one
   all.push_back(random_palette(8, 256, 1));
-  all.push_back(random_palette(8, 256, 2, 3));                               // few levels: many ties
+  all.push_back(random_palette(8, 256, 2, 3));  // few levels: many ties
   all.push_back(random_palette(10, 777, 3));
   all.push_back(random_palette(12, 4096, 4));
   return all;
 }
 
-/// Components that matter: levels, the middles between them, cells' borders, their float neighbours, and odd values.
+/// Components that matter: levels, the middles between them, cells' borders, their float neighbours, and odd
+/// values.
 float component(std::mt19937& random) {
   const auto pick = random();
   const float c = static_cast<float>(random() % 511) / 510.0f;
@@ -62,7 +64,8 @@ TEST(PaletteSearch, FindsWhatLookingAtEveryEntryFinds) {
   }
 }
 
-// A dithered colour may leave the cube by half its width. Nearest to it is not what is nearest to the cube's border.
+// A dithered colour may leave the cube by half its width. Nearest to it is not what is nearest to the cube's
+// border.
 TEST(PaletteSearch, UnclampedLooksBeyondTheCube) {
   std::size_t other = 0;
   for (const Palette& palette : palettes()) {
@@ -70,16 +73,20 @@ TEST(PaletteSearch, UnclampedLooksBeyondTheCube) {
     const PaletteSearch search(palette, true);
     std::mt19937 random(6);
     for (int i = 0; i < 5000; ++i) {
-      const float color[3] = {2 * component(random) - 0.5f, 2 * component(random) - 0.5f, 2 * component(random) - 0.5f};
+      const float color[3] = {2 * component(random) - 0.5f, 2 * component(random) - 0.5f,
+                              2 * component(random) - 0.5f};
       std::uint32_t expected = 0;
       float least = 100;
       for (std::uint32_t e = 0; e < palette.entries.size(); ++e) {
-        const float r = color[0] - static_cast<float>(palette[e].r) / 255.0f, g = color[1] - static_cast<float>(palette[e].g) / 255.0f, b = color[2] - static_cast<float>(palette[e].b) / 255.0f;
+        const float r = color[0] - static_cast<float>(palette[e].r) / 255.0f,
+                    g = color[1] - static_cast<float>(palette[e].g) / 255.0f,
+                    b = color[2] - static_cast<float>(palette[e].b) / 255.0f;
         const float distance = r * r + g * g + b * b;
         if (distance < least) least = distance, expected = e;
       }
       const std::uint32_t found = search.nearest_unclamped(color[0], color[1], color[2]);
-      ASSERT_EQ(found, expected) << palette.entries.size() << " given: " << color[0] << " " << color[1] << " " << color[2];
+      ASSERT_EQ(found, expected) << palette.entries.size() << " given: " << color[0] << " " << color[1] << " "
+                                 << color[2];
       other += found != search.nearest(color[0], color[1], color[2]);
     }
   }
@@ -92,7 +99,8 @@ TEST(PaletteSearch, GreyDiagonalsAndBlackAndWhiteWhereTiesLive) {
     for (int i = -10; i <= 1030; ++i) {
       const float c = static_cast<float>(i) / 1020.0f;
       ASSERT_EQ(search.nearest(c, c, c), nearest_reference(palette, c, c, c)) << palette.bits << " " << c;
-      ASSERT_EQ(search.nearest(c, 1 - c, 0.5f), nearest_reference(palette, c, 1 - c, 0.5f)) << palette.bits << " " << c;
+      ASSERT_EQ(search.nearest(c, 1 - c, 0.5f), nearest_reference(palette, c, 1 - c, 0.5f))
+          << palette.bits << " " << c;
     }
   }
 }
@@ -121,7 +129,8 @@ TEST(PaletteSearch, EveryEntryFindsItsColour) {
     for (std::uint32_t i = 0; i < palette.entries.size(); ++i) {
       const Rgb8 c = palette[i];
       const std::uint32_t found =
-          search.nearest(static_cast<float>(c.r) / 255.0f, static_cast<float>(c.g) / 255.0f, static_cast<float>(c.b) / 255.0f);
+          search.nearest(static_cast<float>(c.r) / 255.0f, static_cast<float>(c.g) / 255.0f,
+                         static_cast<float>(c.b) / 255.0f);
       ASSERT_EQ(palette[found], c);
       ASSERT_LE(found, i);
     }

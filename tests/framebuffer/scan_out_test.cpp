@@ -20,7 +20,8 @@ struct TileMemory {
 
 constexpr std::uint8_t kUntouched = 0xa5;
 
-/// Layouts of every number of bits, RGB and index; the index ones with a palette that is full, or given in part.
+/// Layouts of every number of bits, RGB and index; the index ones with a palette that is full, or given in
+/// part.
 struct Source {
   ColorLayout layout;
   Palette palette;
@@ -56,12 +57,15 @@ TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
             words.insert(words.end(), {v, v << source.layout.g_shift(), v << source.layout.r_shift(), ~v});
         }
         std::mt19937 random(3);
-        for (int i = 0; i < 501; ++i) words.push_back(static_cast<std::uint32_t>(random()));  // bits beyond the layout too
+        for (int i = 0; i < 501; ++i)
+          words.push_back(static_cast<std::uint32_t>(random()));  // bits beyond the layout too
         std::vector<std::uint8_t> row(words.size() * 4 + 64, kUntouched);
         scan_out.row(words.data(), static_cast<int>(words.size()), row.data());
         for (std::size_t i = 0; i < words.size(); ++i)
-          ASSERT_EQ(pixel_at(&row[4 * i]), shown_pixel_reference(source.layout, &source.palette, order, words[i]))
-              << static_cast<int>(isa) << " bits " << source.layout.bits << " index " << source.layout.index << " word " << words[i];
+          ASSERT_EQ(pixel_at(&row[4 * i]),
+                    shown_pixel_reference(source.layout, &source.palette, order, words[i]))
+              << static_cast<int>(isa) << " bits " << source.layout.bits << " index " << source.layout.index
+              << " word " << words[i];
         for (std::size_t i = words.size() * 4; i < row.size(); ++i) ASSERT_EQ(row[i], kUntouched);
       }
 }
@@ -79,7 +83,10 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
   std::mt19937 random(4);
   TileMemory tile;
   for (std::uint32_t& word : tile.words) word = static_cast<std::uint32_t>(random());
-  const Source some[] = {{rgb_layout(24), {}}, {rgb_layout(16), {}}, {rgb_layout(2), {}}, {index_layout(8), default_palette_of(8)}};
+  const Source some[] = {{rgb_layout(24), {}},
+                         {rgb_layout(16), {}},
+                         {rgb_layout(2), {}},
+                         {index_layout(8), default_palette_of(8)}};
   for (Isa isa : available_isas())
     for (const Source& source : some)
       for (int tile_size : {32, 64, 128})
@@ -90,7 +97,8 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
             const int height = tile_size - missing;
             const std::size_t misplaced = static_cast<std::size_t>(width % 4);  // any alignment
             const std::ptrdiff_t stride = 4 * width + 12;
-            std::vector<std::uint8_t> image(static_cast<std::size_t>(stride * height) + misplaced, kUntouched);
+            std::vector<std::uint8_t> image(static_cast<std::size_t>(stride * height) + misplaced,
+                                            kUntouched);
             const ByteOrder order = upwards ? ByteOrder::bgra8 : ByteOrder::rgba8;
             const ScanOut scan_out(source.layout, &source.palette, order, isa);
             std::uint8_t* first = image.data() + misplaced + (upwards ? (height - 1) * stride : 0);
@@ -99,7 +107,8 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
               const std::uint8_t* row = first + (upwards ? -y : y) * stride;
               for (int x = 0; x < width; ++x)
                 ASSERT_EQ(pixel_at(row + 4 * x),
-                          shown_pixel_reference(source.layout, &source.palette, order, tile.words[tile_index(x, y, tile_size)]))
+                          shown_pixel_reference(source.layout, &source.palette, order,
+                                                tile.words[tile_index(x, y, tile_size)]))
                     << static_cast<int>(isa) << " " << tile_size << " " << x << "," << y;
               for (int i = 4 * width; i < stride; ++i) ASSERT_EQ(row[i], kUntouched);
             }

@@ -1,4 +1,5 @@
-// Scenes as assimp might hand them over, at their oddest: arrays that are missing, numbers that are none, indices that point nowhere.
+// Scenes as assimp might hand them over, at their oddest: arrays that are missing, numbers that are none,
+// indices that point nowhere.
 #pragma once
 
 #include <cstddef>
@@ -54,7 +55,8 @@ class AssimpSceneCase {
     return {c.r, c.g, c.b, real()};
   }
   aiString name() {
-    constexpr const char* kNames[] = {"", "a", "b", "c"};  // few: those of nodes, cameras and lights are to meet
+    constexpr const char* kNames[] = {"", "a", "b",
+                                      "c"};  // few: those of nodes, cameras and lights are to meet
     return aiString(std::string(kNames[from_.below(4)]));
   }
 
@@ -72,7 +74,10 @@ class AssimpSceneCase {
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       aiFace& face = mesh.mFaces[f];
       face.mNumIndices = from_.rarely() ? from_.byte() % 5u : 3;
-      if (face.mNumIndices > 0) face.mIndices = list_of<unsigned>(face.mNumIndices, [&] { return from_.rarely() ? from_.word() : from_.byte() % (vertices + (vertices == 0)); });
+      if (face.mNumIndices > 0)
+        face.mIndices = list_of<unsigned>(face.mNumIndices, [&] {
+          return from_.rarely() ? from_.word() : from_.byte() % (vertices + (vertices == 0));
+        });
     }
   }
 
@@ -80,7 +85,8 @@ class AssimpSceneCase {
     ai_real numbers[4];
     const int count = from_.rarely() ? 1 + from_.below(4) : most_numbers;
     for (int i = 0; i < count; ++i) numbers[i] = real();
-    material.AddBinaryProperty(numbers, static_cast<unsigned>(count) * sizeof(ai_real), key, type, index, from_.rarely() ? aiPTI_Integer : aiPTI_Float);
+    material.AddBinaryProperty(numbers, static_cast<unsigned>(count) * sizeof(ai_real), key, type, index,
+                               from_.rarely() ? aiPTI_Integer : aiPTI_Float);
   }
   void make(aiMaterial& material) {
     const unsigned has = from_.word();
@@ -90,8 +96,10 @@ class AssimpSceneCase {
     const auto number = [&](int bit, const char* key, unsigned type, unsigned index) {
       if ((has >> bit & 1) != 0) add(material, key, type, index, 1);
     };
-    colors(0, AI_MATKEY_COLOR_DIFFUSE), colors(1, AI_MATKEY_COLOR_AMBIENT), colors(2, AI_MATKEY_COLOR_SPECULAR), colors(3, AI_MATKEY_COLOR_EMISSIVE);
-    number(4, AI_MATKEY_SHININESS), number(5, AI_MATKEY_OPACITY), number(6, AI_MATKEY_METALLIC_FACTOR), number(7, AI_MATKEY_ROUGHNESS_FACTOR);
+    colors(0, AI_MATKEY_COLOR_DIFFUSE), colors(1, AI_MATKEY_COLOR_AMBIENT),
+        colors(2, AI_MATKEY_COLOR_SPECULAR), colors(3, AI_MATKEY_COLOR_EMISSIVE);
+    number(4, AI_MATKEY_SHININESS), number(5, AI_MATKEY_OPACITY), number(6, AI_MATKEY_METALLIC_FACTOR),
+        number(7, AI_MATKEY_ROUGHNESS_FACTOR);
     colors(8, AI_MATKEY_BASE_COLOR);
     number(9, AI_MATKEY_GLOSSINESS_FACTOR);
     const int model = static_cast<int>(has >> 10 & 15);
@@ -105,14 +113,16 @@ class AssimpSceneCase {
   void make(aiCamera& camera) {
     camera.mName = name();
     camera.mPosition = vector(), camera.mUp = vector(), camera.mLookAt = vector();
-    camera.mHorizontalFOV = real(), camera.mClipPlaneNear = real(), camera.mClipPlaneFar = real(), camera.mAspect = real();
+    camera.mHorizontalFOV = real(), camera.mClipPlaneNear = real(), camera.mClipPlaneFar = real(),
+    camera.mAspect = real();
     if (from_.coin()) camera.mOrthographicWidth = real();
   }
   void make(aiLight& light) {
     light.mName = name();
     light.mType = from_.one_of<aiLightSourceType>(6);
     light.mPosition = vector(), light.mDirection = vector();
-    light.mAttenuationConstant = real(), light.mAttenuationLinear = real(), light.mAttenuationQuadratic = real();
+    light.mAttenuationConstant = real(), light.mAttenuationLinear = real(),
+    light.mAttenuationQuadratic = real();
     light.mColorDiffuse = rgb(), light.mColorAmbient = rgb();
     light.mAngleInnerCone = real(), light.mAngleOuterCone = real();
   }
@@ -122,7 +132,9 @@ class AssimpSceneCase {
     if (from_.coin())
       for (unsigned k = 0; k < 16; ++k) node.mTransformation[k / 4][k % 4] = real();
     node.mNumMeshes = from_.byte() % 4u;
-    node.mMeshes = list_of<unsigned>(node.mNumMeshes, [&] { return from_.rarely() ? from_.word() : from_.byte() % (scene_.mNumMeshes + (scene_.mNumMeshes == 0)); });
+    node.mMeshes = list_of<unsigned>(node.mNumMeshes, [&] {
+      return from_.rarely() ? from_.word() : from_.byte() % (scene_.mNumMeshes + (scene_.mNumMeshes == 0));
+    });
     constexpr int kMostDepth = 600;  // more than are followed
     const int children = depth < kMostDepth && !from_.empty() ? from_.below(3) : 0;
     fill(node.mChildren, node.mNumChildren, children, [&](aiNode& child) { make(child, depth + 1); });

@@ -1,4 +1,5 @@
-// Numbers drawn from a fuzzer's bytes, with a bias to those that hurt. When the bytes have run out, everything is 0.
+// Numbers drawn from a fuzzer's bytes, with a bias to those that hurt. When the bytes have run out,
+// everything is 0.
 #pragma once
 
 #include <cmath>
@@ -34,7 +35,8 @@ class Bytes {
     return static_cast<Enum>(below(count));
   }
 
-  /// Any double: mostly of a size that lands in a picture, often on a grid that meets pixel centres and edges.
+  /// Any double: mostly of a size that lands in a picture, often on a grid that meets pixel centres and
+  /// edges.
   double real() {
     const int kind = byte();
     if (kind < 128) return static_cast<std::int8_t>(byte()) / 64.0;
@@ -58,19 +60,35 @@ class Bytes {
   /// The same as a float. What is too large becomes infinite.
   float real32() { return as_float(real()); }
   /// Nearly always finite, for what is refused otherwise.
-  double finite() { return nearly_always(real(), [](double x) { return std::isfinite(x); }); }
+  double finite() {
+    return nearly_always(real(), [](double x) { return std::isfinite(x); });
+  }
   float finite32() {
-    return as_float(nearly_always(real(), [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); }));
+    return as_float(
+        nearly_always(real(), [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); }));
   }
   /// Nearly always 0 .. 1, the ends often.
   float unit() {
     const int kind = byte();
     if (kind < 250) return static_cast<float>(kind < 16 ? 0 : kind > 200 ? 255 : kind) / 255.0f;
-    return kind == 255 && byte() >= 252 ? real32() : kind == 254 ? -0.0f : kind == 253 ? std::numeric_limits<float>::denorm_min() : kind == 252 ? 1 - 0x1p-24f : 0.5f;
+    return kind == 255 && byte() >= 252 ? real32()
+           : kind == 254                ? -0.0f
+           : kind == 253                ? std::numeric_limits<float>::denorm_min()
+           : kind == 252                ? 1 - 0x1p-24f
+                                        : 0.5f;
   }
   /// Mostly low .. high, else far outside.
   int integer(int low, int high) {
-    constexpr int kLimits[] = {std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), -1, 0, 16384, 16385, -16385, 1 << 20, -(1 << 20), std::numeric_limits<int>::max() - 1};
+    constexpr int kLimits[] = {std::numeric_limits<int>::min(),
+                               std::numeric_limits<int>::max(),
+                               -1,
+                               0,
+                               16384,
+                               16385,
+                               -16385,
+                               1 << 20,
+                               -(1 << 20),
+                               std::numeric_limits<int>::max() - 1};
     const int kind = byte();
     if (kind >= 254) return kLimits[below(10)];
     const int more = high - low >= 254 ? byte() : 0;
@@ -78,13 +96,19 @@ class Bytes {
   }
 
  private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
-  static constexpr double kOdd[32] = {kNan, kNan, kNan, kInfinity, -kInfinity, kInfinity, 0.0, -0.0, 0x1p-149, -0x1p-149, 0x1p-126, 0x1.fffffep127, -0x1.fffffep127, 1e30, -1e30, 1e-30,
-                                      0.5, 1.0, -1.0, 0x1p-12, 1 + 0x1p-23, 1 - 0x1p-24, 0x1p24, 0x1p31, -0x1p31, 1.0 / 3, 16384.0, -16384.0, 180.0, 255.0, 1e300, 0x1p-1074};
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity(),
+                          kNan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kOdd[32] = {
+      kNan,     kNan,      kNan,     kInfinity,      -kInfinity,      kInfinity,   0.0,    -0.0,
+      0x1p-149, -0x1p-149, 0x1p-126, 0x1.fffffep127, -0x1.fffffep127, 1e30,        -1e30,  1e-30,
+      0.5,      1.0,       -1.0,     0x1p-12,        1 + 0x1p-23,     1 - 0x1p-24, 0x1p24, 0x1p31,
+      -0x1p31,  1.0 / 3,   16384.0,  -16384.0,       180.0,           255.0,       1e300,  0x1p-1074};
 
   static float as_float(double x) {
     constexpr double kLargest = std::numeric_limits<float>::max();
-    return x > kLargest ? std::numeric_limits<float>::infinity() : x < -kLargest ? -std::numeric_limits<float>::infinity() : static_cast<float>(x);
+    return x > kLargest    ? std::numeric_limits<float>::infinity()
+           : x < -kLargest ? -std::numeric_limits<float>::infinity()
+                           : static_cast<float>(x);
   }
   template <class Wanted>
   double nearly_always(double x, const Wanted& wanted) {

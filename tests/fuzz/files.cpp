@@ -27,7 +27,8 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
   }
   const std::string bytes = to_bytes(model);
   std::optional<Model> received;
-  if (const auto error = fuzz::error_of([&] { received = model_from_bytes(bytes, path); })) fuzz::finding("what import_obj made is refused: " + *error);
+  if (const auto error = fuzz::error_of([&] { received = model_from_bytes(bytes, path); }))
+    fuzz::finding("what import_obj made is refused: " + *error);
   fuzz::require(to_bytes(*received) == bytes, "a model changes on its way between processes");
   return std::move(*received);
 }

@@ -1,4 +1,5 @@
-// All the files that code under test can read: read_text_file and import_model are replaced by ones that look here, and nowhere else.
+// All the files that code under test can read: read_text_file and import_model are replaced by ones that look
+// here, and nowhere else.
 #pragma once
 
 #include <map>

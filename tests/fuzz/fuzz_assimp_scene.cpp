@@ -17,9 +17,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (error_of([&] { model = model_of(from.scene(), (kind & 1) == 0, (kind & 2) != 0); })) return 0;
   add_creased_normals(model->mesh, (kind & 4) != 0 ? 0 : kCreaseDegrees);
   wind_by_normals(model->mesh);
-  if (const auto error = error_of([&] { model_from_bytes(to_bytes(*model), "model"); })) finding("what was made of a scene is refused: " + *error);
+  if (const auto error = error_of([&] { model_from_bytes(to_bytes(*model), "model"); }))
+    finding("what was made of a scene is refused: " + *error);
   std::optional<Scene> scene;
   if (error_of([&] { scene = model_scene(*model, "model", 24, 32); })) return 0;  // no extent
-  if (const auto error = error_of([&] { render_small(*scene); })) finding("what was made of a scene cannot be drawn: " + *error);
+  if (const auto error = error_of([&] { render_small(*scene); }))
+    finding("what was made of a scene cannot be drawn: " + *error);
   return 0;
 }

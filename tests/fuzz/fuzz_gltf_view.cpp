@@ -24,6 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace tessera::fuzz;
   Model model = triangle();
   if (error_of([&] { add_gltf_view_of_bytes(std::string(data, data + size), model); })) return 0;
-  if (const auto error = error_of([&] { render_small(model_scene(model, "model", 24, 32)); })) finding("a view that was read is refused: " + *error);
+  if (const auto error = error_of([&] { render_small(model_scene(model, "model", 24, 32)); }))
+    finding("a view that was read is refused: " + *error);
   return 0;
 }

@@ -1,4 +1,5 @@
-// OBJ models and their materials, from text to a picture. A line "#mtl" ends the model; what follows is the file "m.mtl".
+// OBJ models and their materials, from text to a picture. A line "#mtl" ends the model; what follows is the
+// file "m.mtl".
 #include <string_view>
 
 #include "engine/import/model.h"

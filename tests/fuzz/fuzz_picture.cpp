@@ -16,31 +16,42 @@ namespace {
 void read_ppm(std::string file) {
   files = {{"picture.ppm", std::move(file)}};
   const Picture picture = read_picture("picture.ppm");
-  require(picture.channels == 3 && picture.rgba.size() == 4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), "a picture of another size than its header says");
+  require(picture.channels == 3 && picture.rgba.size() == 4 * static_cast<std::size_t>(picture.width) *
+                                                              static_cast<std::size_t>(picture.height),
+          "a picture of another size than its header says");
   files["picture.ppm"] = encode_ppm(picture);
-  require(read_picture("picture.ppm").rgba == picture.rgba, "a picture changes when it is written and read again");
+  require(read_picture("picture.ppm").rgba == picture.rgba,
+          "a picture changes when it is written and read again");
 }
 
 void write_png(Bytes& from) {
-  const int bits = 1 << from.below(4), width = 1 + from.below(40), height = 1 + from.below(40), entries = from.integer(0, 1 << bits), compression = from.below(10);
+  const int bits = 1 << from.below(4), width = 1 + from.below(40), height = 1 + from.below(40),
+            entries = from.integer(0, 1 << bits), compression = from.below(10);
   std::vector<unsigned char> indices, palette, file;
-  for (int i = 0; i < width * height; ++i) indices.push_back(static_cast<unsigned char>(from.byte() % (entries > 0 && entries < 256 ? entries : 1 << bits)));
+  for (int i = 0; i < width * height; ++i)
+    indices.push_back(
+        static_cast<unsigned char>(from.byte() % (entries > 0 && entries < 256 ? entries : 1 << bits)));
   if (entries < 0 || entries > 256) return;  // a palette of a file is no longer
   for (int i = 0; i < 3 * entries; ++i) palette.push_back(from.byte());
-  const std::string reason = encode_indexed_png(indices.data(), width, height, bits, palette.data(), entries, compression, file);
+  const std::string reason =
+      encode_indexed_png(indices.data(), width, height, bits, palette.data(), entries, compression, file);
   require(reason.empty() == (entries <= 1 << bits), "a palette is refused if and only if it does not fit");
   if (!reason.empty()) return;
 
   png_image image = {};
   image.version = PNG_IMAGE_VERSION;
-  require(png_image_begin_read_from_memory(&image, file.data(), file.size()) != 0, "a PNG that libpng does not read");
-  require(static_cast<int>(image.width) == width && static_cast<int>(image.height) == height, "a PNG of another size");
+  require(png_image_begin_read_from_memory(&image, file.data(), file.size()) != 0,
+          "a PNG that libpng does not read");
+  require(static_cast<int>(image.width) == width && static_cast<int>(image.height) == height,
+          "a PNG of another size");
   image.format = PNG_FORMAT_RGB;
   std::vector<unsigned char> pixels(PNG_IMAGE_SIZE(image));
-  require(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0, "a PNG that ends too early");
+  require(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0,
+          "a PNG that ends too early");
   for (std::size_t i = 0; i < indices.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      const int wanted = entries > 0 ? palette[3 * std::size_t{indices[i]} + c] : indices[i] * 255 / ((1 << bits) - 1);
+      const int wanted =
+          entries > 0 ? palette[3 * std::size_t{indices[i]} + c] : indices[i] * 255 / ((1 << bits) - 1);
       require(pixels[3 * i + c] == wanted, "a pixel of a PNG is of another colour");
     }
 }

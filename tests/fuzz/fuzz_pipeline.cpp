@@ -1,5 +1,6 @@
-// Whole frames through the public interface, each drawn in two ways: by the scalar path, and by a fast one with tiles of another
-// size, on other threads, in parts. Both refuse the same, store the same bits, tell the same, and touch nothing outside of viewports, scissors and image parts.
+// Whole frames through the public interface, each drawn in two ways: by the scalar path, and by a fast one
+// with tiles of another size, on other threads, in parts. Both refuse the same, store the same bits, tell the
+// same, and touch nothing outside of viewports, scissors and image parts.
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -20,14 +21,16 @@ struct Overloaded : Functions... {
 
 constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
-/// Everything that is stored: the planes' words, a list for each buffer; empty where there is none, or it was not kept.
+/// Everything that is stored: the planes' words, a list for each buffer; empty where there is none, or it was
+/// not kept.
 struct Stored {
   std::vector<std::uint32_t> words[4];
   friend bool operator==(const Stored&, const Stored&) = default;
 };
 
 Stored stored_in(const FrameBuffer& buffer) {
-  const std::size_t pixels = static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
+  const std::size_t pixels =
+      static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
   Stored stored;
   std::vector<std::uint32_t> words(pixels);
   if (!error_of([&] { buffer.read_color_words(words); })) stored.words[0] = words;
@@ -50,7 +53,8 @@ void require_alike(const FrameBuffer& buffer, const Stored& stored) {
       const std::uint32_t* word = stored.words[b].data();
       std::uint32_t differences = 0;
       for (int y = 0; y < plane.height; ++y)
-        for (int x = 0; x < plane.width; ++x, ++word) differences |= plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) ^ *word >> k;
+        for (int x = 0; x < plane.width; ++x, ++word)
+          differences |= plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) ^ *word >> k;
       require((differences & 1) == 0, "a plane differs from the words that are read");
     }
 }
@@ -58,11 +62,15 @@ void require_alike(const FrameBuffer& buffer, const Stored& stored) {
 /// The pixels that a frame may touch, rows from the top.
 class Reach {
  public:
-  explicit Reach(const FrameBufferFormat& format) : width_(format.width), height_(format.height), reached_(static_cast<std::size_t>(format.width * format.height)) {}
+  explicit Reach(const FrameBufferFormat& format)
+      : width_(format.width),
+        height_(format.height),
+        reached_(static_cast<std::size_t>(format.width * format.height)) {}
   void add(const std::optional<Rect>& one, const std::optional<Rect>& two = std::nullopt) {
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x)
-        if (holds(one, x, height_ - 1 - y) && holds(two, x, height_ - 1 - y)) reached_[static_cast<std::size_t>(y * width_ + x)] = true;
+        if (holds(one, x, height_ - 1 - y) && holds(two, x, height_ - 1 - y))
+          reached_[static_cast<std::size_t>(y * width_ + x)] = true;
   }
   void require_untouched(const Stored& before, const Stored& after) const {
     for (std::size_t b = 0; b < 4; ++b) {
@@ -70,13 +78,17 @@ class Reach {
       const std::size_t each = before.words[b].size() / reached_.size();
       for (std::size_t i = 0; i < before.words[b].size(); ++i)
         if (!reached_[i / each] && before.words[b][i] != after.words[b][i])
-          finding("buffer " + std::to_string(b) + " changed outside of every viewport and scissor, at pixel " + std::to_string(i / each % static_cast<std::size_t>(width_)) + ", row " + std::to_string(i / each / static_cast<std::size_t>(width_)) + " from the top");
+          finding("buffer " + std::to_string(b) +
+                  " changed outside of every viewport and scissor, at pixel " +
+                  std::to_string(i / each % static_cast<std::size_t>(width_)) + ", row " +
+                  std::to_string(i / each / static_cast<std::size_t>(width_)) + " from the top");
     }
   }
 
  private:
   static bool holds(const std::optional<Rect>& rect, std::int64_t x, std::int64_t y) {
-    return !rect || (x >= rect->x && y >= rect->y && x < std::int64_t{rect->x} + rect->width && y < std::int64_t{rect->y} + rect->height);
+    return !rect || (x >= rect->x && y >= rect->y && x < std::int64_t{rect->x} + rect->width &&
+                     y < std::int64_t{rect->y} + rect->height);
   }
   int width_, height_;
   std::vector<bool> reached_;
@@ -85,18 +97,27 @@ class Reach {
 /// The caller's memory for a picture.
 class Canvas {
  public:
-  Canvas(const Presentation& how, const FrameBufferFormat& format) : how_(how), width_(format.width), height_(format.height) {
+  Canvas(const Presentation& how, const FrameBufferFormat& format)
+      : how_(how), width_(format.width), height_(format.height) {
     stride_ = 4 * std::ptrdiff_t{width_} + how.gap_bytes;
     bytes.assign(static_cast<std::size_t>(stride_ * (height_ - 1) + 4 * std::ptrdiff_t{width_}), kUntouched);
   }
   ImageTarget target() {
-    return {.pixels = bytes.data() + (how_.upwards ? stride_ * (height_ - 1) : 0), .width = width_, .height = height_, .stride_bytes = how_.upwards ? -stride_ : stride_, .order = how_.order, .part = how_.part};
+    return {.pixels = bytes.data() + (how_.upwards ? stride_ * (height_ - 1) : 0),
+            .width = width_,
+            .height = height_,
+            .stride_bytes = how_.upwards ? -stride_ : stride_,
+            .order = how_.order,
+            .part = how_.part};
   }
   void require_untouched_outside() const {
     const Rect part = how_.part.value_or(Rect{0, 0, width_, height_});
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-      const std::int64_t row = static_cast<std::int64_t>(i) / stride_, x = static_cast<std::int64_t>(i) % stride_ / 4, y = how_.upwards ? row : height_ - 1 - row;
-      const bool inside = x < width_ && x >= part.x && x < std::int64_t{part.x} + part.width && y >= part.y && y < std::int64_t{part.y} + part.height;
+      const std::int64_t row = static_cast<std::int64_t>(i) / stride_,
+                         x = static_cast<std::int64_t>(i) % stride_ / 4,
+                         y = how_.upwards ? row : height_ - 1 - row;
+      const bool inside = x < width_ && x >= part.x && x < std::int64_t{part.x} + part.width && y >= part.y &&
+                          y < std::int64_t{part.y} + part.height;
       require(inside || bytes[i] == kUntouched, "an image changed outside of the part that was asked for");
     }
   }
@@ -112,7 +133,7 @@ class Canvas {
 /// What one way of drawing says and leaves behind.
 struct Outcome {
   std::vector<std::string> errors;
-  std::vector<Stored> stored;               ///< after each frame
+  std::vector<Stored> stored;  ///< after each frame
   std::vector<std::vector<std::uint8_t>> pictures;
   std::vector<std::uint32_t> captured;
   std::vector<std::uint64_t> counted;
@@ -132,11 +153,19 @@ void fill(FrameBuffer& buffer, Renderer& renderer) {
   frame.clear(clear);
   if (is_index) frame.clear({.index = 0, .scissor = Rect{1, 1, format.width / 2, format.height / 2}});
   static constexpr std::uint8_t kTexels[] = {255, 0, 40, 20, 90, 200, 130, 160, 7, 222, 61, 180};
-  if (!is_index) frame.draw_image({.pixels = kTexels, .width = 2, .height = 2, .channels = 3, .zoom_x = format.width / 3.0, .zoom_y = format.height / 3.0}, {.depth = {.enabled = false}});
+  if (!is_index)
+    frame.draw_image({.pixels = kTexels,
+                      .width = 2,
+                      .height = 2,
+                      .channels = 3,
+                      .zoom_x = format.width / 3.0,
+                      .zoom_y = format.height / 3.0},
+                     {.depth = {.enabled = false}});
   renderer.finish(frame);
 }
 
-void record(const PipelineCase& from, const PipelineFrame& wanted, Frame& frame, Reach& reach, Outcome& outcome) {
+void record(const PipelineCase& from, const PipelineFrame& wanted, Frame& frame, Reach& reach,
+            Outcome& outcome) {
   const auto run = [&](const PipelineCommand& command) {
     std::visit(Overloaded{[&](const DrawMesh& draw) {
                             frame.draw(from.meshes[draw.mesh].view(), draw.state);
@@ -169,19 +198,26 @@ void record(const PipelineCase& from, const PipelineFrame& wanted, Frame& frame,
   };
   for (const PipelineCommand& command : wanted.commands)
     if (const auto error = error_of([&] { run(command); })) outcome.errors.push_back(*error);
-  for (std::size_t i = 0; i < frame.draw_count(); ++i) require(!frame.explain(i).empty(), "a draw that is not explained");
+  for (std::size_t i = 0; i < frame.draw_count(); ++i)
+    require(!frame.explain(i).empty(), "a draw that is not explained");
   if (wanted.keep) {
     // keep() takes a list that is written out.
-    const auto has = [&](Buffer b) { return std::find(wanted.keep->begin(), wanted.keep->end(), b) != wanted.keep->end(); };
-    if (has(Buffer::color) && has(Buffer::depth)) frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
+    const auto has = [&](Buffer b) {
+      return std::find(wanted.keep->begin(), wanted.keep->end(), b) != wanted.keep->end();
+    };
+    if (has(Buffer::color) && has(Buffer::depth))
+      frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
     else if (has(Buffer::color)) frame.keep({Buffer::color, Buffer::stencil});
     else if (has(Buffer::depth)) frame.keep({Buffer::depth, Buffer::accumulation});
     else frame.keep({});
   }
 }
 
-void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, const Reach& reach, Renderer& renderer, Outcome& outcome) {
-  const std::size_t pixels = static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height), draws = frame.draw_count();
+void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, const Reach& reach,
+            Renderer& renderer, Outcome& outcome) {
+  const std::size_t pixels = static_cast<std::size_t>(buffer.format().width) *
+                             static_cast<std::size_t>(buffer.format().height),
+                    draws = frame.draw_count();
   std::vector<std::uint32_t> objects(wanted.captures ? pixels : 0), primitives(objects.size());
   std::vector<float> normals(3 * objects.size());
   frame.capture({.objects = objects, .primitives = primitives, .normals = normals});
@@ -189,7 +225,8 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
   if (wanted.presentation) canvas.emplace(*wanted.presentation, buffer.format());
   const Stored before = stored_in(buffer);
   FrameStats stats;
-  const auto error = error_of([&] { stats = canvas ? renderer.finish(frame, canvas->target()) : renderer.finish(frame); });
+  const auto error =
+      error_of([&] { stats = canvas ? renderer.finish(frame, canvas->target()) : renderer.finish(frame); });
   const Stored after = stored_in(buffer);
   if (error) {
     outcome.errors.push_back(*error);
@@ -197,8 +234,11 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
     frame.reset();
   } else {
     reach.require_untouched(before, after);
-    for (const std::uint32_t object : objects) require(object == Capture::kNothing || object < draws, "a draw is captured that there is none of");
-    outcome.counted.insert(outcome.counted.end(), {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.outside, stats.culled, stats.zero_area, stats.clipped, stats.binned});
+    for (const std::uint32_t object : objects)
+      require(object == Capture::kNothing || object < draws, "a draw is captured that there is none of");
+    outcome.counted.insert(outcome.counted.end(),
+                           {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.outside,
+                            stats.culled, stats.zero_area, stats.clipped, stats.binned});
   }
   if (canvas) {
     canvas->require_untouched_outside();

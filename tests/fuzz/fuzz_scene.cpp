@@ -15,15 +15,23 @@ bool asks_for_much(const json::Json& json) {
   constexpr double kMostDetail = 12;
   if (json.is_object())
     for (const auto& [key, member] : json.items())
-      if ((key == "detail" && ((member.is_number() && member.get<double>() > kMostDetail) || member.is_structured())) || asks_for_much(member)) return true;
+      if ((key == "detail" &&
+           ((member.is_number() && member.get<double>() > kMostDetail) || member.is_structured())) ||
+          asks_for_much(member))
+        return true;
   return json.is_array() && std::any_of(json.begin(), json.end(), asks_for_much);
 }
 
 void run(const std::string& text) {
   if (asks_for_much(json::parse(text, "scene.json"))) return;
   files = {{"scene.json", text},
-           {"picture.ppm", "P6\n# two by two\n2 2 255\n" + std::string("\xff\x80\x00" "\x00\xff\x40" "\x10\x20\x30" "\xff\xff\xff", 12)},
-           {"model.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n"}};
+           {"picture.ppm", "P6\n# two by two\n2 2 255\n" + std::string("\xff\x80\x00"
+                                                                       "\x00\xff\x40"
+                                                                       "\x10\x20\x30"
+                                                                       "\xff\xff\xff",
+                                                                       12)},
+           {"model.obj",
+            "v -1 -1 0\nv 1 -1 0\nv 0 1 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n"}};
   SceneFile file("scene.json");
   render_small(file.at(0));
   if (file.is_animated()) render_small(file.at(0.375));

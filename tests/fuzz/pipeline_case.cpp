@@ -10,7 +10,8 @@ namespace {
 
 FrameBufferFormat read_format(Bytes& from) {
   constexpr int kMostPixels = 48;
-  constexpr DepthFormat kDepths[] = {DepthFormat::unorm24, DepthFormat::float32, DepthFormat::unorm16, DepthFormat::unorm32, DepthFormat::none};
+  constexpr DepthFormat kDepths[] = {DepthFormat::unorm24, DepthFormat::float32, DepthFormat::unorm16,
+                                     DepthFormat::unorm32, DepthFormat::none};
   FrameBufferFormat format;
   const auto side = [&](int byte) { return 1 + byte % kMostPixels; };
   format.width = side(from.byte()), format.height = side(from.byte());
@@ -43,12 +44,15 @@ FrameBufferFormat read_format(Bytes& from) {
 
 // One of its numbers is out of range.
 FrameBufferFormat spoilt(FrameBufferFormat format, Bytes& from) {
-  int* const numbers[] = {&format.width, &format.height, &format.color_bits, &format.stencil_bits, &format.alpha_bits, &format.accumulation_bits, &format.samples};
+  int* const numbers[] = {&format.width,        &format.height,     &format.color_bits,
+                          &format.stencil_bits, &format.alpha_bits, &format.accumulation_bits,
+                          &format.samples};
   *numbers[from.below(7)] = from.coin() ? -1 : from.coin() ? 1 << 30 : 9;
   return format;
 }
 
-// The first is the scalar path in whole, on one thread; the other one of the fast ones, on some threads, in some order, maybe in parts.
+// The first is the scalar path in whole, on one thread; the other one of the fast ones, on some threads, in
+// some order, maybe in parts.
 void read_options(Bytes& from, RendererOptions (&options)[2]) {
   constexpr int kTileSizes[] = {32, 64, 128, 0};
   const std::vector<InstructionSet> sets = available_instruction_sets();
@@ -64,7 +68,8 @@ void read_options(Bytes& from, RendererOptions (&options)[2]) {
   options[1].task_order = work & 0x3f;
   if ((work & 0x40) != 0) options[1].bin_memory = kLeastBinMemory;
   options[0].instruction_set = InstructionSet::scalar;
-  options[1].instruction_set = sets[static_cast<std::size_t>(from.below(static_cast<int>(std::max<std::size_t>(sets.size() - 1, 1))))];
+  options[1].instruction_set =
+      sets[static_cast<std::size_t>(from.below(static_cast<int>(std::max<std::size_t>(sets.size() - 1, 1))))];
 }
 
 /// Numbers of a mesh: each from the bytes, or all from one seed, most of them near -1 .. 1.
@@ -74,7 +79,8 @@ class Numbers {
   float next() {
     if (state_ % 2 == 0) return from_.real32();
     state_ = state_ * 6364136223846793005u + 1442695040888963406u;  // the lowest bit stays
-    return static_cast<float>(static_cast<std::int32_t>(state_ >> 40) - (1 << 23)) / static_cast<float>(1 << 22);
+    return static_cast<float>(static_cast<std::int32_t>(state_ >> 40) - (1 << 23)) /
+           static_cast<float>(1 << 22);
   }
 
  private:
@@ -114,29 +120,36 @@ OwnMesh read_mesh(Bytes& from) {
     const bool is_short = from.coin();
     const int count = from.below(97);
     for (int i = 0; i < count; ++i) {
-      const std::uint32_t index = from.rarely() ? from.word() : from.byte() % static_cast<std::uint32_t>(std::max<std::size_t>(own.vertices, 1));
+      const std::uint32_t index =
+          from.rarely() ? from.word()
+                        : from.byte() % static_cast<std::uint32_t>(std::max<std::size_t>(own.vertices, 1));
       if (is_short) own.short_indices.push_back(static_cast<std::uint16_t>(index));
       else own.indices.push_back(index);
     }
     own.indices.shrink_to_fit(), own.short_indices.shrink_to_fit();
   }
   if (from.rarely()) {  // arrays that do not fit together
-    std::vector<float>* const lists[] = {&own.positions, &own.normals, &own.colors, &own.texcoords, &own.color_indices};
+    std::vector<float>* const lists[] = {&own.positions, &own.normals, &own.colors, &own.texcoords,
+                                         &own.color_indices};
     std::vector<float>& list = *lists[from.below(5)];
     if (!list.empty() && own.stride_floats == 0) list = std::vector<float>(list.begin(), list.end() - 1);
-    else if (const int odd = from.integer(0, 8); odd != 4 || own.stride_floats == 0) own.mesh.position_components = odd;  // with a stride, nobody could tell that the last vertex has three only
+    else if (const int odd = from.integer(0, 8); odd != 4 || own.stride_floats == 0)
+      own.mesh.position_components =
+          odd;  // with a stride, nobody could tell that the last vertex has three only
   }
   return own;
 }
 
 Texture read_texture(Bytes& from) {
   const int width = 1 + from.below(33), height = 1 + from.below(33), kind = from.byte();
-  TextureImage image{.width = width, .height = height, .channels = 1 + (kind & 3), .bottom_row_first = (kind & 4) != 0};
+  TextureImage image{
+      .width = width, .height = height, .channels = 1 + (kind & 3), .bottom_row_first = (kind & 4) != 0};
   const std::ptrdiff_t row = std::ptrdiff_t{width} * image.channels, gap = (kind & 8) != 0 ? from.byte() : 0;
   image.stride_bytes = gap != 0 ? row + gap : 0;
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>((row + gap) * (height - 1) + row));
   std::uint32_t state = from.byte();
-  for (std::uint8_t& byte : pixels) byte = static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
+  for (std::uint8_t& byte : pixels)
+    byte = static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
   image.pixels = pixels.data();
   if ((kind & 16) != 0) {  // rows from the other end
     image.pixels = pixels.data() + (row + gap) * (height - 1);
@@ -153,7 +166,8 @@ std::vector<std::uint8_t> read_texels(Bytes& from, std::ptrdiff_t bytes) {
   std::vector<std::uint8_t> texels(static_cast<std::size_t>(bytes));
   std::uint32_t state = from.byte();
   const bool is_given = state % 4 == 0;
-  for (std::uint8_t& byte : texels) byte = is_given ? from.byte() : static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
+  for (std::uint8_t& byte : texels)
+    byte = is_given ? from.byte() : static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
   return texels;
 }
 
@@ -175,7 +189,8 @@ DrawImage read_image(Bytes& from, StateReader& states) {
   DrawImage command;
   PixelImage& image = command.image;
   image.width = 1 + from.below(20), image.height = 1 + from.below(20), image.channels = 1 + from.below(4);
-  const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels, gap = from.coin() ? from.below(5) : 0;
+  const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels,
+                       gap = from.coin() ? from.below(5) : 0;
   image.stride_bytes = gap != 0 ? row + gap : 0;
   command.pixels = read_texels(from, (row + gap) * (image.height - 1) + row);
   image.x = 8 * from.finite(), image.y = 8 * from.finite();
@@ -190,7 +205,10 @@ PipelineFrame read_frame(Bytes& from, StateReader& states, const PipelineCase& a
   const int count = 1 + from.below(8), ends = from.byte();
   for (int i = 0; i < count && !from.empty(); ++i) {
     const int kind = from.below(16);
-    if (kind < 8) frame.commands.emplace_back(DrawMesh{static_cast<std::size_t>(from.below(static_cast<int>(all.meshes.size()))), states.draw_state(all.textures)});
+    if (kind < 8)
+      frame.commands.emplace_back(
+          DrawMesh{static_cast<std::size_t>(from.below(static_cast<int>(all.meshes.size()))),
+                   states.draw_state(all.textures)});
     else if (kind == 8) frame.commands.emplace_back(read_bitmap(from, states));
     else if (kind == 9) frame.commands.emplace_back(read_image(from, states));
     else if (kind == 10 || kind == 11) frame.commands.emplace_back(states.clear());
@@ -224,7 +242,8 @@ Mesh OwnMesh::view() const {
   Mesh view = mesh;
   const auto lent = [&](const std::vector<float>& list) {
     if (list.empty()) return FloatArray();
-    return stride_floats != 0 ? FloatArray(list.data(), vertices, stride_floats * sizeof(float)) : FloatArray(list);
+    return stride_floats != 0 ? FloatArray(list.data(), vertices, stride_floats * sizeof(float))
+                              : FloatArray(list);
   };
   view.positions = lent(positions);
   view.normals = lent(normals);
@@ -246,7 +265,8 @@ PipelineCase::PipelineCase(Bytes& from) {
   for (int i = 0; i < (counts & 3); ++i) textures.push_back(read_texture(from));
   for (int i = 0; i <= (counts >> 2 & 3); ++i) meshes.push_back(read_mesh(from));
   std::optional<Rect> window;
-  if ((counts & 0x40) != 0) window = Rect{from.below(sound.width), from.below(sound.height), 1 + from.below(24), 1 + from.below(24)};
+  if ((counts & 0x40) != 0)
+    window = Rect{from.below(sound.width), from.below(sound.height), 1 + from.below(24), 1 + from.below(24)};
   if (from.rarely() && !textures.empty()) {
     [[maybe_unused]] const Texture gone = std::move(textures.front());
   }

@@ -1,4 +1,5 @@
-// Frames made of a fuzzer's bytes: everything that the public interface takes, in sizes that are quickly drawn.
+// Frames made of a fuzzer's bytes: everything that the public interface takes, in sizes that are quickly
+// drawn.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +16,13 @@ namespace tessera::fuzz {
 
 /// Arrays without a byte behind their ends.
 struct OwnMesh {
-  Mesh mesh;                                 ///< all but its arrays
+  Mesh mesh;  ///< all but its arrays
   std::vector<float> positions, normals, colors, color_indices, texcoords;
   std::vector<std::uint8_t> color_bytes;
   std::vector<std::uint32_t> indices;
   std::vector<std::uint16_t> short_indices;
-  std::size_t vertices = 0, stride_floats = 0;  ///< stride_floats: between the vertices of all float arrays; 0: packed
+  std::size_t vertices = 0,
+              stride_floats = 0;  ///< stride_floats: between the vertices of all float arrays; 0: packed
   Mesh view() const;
 };
 
@@ -39,12 +41,13 @@ struct DrawImage {
   FragmentState state;
 };
 using LightList = std::vector<Light>;
-using PipelineCommand = std::variant<DrawMesh, DrawBitmap, DrawImage, Clear, Accum, Camera, LightList, LightModel>;
+using PipelineCommand =
+    std::variant<DrawMesh, DrawBitmap, DrawImage, Clear, Accum, Camera, LightList, LightModel>;
 
 /// How the picture of a frame leaves it; absent: it stays in the buffer.
 struct Presentation {
-  std::ptrdiff_t gap_bytes = 0;              ///< between rows
-  bool upwards = false;                      ///< rows go up in memory
+  std::ptrdiff_t gap_bytes = 0;  ///< between rows
+  bool upwards = false;          ///< rows go up in memory
   PixelOrder order = PixelOrder::rgba8;
   std::optional<Rect> part;
 };
@@ -63,8 +66,8 @@ class PipelineCase {
   PipelineCase& operator=(const PipelineCase&) = delete;
 
   FrameBufferFormat format;
-  RendererOptions options[2];                ///< two ways to draw the same
-  bool lent_memory = false;                  ///< the second way draws into memory of the caller
+  RendererOptions options[2];  ///< two ways to draw the same
+  bool lent_memory = false;    ///< the second way draws into memory of the caller
   std::deque<Texture> textures;
   std::vector<OwnMesh> meshes;
   std::vector<PipelineFrame> frames;

@@ -66,18 +66,26 @@ Camera StateReader::camera() {
     switch (from_.below(6)) {
       case 0: break;
       case 1: {
-        const double fovy = 60 + 30 * number(), near = from_.coin() ? 0.5 : number(), far = from_.coin() ? 10 : from_.real();
+        const double fovy = 60 + 30 * number(), near = from_.coin() ? 0.5 : number(),
+                     far = from_.coin() ? 10 : from_.real();
         camera.projection = perspective(fovy, 1, near, far, camera.reversed);
         break;
       }
       case 2: {
         const double near = from_.coin() ? -4 : number(), half = from_.coin() ? 2 : number();
-        camera.projection = orthographic(-half, half, -half, half, near, from_.coin() ? 4 : number(), camera.reversed);
+        camera.projection =
+            orthographic(-half, half, -half, half, near, from_.coin() ? 4 : number(), camera.reversed);
         break;
       }
       case 3: {
-        Intrinsics lens{.fx = 20 + number(), .fy = 20 + number(), .cx = 16 + number(), .cy = 16 + number(), .width = format_.width, .height = format_.height};
-        camera = calibrated_camera(lens, matrix(), 0.25, from_.real(), from_.coin() ? CameraAxes::opencv : CameraAxes::opengl, camera.reversed);
+        Intrinsics lens{.fx = 20 + number(),
+                        .fy = 20 + number(),
+                        .cx = 16 + number(),
+                        .cy = 16 + number(),
+                        .width = format_.width,
+                        .height = format_.height};
+        camera = calibrated_camera(lens, matrix(), 0.25, from_.real(),
+                                   from_.coin() ? CameraAxes::opencv : CameraAxes::opengl, camera.reversed);
         return;
       }
       default: camera.projection = matrix();
@@ -124,7 +132,8 @@ LightModel StateReader::light_model() {
 }
 
 Rect StateReader::rect() {
-  const int x = from_.integer(-8, format_.width), y = from_.integer(-8, format_.height), width = from_.integer(0, format_.width + 8);
+  const int x = from_.integer(-8, format_.width), y = from_.integer(-8, format_.height),
+            width = from_.integer(0, format_.width + 8);
   return {x, y, width, from_.integer(0, format_.height + 8)};
 }
 
@@ -214,7 +223,8 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
   state.provoking_vertex = static_cast<ProvokingVertex>(how >> 4 & 1);
   state.front_face = static_cast<FrontFace>(how >> 5 & 1);
   state.cull = (how & 0x80) == 0 ? Cull::none : (how & 0x40) != 0 ? Cull::back : Cull::front;
-  state.front_mode = static_cast<PolygonMode>((shape & 3) % 3), state.back_mode = static_cast<PolygonMode>((shape >> 2 & 3) % 3);
+  state.front_mode = static_cast<PolygonMode>((shape & 3) % 3),
+  state.back_mode = static_cast<PolygonMode>((shape >> 2 & 3) % 3);
   state.color_material = static_cast<ColorMaterial>((shape >> 4 & 7) % 6);
   if ((more & 1) != 0) state.transform = matrix();
   if ((more & 2) != 0) state.material = material();
@@ -234,7 +244,8 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
     if (window_ && from_.coin()) state.viewport = window_, state.scissor.reset();
   }
   if ((more & 128) != 0) {
-    if (format_.depth != DepthFormat::none || from_.rarely()) state.polygon_offset = {from_.finite32(), from_.finite32()};
+    if (format_.depth != DepthFormat::none || from_.rarely())
+      state.polygon_offset = {from_.finite32(), from_.finite32()};
     if (from_.byte() % 4 == 0) {
       ShadowOn shadow;
       for (double& x : shadow.plane) x = from_.finite();
@@ -249,16 +260,25 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
 FragmentState StateReader::fragment_state() {
   DrawState s;
   read_operations(s);
-  return {.depth = s.depth, .alpha_test = s.alpha_test, .stencil = s.stencil, .blend = s.blend, .logic_op = s.logic_op, .color_mask = s.color_mask, .plane_mask = s.plane_mask, .scissor = s.scissor};
+  return {.depth = s.depth,
+          .alpha_test = s.alpha_test,
+          .stencil = s.stencil,
+          .blend = s.blend,
+          .logic_op = s.logic_op,
+          .color_mask = s.color_mask,
+          .plane_mask = s.plane_mask,
+          .scissor = s.scissor};
 }
 
 Clear StateReader::clear() {
   Clear clear;
   clear.scissor = scissor();
   if (wants(true)) clear.color = unit_color();
-  if (wants(is_index())) clear.index = from_.rarely() ? from_.word() : from_.word() % (1u << format_.color_bits);
+  if (wants(is_index()))
+    clear.index = from_.rarely() ? from_.word() : from_.word() % (1u << format_.color_bits);
   if (wants(format_.depth != DepthFormat::none)) clear.depth = from_.unit();
-  if (wants(format_.stencil_bits > 0)) clear.stencil = from_.rarely() ? from_.word() : from_.byte() % (1u << format_.stencil_bits);
+  if (wants(format_.stencil_bits > 0))
+    clear.stencil = from_.rarely() ? from_.word() : from_.byte() % (1u << format_.stencil_bits);
   if (wants(format_.accumulation_bits > 0)) {
     clear.accumulation = unit_color();
     if (from_.coin()) clear.accumulation->g = -clear.accumulation->g;

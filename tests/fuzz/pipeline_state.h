@@ -12,7 +12,8 @@ namespace tessera::fuzz {
 class StateReader {
  public:
   /// @param window  where all that the states let through is to stay; absent: anywhere
-  StateReader(Bytes& from, const FrameBufferFormat& format, std::optional<Rect> window) : from_(from), format_(format), window_(window) {}
+  StateReader(Bytes& from, const FrameBufferFormat& format, std::optional<Rect> window)
+      : from_(from), format_(format), window_(window) {}
 
   Color any_color();
   /// Components of 0 .. 1.

@@ -13,10 +13,13 @@ namespace tessera::fuzz {
 inline void render_small(Scene scene) {
   constexpr int kMostPixels = 32;
   constexpr std::size_t kMostTriangles = 20000;
-  apply({.width = std::min(scene.framebuffer.width, kMostPixels), .height = std::min(scene.framebuffer.height, kMostPixels)}, scene);
+  apply({.width = std::min(scene.framebuffer.width, kMostPixels),
+         .height = std::min(scene.framebuffer.height, kMostPixels)},
+        scene);
   std::size_t triangles = 0;
   for (const SceneCommand& command : scene.frame)
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) triangles += scene.meshes[draw->mesh].triangle_count();
+    if (const auto* draw = std::get_if<DrawCommand>(&command.what))
+      triangles += scene.meshes[draw->mesh].triangle_count();
   if (triangles > kMostTriangles) return;
   FrameBuffer buffer(scene.framebuffer);
   Frame frame(buffer);

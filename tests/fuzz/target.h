@@ -1,5 +1,6 @@
-// A fuzz target is a function from bytes to nothing. libFuzzer calls it with bytes of its own making, replay.cpp with those of
-// files. tessera::Error is how bad input is refused; whatever else leaves the function is a finding, and so is what finding() reports.
+// A fuzz target is a function from bytes to nothing. libFuzzer calls it with bytes of its own making,
+// replay.cpp with those of files. tessera::Error is how bad input is refused; whatever else leaves the
+// function is a finding, and so is what finding() reports.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,9 @@ using reference::ColorMode;
 using reference::FragmentState;
 using reference::FrameBufferFormat;
 
-bool has_components(const FrameBufferFormat& format) { return format.color_mode == ColorMode::kRgb && format.color_bits >= 3; }
+bool has_components(const FrameBufferFormat& format) {
+  return format.color_mode == ColorMode::kRgb && format.color_bits >= 3;
+}
 
 }  // namespace
 
@@ -19,7 +21,9 @@ const FragmentState* fragment_state(const reference::Command& command) {
   return std::get_if<reference::ImageDrawing>(&command);
 }
 
-bool reads_colors(const FragmentState& state) { return state.blend || state.logic_op != reference::LogicOp::kCopy; }
+bool reads_colors(const FragmentState& state) {
+  return state.blend || state.logic_op != reference::LogicOp::kCopy;
+}
 
 Buffers buffers_for(const reference::Scene& scene) {
   bool reads = false, accumulates = false;
@@ -33,11 +37,13 @@ Buffers buffers_for(const reference::Scene& scene) {
     }
   }
   if (accumulates) buffers.color = ColorStore::kWindow;
-  else if (reads) buffers.color = scene.framebuffer.alpha_bits > 0 ? ColorStore::kBytesAndAlpha : ColorStore::kBytes;
+  else if (reads)
+    buffers.color = scene.framebuffer.alpha_bits > 0 ? ColorStore::kBytesAndAlpha : ColorStore::kBytes;
   return buffers;
 }
 
-std::optional<std::array<bool, 4>> component_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask, const FrameBufferFormat& format) {
+std::optional<std::array<bool, 4>> component_mask(const std::array<bool, 4>& color_mask,
+                                                  std::uint32_t plane_mask, const FrameBufferFormat& format) {
   bool splits = false;
   const auto is_on = [&](int lowest, int bits) {
     const std::uint32_t planes = bits == 0 ? 0 : plane_mask >> lowest & ((1u << bits) - 1);
@@ -47,7 +53,8 @@ std::optional<std::array<bool, 4>> component_mask(const std::array<bool, 4>& col
   const bool alpha = color_mask[3] && is_on(format.color_bits, format.alpha_bits);
   std::array<bool, 4> mask{false, false, false, alpha};
   if (has_components(format)) {
-    const int blue = format.color_bits / 3, green = (format.color_bits + 2) / 3, red = format.color_bits - green - blue;
+    const int blue = format.color_bits / 3, green = (format.color_bits + 2) / 3,
+              red = format.color_bits - green - blue;
     const bool r = is_on(green + blue, red), g = is_on(blue, green), b = is_on(0, blue);
     mask = {color_mask[0] && r, color_mask[1] && g, color_mask[2] && b, alpha};
   } else {

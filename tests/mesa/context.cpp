@@ -28,8 +28,8 @@ void load(F& function, const char* name) {
   if (function == nullptr) throw std::runtime_error(std::string("OSMesa has no ") + name);
 }
 
-// By default Mesa filters with weights of 8 bits and takes one level of detail for each four pixels. It reads this when the
-// process makes its first context.
+// By default Mesa filters with weights of 8 bits and takes one level of detail for each four pixels. It reads
+// this when the process makes its first context.
 void ask_for_exact_filters() { setenv("GALLIVM_PERF", "no_aos_sampling,no_quad_lod", 0); }
 
 }  // namespace
@@ -37,8 +37,17 @@ void ask_for_exact_filters() { setenv("GALLIVM_PERF", "no_aos_sampling,no_quad_l
 Context::Context(int width_px, int height_px, const Buffers& buffers) : width_(width_px), height_(height_px) {
   const bool in_window = buffers.color == ColorStore::kWindow;
   const int window_width = in_window ? width_px : 1, window_height = in_window ? height_px : 1;
-  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, in_window ? 24 : 0, OSMESA_STENCIL_BITS, in_window ? 8 : 0, OSMESA_ACCUM_BITS,
-                            in_window ? 16 : 0, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            in_window ? 24 : 0,
+                            OSMESA_STENCIL_BITS,
+                            in_window ? 8 : 0,
+                            OSMESA_ACCUM_BITS,
+                            in_window ? 16 : 0,
+                            OSMESA_PROFILE,
+                            OSMESA_COMPAT_PROFILE,
+                            0};
   window_.resize(static_cast<std::size_t>(window_width) * static_cast<std::size_t>(window_height));
   ask_for_exact_filters();
   context_ = OSMesaCreateContextAttribs(attributes, nullptr);
@@ -52,7 +61,8 @@ Context::Context(int width_px, int height_px, const Buffers& buffers) : width_(w
     glClearColor(0, 0, 0, buffers.color == ColorStore::kBytesAndAlpha || in_window ? 0 : 1);
     glClearDepth(1);
     glClearAccum(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | (in_window ? GL_ACCUM_BUFFER_BIT : 0));
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT |
+            (in_window ? GL_ACCUM_BUFFER_BIT : 0));
     check_errors("making the buffers");
   } catch (...) {
     OSMesaDestroyContext(context_);
@@ -109,11 +119,17 @@ void Context::make_frame_buffer(const Buffers& buffers) {
     f.renderbuffer_storage(GL_RENDERBUFFER, format, width_, height_);
     f.framebuffer_renderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
   };
-  attach(names[0], GL_COLOR_ATTACHMENT0, buffers.color == ColorStore::kFloat ? GL_RGBA32F : buffers.color == ColorStore::kBytes ? GL_RGB8 : GL_RGBA8);
+  attach(names[0], GL_COLOR_ATTACHMENT0,
+         buffers.color == ColorStore::kFloat   ? GL_RGBA32F
+         : buffers.color == ColorStore::kBytes ? GL_RGB8
+                                               : GL_RGBA8);
   const bool has_depth = buffers.depth != reference::DepthFormat::kNone;
-  if (buffers.stencil) attach(names[1], has_depth ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT, format_with_stencil(buffers.depth));
+  if (buffers.stencil)
+    attach(names[1], has_depth ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT,
+           format_with_stencil(buffers.depth));
   else if (has_depth) attach(names[1], GL_DEPTH_ATTACHMENT, internal_format(buffers.depth));
-  if (f.check_framebuffer_status(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("OSMesa cannot make the frame buffer");
+  if (f.check_framebuffer_status(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw std::runtime_error("OSMesa cannot make the frame buffer");
 }
 
 std::vector<float> Context::read_colors() const {
@@ -125,7 +141,8 @@ std::vector<float> Context::read_colors() const {
 }
 
 void check_errors(const std::string& doing) {
-  if (const GLenum error = glGetError(); error != GL_NO_ERROR) throw std::runtime_error("OpenGL error " + std::to_string(error) + " while " + doing);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    throw std::runtime_error("OpenGL error " + std::to_string(error) + " while " + doing);
 }
 
 }  // namespace tessera::mesa

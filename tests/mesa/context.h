@@ -2,8 +2,8 @@
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES 0
-#include <GL/osmesa.h>
 #include <GL/glext.h>
+#include <GL/osmesa.h>
 
 #include <cstdint>
 #include <string>

@@ -15,7 +15,8 @@ struct Floats {
 };
 
 Floats floats(reference::Vec4 v) {
-  return {{static_cast<GLfloat>(v.x), static_cast<GLfloat>(v.y), static_cast<GLfloat>(v.z), static_cast<GLfloat>(v.w)}};
+  return {{static_cast<GLfloat>(v.x), static_cast<GLfloat>(v.y), static_cast<GLfloat>(v.z),
+           static_cast<GLfloat>(v.w)}};
 }
 
 bool is_black(reference::Vec4 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
@@ -23,13 +24,15 @@ bool is_black(reference::Vec4 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 bool light_is_ordinary(const reference::Light& light) {
   const auto [constant, linear, quadratic] = light.attenuation;
   const bool attenuates_safely = constant > 0 && linear >= 0 && quadratic >= 0;
-  const bool is_directional_spot = light.position.w == 0 && light.spot_cutoff != 180;  // OpenGL drivers differ here
+  const bool is_directional_spot =
+      light.position.w == 0 && light.spot_cutoff != 180;  // OpenGL drivers differ here
   return attenuates_safely && !is_directional_spot && light.spot_exponent <= kMaxExponent;
 }
 
 // 0^0 is 1 by the specification, but not by every instruction set.
 bool material_is_ordinary(const reference::Material& material, const reference::Draw& draw) {
-  const bool has_highlight = !is_black(material.specular) || draw.color_material == reference::ColorMaterial::kSpecular;
+  const bool has_highlight =
+      !is_black(material.specular) || draw.color_material == reference::ColorMaterial::kSpecular;
   return material.shininess <= kMaxExponent && (material.shininess > 0 || !has_highlight);
 }
 
@@ -41,7 +44,9 @@ bool vertex_is_ordinary(const Vertex& vertex) {
 bool is_affine(const reference::Mat4& m) { return m.rows[3] == std::array<double, 4>{0, 0, 0, 1}; }
 
 void set_light(GLenum name, const reference::Light& light) {
-  const GLfloat direction[3] = {static_cast<GLfloat>(light.spot_direction.x), static_cast<GLfloat>(light.spot_direction.y), static_cast<GLfloat>(light.spot_direction.z)};
+  const GLfloat direction[3] = {static_cast<GLfloat>(light.spot_direction.x),
+                                static_cast<GLfloat>(light.spot_direction.y),
+                                static_cast<GLfloat>(light.spot_direction.z)};
   glEnable(name);
   glLightfv(name, GL_AMBIENT, floats(light.ambient).values);
   glLightfv(name, GL_DIFFUSE, floats(light.diffuse).values);
@@ -77,16 +82,19 @@ GLenum color_material(reference::ColorMaterial mode) {
 
 }  // namespace
 
-bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                         const reference::Camera& camera, const std::vector<Vertex>& vertices) {
+bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model,
+                         const std::vector<reference::Light>& lights, const reference::Camera& camera,
+                         const std::vector<Vertex>& vertices) {
   if (!draw.lighting) return true;
-  return draw.shading != reference::Shading::kPhong && model.specular == reference::SpecularModel::kBlinn && lights.size() <= kMaxLights &&
-         std::ranges::all_of(lights, light_is_ordinary) && material_is_ordinary(draw.material, draw) && material_is_ordinary(draw.back_material, draw) &&
-         is_affine(draw.world_from_object) && is_affine(camera.view_from_world) && std::ranges::all_of(vertices, vertex_is_ordinary);
+  return draw.shading != reference::Shading::kPhong && model.specular == reference::SpecularModel::kBlinn &&
+         lights.size() <= kMaxLights && std::ranges::all_of(lights, light_is_ordinary) &&
+         material_is_ordinary(draw.material, draw) && material_is_ordinary(draw.back_material, draw) &&
+         is_affine(draw.world_from_object) && is_affine(camera.view_from_world) &&
+         std::ranges::all_of(vertices, vertex_is_ordinary);
 }
 
-void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                                 bool has_vertex_colors) {
+void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model,
+                                 const std::vector<reference::Light>& lights, bool has_vertex_colors) {
   glDisable(GL_COLOR_MATERIAL);  // before the materials: while it is on they follow the colour
   if (!draw.lighting) {
     glDisable(GL_LIGHTING);

@@ -9,12 +9,13 @@
 namespace tessera::mesa {
 
 /// Whether fixed functions compute what the specification asks of this draw.
-bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                         const reference::Camera& camera, const std::vector<Vertex>& vertices);
+bool fixed_functions_can(const reference::Draw& draw, const reference::LightModel& model,
+                         const std::vector<reference::Light>& lights, const reference::Camera& camera,
+                         const std::vector<Vertex>& vertices);
 
-/// Sets lights, light model, materials and colour material. The model view matrix must hold the view alone: OpenGL takes
-/// positions and spot directions of lights through it.
-void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model, const std::vector<reference::Light>& lights,
-                                 bool has_vertex_colors);
+/// Sets lights, light model, materials and colour material. The model view matrix must hold the view alone:
+/// OpenGL takes positions and spot directions of lights through it.
+void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model,
+                                 const std::vector<reference::Light>& lights, bool has_vertex_colors);
 
 }  // namespace tessera::mesa

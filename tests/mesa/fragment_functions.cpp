@@ -80,15 +80,18 @@ GLenum logic_operation(LogicOp op) {
 
 void set_stencil_face(const Functions& gl, GLenum side, const reference::StencilFace& face) {
   gl.stencil_func_separate(side, compare_function(face.func), static_cast<GLint>(face.ref), face.mask);
-  gl.stencil_op_separate(side, stencil_operation(face.fail), stencil_operation(face.zfail), stencil_operation(face.zpass));
+  gl.stencil_op_separate(side, stencil_operation(face.fail), stencil_operation(face.zfail),
+                         stencil_operation(face.zpass));
   gl.stencil_mask_separate(side, face.write_mask);
 }
 
 void set_blend(const Functions& gl, const reference::Blend& blend) {
   const reference::Vec4 c = blend.color;
-  gl.blend_func_separate(blend_factor(blend.src), blend_factor(blend.dst), blend_factor(blend.src_alpha), blend_factor(blend.dst_alpha));
+  gl.blend_func_separate(blend_factor(blend.src), blend_factor(blend.dst), blend_factor(blend.src_alpha),
+                         blend_factor(blend.dst_alpha));
   gl.blend_equation(blend_equation(blend.equation));
-  gl.blend_color(static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z), static_cast<GLfloat>(c.w));
+  gl.blend_color(static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z),
+                 static_cast<GLfloat>(c.w));
 }
 
 }  // namespace
@@ -116,10 +119,12 @@ void set_scissor(const std::optional<reference::Rect>& scissor) {
 
 void set_color_mask(const std::array<bool, 4>& mask) { glColorMask(mask[0], mask[1], mask[2], mask[3]); }
 
-void set_fragment_functions(const Functions& gl, const reference::FragmentState& state, const reference::FrameBufferFormat& format) {
+void set_fragment_functions(const Functions& gl, const reference::FragmentState& state,
+                            const reference::FrameBufferFormat& format) {
   set_scissor(state.scissor);
   set_enabled(GL_ALPHA_TEST, state.alpha_test.has_value());
-  if (state.alpha_test) glAlphaFunc(compare_function(state.alpha_test->func), static_cast<GLclampf>(state.alpha_test->ref));
+  if (state.alpha_test)
+    glAlphaFunc(compare_function(state.alpha_test->func), static_cast<GLclampf>(state.alpha_test->ref));
   set_enabled(GL_STENCIL_TEST, state.stencil.has_value());
   if (state.stencil) {
     set_stencil_face(gl, GL_FRONT, state.stencil->front);
@@ -137,7 +142,8 @@ void set_fragment_functions(const Functions& gl, const reference::FragmentState&
   set_color_mask(component_mask(state.color_mask, state.plane_mask, format).value());
 }
 
-// A unit of Mesa's llvmpipe is two levels of a unorm format (measured; OpenGL lets it choose) and one step of float.
+// A unit of Mesa's llvmpipe is two levels of a unorm format (measured; OpenGL lets it choose) and one step of
+// float.
 void set_window_depths(const reference::Draw& draw, reference::DepthFormat depth) {
   const reference::PolygonOffset offset = draw.polygon_offset;
   glDepthRange(draw.depth_range[0], draw.depth_range[1]);

@@ -13,9 +13,10 @@ void set_scissor(const std::optional<reference::Rect>& scissor);
 
 void set_color_mask(const std::array<bool, 4>& mask);
 
-/// Sets everything between shading and the colour buffer: scissor, alpha test, stencil, depth test, blend, logic operation, and
-/// the masks, which must be of whole components.
-void set_fragment_functions(const Functions& gl, const reference::FragmentState& state, const reference::FrameBufferFormat& format);
+/// Sets everything between shading and the colour buffer: scissor, alpha test, stencil, depth test, blend,
+/// logic operation, and the masks, which must be of whole components.
+void set_fragment_functions(const Functions& gl, const reference::FragmentState& state,
+                            const reference::FrameBufferFormat& format);
 
 /// Sets the depth range and the offset of polygons, in every mode.
 void set_window_depths(const reference::Draw& draw, reference::DepthFormat depth);

@@ -25,12 +25,14 @@ constexpr int kLargestViewport = 8192;  // what the context surely takes
 Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
   if (format.samples > 1) return "OSMesa has no multisampling";
   if (format.dither != reference::Dither::kNone) return "OpenGL leaves the dither pattern open";
-  if (buffers.color != ColorStore::kFloat && (format.color_mode != ColorMode::kRgb || format.color_bits != 24))
+  if (buffers.color != ColorStore::kFloat &&
+      (format.color_mode != ColorMode::kRgb || format.color_bits != 24))
     return "what is read back would have to be stored in other than 24 bits";
   if (buffers.stencil && format.stencil_bits != 8) return "a stencil of fewer than 8 bits";
   if (buffers.stencil && (format.depth == DepthFormat::kUnorm16 || format.depth == DepthFormat::kUnorm32))
     return "a stencil beside 16 or 32 bits of depth";
-  if (buffers.color == ColorStore::kWindow && format.depth != DepthFormat::kNone && format.depth != DepthFormat::kUnorm24)
+  if (buffers.color == ColorStore::kWindow && format.depth != DepthFormat::kNone &&
+      format.depth != DepthFormat::kUnorm24)
     return "an accumulation buffer beside other than 24 bits of depth";
   return std::nullopt;
 }
@@ -38,7 +40,8 @@ Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
 Reason index_limit(const Draw& draw, const reference::Scene& scene) {
   if (scene.framebuffer.color_mode != ColorMode::kIndex || draw.shadow_on) return std::nullopt;
   const bool lit_by_index =
-      draw.lighting && (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
+      draw.lighting &&
+      (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
   const bool drawn_by_index = !draw.lighting && !scene.meshes.at(draw.mesh).color_indices.empty();
   if (lit_by_index || drawn_by_index) return "OSMesa has no colour-index mode";
   return std::nullopt;
@@ -58,7 +61,8 @@ struct FrameState {
   void take(const auto&) {}  // others leave nothing that limits ask for
 };
 
-// Mesa carries depths in float and clears in double: what is put at exactly the depth of a clear may lie a step beside it.
+// Mesa carries depths in float and clears in double: what is put at exactly the depth of a clear may lie a
+// step beside it.
 bool meets_a_clear(double depth, const std::vector<double>& cleared) {
   return std::floor(depth) != depth && std::ranges::find(cleared, depth) != cleared.end();
 }
@@ -84,7 +88,8 @@ struct CommandLimit {
   const FrameState& frame;
 
   Reason operator()(const Clear& clear) const {
-    if (clear.index && !cleared_entry(*clear.index, scene.framebuffer)) return "a clear to a palette entry that is not set";
+    if (clear.index && !cleared_entry(*clear.index, scene.framebuffer))
+      return "a clear to a palette entry that is not set";
     return std::nullopt;
   }
   Reason operator()(const Draw& draw) const { return draw_limit(as_drawn(draw, frame.lights), scene, frame); }
@@ -105,7 +110,8 @@ struct CommandLimit {
   }
 };
 
-// Mesa's accumulation buffer wraps where ours saturates. This bounds its values as if no scissor kept commands apart.
+// Mesa's accumulation buffer wraps where ours saturates. This bounds its values as if no scissor kept
+// commands apart.
 class AccumulationBound {
  public:
   void take(const auto&) {}  // other commands leave the accumulation buffer alone
@@ -122,7 +128,9 @@ class AccumulationBound {
       case reference::AccumOp::kAccum:
       case reference::AccumOp::kAdd: largest_ += value; break;
       case reference::AccumOp::kLoad: largest_ = accum.scissor ? std::max(largest_, value) : value; break;
-      case reference::AccumOp::kMult: largest_ = accum.scissor ? std::max(largest_, largest_ * value) : largest_ * value; break;
+      case reference::AccumOp::kMult:
+        largest_ = accum.scissor ? std::max(largest_, largest_ * value) : largest_ * value;
+        break;
       case reference::AccumOp::kReturn: break;
     }
   }

@@ -52,7 +52,8 @@ class Renderer {
         lights_(scene.lights) {}
 
   std::vector<std::uint8_t> run() {
-    for (const reference::Command& command : scene_.frame) std::visit([this](const auto& c) { execute(c); }, command);
+    for (const reference::Command& command : scene_.frame)
+      std::visit([this](const auto& c) { execute(c); }, command);
     return shown_colors(context_.read_colors(), format_);
   }
 
@@ -71,7 +72,8 @@ class Renderer {
         const reference::Rgb8 entry = cleared_entry(*clear.index, format_).value();
         c = {entry[0] / 255.0, entry[1] / 255.0, entry[2] / 255.0, 1};
       }
-      glClearColor(static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z), format_.alpha_bits > 0 ? static_cast<GLfloat>(c.w) : 1);
+      glClearColor(static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z),
+                   format_.alpha_bits > 0 ? static_cast<GLfloat>(c.w) : 1);
       buffers |= GL_COLOR_BUFFER_BIT;
     }
     if (clear.depth) {
@@ -84,7 +86,8 @@ class Renderer {
     }
     if (clear.accumulation && buffers_for(scene_).color == ColorStore::kWindow) {
       const reference::Vec4 a = *clear.accumulation;
-      glClearAccum(static_cast<GLfloat>(a.x), static_cast<GLfloat>(a.y), static_cast<GLfloat>(a.z), static_cast<GLfloat>(a.w));
+      glClearAccum(static_cast<GLfloat>(a.x), static_cast<GLfloat>(a.y), static_cast<GLfloat>(a.z),
+                   static_cast<GLfloat>(a.w));
       buffers |= GL_ACCUM_BUFFER_BIT;
     }
     glClear(buffers);
@@ -137,7 +140,8 @@ class Renderer {
     const Rect viewport = viewport_of(draw, format_);
     const Growth growth = viewport_growth(type, draw, viewport);
     set_viewport(gl_, viewport, growth);
-    set_scissor(draw.scissor ? reference::intersection(*draw.scissor, viewport) : viewport);  // Mesa's points and lines reach over it
+    set_scissor(draw.scissor ? reference::intersection(*draw.scissor, viewport)
+                             : viewport);  // Mesa's points and lines reach over it
     gl_.clip_control(GL_LOWER_LEFT, camera_.reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glMatrixMode(GL_PROJECTION);
     load_matrix(reference::multiply(shrinking(growth), camera_.clip_from_view));
@@ -145,8 +149,10 @@ class Renderer {
   }
 
   LightingBy lighting_by(const Draw& draw, const std::vector<Vertex>& vertices) const {
-    if (fixed_functions_can(draw, scene_.light_model, lights_, camera_, vertices)) return LightingBy::kFixedFunctions;
-    return draw.shading == reference::Shading::kPhong ? LightingBy::kFragmentProgram : LightingBy::kVertexProgram;
+    if (fixed_functions_can(draw, scene_.light_model, lights_, camera_, vertices))
+      return LightingBy::kFixedFunctions;
+    return draw.shading == reference::Shading::kPhong ? LightingBy::kFragmentProgram
+                                                      : LightingBy::kVertexProgram;
   }
 
   // Leaves the matrix that takes objects into eye space.
@@ -156,18 +162,22 @@ class Renderer {
     glShadeModel(draw.shading == reference::Shading::kFlat ? GL_FLAT : GL_SMOOTH);
     set_enabled(GL_NORMALIZE, draw.normalize);
     textures_.use(draw);
-    programs_.use(lighting, texture != nullptr && asks_for_level(*texture) && level_of_detail_ == LevelOfDetail::exact);
+    programs_.use(lighting,
+                  texture != nullptr && asks_for_level(*texture) && level_of_detail_ == LevelOfDetail::exact);
     set_program_texture(programs_, draw, mesh, texture);
     if (lighting == LightingBy::kFixedFunctions) {
       load_matrix(camera_.view_from_world);
       set_fixed_function_lighting(draw, scene_.light_model, lights_, has_vertex_colors(draw, mesh));
     } else {
-      set_program_lighting(programs_, draw, scene_.light_model, lights_, camera_, has_vertex_colors(draw, mesh));
+      set_program_lighting(programs_, draw, scene_.light_model, lights_, camera_,
+                           has_vertex_colors(draw, mesh));
     }
     load_matrix(reference::multiply(camera_.view_from_world, draw.world_from_object));
   }
 
-  static void load_matrix(const Mat4& m) { glLoadTransposeMatrixd(m.rows[0].data()); }  // the rows lie one after the other
+  static void load_matrix(const Mat4& m) {
+    glLoadTransposeMatrixd(m.rows[0].data());
+  }  // the rows lie one after the other
 
   const reference::Scene& scene_;
   const FrameBufferFormat& format_;

@@ -7,7 +7,8 @@ namespace {
 
 // Each row begins with a byte of its own, as its neighbours the most significant bit left.
 std::vector<GLubyte> packed(const reference::Bitmap& bitmap) {
-  const auto width = static_cast<std::size_t>(bitmap.width), height = static_cast<std::size_t>(bitmap.height), row_bytes = (width + 7) / 8;
+  const auto width = static_cast<std::size_t>(bitmap.width), height = static_cast<std::size_t>(bitmap.height),
+             row_bytes = (width + 7) / 8;
   std::vector<GLubyte> bytes(row_bytes * height);
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x)
@@ -22,8 +23,8 @@ void go_to(const Functions& gl, const std::array<double, 2>& at, double depth) {
 
 }  // namespace
 
-// The colour is that at the time when the position was set. Mesa gathers bitmaps and draws them at once, so that two that overlap
-// would be one: it is told to draw each.
+// The colour is that at the time when the position was set. Mesa gathers bitmaps and draws them at once, so
+// that two that overlap would be one: it is told to draw each.
 void draw_bitmap(const Functions& gl, const reference::Bitmap& bitmap) {
   const reference::Vec4 c = bitmap.color;
   glColor4d(c.x, c.y, c.z, c.w);

@@ -1,4 +1,5 @@
-// Bitmaps and images at a window position. The fragment functions are set before; lighting and textures have no say.
+// Bitmaps and images at a window position. The fragment functions are set before; lighting and textures have
+// no say.
 #pragma once
 
 #include "context.h"

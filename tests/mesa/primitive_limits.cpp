@@ -29,29 +29,41 @@ using Reason = std::optional<std::string>;
 
 constexpr double kLargestSize = 255;  // of Mesa's points and lines
 
-bool is_quads(PrimitiveType type) { return type == PrimitiveType::kQuads || type == PrimitiveType::kQuadStrip; }
+bool is_quads(PrimitiveType type) {
+  return type == PrimitiveType::kQuads || type == PrimitiveType::kQuadStrip;
+}
 
-bool has_one_mode(const Draw& draw, PolygonMode mode) { return draw.polygon_mode[0] == mode && draw.polygon_mode[1] == mode; }
+bool has_one_mode(const Draw& draw, PolygonMode mode) {
+  return draw.polygon_mode[0] == mode && draw.polygon_mode[1] == mode;
+}
 
-bool has_mode(const Draw& draw, PolygonMode mode) { return draw.polygon_mode[0] == mode || draw.polygon_mode[1] == mode; }
+bool has_mode(const Draw& draw, PolygonMode mode) {
+  return draw.polygon_mode[0] == mode || draw.polygon_mode[1] == mode;
+}
 
 bool is_same(const StencilFace& a, const StencilFace& b) {
-  const auto fields = [](const StencilFace& f) { return std::tie(f.func, f.ref, f.mask, f.fail, f.zfail, f.zpass, f.write_mask); };
+  const auto fields = [](const StencilFace& f) {
+    return std::tie(f.func, f.ref, f.mask, f.fail, f.zfail, f.zpass, f.write_mask);
+  };
   return fields(a) == fields(b);
 }
 
-bool stencils_each_side(const Draw& draw) { return draw.stencil && !is_same(draw.stencil->front, draw.stencil->back); }
+bool stencils_each_side(const Draw& draw) {
+  return draw.stencil && !is_same(draw.stencil->front, draw.stencil->back);
+}
 
 using Vertices = std::vector<std::uint32_t>;
 
 /// The corners of a point, line or polygon in clip space.
 using Corners = std::vector<Vec4>;
 
-Corners in_clip_space(const Vertices& vertices, const Draw& draw, const Mesh& mesh, const reference::Camera& camera) {
+Corners in_clip_space(const Vertices& vertices, const Draw& draw, const Mesh& mesh,
+                      const reference::Camera& camera) {
   const reference::Mat4 eye_from_object = reference::multiply(camera.view_from_world, draw.world_from_object);
   Corners corners;
   for (const std::uint32_t vertex : vertices)
-    corners.push_back(reference::transform(camera.clip_from_view, reference::transform(eye_from_object, mesh.positions[vertex])));
+    corners.push_back(reference::transform(camera.clip_from_view,
+                                           reference::transform(eye_from_object, mesh.positions[vertex])));
   return corners;
 }
 
@@ -63,7 +75,8 @@ bool cuts(const Corners& corners, const Inside& inside) {
 }
 
 bool is_cut_in_depth(const Corners& corners, const reference::Camera& camera) {
-  if (camera.reversed) return cuts(corners, [](Vec4 p) { return p.w - p.z; }) || cuts(corners, [](Vec4 p) { return p.z; });
+  if (camera.reversed)
+    return cuts(corners, [](Vec4 p) { return p.w - p.z; }) || cuts(corners, [](Vec4 p) { return p.z; });
   return cuts(corners, [](Vec4 p) { return p.w + p.z; }) || cuts(corners, [](Vec4 p) { return p.w - p.z; });
 }
 
@@ -88,8 +101,8 @@ bool faces_both_ways(const Corners& polygon) {
 }
 
 bool sides_matter(const Draw& draw, bool two_sided_lighting) {
-  return draw.cull != reference::Cull::kNone || (draw.lighting && two_sided_lighting) || draw.polygon_mode[0] != draw.polygon_mode[1] ||
-         stencils_each_side(draw);
+  return draw.cull != reference::Cull::kNone || (draw.lighting && two_sided_lighting) ||
+         draw.polygon_mode[0] != draw.polygon_mode[1] || stencils_each_side(draw);
 }
 
 Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera& camera) {
@@ -98,14 +111,18 @@ Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera
   return std::nullopt;
 }
 
-// By what part of a line's length the middles of its pixels at the side lie before or behind the line in their column or row.
+// By what part of a line's length the middles of its pixels at the side lie before or behind the line in
+// their column or row.
 double lean(Vec4 a, Vec4 b, double width_px, const reference::Rect& viewport) {
-  if (!(a.w > 0 && b.w > 0)) return std::numeric_limits<double>::infinity();  // what is left of it may be short
-  const double dx = std::abs(b.x / b.w - a.x / a.w) * viewport.width / 2, dy = std::abs(b.y / b.w - a.y / a.w) * viewport.height / 2;
+  if (!(a.w > 0 && b.w > 0))
+    return std::numeric_limits<double>::infinity();  // what is left of it may be short
+  const double dx = std::abs(b.x / b.w - a.x / a.w) * viewport.width / 2,
+               dy = std::abs(b.y / b.w - a.y / a.w) * viewport.height / 2;
   return std::min(dx, dy) == 0 ? 0 : width_px / 2 * std::min(dx, dy) / (dx * dx + dy * dy);
 }
 
-// In levels, from one end of a line to the other: as much as it may be where lights have a say. Textures have a limit of their own.
+// In levels, from one end of a line to the other: as much as it may be where lights have a say. Textures have
+// a limit of their own.
 double color_change(std::uint32_t a, std::uint32_t b, const Draw& draw, const Mesh& mesh) {
   if (draw.shading == reference::Shading::kFlat) return 0;
   if (draw.lighting) return 255;
@@ -120,8 +137,10 @@ Reason wide_line_limit(const Vertices& vertices, const Corners& corners, const D
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t next = (i + 1) % corners.size();
     const double change = color_change(vertices[i], vertices[next], draw, mesh);
-    if (change > 0 && change * lean(corners[i], corners[next], draw.line_width, viewport) > reference::kTolerance)
-      return "a wide line that slants and changes its colour: Mesa has one for each column or row, not for each pixel's projection";
+    if (change > 0 &&
+        change * lean(corners[i], corners[next], draw.line_width, viewport) > reference::kTolerance)
+      return "a wide line that slants and changes its colour: Mesa has one for each column or row, not for "
+             "each pixel's projection";
   }
   return std::nullopt;
 }
@@ -138,7 +157,8 @@ bool split_shows(const Vertices& quad, const Draw& draw, const Mesh& mesh) {
   return draw.lighting || (has_vertex_colors(draw, mesh) && !is_even(quad, mesh.colors));
 }
 
-Reason polygon_limit(const Corners& polygon, const Draw& draw, bool two_sided_lighting, const reference::Camera& camera) {
+Reason polygon_limit(const Corners& polygon, const Draw& draw, bool two_sided_lighting,
+                     const reference::Camera& camera) {
   if (!has_one_mode(draw, PolygonMode::kFill) && is_cut_in_depth(polygon, camera))
     return "lines or points of a polygon that is cut: Mesa leaves out what the cut adds";
   if (has_mode(draw, PolygonMode::kPoint) && is_cut_by_sides(polygon))
@@ -157,7 +177,8 @@ struct TexturedEnd {
 };
 
 TexturedEnd mix(const TexturedEnd& a, const TexturedEnd& b, double t) {
-  return {(1 - t) * a.at + t * b.at, {(1 - t) * a.texcoord[0] + t * b.texcoord[0], (1 - t) * a.texcoord[1] + t * b.texcoord[1]}};
+  return {(1 - t) * a.at + t * b.at,
+          {(1 - t) * a.texcoord[0] + t * b.texcoord[0], (1 - t) * a.texcoord[1] + t * b.texcoord[1]}};
 }
 
 /// A textured line, of a mesh or of a polygon's boundary.
@@ -168,46 +189,58 @@ class TexturedLine {
     if (std::max(a.at.w, b.at.w) <= 0) return;
     if (a.at.w < kInFront * b.at.w) a = mix(b, a, (1 - kInFront) * b.at.w / (b.at.w - a.at.w));
     if (b.at.w < kInFront * a.at.w) b = mix(a, b, (1 - kInFront) * a.at.w / (a.at.w - b.at.w));
-    const double dx = 0.5 * viewport.width * (b.at.x / b.at.w - a.at.x / a.at.w), dy = 0.5 * viewport.height * (b.at.y / b.at.w - a.at.y / a.at.w);
+    const double dx = 0.5 * viewport.width * (b.at.x / b.at.w - a.at.x / a.at.w),
+                 dy = 0.5 * viewport.height * (b.at.y / b.at.w - a.at.y / a.at.w);
     const double major = std::max(std::abs(dx), std::abs(dy));
     if (major == 0) return;
     slant_ = std::min(std::abs(dx), std::abs(dy)) / major;
-    for (std::size_t i = 0; i < 2; ++i) slope_[i] = std::abs(b.texcoord[i] - a.texcoord[i]) / major * std::max(a.at.w / b.at.w, b.at.w / a.at.w);
+    for (std::size_t i = 0; i < 2; ++i)
+      slope_[i] =
+          std::abs(b.texcoord[i] - a.texcoord[i]) / major * std::max(a.at.w / b.at.w, b.at.w / a.at.w);
   }
 
-  // Mesa takes what it interpolates from where the line passes the middle of the pixel's column, or row of a steep one; equation 3.5 from the
-  // foot of the pixel's centre. A step along the line is longer than the one from column to column, too.
+  // Mesa takes what it interpolates from where the line passes the middle of the pixel's column, or row of a
+  // steep one; equation 3.5 from the foot of the pixel's centre. A step along the line is longer than the one
+  // from column to column, too.
   bool is_beyond_mesa(const reference::Texture& texture, double width_px) const {
-    constexpr double kLevelApart = 1.0 / 128, kLinearApart = 1.0 / 128, kNearestApart = 1.0 / 16;  // texels: a level or two; a pixel of 16
+    constexpr double kLevelApart = 1.0 / 128, kLinearApart = 1.0 / 128,
+                     kNearestApart = 1.0 / 16;  // texels: a level or two; a pixel of 16
     if (asks_for_level(texture) && 0.5 * std::log2(1 + slant_ * slant_) > kLevelApart) return true;
-    const double texels_px = std::max(slope_[0] * texture.image.width, is_row(texture) ? 0.0 : slope_[1] * texture.image.height);
-    const bool is_nearest = texture.mag == reference::MagFilter::kNearest && texture.min == reference::MinFilter::kNearest;
+    const double texels_px =
+        std::max(slope_[0] * texture.image.width, is_row(texture) ? 0.0 : slope_[1] * texture.image.height);
+    const bool is_nearest =
+        texture.mag == reference::MagFilter::kNearest && texture.min == reference::MinFilter::kNearest;
     return 0.5 * std::max(1.0, width_px) * slant_ * texels_px > (is_nearest ? kNearestApart : kLinearApart);
   }
 
  private:
-  double slant_ = 0;       // of the minor axis to the major one
-  TexCoord slope_{0, 0};   // the largest along it, for each pixel
+  double slant_ = 0;      // of the minor axis to the major one
+  TexCoord slope_{0, 0};  // the largest along it, for each pixel
 };
 
-// Cut quads are split along the diagonal from the second to the fourth vertex; that shows unless the halves continue each other.
+// Cut quads are split along the diagonal from the second to the fourth vertex; that shows unless the halves
+// continue each other.
 bool cut_shows(const Vertices& quad, const Mesh& mesh) {
-  const auto rest = [&](std::size_t i) { return mesh.texcoords[quad[0]][i] - mesh.texcoords[quad[1]][i] + mesh.texcoords[quad[2]][i] - mesh.texcoords[quad[3]][i]; };
+  const auto rest = [&](std::size_t i) {
+    return mesh.texcoords[quad[0]][i] - mesh.texcoords[quad[1]][i] + mesh.texcoords[quad[2]][i] -
+           mesh.texcoords[quad[3]][i];
+  };
   return !is_even(quad, mesh.positions) || std::abs(rest(0)) > 1e-6 || std::abs(rest(1)) > 1e-6;
 }
 
-Reason textured_limit(const Vertices& vertices, const Corners& corners, const Draw& draw, const Mesh& mesh, const reference::Scene& scene,
-                      const reference::Camera& camera) {
+Reason textured_limit(const Vertices& vertices, const Corners& corners, const Draw& draw, const Mesh& mesh,
+                      const reference::Scene& scene, const reference::Camera& camera) {
   if (!draw.texture || mesh.texcoords.empty() || corners.size() < 2) return std::nullopt;
   const reference::Rect viewport = viewport_of(draw, scene.framebuffer);
   const bool is_line = corners.size() == 2;
   if (is_line || has_mode(draw, PolygonMode::kLine))
     for (std::size_t i = 0, j = 1; i < (is_line ? 1 : corners.size()); ++i, j = (i + 1) % corners.size())
-      if (TexturedLine({corners[i], mesh.texcoords[vertices[i]]}, {corners[j], mesh.texcoords[vertices[j]]}, viewport)
+      if (TexturedLine({corners[i], mesh.texcoords[vertices[i]]}, {corners[j], mesh.texcoords[vertices[j]]},
+                       viewport)
               .is_beyond_mesa(scene.textures.at(*draw.texture), draw.line_width))
         return "a textured line that leans: Mesa interpolates along its major axis alone";
-  if (mesh.primitive == PrimitiveType::kQuads && has_mode(draw, PolygonMode::kFill) && (is_cut_in_depth(corners, camera) || is_cut_by_sides(corners)) &&
-      cut_shows(vertices, mesh))
+  if (mesh.primitive == PrimitiveType::kQuads && has_mode(draw, PolygonMode::kFill) &&
+      (is_cut_in_depth(corners, camera) || is_cut_by_sides(corners)) && cut_shows(vertices, mesh))
     return "a textured quad that is cut: Mesa splits it along its other diagonal";
   return std::nullopt;
 }
@@ -217,13 +250,15 @@ Reason textured_limit(const Vertices& vertices, const Corners& corners, const Dr
 Reason primitive_limit(const Draw& draw, const reference::Scene& scene, const reference::Camera& camera) {
   const Mesh& mesh = scene.meshes.at(draw.mesh);
   if (is_quads(mesh.primitive) && draw.provoking_vertex == ProvokingVertex::kFirst)
-    return "Mesa's quads keep to the last vertex under the first one's convention, and split along the other diagonal";
-  if (std::max(draw.point_size, draw.line_width) > kLargestSize) return "a point or line of more pixels than Mesa's";
+    return "Mesa's quads keep to the last vertex under the first one's convention, and split along the other "
+           "diagonal";
+  if (std::max(draw.point_size, draw.line_width) > kLargestSize)
+    return "a point or line of more pixels than Mesa's";
   if (stencils_each_side(draw) && !has_one_mode(draw, PolygonMode::kFill))
     return "a stencil for each side: to Mesa lines and points of polygons are front";
   const reference::Rect viewport = viewport_of(draw, scene.framebuffer);
-  const bool fills_one_side =
-      draw.cull == reference::Cull::kNone && has_mode(draw, PolygonMode::kFill) && !has_one_mode(draw, PolygonMode::kFill);
+  const bool fills_one_side = draw.cull == reference::Cull::kNone && has_mode(draw, PolygonMode::kFill) &&
+                              !has_one_mode(draw, PolygonMode::kFill);
   for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {
     const Vertices vertices = reference::primitive(mesh, i, ProvokingVertex::kLast).vertices;
     const Corners corners = in_clip_space(vertices, draw, mesh, camera);

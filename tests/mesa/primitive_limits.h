@@ -11,6 +11,7 @@ namespace tessera::mesa {
 /// @param draw  as as_drawn() gives it
 /// @param camera  in force at the draw
 /// @return the first reason found; nothing if Mesa can follow
-std::optional<std::string> primitive_limit(const reference::Draw& draw, const reference::Scene& scene, const reference::Camera& camera);
+std::optional<std::string> primitive_limit(const reference::Draw& draw, const reference::Scene& scene,
+                                           const reference::Camera& camera);
 
 }  // namespace tessera::mesa

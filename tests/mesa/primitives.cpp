@@ -61,23 +61,27 @@ void set_primitive_state(const Functions& gl, const reference::Draw& draw) {
   glPolygonMode(GL_BACK, polygon_mode(draw.polygon_mode[1]));
   glPointSize(whole_size(draw.point_size));
   glLineWidth(whole_size(draw.line_width));
-  gl.provoking_vertex(draw.provoking_vertex == reference::ProvokingVertex::kFirst ? GL_FIRST_VERTEX_CONVENTION : GL_LAST_VERTEX_CONVENTION);
+  gl.provoking_vertex(draw.provoking_vertex == reference::ProvokingVertex::kFirst
+                          ? GL_FIRST_VERTEX_CONVENTION
+                          : GL_LAST_VERTEX_CONVENTION);
 }
 
 reference::Rect viewport_of(const reference::Draw& draw, const reference::FrameBufferFormat& format) {
   return draw.viewport.value_or(reference::Rect{0, 0, format.width_px, format.height_px});
 }
 
-Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& draw, const reference::Rect& viewport) {
+Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& draw,
+                       const reference::Rect& viewport) {
   if (!has_lines_alone(type, draw)) return {};
   return {growth(viewport.width, draw.line_width), growth(viewport.height, draw.line_width)};
 }
 
 void set_viewport(const Functions& gl, const reference::Rect& viewport, Growth growth) {
   const double width = growth.x * viewport.width, height = growth.y * viewport.height;
-  const double left = viewport.x - (width - viewport.width) / 2, bottom = viewport.y - (height - viewport.height) / 2;
-  gl.viewport_indexed(0, static_cast<GLfloat>(left), static_cast<GLfloat>(bottom), static_cast<GLfloat>(width),
-                      static_cast<GLfloat>(height));
+  const double left = viewport.x - (width - viewport.width) / 2,
+               bottom = viewport.y - (height - viewport.height) / 2;
+  gl.viewport_indexed(0, static_cast<GLfloat>(left), static_cast<GLfloat>(bottom),
+                      static_cast<GLfloat>(width), static_cast<GLfloat>(height));
 }
 
 reference::Mat4 shrinking(Growth growth) {
@@ -89,7 +93,8 @@ reference::Mat4 shrinking(Growth growth) {
 
 void draw_vertices(reference::PrimitiveType type, const std::vector<Vertex>& vertices) {
   constexpr GLsizei kStride = sizeof(Vertex);
-  for (const GLenum array : {GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_TEXTURE_COORD_ARRAY}) glEnableClientState(array);
+  for (const GLenum array : {GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_TEXTURE_COORD_ARRAY})
+    glEnableClientState(array);
   glVertexPointer(4, GL_DOUBLE, kStride, vertices.front().position.data());
   glNormalPointer(GL_FLOAT, kStride, vertices.front().normal.data());
   glColorPointer(4, GL_FLOAT, kStride, vertices.front().color.data());

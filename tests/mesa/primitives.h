@@ -18,9 +18,11 @@ struct Growth {
   double x = 1, y = 1;
 };
 
-/// Mesa ends a line, in its whole width, where the line's middle leaves the viewport: for lines the viewport is larger, so that they
-/// end out of sight. By powers of two, so that no vertex moves; by 1 for what has points, which are dropped by their middles indeed.
-Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& draw, const reference::Rect& viewport);
+/// Mesa ends a line, in its whole width, where the line's middle leaves the viewport: for lines the viewport
+/// is larger, so that they end out of sight. By powers of two, so that no vertex moves; by 1 for what has
+/// points, which are dropped by their middles indeed.
+Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& draw,
+                       const reference::Rect& viewport);
 
 void set_viewport(const Functions& gl, const reference::Rect& viewport, Growth growth);
 

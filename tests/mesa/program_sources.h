@@ -6,7 +6,8 @@ namespace tessera::mesa {
 // The first line of every text.
 inline constexpr const char* kVersion = "#version 130\n";
 
-// Shared by both kinds of lighting. A light takes seven vectors, in the order of append_light(); a material five.
+// Shared by both kinds of lighting. A light takes seven vectors, in the order of append_light(); a material
+// five.
 inline constexpr const char* kLighting = R"(uniform int light_count;
 uniform vec4 light_values[7 * 32];
 uniform vec4 materials[2 * 5];  // front, back
@@ -56,7 +57,8 @@ vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
 vec3 divided(vec4 p) { return p.xyz / p.w; }
 )";
 
-// Mesa's gl_NormalMatrix comes from the inverse of all 16 numbers, and not of the upper left 9 as GLSL has it: another one where a matrix projects.
+// Mesa's gl_NormalMatrix comes from the inverse of all 16 numbers, and not of the upper left 9 as GLSL has
+// it: another one where a matrix projects.
 inline constexpr const char* kEyeNormal = R"(
 vec3 eye_normal() {
   vec4 a = gl_ModelViewMatrix[0], b = gl_ModelViewMatrix[1], c = gl_ModelViewMatrix[2];
@@ -91,11 +93,12 @@ void main() {
 }
 )";
 
-// Shared by the fragment programs. The derivatives that the level of detail is made of are exact: 1/w and what is multiplied by it
-// are linear in the window, so that the differences between neighbours are those of every point, and the quotient rule does the
-// rest. Along a line both derivatives are shares of the one along its length. What Mesa would take instead are differences of
-// the quotients, and a logarithm that is straight between powers of two. The environments are tables 3.22 and 3.23 of OpenGL 1.5;
-// where they multiply by the texel's alpha, one without alpha has 1.
+// Shared by the fragment programs. The derivatives that the level of detail is made of are exact: 1/w and
+// what is multiplied by it are linear in the window, so that the differences between neighbours are those of
+// every point, and the quotient rule does the rest. Along a line both derivatives are shares of the one along
+// its length. What Mesa would take instead are differences of the quotients, and a logarithm that is straight
+// between powers of two. The environments are tables 3.22 and 3.23 of OpenGL 1.5; where they multiply by the
+// texel's alpha, one without alpha has 1.
 inline constexpr const char* kTexturing = R"(uniform int texture_dimensions;  // 0: none
 uniform vec4 texture_size;       // in texels, a row's height 0; z: whether on a line; w: the level up to which it is magnified
 uniform int texture_env;         // modulate, replace, decal, blend, add

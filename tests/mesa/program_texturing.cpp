@@ -22,7 +22,8 @@ int texture_env_number(reference::TextureEnv env) {
 
 // OpenGL's constant c of 3.8.9, which Mesa takes to be 0 always.
 double magnified_up_to(const reference::Texture& texture) {
-  const bool is_sharper = texture.min == MinFilter::kNearestMipmapNearest || texture.min == MinFilter::kNearestMipmapLinear;
+  const bool is_sharper =
+      texture.min == MinFilter::kNearestMipmapNearest || texture.min == MinFilter::kNearestMipmapLinear;
   return texture.mag == MagFilter::kLinear && is_sharper ? 0.5 : 0;
 }
 
@@ -38,7 +39,9 @@ bool draws_lines(const reference::Draw& draw, const reference::Mesh& mesh) {
     case PrimitiveType::kLines:
     case PrimitiveType::kLineStrip:
     case PrimitiveType::kLineLoop: return true;
-    default: return draw.polygon_mode[0] == reference::PolygonMode::kLine || draw.polygon_mode[1] == reference::PolygonMode::kLine;
+    default:
+      return draw.polygon_mode[0] == reference::PolygonMode::kLine ||
+             draw.polygon_mode[1] == reference::PolygonMode::kLine;
   }
 }
 
@@ -50,8 +53,8 @@ void set_program_texture(const Programs& programs, const reference::Draw& draw, 
   if (texture == nullptr) return;
   const reference::Image& image = texture->image;
   Vectors size, env_color;
-  append(size, {static_cast<double>(image.width), is_row(*texture) ? 0.0 : image.height, draws_lines(draw, mesh) ? 1.0 : 0.0,
-                magnified_up_to(*texture)});
+  append(size, {static_cast<double>(image.width), is_row(*texture) ? 0.0 : image.height,
+                draws_lines(draw, mesh) ? 1.0 : 0.0, magnified_up_to(*texture)});
   append(env_color, draw.texture_env_color);
   programs.set("texture_size", size);
   programs.set("texture_env", texture_env_number(draw.texture_env));

@@ -41,7 +41,8 @@ GLuint Programs::made(LightingBy lighting, bool texturing) const {
   if (lighting == LightingBy::kFixedFunctions && !texturing) return 0;
   const GLuint name = gl.create_program();
   if (lighting != LightingBy::kFixedFunctions)
-    attach(gl, name, GL_VERTEX_SHADER, {kVersion, kLighting, kEyeNormal, at_pixels ? kPixelLitVertex : kVertexLit});
+    attach(gl, name, GL_VERTEX_SHADER,
+           {kVersion, kLighting, kEyeNormal, at_pixels ? kPixelLitVertex : kVertexLit});
   if (at_pixels) attach(gl, name, GL_FRAGMENT_SHADER, {kVersion, kLighting, kTexturing, kPixelLitFragment});
   else if (texturing) attach(gl, name, GL_FRAGMENT_SHADER, {kVersion, kTexturing, kTexturedFragment});
   link(gl, name);
@@ -61,7 +62,8 @@ void Programs::set(const char* uniform, int value) const {
 
 void Programs::set(const char* uniform, const Vectors& values) const {
   if (used_ != 0)
-    functions_.uniform_4fv(functions_.get_uniform_location(used_, uniform), static_cast<GLsizei>(values.size() / 4), values.data());
+    functions_.uniform_4fv(functions_.get_uniform_location(used_, uniform),
+                           static_cast<GLsizei>(values.size() / 4), values.data());
 }
 
 }  // namespace tessera::mesa

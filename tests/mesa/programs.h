@@ -1,5 +1,5 @@
-// GLSL programs for what fixed functions cannot do: lighting at each vertex or at each pixel, and textures whose level of detail
-// has a say. Every program is made of parts and made when first wanted.
+// GLSL programs for what fixed functions cannot do: lighting at each vertex or at each pixel, and textures
+// whose level of detail has a say. Every program is made of parts and made when first wanted.
 #pragma once
 
 #include <map>

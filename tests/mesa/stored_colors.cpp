@@ -41,7 +41,8 @@ Shown nearest_entry(const std::array<double, 3>& c, const std::vector<reference:
 
 }  // namespace
 
-std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors, const reference::FrameBufferFormat& format) {
+std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors,
+                                       const reference::FrameBufferFormat& format) {
   const auto row_floats = static_cast<std::size_t>(format.width_px) * 3;
   std::vector<std::uint8_t> shown;
   for (std::size_t row = static_cast<std::size_t>(format.height_px); row-- > 0;)
@@ -49,8 +50,8 @@ std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors, const r
       std::array<double, 3> c;
       for (std::size_t i = 0; i < 3; ++i) c[i] = std::clamp<double>(colors[at + i], 0, 1);
       const Shown pixel = format.color_mode == reference::ColorMode::kIndex ? nearest_entry(c, format.palette)
-                          : format.color_bits < 3                           ? luminance_level(c, format.color_bits)
-                                                                            : split_levels(c, format.color_bits);
+                          : format.color_bits < 3 ? luminance_level(c, format.color_bits)
+                                                  : split_levels(c, format.color_bits);
       shown.insert(shown.end(), pixel.begin(), pixel.end());
     }
   return shown;

@@ -10,6 +10,7 @@ namespace tessera::mesa {
 
 /// @param colors  red, green and blue of each pixel, rows from the bottom, 0..1 (clamped here)
 /// @return  3 bytes a pixel, rows from the top
-std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors, const reference::FrameBufferFormat& format);
+std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors,
+                                       const reference::FrameBufferFormat& format);
 
 }  // namespace tessera::mesa

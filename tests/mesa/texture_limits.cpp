@@ -14,13 +14,15 @@ constexpr int kLargestTexture = 16384;  // of Mesa, which draws bitmaps and imag
 
 bool is_too_large(int width, int height) { return std::max(width, height) > kLargestTexture; }
 
-// Mesa rounds the position: with a zoom of 1 that changes nothing but where it lies halfway between two pixels.
+// Mesa rounds the position: with a zoom of 1 that changes nothing but where it lies halfway between two
+// pixels.
 bool is_moved(double at, double zoom) {
   const double fraction = at - std::floor(at);
   return fraction != 0 && (std::abs(zoom) != 1 || fraction == 0.5);
 }
 
-// Whether the centre of a pixel lies between two of an image's: Mesa finds the texel in float and takes either.
+// Whether the centre of a pixel lies between two of an image's: Mesa finds the texel in float and takes
+// either.
 bool meets_a_centre(double at, double zoom, int count) {
   for (int n = 1; n <= count; ++n) {
     const double border = at + zoom * n;
@@ -36,10 +38,14 @@ Reason texture_limit(const reference::Draw& draw, const reference::Scene& scene)
   const reference::Texture& texture = scene.textures.at(*draw.texture);
   const reference::Image& image = texture.image;
   if (is_too_large(image.width, image.height)) return "a texture beyond Mesa's";
-  if (draw.texture_env == reference::TextureEnv::kDecal && image.channels < 3) return "OpenGL leaves the decal of luminance open";
-  const bool fills = draw.polygon_mode[0] == reference::PolygonMode::kFill || draw.polygon_mode[1] == reference::PolygonMode::kFill;
-  const bool outlines = draw.polygon_mode[0] == reference::PolygonMode::kLine || draw.polygon_mode[1] == reference::PolygonMode::kLine;
-  if (fills && outlines && asks_for_level(texture)) return "a level of detail for lines on one side and for polygons on the other";
+  if (draw.texture_env == reference::TextureEnv::kDecal && image.channels < 3)
+    return "OpenGL leaves the decal of luminance open";
+  const bool fills = draw.polygon_mode[0] == reference::PolygonMode::kFill ||
+                     draw.polygon_mode[1] == reference::PolygonMode::kFill;
+  const bool outlines = draw.polygon_mode[0] == reference::PolygonMode::kLine ||
+                        draw.polygon_mode[1] == reference::PolygonMode::kLine;
+  if (fills && outlines && asks_for_level(texture))
+    return "a level of detail for lines on one side and for polygons on the other";
   return std::nullopt;
 }
 
@@ -50,7 +56,8 @@ Reason bitmap_limit(const reference::Bitmap& bitmap) {
 
 Reason image_limit(const reference::ImageDrawing& drawing) {
   if (is_too_large(drawing.image.width, drawing.image.height)) return "an image beyond Mesa's textures";
-  if (is_moved(drawing.at[0], drawing.zoom[0]) || is_moved(drawing.at[1], drawing.zoom[1])) return "Mesa rounds the position of an image";
+  if (is_moved(drawing.at[0], drawing.zoom[0]) || is_moved(drawing.at[1], drawing.zoom[1]))
+    return "Mesa rounds the position of an image";
   if (meets_a_centre(drawing.at[0], drawing.zoom[0], drawing.image.width) ||
       meets_a_centre(drawing.at[1], drawing.zoom[1], drawing.image.height))
     return "a pixel's centre between two of an image's: Mesa takes either";

@@ -6,7 +6,9 @@
 namespace tessera::mesa {
 namespace {
 
-GLint filter(reference::MagFilter mag) { return mag == reference::MagFilter::kNearest ? GL_NEAREST : GL_LINEAR; }
+GLint filter(reference::MagFilter mag) {
+  return mag == reference::MagFilter::kNearest ? GL_NEAREST : GL_LINEAR;
+}
 
 GLint filter(reference::MinFilter min) {
   switch (min) {
@@ -53,11 +55,16 @@ GLint stored_format(const reference::Image& image) {
 void upload_level(GLenum target, GLint level, const reference::Image& image) {
   const GLenum format = pixel_format(image);
   const GLint stored = stored_format(image);
-  if (target == GL_TEXTURE_1D) glTexImage1D(target, level, stored, image.width, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
-  else glTexImage2D(target, level, stored, image.width, image.height, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
+  if (target == GL_TEXTURE_1D)
+    glTexImage1D(target, level, stored, image.width, 0, format, GL_UNSIGNED_BYTE, image.levels.data());
+  else
+    glTexImage2D(target, level, stored, image.width, image.height, 0, format, GL_UNSIGNED_BYTE,
+                 image.levels.data());
 }
 
-bool has_mipmaps(reference::MinFilter min) { return min != reference::MinFilter::kNearest && min != reference::MinFilter::kLinear; }
+bool has_mipmaps(reference::MinFilter min) {
+  return min != reference::MinFilter::kNearest && min != reference::MinFilter::kLinear;
+}
 
 GLenum target(const reference::Texture& texture) { return is_row(texture) ? GL_TEXTURE_1D : GL_TEXTURE_2D; }
 
@@ -98,7 +105,8 @@ void Textures::use(const reference::Draw& draw) {
   glBindTexture(to, name);
   glEnable(to);
   const reference::Vec4 c = draw.texture_env_color;
-  const GLfloat color[4] = {static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z), static_cast<GLfloat>(c.w)};
+  const GLfloat color[4] = {static_cast<GLfloat>(c.x), static_cast<GLfloat>(c.y), static_cast<GLfloat>(c.z),
+                            static_cast<GLfloat>(c.w)};
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, environment(draw.texture_env));
   glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, color);
 }

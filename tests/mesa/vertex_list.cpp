@@ -30,12 +30,15 @@ Vec3 point(const Mesh& mesh, std::size_t corner) {
   return (1 / p.w) * reference::xyz(p);
 }
 
-// The sum over the triangles between the first corner and each side, as long as twice their areas. Null for points and lines, and
-// for what has corners at infinity.
+// The sum over the triangles between the first corner and each side, as long as twice their areas. Null for
+// points and lines, and for what has corners at infinity.
 Vec3 face_vector(const Mesh& mesh, const Primitive& face) {
-  const auto from_first = [&](std::size_t i) { return point(mesh, face.vertices[i]) - point(mesh, face.vertices[0]); };
+  const auto from_first = [&](std::size_t i) {
+    return point(mesh, face.vertices[i]) - point(mesh, face.vertices[0]);
+  };
   Vec3 sum;
-  for (std::size_t i = 1; i + 1 < face.vertices.size(); ++i) sum = sum + reference::cross(from_first(i), from_first(i + 1));
+  for (std::size_t i = 1; i + 1 < face.vertices.size(); ++i)
+    sum = sum + reference::cross(from_first(i), from_first(i + 1));
   return std::isfinite(reference::dot(sum, sum)) ? sum : Vec3{};
 }
 
@@ -57,20 +60,22 @@ std::vector<Vec3> smooth_normals(const Mesh& mesh) {
     const Vec3 vector = face_vector(mesh, face);
     for (const std::uint32_t vertex : face.vertices) corners.push_back({vertex, point(mesh, vertex), vector});
   }
-  std::ranges::stable_sort(corners, [](const FaceCorner& a, const FaceCorner& b) { return precedes(a.place, b.place); });
+  std::ranges::stable_sort(
+      corners, [](const FaceCorner& a, const FaceCorner& b) { return precedes(a.place, b.place); });
 
   std::vector<Vec3> normals(mesh.positions.size());
   for (std::size_t first = 0; first < corners.size();) {
     std::size_t last = first;
     Vec3 sum;
-    while (last < corners.size() && !precedes(corners[first].place, corners[last].place)) sum = sum + corners[last++].face;
+    while (last < corners.size() && !precedes(corners[first].place, corners[last].place))
+      sum = sum + corners[last++].face;
     for (; first < last; ++first) normals[corners[first].vertex] = reference::normalize(sum);
   }
   return normals;
 }
 
-// Each vertex of a list provokes one primitive at most; which, is OpenGL's affair too. A vertex that provokes none is not looked
-// at; it gets a normal that any lighting can take.
+// Each vertex of a list provokes one primitive at most; which, is OpenGL's affair too. A vertex that provokes
+// none is not looked at; it gets a normal that any lighting can take.
 std::vector<Vec3> flat_normals(const Mesh& mesh, reference::ProvokingVertex convention) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3{0, 0, 1});
   for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {
@@ -81,10 +86,13 @@ std::vector<Vec3> flat_normals(const Mesh& mesh, reference::ProvokingVertex conv
 }
 
 std::vector<Vec3> generated_normals(const Mesh& mesh, const reference::Draw& draw) {
-  return draw.shading == reference::Shading::kFlat ? flat_normals(mesh, draw.provoking_vertex) : smooth_normals(mesh);
+  return draw.shading == reference::Shading::kFlat ? flat_normals(mesh, draw.provoking_vertex)
+                                                   : smooth_normals(mesh);
 }
 
-std::array<float, 3> floats(Vec3 n) { return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}; }
+std::array<float, 3> floats(Vec3 n) {
+  return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+}
 
 std::array<float, 4> floats(reference::Vec4 c) {
   return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z), static_cast<float>(c.w)};

@@ -1,4 +1,5 @@
-// The accumulation buffer through frames, against quotients of whole numbers: each command's rounding, what 256 passes lose, and the ends of the range.
+// The accumulation buffer through frames, against quotients of whole numbers: each command's rounding, what
+// 256 passes lose, and the ends of the range.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +20,18 @@ namespace {
 constexpr int kWidth = 64, kHeight = 16;
 
 std::int64_t one_of(int bits) { return bits == 16 ? 32767 : 2147483647; }
-std::int64_t saturated(Int128 level, int bits) { return static_cast<std::int64_t>(std::clamp<Int128>(level, -Int128{one_of(bits)} - 1, one_of(bits))); }
+std::int64_t saturated(Int128 level, int bits) {
+  return static_cast<std::int64_t>(std::clamp<Int128>(level, -Int128{one_of(bits)} - 1, one_of(bits)));
+}
 
 FrameBufferFormat format_of(int color_bits, int bits) {
-  return {.width = kWidth, .height = kHeight, .color_bits = color_bits, .depth = DepthFormat::none, .stencil_bits = 0, .alpha_bits = color_bits % 2 == 0 ? 8 : 0, .accumulation_bits = bits};
+  return {.width = kWidth,
+          .height = kHeight,
+          .color_bits = color_bits,
+          .depth = DepthFormat::none,
+          .stencil_bits = 0,
+          .alpha_bits = color_bits % 2 == 0 ? 8 : 0,
+          .accumulation_bits = bits};
 }
 
 /// A picture whose components are any of 256 levels, before the buffer rounds them.
@@ -33,19 +42,23 @@ struct Picture {
   explicit Picture(const Level& level) {
     for (int i = 0; i < 4 * kWidth * kHeight; ++i) texels.push_back(static_cast<std::uint8_t>(level(i)));
   }
-  void draw(Frame& frame) const { frame.draw_image({.pixels = texels.data(), .width = kWidth, .height = kHeight}); }
+  void draw(Frame& frame) const {
+    frame.draw_image({.pixels = texels.data(), .width = kWidth, .height = kHeight});
+  }
 };
 
-/// What a command is to do with each component: the level and the colour's level that it finds -> the exact value of what it leaves, in levels.
+/// What a command is to do with each component: the level and the colour's level that it finds -> the exact
+/// value of what it leaves, in levels.
 using Exact = std::function<Ratio(std::int64_t level, std::int64_t color, std::int64_t levels_of_color)>;
 
-// Each command rounds once, to the nearest. Its products are those of doubles: three roundings of 2^-53, of products that are within 2^33 levels at 32 bits
-// and 2^17 at 16 wherever they do not saturate.
+// Each command rounds once, to the nearest. Its products are those of doubles: three roundings of 2^-53, of
+// products that are within 2^33 levels at 32 bits and 2^17 at 16 wherever they do not saturate.
 long double beyond_half(int bits) { return 3 * std::ldexp(1.0L, (bits == 16 ? 17 : 33) - 53); }
 
 class Commands {
  public:
-  Commands(int color_bits, int bits) : buffer_(format_of(color_bits, bits)), frame_(buffer_), split_(buffer_.format()), bits_(bits) {}
+  Commands(int color_bits, int bits)
+      : buffer_(format_of(color_bits, bits)), frame_(buffer_), split_(buffer_.format()), bits_(bits) {}
 
   void paint(Picture picture) {
     painted_.push_back(std::move(picture));  // borrowed until the frame is finished
@@ -63,10 +76,12 @@ class Commands {
     for (std::size_t i = 0; i < words.size(); ++i)
       for (std::size_t c = 0; c < 4; ++c) {
         const bool has = split_.bits[c] > 0;
-        const Ratio value = exact(before[i][c], has ? split_.level(words[i], c) : 1, has ? split_.levels(c) : 1);
+        const Ratio value =
+            exact(before[i][c], has ? split_.level(words[i], c) : 1, has ? split_.levels(c) : 1);
         const std::int64_t nearest = saturated(value.rounded(), bits_);
         const bool is_saturated = nearest != value.rounded();
-        if (is_saturated && after[i][c] != nearest) ADD_FAILURE() << "at the end of the range: " << after[i][c] << ", not " << nearest;
+        if (is_saturated && after[i][c] != nearest)
+          ADD_FAILURE() << "at the end of the range: " << after[i][c] << ", not " << nearest;
         if (!is_saturated) keep_worst(worst, value.distance(after[i][c]));
       }
   }
@@ -92,33 +107,61 @@ TEST(Accumulation, EachCommandRoundsOnce) {
       Commands commands(color_bits, bits);
       for (int turn = 0; turn < (long_tests() ? 2000 : 60); ++turn) {
         const double one = static_cast<double>(one_of(bits));
-        const double values[] = {1 / 256.0, random.between(-1, 1), -1, 1, random.between(-3, 3), 1.5 * (turn % 3), 0.5 / one, 1.5 / one, -0.5 / one, 1e6, -1e6};
+        const double values[] = {1 / 256.0,
+                                 random.between(-1, 1),
+                                 -1,
+                                 1,
+                                 random.between(-3, 3),
+                                 1.5 * (turn % 3),
+                                 0.5 / one,
+                                 1.5 / one,
+                                 -0.5 / one,
+                                 1e6,
+                                 -1e6};
         const double value = values[random.next() % std::size(values)];
         const Ratio v = Ratio::of(value);
         const std::int64_t whole = one_of(bits);
         if (turn % 3 == 0) commands.paint(Picture([&](int) { return random.next() % 256; }));
         switch (random.next() % 4) {
-          case 0: commands.run({.op = AccumOp::load, .value = value}, [&](auto, auto color, auto levels) { return v * (color * whole) / levels; }, worst); break;
-          case 1:
-            commands.run({.op = AccumOp::accum, .value = value},
-                         [&](auto level, auto color, auto levels) {
-                           const Ratio term = v * (color * whole) / levels;
-                           return Ratio{term.over + level * term.under, term.under};
-                         },
-                         worst);
+          case 0:
+            commands.run(
+                {.op = AccumOp::load, .value = value},
+                [&](auto, auto color, auto levels) { return v * (color * whole) / levels; }, worst);
             break;
-          case 2: commands.run({.op = AccumOp::add, .value = value}, [&](auto level, auto, auto) { return Ratio{v.over * whole + level * v.under, v.under}; }, worst); break;
-          default: commands.run({.op = AccumOp::mult, .value = value}, [&](auto level, auto, auto) { return v * level; }, worst); break;
+          case 1:
+            commands.run(
+                {.op = AccumOp::accum, .value = value},
+                [&](auto level, auto color, auto levels) {
+                  const Ratio term = v * (color * whole) / levels;
+                  return Ratio{term.over + level * term.under, term.under};
+                },
+                worst);
+            break;
+          case 2:
+            commands.run(
+                {.op = AccumOp::add, .value = value},
+                [&](auto level, auto, auto) {
+                  return Ratio{v.over * whole + level * v.under, v.under};
+                },
+                worst);
+            break;
+          default:
+            commands.run(
+                {.op = AccumOp::mult, .value = value}, [&](auto level, auto, auto) { return v * level; },
+                worst);
+            break;
         }
         if (HasFailure()) return;
       }
     }
     EXPECT_GT(worst, 0.49L) << "no number between two levels came by";
-    expect_within("accumulation, one command, " + std::to_string(bits) + " bits, beyond half a level", std::max(0.0L, worst - 0.5L), beyond_half(bits), "levels of accumulation");
+    expect_within("accumulation, one command, " + std::to_string(bits) + " bits, beyond half a level",
+                  std::max(0.0L, worst - 0.5L), beyond_half(bits), "levels of accumulation");
   }
 }
 
-// Colour levels are lost where 256 roundings of half a level of 2^15 or 2^31 add up to that of the colour: 256 / 2 / 32767 of 1.0 is 0.996 levels of 255.
+// Colour levels are lost where 256 roundings of half a level of 2^15 or 2^31 add up to that of the colour:
+// 256 / 2 / 32767 of 1.0 is 0.996 levels of 255.
 TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
   for (const int bits : {16, 32}) {
     long double worst = 0;
@@ -143,16 +186,21 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
         for (std::size_t i = 0; i < before.size(); ++i)
           for (std::size_t c = 0; c < 4; ++c) {
             const bool has = split.bits[c] > 0;
-            const std::int64_t level = has ? split.level(before[i], c) : 1, levels = has ? split.levels(c) : 1;
-            ASSERT_EQ(sums[i][c], saturated(256 * (Ratio{level * one_of(bits), 256 * levels}.rounded()), bits)) << "level " << level << " of " << levels;
+            const std::int64_t level = has ? split.level(before[i], c) : 1,
+                               levels = has ? split.levels(c) : 1;
+            ASSERT_EQ(sums[i][c],
+                      saturated(256 * (Ratio{level * one_of(bits), 256 * levels}.rounded()), bits))
+                << "level " << level << " of " << levels;
             keep_worst(worst, std::abs(split.level(after[i], c) - split.level(before[i], c)));
           }
       }
-    expect_within("accumulation, 256 passes of 1/256, " + std::to_string(bits) + " bits", worst, bits == 16 ? 1 : 0, "levels of the colour");
+    expect_within("accumulation, 256 passes of 1/256, " + std::to_string(bits) + " bits", worst,
+                  bits == 16 ? 1 : 0, "levels of the colour");
   }
 }
 
-// Of different pictures: what comes back is the level nearest to their mean, but for what the passes' roundings move it.
+// Of different pictures: what comes back is the level nearest to their mean, but for what the passes'
+// roundings move it.
 TEST(Accumulation, Of256PicturesIsTheirMean) {
   for (const int bits : {16, 32}) {
     long double worst = 0;
@@ -176,8 +224,10 @@ TEST(Accumulation, Of256PicturesIsTheirMean) {
         for (std::size_t c = 0; c < 4; ++c)
           if (split.bits[c] > 0) keep_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
     }
-    // Half a level of the last rounding, and 256 halves of the passes' (0.5 / 32767 or 0.5 / (2^31 - 1) of 1.0 each, 255 levels).
-    expect_within("accumulation, mean of 256 pictures, " + std::to_string(bits) + " bits", worst, 0.5L + 128 * 255.0L / static_cast<long double>(one_of(bits)) + 0x1p-40L, "levels of 255");
+    // Half a level of the last rounding, and 256 halves of the passes' (0.5 / 32767 or 0.5 / (2^31 - 1)
+    // of 1.0 each, 255 levels).
+    expect_within("accumulation, mean of 256 pictures, " + std::to_string(bits) + " bits", worst,
+                  0.5L + 128 * 255.0L / static_cast<long double>(one_of(bits)) + 0x1p-40L, "levels of 255");
   }
 }
 
@@ -191,16 +241,19 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
       FrameBuffer buffer(format);
       Frame frame(buffer);
       Renderer renderer({.threads = 1});
-      // The level of a pixel is the sum of what its row and its column add, and a little of each colour's own.
+      // The level of a pixel is the sum of what its row and its column add, and a little of each colour's
+      // own.
       const double step = 1.0 / static_cast<double>(one_of(16));
       for (int i = 0; i < kSide; ++i) {
-        frame.accumulate({.op = AccumOp::add, .value = (256 * i - 32768) * step, .scissor = Rect{0, i, kSide, 1}});
+        frame.accumulate(
+            {.op = AccumOp::add, .value = (256 * i - 32768) * step, .scissor = Rect{0, i, kSide, 1}});
         frame.accumulate({.op = AccumOp::add, .value = i * step, .scissor = Rect{i, 0, 1, kSide}});
       }
       renderer.finish(frame);
       const auto levels = accumulation_levels(buffer);
       const Split split(format);
-      for (const double value : {1.0, std::array{0.37, -1.0, 2.5}[static_cast<std::size_t>(color_bits % 3)]}) {
+      for (const double value :
+           {1.0, std::array{0.37, -1.0, 2.5}[static_cast<std::size_t>(color_bits % 3)]}) {
         frame.accumulate({.op = AccumOp::return_, .value = value});
         renderer.finish(frame);
         const auto words = color_words(buffer);
@@ -211,13 +264,19 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
             // All components hold the same level: so does their luminance.
             const Ratio exact = Ratio::of(value) * (levels[i][c] * split.levels(c)) / one_of(bits);
             const std::int64_t most = split.levels(c);
-            const Ratio clamped = exact.over <= 0 ? Ratio{} : exact.over >= most * exact.under ? Ratio{most, 1} : exact;
+            const Ratio clamped = exact.over <= 0                    ? Ratio{}
+                                  : exact.over >= most * exact.under ? Ratio{most, 1}
+                                                                     : exact;
             keep_worst(worst, clamped.distance(split.level(words[i], c)));
           }
-        // In doubles, but for the three weights of luminance, which are floats: off by 2^-26, 2^-25 and 2^-28 at most.
-        const long double beyond = std::max(0.0L, worst - 0.5L), bound = (color_bits <= 2 ? 3 * 13 * 0x1p-28L : 0) + 255 * 4 * 0x1p-53L;
+        // In doubles, but for the three weights of luminance, which are floats: off by 2^-26, 2^-25 and 2^-28
+        // at most.
+        const long double beyond = std::max(0.0L, worst - 0.5L),
+                          bound = (color_bits <= 2 ? 3 * 13 * 0x1p-28L : 0) + 255 * 4 * 0x1p-53L;
         EXPECT_LE(beyond, bound) << color_bits << " colour bits, " << bits << " bits";
-        if (color_bits == 24 && value == 1) expect_within("accumulation, return, " + std::to_string(bits) + " bits, beyond half a level", beyond, bound, "levels of 255");
+        if (color_bits == 24 && value == 1)
+          expect_within("accumulation, return, " + std::to_string(bits) + " bits, beyond half a level",
+                        beyond, bound, "levels of 255");
       }
     }
 }

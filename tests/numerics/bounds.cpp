@@ -28,7 +28,8 @@ class Table : public testing::Environment {
     for (const Row& row : rows()) widest = std::max(widest, row.quantity.size());
     std::printf("\n%-*s  %12s  %12s  %12s\n", static_cast<int>(widest), "", "measured", "promised", "Mesa's");
     for (const Row& row : rows()) {
-      std::printf("%-*s  %12.4Lg  %12.4Lg  ", static_cast<int>(widest), row.quantity.c_str(), row.measured, row.promised);
+      std::printf("%-*s  %12.4Lg  %12.4Lg  ", static_cast<int>(widest), row.quantity.c_str(), row.measured,
+                  row.promised);
       if (row.mesas) std::printf("%12.4Lg", *row.mesas);
       else std::printf("%12s", "");
       std::printf("  %s\n", row.unit.c_str());
@@ -39,7 +40,8 @@ const testing::Environment* const kTable = testing::AddGlobalTestEnvironment(new
 
 }  // namespace
 
-void expect_within(const std::string& quantity, long double measured, long double promised, const std::string& unit) {
+void expect_within(const std::string& quantity, long double measured, long double promised,
+                   const std::string& unit) {
   EXPECT_LE(measured, promised) << quantity << " (" << unit << ")";
   rows().push_back({quantity, unit, measured, promised});
 }

@@ -1,4 +1,5 @@
-// Errors as they are measured beside the bounds that README.md promises. The table of all stands at the end of what numerics_tests prints.
+// Errors as they are measured beside the bounds that README.md promises. The table of all stands at the end
+// of what numerics_tests prints.
 #pragma once
 
 #include <cmath>
@@ -8,7 +9,8 @@
 
 namespace tessera::test {
 
-/// Raises `worst` to the largest of the errors, where one is larger. A NaN counts as infinity, which no bound allows: std::max would pass it over.
+/// Raises `worst` to the largest of the errors, where one is larger. A NaN counts as infinity, which no bound
+/// allows: std::max would pass it over.
 /// @pre worst is a number
 template <std::floating_point Number, class... Errors>
 void keep_worst(Number& worst, Errors... errors) {
@@ -20,7 +22,8 @@ void keep_worst(Number& worst, Errors... errors) {
 }
 
 /// Expects measured <= promised, which a NaN is not, and adds a row to the table.
-void expect_within(const std::string& quantity, long double measured, long double promised, const std::string& unit);
+void expect_within(const std::string& quantity, long double measured, long double promised,
+                   const std::string& unit);
 
 /// Puts what Mesa comes to beside a quantity that was measured; nothing is expected of it.
 void set_beside(const std::string& quantity, long double mesas);

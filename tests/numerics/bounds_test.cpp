@@ -10,7 +10,8 @@ namespace {
 
 template <class Number>
 void expect_nan_to_be_the_worst() {
-  constexpr Number kNaN = std::numeric_limits<Number>::quiet_NaN(), kMost = std::numeric_limits<Number>::max();
+  constexpr Number kNaN = std::numeric_limits<Number>::quiet_NaN(),
+                   kMost = std::numeric_limits<Number>::max();
   Number worst = 0;
   keep_worst(worst, Number{2}, Number{1});
   EXPECT_EQ(worst, 2);

@@ -1,8 +1,10 @@
-// Attributes where a plane cuts an edge, beside fractions: of triangles with one vertex beyond the near or the far plane, anything between a part of an edge and
-// one 2^40 times as long as what is seen of it, also along the plane.
+// Attributes where a plane cuts an edge, beside fractions: of triangles with one vertex beyond the near or
+// the far plane, anything between a part of an edge and one 2^40 times as long as what is seen of it, also
+// along the plane.
 //
-// u = 2^-24, w = 2^-53. Where an edge is cut, t = first / (first - second): each distance is rounded by w, which counts 1 - t times in t, so does their difference,
-// the quotient and the attributes' difference. t (2 (1 - t) + 3) w is 3 w at most; then the sum is rounded to a double and to a float.
+// u = 2^-24, w = 2^-53. Where an edge is cut, t = first / (first - second): each distance is rounded by w,
+// which counts 1 - t times in t, so does their difference, the quotient and the attributes' difference. t (2
+// (1 - t) + 3) w is 3 w at most; then the sum is rounded to a double and to a float.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +45,8 @@ class AnyTriangle {
     const int octaves = dice_.maybe() ? 40 : 2;
     for (std::size_t k = 0; k < 3; ++k) {
       const double w = size(octaves), depth = (along ? 1 : dice_.unit() * w);
-      v[k].position = {(dice_.unit() - 0.5) * w, (dice_.unit() - 0.5) * w, cut.z_at(k == 0 ? -depth * (dice_.maybe() ? size(octaves) : 1) : depth, w), w};
+      v[k].position = {(dice_.unit() - 0.5) * w, (dice_.unit() - 0.5) * w,
+                       cut.z_at(k == 0 ? -depth * (dice_.maybe() ? size(octaves) : 1) : depth, w), w};
       v[k].attributes[kMeasured] = attribute();
     }
     v[1].attributes[kIsNext] = v[2].attributes[kIsLast] = 1;
@@ -61,7 +64,9 @@ class AnyTriangle {
   }
 
  private:
-  double size(int octaves) { return (1 + dice_.unit()) * std::exp2(static_cast<double>(dice_.between(0, octaves))); }
+  double size(int octaves) {
+    return (1 + dice_.unit()) * std::exp2(static_cast<double>(dice_.between(0, octaves)));
+  }
   float attribute() { return static_cast<float>((dice_.maybe() ? 1 : -1) * size(20) * 0x1p-10); }
   Dice dice_;
 };
@@ -77,23 +82,33 @@ TEST(ClippedAttributes, AreRoundedOnce) {
     t.half_width = t.half_height = 0.5;
     t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
     t.reversed = cut.reversed;
-    const mpq_class distances[3] = {cut.distance(v[0].position), cut.distance(v[1].position), cut.distance(v[2].position)};
-    if (distances[0] >= 0 || distances[1] <= 0 || distances[2] <= 0) continue;  // rounding has put one onto the plane, or another plane cuts
-    const std::uint8_t codes = clip_code(t, v[0].position) | clip_code(t, v[1].position) | clip_code(t, v[2].position);
+    const mpq_class distances[3] = {cut.distance(v[0].position), cut.distance(v[1].position),
+                                    cut.distance(v[2].position)};
+    if (distances[0] >= 0 || distances[1] <= 0 || distances[2] <= 0)
+      continue;  // rounding has put one onto the plane, or another plane cuts
+    const std::uint8_t codes =
+        clip_code(t, v[0].position) | clip_code(t, v[1].position) | clip_code(t, v[2].position);
     if (codes != (cut.far ? kBehindFar : kBeforeNear)) continue;
     const ClippedPolygon polygon = clip_triangle(t, v, codes, kAttributes);
     ASSERT_EQ(polygon.count, 4) << "triangle " << n;
     for (const std::size_t end : {1, 2}) {
-      const auto is_cut = [&](const ClipVertex& c) { return c.attributes[end == 1 ? kIsLast : kIsNext] == 0 && c.attributes[end == 1 ? kIsNext : kIsLast] < 1; };
-      const ClipVertex* const found = std::find_if(polygon.vertices, polygon.vertices + polygon.count, is_cut);
-      if (found == polygon.vertices + polygon.count) continue;  // the cut is nearer to the end than floats tell
-      const mpq_class a(v[0].attributes[kMeasured]), b(v[end].attributes[kMeasured]), along = distances[0] / (distances[0] - distances[end]), exact = a + along * (b - a);
+      const auto is_cut = [&](const ClipVertex& c) {
+        return c.attributes[end == 1 ? kIsLast : kIsNext] == 0 &&
+               c.attributes[end == 1 ? kIsNext : kIsLast] < 1;
+      };
+      const ClipVertex* const found =
+          std::find_if(polygon.vertices, polygon.vertices + polygon.count, is_cut);
+      if (found == polygon.vertices + polygon.count)
+        continue;  // the cut is nearer to the end than floats tell
+      const mpq_class a(v[0].attributes[kMeasured]), b(v[end].attributes[kMeasured]),
+          along = distances[0] / (distances[0] - distances[end]), exact = a + along * (b - a);
       const float at = found->attributes[kMeasured];
       if (a == b) {
         EXPECT_EQ(at, v[0].attributes[kMeasured]);
         continue;
       }
-      const mpq_class off = std::isfinite(at) ? abs(mpq_class(at) - exact) : abs(b - a), allowed = abs(exact) * mpq_class(0x1p-24 * (1 + 0x1p-20));
+      const mpq_class off = std::isfinite(at) ? abs(mpq_class(at) - exact) : abs(b - a),
+                      allowed = abs(exact) * mpq_class(0x1p-24 * (1 + 0x1p-20));
       keep_worst(worst, mpq_class((off - allowed) / abs(b - a)).get_d());
       ++cuts;
       cancelled += abs(exact) < abs(b - a) * mpq_class(0x1p-40) ? 1 : 0;
@@ -103,7 +118,8 @@ TEST(ClippedAttributes, AreRoundedOnce) {
   EXPECT_GT(cuts, long_tests() ? 500000 : 10000);
   EXPECT_GT(far_from_ends, long_tests() ? 50000 : 1000);
   EXPECT_GT(cancelled, long_tests() ? 50000 : 1000);
-  expect_within("attributes where near and far planes cut, beyond u of each", worst / 0x1p-53L, 3 * (1 + 0x1p-20L), "2^-53 of the ends' difference");
+  expect_within("attributes where near and far planes cut, beyond u of each", worst / 0x1p-53L,
+                3 * (1 + 0x1p-20L), "2^-53 of the ends' difference");
 }
 
 }  // namespace

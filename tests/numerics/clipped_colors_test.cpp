@@ -1,11 +1,14 @@
-// Colours and texture coordinates go on across a cut as if nothing had been clipped: on planes whose attributes are linear in clip space each pixel is
-// compared with what it shows of the plane, in long double from whole numbers, without any clipping and triangles. Where neighbours are clipped
-// differently both are compared with the same function, so they are never further apart than it is.
+// Colours and texture coordinates go on across a cut as if nothing had been clipped: on planes whose
+// attributes are linear in clip space each pixel is compared with what it shows of the plane, in long double
+// from whole numbers, without any clipping and triangles. Where neighbours are clipped differently both are
+// compared with the same function, so they are never further apart than it is.
 //
-// The bound. A vertex is drawn up to kReach from where it is, with the attributes that it has there. Inside a triangle a point is then moved by the mean of
-// its vertices' moves, weighted as its attributes are, numerator and denominator alike: so it shows exactly what belongs to some point within kReach in x
-// and y. A quotient of linear functions takes its extremes over that square at corners. Floats add, each relative to a weight or an attribute of 0 .. 1 and
-// so less than 16 times 2^-24 altogether, 2^-10 of a level; the level is rounded by half of one.
+// The bound. A vertex is drawn up to kReach from where it is, with the attributes that it has there. Inside a
+// triangle a point is then moved by the mean of its vertices' moves, weighted as its attributes are,
+// numerator and denominator alike: so it shows exactly what belongs to some point within kReach in x and y. A
+// quotient of linear functions takes its extremes over that square at corners. Floats add, each relative to a
+// weight or an attribute of 0 .. 1 and so less than 16 times 2^-24 altogether, 2^-10 of a level; the level is
+// rounded by half of one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +41,8 @@ Range range_around(const SeenPlane& seen, const Attribute& attribute, Wide x, Wi
   Range range;
   for (const int dx : {-kReach, kReach})
     for (const int dy : {-kReach, kReach}) {
-      const long double at_x = static_cast<long double>(x) + dx / static_cast<long double>(kReachScale), at_y = static_cast<long double>(y) + dy / static_cast<long double>(kReachScale);
+      const long double at_x = static_cast<long double>(x) + dx / static_cast<long double>(kReachScale),
+                        at_y = static_cast<long double>(y) + dy / static_cast<long double>(kReachScale);
       const long double value = numerator.at(at_x, at_y) / seen.coordinates[0].at(at_x, at_y) / 256;
       range.low = std::min(range.low, value);
       range.high = std::max(range.high, value);
@@ -46,9 +50,12 @@ Range range_around(const SeenPlane& seen, const Attribute& attribute, Wide x, Wi
   return range;
 }
 
-// Levels of 255 beyond the range, at worst, of all pixels that are sure to show the plane. `level_of` says what level an attribute comes to.
+// Levels of 255 beyond the range, at worst, of all pixels that are sure to show the plane. `level_of` says
+// what level an attribute comes to.
 template <class LevelOf>
-long double worst_of(const CasePicture& picture, const SeenPlane& seen, const ExactRegion& region, const SquareView& view, const std::vector<Attribute>& attributes, const LevelOf& level_of, long& pixels) {
+long double worst_of(const CasePicture& picture, const SeenPlane& seen, const ExactRegion& region,
+                     const SquareView& view, const std::vector<Attribute>& attributes,
+                     const LevelOf& level_of, long& pixels) {
   long double worst = 0;
   for (int row = 0; row < kSide; ++row)
     for (int column = 0; column < kSide; ++column) {
@@ -57,7 +64,8 @@ long double worst_of(const CasePicture& picture, const SeenPlane& seen, const Ex
       ++pixels;
       for (std::size_t a = 0; a < attributes.size(); ++a) {
         const Range range = range_around(seen, attributes[a], x, y);
-        const long double level = 255 * static_cast<long double>(picture.colors[static_cast<std::size_t>(row * kSide + column)][a]);
+        const long double level =
+            255 * static_cast<long double>(picture.colors[static_cast<std::size_t>(row * kSide + column)][a]);
         keep_worst(worst, level - level_of(range.high), level_of(range.low) - level);
       }
     }
@@ -65,10 +73,12 @@ long double worst_of(const CasePicture& picture, const SeenPlane& seen, const Ex
 }
 
 template <class LevelOf>
-long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool textured, bool reversed, long double bound, const LevelOf& level_of) {
+long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool textured, bool reversed,
+                            long double bound, const LevelOf& level_of) {
   CaseFormat format{.width = kSide, .height = kSide, .reversed = reversed};
   if (textured) {
-    format.texture_width = 256;  // each texel's level is its number: halfway between two centres lies the mean
+    format.texture_width =
+        256;  // each texel's level is its number: halfway between two centres lies the mean
     format.texture_height = 1;
     for (int i = 0; i < 256; ++i) format.texture.push_back(static_cast<std::uint8_t>(i));
   }
@@ -87,17 +97,27 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
     CountedMesh mesh = plane.mesh_at(grid.points, random.one_of({1.0, 0x1p100, 0x1p-100}));
     grid.cut_into(mesh, random);
     std::vector<Attribute> attributes;
-    for (int c = 0; c < (textured ? 1 : 3); ++c) attributes.push_back({128, random.one_of({-1, 0, 1}), random.one_of({-1, 0, 1})});
+    for (int c = 0; c < (textured ? 1 : 3); ++c)
+      attributes.push_back({128, random.one_of({-1, 0, 1}), random.one_of({-1, 0, 1})});
     if (textured) attributes[0].by_v = 0;  // s from 1/4 to 3/4, where nothing repeats
-    CaseDraw draw{.positions = mesh.positions, .indices = mesh.indices, .viewport = Rect{view.x, view.y, view.side, view.side}, .textured = textured};
+    CaseDraw draw{.positions = mesh.positions,
+                  .indices = mesh.indices,
+                  .viewport = Rect{view.x, view.y, view.side, view.side},
+                  .textured = textured};
     for (const WindowPoint& p : grid.points) {
       if (textured) draw.texcoords.insert(draw.texcoords.end(), {attributes[0].at(p), 0});
-      else draw.colors.insert(draw.colors.end(), {attributes[0].at(p), attributes[1].at(p), attributes[2].at(p), 1});
+      else
+        draw.colors.insert(draw.colors.end(),
+                           {attributes[0].at(p), attributes[1].at(p), attributes[2].at(p), 1});
     }
     const long before = pixels;
-    const long double here = worst_of(renderer->draw({draw}), *seen, plane.region(*seen, kSize, reversed), view, attributes, level_of, pixels);
-    clipped += pixels != before && std::any_of(grid.points.begin(), grid.points.end(), [&](const WindowPoint& p) { return plane.at(p.x, p.y).w <= 0; });
-    if (is_tessera && here > bound && worst <= bound) ADD_FAILURE() << "plane " << n << " is off by " << static_cast<double>(here) << " levels";
+    const long double here = worst_of(renderer->draw({draw}), *seen, plane.region(*seen, kSize, reversed),
+                                      view, attributes, level_of, pixels);
+    clipped +=
+        pixels != before && std::any_of(grid.points.begin(), grid.points.end(),
+                                        [&](const WindowPoint& p) { return plane.at(p.x, p.y).w <= 0; });
+    if (is_tessera && here > bound && worst <= bound)
+      ADD_FAILURE() << "plane " << n << " is off by " << static_cast<double>(here) << " levels";
     keep_worst(worst, here);
   }
   EXPECT_GT(pixels, 100000);
@@ -107,17 +127,25 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
 
 TEST(ClippedColors, GoOnAcrossTheCut) {
   const auto level_of = [](long double color) { return 255 * color; };
-  expect_figure("colours across cuts, off the exact ones within the reach of snapping", kBound, "levels of 255",
-                [&](const MakeRenderer& make, bool is_tessera) { return worst_of_planes(make, is_tessera, false, false, kBound, level_of); });
+  expect_figure("colours across cuts, off the exact ones within the reach of snapping", kBound,
+                "levels of 255", [&](const MakeRenderer& make, bool is_tessera) {
+                  return worst_of_planes(make, is_tessera, false, false, kBound, level_of);
+                });
   expect_figure("colours across cuts, reversed, far at infinity", kBound, "levels of 255",
-                [&](const MakeRenderer& make, bool is_tessera) { return worst_of_planes(make, is_tessera, false, true, kBound, level_of); });
+                [&](const MakeRenderer& make, bool is_tessera) {
+                  return worst_of_planes(make, is_tessera, false, true, kBound, level_of);
+                });
 }
 
-// The filter mixes two neighbours with 8 fraction bits of a level, the share that it takes and the one that it adds both rounded down: 2^-8 of a level at most.
+// The filter mixes two neighbours with 8 fraction bits of a level, the share that it takes and the one that
+// it adds both rounded down: 2^-8 of a level at most.
 TEST(ClippedColors, TexturesGoOnAcrossTheCut) {
   constexpr long double kWithFilter = kBound + 0x1p-8L;
-  expect_figure("textures across cuts, off the exact level within the reach of snapping", kWithFilter, "levels of 255",
-                [](const MakeRenderer& make, bool is_tessera) { return worst_of_planes(make, is_tessera, true, false, kWithFilter, [](long double s) { return 256 * s - 0.5L; }); });
+  expect_figure("textures across cuts, off the exact level within the reach of snapping", kWithFilter,
+                "levels of 255", [](const MakeRenderer& make, bool is_tessera) {
+                  return worst_of_planes(make, is_tessera, true, false, kWithFilter,
+                                         [](long double s) { return 256 * s - 0.5L; });
+                });
 }
 
 }  // namespace

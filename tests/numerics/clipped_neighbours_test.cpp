@@ -1,5 +1,6 @@
-// Neighbours that are clipped differently stay watertight: where a mesh is seen it covers each pixel exactly once, where clip planes cut it off none.
-// Along a cut, and only there, a pixel may be covered once or not at all, if it is nearer to the exact cut than the snapping of vertices reaches.
+// Neighbours that are clipped differently stay watertight: where a mesh is seen it covers each pixel exactly
+// once, where clip planes cut it off none. Along a cut, and only there, a pixel may be covered once or not at
+// all, if it is nearer to the exact cut than the snapping of vertices reaches.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,9 +20,12 @@ namespace {
 constexpr int kSide = 64;
 const CaseFormat kFormat{.width = kSide, .height = kSide};
 
-int how_many(bool is_tessera, int normal, int in_long_tests) { return is_tessera && long_tests() ? in_long_tests : normal; }
+int how_many(bool is_tessera, int normal, int in_long_tests) {
+  return is_tessera && long_tests() ? in_long_tests : normal;
+}
 
-// Small viewports have their guard band 512 times as far away as their sides are, the largest only twice. Of those the buffer is some part.
+// Small viewports have their guard band 512 times as far away as their sides are, the largest only twice. Of
+// those the buffer is some part.
 SquareView random_view(MeshRandom& random) {
   const int side = random.one_of({kSide, 2048, 16384});
   return {-random.between(0, side - kSide), -random.between(0, side - kSide), side};
@@ -32,7 +36,8 @@ CaseDraw counting(const CountedMesh& mesh, const SquareView& view) {
   return draw;
 }
 
-// By which planes triangles are cut: 1 near, 2 far, 4 the guard band. Those that are outside of one of them are left out.
+// By which planes triangles are cut: 1 near, 2 far, 4 the guard band. Those that are outside of one of them
+// are left out.
 std::set<int> cuts_of(const CountedMesh& mesh, const SquareView& view) {
   std::set<int> cuts;
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
@@ -40,7 +45,8 @@ std::set<int> cuts_of(const CountedMesh& mesh, const SquareView& view) {
     for (std::size_t k = 0; k < 3; ++k) {
       const float* p = mesh.positions.data() + 4 * mesh.indices[t + k];
       const double guard = 2 * 16383.0 / view.side * double{p[3]};
-      const int code = (p[2] < -p[3] ? 1 : 0) | (p[2] > p[3] ? 2 : 0) | (p[0] < -guard ? 4 : 0) | (p[0] > guard ? 8 : 0) | (p[1] < -guard ? 16 : 0) | (p[1] > guard ? 32 : 0);
+      const int code = (p[2] < -p[3] ? 1 : 0) | (p[2] > p[3] ? 2 : 0) | (p[0] < -guard ? 4 : 0) |
+                       (p[0] > guard ? 8 : 0) | (p[1] < -guard ? 16 : 0) | (p[1] > guard ? 32 : 0);
       some |= code;
       all &= code;
     }
@@ -63,7 +69,9 @@ TEST(ClippedNeighbours, OfPlanesThroughAllClipPlanes) {
       CountedMesh mesh = plane.mesh_at(grid.points, random.one_of({1.0, 0x1p100, 0x1p-100}));
       grid.cut_into(mesh, random);
       cuts.merge(cuts_of(mesh, view));
-      count({counting(mesh, view)}, "plane " + std::to_string(n), {covers_of(plane.region(*seen, kSize), kSide, kSide, view), [&] { return snapping_folds(mesh, view); }});
+      count({counting(mesh, view)}, "plane " + std::to_string(n),
+            {covers_of(plane.region(*seen, kSize), kSide, kSide, view),
+             [&] { return snapping_folds(mesh, view); }});
     }
   });
   EXPECT_EQ(cuts.size(), 8u) << "near, far and guard band in all combinations";
@@ -91,7 +99,9 @@ TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
         for (int u = -32; u <= 32; ++u) grid.points.push_back({u, v});
       CountedMesh mesh = plane.mesh_at(grid.points);
       grid.cut_into(mesh, random);
-      count({counting(mesh, view)}, "grid " + std::to_string(n), {covers_of(plane.region(*seen, 32), kSide, kSide, view), [&] { return snapping_folds(mesh, view); }});
+      count({counting(mesh, view)}, "grid " + std::to_string(n),
+            {covers_of(plane.region(*seen, 32), kSide, kSide, view),
+             [&] { return snapping_folds(mesh, view); }});
       // All around one vertex on it.
       constexpr int kSpokes = 4096, kRadius = 4096;
       std::vector<WindowPoint> points{{0, 0}};
@@ -102,7 +112,9 @@ TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
       CountedMesh fan = plane.mesh_at(points);
       for (std::uint32_t i = 1; i <= kSpokes; ++i) fan.add_triangle(0, i, i % kSpokes + 1);
       fan.shuffle(random);
-      count({counting(fan, view)}, "fan " + std::to_string(n), {covers_of(plane.region(*seen, kRadius / 2), kSide, kSide, view), [&] { return snapping_folds(fan, view); }});
+      count({counting(fan, view)}, "fan " + std::to_string(n),
+            {covers_of(plane.region(*seen, kRadius / 2), kSide, kSide, view),
+             [&] { return snapping_folds(fan, view); }});
     }
   });
 }
@@ -110,7 +122,8 @@ TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
 // z = 1 and depths of 1/w: from the near plane at w = 1 to points at infinity, w = 0, and what lies beyond.
 TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
   constexpr int kSize = 64;
-  const CaseFormat format{.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = true, .cleared_depth = 0};
+  const CaseFormat format{
+      .width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = true, .cleared_depth = 0};
   expect_coverage("planes under reversed infinite depth", format, [](const Count& count, bool is_tessera) {
     for (int n = 0; n < how_many(is_tessera, 1000, 200000); ++n) {
       MeshRandom random(n);
@@ -126,30 +139,39 @@ TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
       CaseDraw draw = counting(mesh, view);
       draw.test_depth = true;
       draw.depth_func = Compare::gequal;
-      count({draw}, "plane " + std::to_string(n), {covers_of(plane.region(*seen, kSize, true), kSide, kSide, view), [&] { return snapping_folds(mesh, view, true); }});
+      count({draw}, "plane " + std::to_string(n),
+            {covers_of(plane.region(*seen, kSize, true), kSide, kSide, view),
+             [&] { return snapping_folds(mesh, view, true); }});
     }
   });
 }
 
-// Seen from within, a surface around the eye is seen once in each direction, whatever of it is in front, behind or beyond the guard band: corners are
-// as far away as they like, so triangles are clipped in all ways.
+// Seen from within, a surface around the eye is seen once in each direction, whatever of it is in front,
+// behind or beyond the guard band: corners are as far away as they like, so triangles are clipped in all
+// ways.
 TEST(ClippedNeighbours, OfSurfacesAroundTheEye) {
   expect_coverage("surfaces around the eye", kFormat, [](const Count& count, bool is_tessera) {
     for (int n = 0; n < how_many(is_tessera, 2000, 1000000); ++n) {
       MeshRandom random(n);
       const int cells = random.between(1, 6);
       const double spread = random.one_of({0, random.between(0, 4), 30});  // decades
-      const double degrees = 360 * random.unit(), x = random.unit() - 0.5, y = random.unit() - 0.5, z = random.unit() + 0.1;
+      const double degrees = 360 * random.unit(), x = random.unit() - 0.5, y = random.unit() - 0.5,
+                   z = random.unit() + 0.1;
       const Matrix turn = rotate(degrees, x, y, z);
       const Matrix view = perspective(random.one_of({5.0, 40.0, 90.0, 150.0}), 1, 1e-18, 1e18) * turn;
       CountedMesh mesh;
-      std::vector<std::array<int, 3>> keys;  // corners of a cube's cells, in whole numbers: the same on all faces that meet there
+      std::vector<std::array<int, 3>>
+          keys;  // corners of a cube's cells, in whole numbers: the same on all faces that meet there
       const auto vertex = [&](const std::array<int, 3>& key) {
         const auto found = std::find(keys.begin(), keys.end(), key);
         if (found != keys.end()) return static_cast<std::uint32_t>(found - keys.begin());
         keys.push_back(key);
         const double distance = std::pow(10, spread * (random.unit() - 0.5)) / cells;
-        const auto row = [&](std::size_t r) { return distance * (view.m[4 * r] * key[0] + view.m[4 * r + 1] * key[1] + view.m[4 * r + 2] * key[2]) + view.m[4 * r + 3]; };
+        const auto row = [&](std::size_t r) {
+          return distance *
+                     (view.m[4 * r] * key[0] + view.m[4 * r + 1] * key[1] + view.m[4 * r + 2] * key[2]) +
+                 view.m[4 * r + 3];
+        };
         return mesh.add_vertex(row(0), row(1), row(2), row(3));
       };
       for (std::size_t face = 0; face < 6; ++face)
@@ -162,12 +184,15 @@ TEST(ClippedNeighbours, OfSurfacesAroundTheEye) {
               key[(face / 2 + 2) % 3] = v;
               return vertex(key);
             };
-            const std::uint32_t p = corner(i, j), q = corner(i + 2, j), r = corner(i + 2, j + 2), s = corner(i, j + 2);
+            const std::uint32_t p = corner(i, j), q = corner(i + 2, j), r = corner(i + 2, j + 2),
+                                s = corner(i, j + 2);
             mesh.add_triangle(p, q, r);
             mesh.add_triangle(p, r, s);
           }
       mesh.shuffle(random);
-      count({counting(mesh)}, "surface " + std::to_string(n), {.overlaps = [&] { return snapping_folds(mesh, {0, 0, kSide}); }});
+      count({counting(mesh)}, "surface " + std::to_string(n), {.overlaps = [&] {
+              return snapping_folds(mesh, {0, 0, kSide});
+            }});
     }
   });
 }

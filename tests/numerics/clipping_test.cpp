@@ -1,5 +1,6 @@
-// Triangles that are clipped: at w = 0 and around it, behind the eye, through and along the near plane, 10^30 large, far beyond the guard band. Pixels
-// are compared with the exact projection of what is inside, by rational arithmetic on whole numbers (exact_region.h).
+// Triangles that are clipped: at w = 0 and around it, behind the eye, through and along the near plane, 10^30
+// large, far beyond the guard band. Pixels are compared with the exact projection of what is inside, by
+// rational arithmetic on whole numbers (exact_region.h).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +17,8 @@ namespace {
 
 constexpr SquareView kView{0, 0, 64};
 
-/// As it is, and as it is drawn: in floats, so `w` may be some hair other than the exact one's 0, which moves nothing by as much as 10^-20 pixels.
+/// As it is, and as it is drawn: in floats, so `w` may be some hair other than the exact one's 0, which moves
+/// nothing by as much as 10^-20 pixels.
 struct DrawnTriangle {
   std::array<ClipPoint, 3> exact;
   std::array<float, 3> extra_w{};
@@ -36,10 +38,13 @@ struct DrawnTriangle {
   std::optional<std::vector<Cover>> expected() const {
     const std::optional<SeenPlane> seen = seen_plane(exact, kView);
     if (!seen) return std::nullopt;
-    const auto of_vertices = [&](const auto& value) { return seen->mix(value(exact[0]), value(exact[1]), value(exact[2])); };
+    const auto of_vertices = [&](const auto& value) {
+      return seen->mix(value(exact[0]), value(exact[1]), value(exact[2]));
+    };
     ExactRegion region;
     region.inside = {seen->coordinates.begin(), seen->coordinates.end()};
-    region.inside.push_back(of_vertices([&](const ClipPoint& p) { return reversed ? p.w - p.z : p.w + p.z; }));
+    region.inside.push_back(
+        of_vertices([&](const ClipPoint& p) { return reversed ? p.w - p.z : p.w + p.z; }));
     region.inside.push_back(of_vertices([&](const ClipPoint& p) { return reversed ? p.z : p.w - p.z; }));
     region.outside = region.inside;
     return covers_of(region, kView.side, kView.side, kView);
@@ -55,14 +60,16 @@ DrawnTriangle any_triangle(MeshRandom& random) {
 
 // Rows of pixels left out, covered again, and covered beyond the edge.
 void expect_exact(const std::string& what, DrawnTriangle (*make)(MeshRandom&), bool reversed = false) {
-  expect_coverage(what, {.width = kView.side, .height = kView.side, .reversed = reversed}, [make, reversed](const Count& count, bool is_tessera) {
-    for (int n = 0; n < (is_tessera && long_tests() ? 200000 : 2000); ++n) {
-      MeshRandom random(n);
-      DrawnTriangle triangle = make(random);
-      triangle.reversed = reversed;
-      if (const auto expected = triangle.expected()) count({triangle.draw()}, "triangle " + std::to_string(n), {*expected});
-    }
-  });
+  expect_coverage(what, {.width = kView.side, .height = kView.side, .reversed = reversed},
+                  [make, reversed](const Count& count, bool is_tessera) {
+                    for (int n = 0; n < (is_tessera && long_tests() ? 200000 : 2000); ++n) {
+                      MeshRandom random(n);
+                      DrawnTriangle triangle = make(random);
+                      triangle.reversed = reversed;
+                      if (const auto expected = triangle.expected())
+                        count({triangle.draw()}, "triangle " + std::to_string(n), {*expected});
+                    }
+                  });
 }
 
 TEST(Clipping, LeavesTheExactProjection) {
@@ -76,7 +83,8 @@ TEST(Clipping, AtAndAroundWZero) {
     for (int k = random.between(0, 2); k < 3; ++k) {
       t.exact[static_cast<std::size_t>(k)].w = 0;
       t.exact[static_cast<std::size_t>(k)].z *= random.between(0, 1);  // on the near and on the far plane
-      t.extra_w[static_cast<std::size_t>(k)] = random.one_of({0.0f, -0.0f, 0x1p-149f, -0x1p-149f, 1e-30f, -1e-30f});
+      t.extra_w[static_cast<std::size_t>(k)] =
+          random.one_of({0.0f, -0.0f, 0x1p-149f, -0x1p-149f, 1e-30f, -1e-30f});
     }
     return t;
   });
@@ -86,7 +94,8 @@ TEST(Clipping, ThroughAVertexOrAlongAnEdge) {
   expect_exact("near or far plane through one, two or three vertices", [](MeshRandom& random) {
     DrawnTriangle t = any_triangle(random);
     const int sign = random.coin() ? 1 : -1;
-    for (int k = random.between(0, 2); k < 3; ++k) t.exact[static_cast<std::size_t>(k)].z = sign * t.exact[static_cast<std::size_t>(k)].w;
+    for (int k = random.between(0, 2); k < 3; ++k)
+      t.exact[static_cast<std::size_t>(k)].z = sign * t.exact[static_cast<std::size_t>(k)].w;
     return t;
   });
 }
@@ -115,28 +124,33 @@ TEST(Clipping, OfHugeTriangles) {
 
 // z = 1 all over, so depth is 1/w and an infinite far plane cuts nothing: from w = 1 to points at infinity.
 TEST(Clipping, AgainstReversedInfiniteFar) {
-  expect_exact("near plane, reversed, far at infinity", [](MeshRandom& random) {
-    DrawnTriangle t = any_triangle(random);
-    for (ClipPoint& p : t.exact) p.z = random.between(0, 7) != 0 ? 1 : 0;
-    return t;
-  }, true);
+  expect_exact(
+      "near plane, reversed, far at infinity",
+      [](MeshRandom& random) {
+        DrawnTriangle t = any_triangle(random);
+        for (ClipPoint& p : t.exact) p.z = random.between(0, 7) != 0 ? 1 : 0;
+        return t;
+      },
+      true);
 }
 
 // With no tolerance: nothing at all.
 TEST(Clipping, ShowsNothingBehindTheEye) {
-  expect_coverage("triangles behind the eye", {.width = kView.side, .height = kView.side}, [](const Count& count, bool is_tessera) {
-    const std::vector<Cover> nothing(std::size_t{kView.side} * std::size_t{kView.side}, Cover::never);
-    for (int n = 0; n < (is_tessera && long_tests() ? 200000 : 2000); ++n) {
-      MeshRandom random(n);
-      CaseDraw draw{.color = {0, 0, 1 / 255.0f, 1}, .add = true};
-      for (int k = 0; k < 3; ++k) {
-        const float scale = random.one_of({1.0f, 1e-30f, 1e30f});
-        for (int c = 0; c < 3; ++c) draw.positions.push_back(scale * static_cast<float>(any(random)));
-        draw.positions.push_back(random.one_of({0.0f, -0.0f, -0x1p-149f, -1e-30f, -1.0f, -1e30f}));
-      }
-      count({draw}, "triangle " + std::to_string(n), {nothing});
-    }
-  });
+  expect_coverage(
+      "triangles behind the eye", {.width = kView.side, .height = kView.side},
+      [](const Count& count, bool is_tessera) {
+        const std::vector<Cover> nothing(std::size_t{kView.side} * std::size_t{kView.side}, Cover::never);
+        for (int n = 0; n < (is_tessera && long_tests() ? 200000 : 2000); ++n) {
+          MeshRandom random(n);
+          CaseDraw draw{.color = {0, 0, 1 / 255.0f, 1}, .add = true};
+          for (int k = 0; k < 3; ++k) {
+            const float scale = random.one_of({1.0f, 1e-30f, 1e30f});
+            for (int c = 0; c < 3; ++c) draw.positions.push_back(scale * static_cast<float>(any(random)));
+            draw.positions.push_back(random.one_of({0.0f, -0.0f, -0x1p-149f, -1e-30f, -1.0f, -1e30f}));
+          }
+          count({draw}, "triangle " + std::to_string(n), {nothing});
+        }
+      });
 }
 
 }  // namespace

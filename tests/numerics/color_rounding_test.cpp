@@ -1,4 +1,5 @@
-// How colours are rounded to buffers of 1 to 24 bits: at every level and every middle between two, and at the floats next to them, wherever a colour comes from.
+// How colours are rounded to buffers of 1 to 24 bits: at every level and every middle between two, and at the
+// floats next to them, wherever a colour comes from.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,8 @@ std::vector<float> telling_components(int bits) {
   const int levels = (1 << bits) - 1;
   for (int half = 0; half <= 2 * levels; ++half) {
     const float at = static_cast<float>(static_cast<double>(half) / (2 * levels));
-    for (const float c : {std::nextafter(at, -kInfinity), at, std::nextafter(at, kInfinity)}) components.push_back(std::clamp(c, 0.0f, 1.0f));
+    for (const float c : {std::nextafter(at, -kInfinity), at, std::nextafter(at, kInfinity)})
+      components.push_back(std::clamp(c, 0.0f, 1.0f));
   }
   return components;
 }
@@ -57,7 +59,8 @@ std::vector<Source> sources(Meshes& meshes) {
     state.scissor = pixel(x);
     return state;
   };
-  const auto vertices = [&meshes, unlit_at](Frame& frame, int x, const Color& color, const std::function<void(DrawState&)>& change) {
+  const auto vertices = [&meshes, unlit_at](Frame& frame, int x, const Color& color,
+                                            const std::function<void(DrawState&)>& change) {
     DrawState state = unlit_at(x, {});
     change(state);
     frame.draw(meshes.window(color).view(), state);
@@ -65,17 +68,26 @@ std::vector<Source> sources(Meshes& meshes) {
   return {
       {"clear", [](Frame& f, int x, const Color& c) { f.clear({.color = c, .scissor = pixel(x)}); }},
       {"one colour", [=](Frame& f, int x, const Color& c) { f.draw(all.view(), unlit_at(x, c)); }},
-      {"emission", [=](Frame& f, int x, const Color& c) {
+      {"emission",
+       [=](Frame& f, int x, const Color& c) {
          DrawState state = unlit_at(x, {0, 0, 0, c.a});
          state.lighting = true;
          state.material.ambient = {0, 0, 0, 1};
          state.material.emission = c;
          f.draw(all.view(), state);
        }},
-      {"vertices, interpolated", [=](Frame& f, int x, const Color& c) { vertices(f, x, c, [](DrawState&) {}); }},
-      {"vertices, flat", [=](Frame& f, int x, const Color& c) { vertices(f, x, c, [](DrawState& s) { s.shading = Shading::flat; }); }},
-      {"vertices, an operation that changes nothing", [=](Frame& f, int x, const Color& c) { vertices(f, x, c, [](DrawState& s) { s.alpha_test = AlphaTest{Compare::gequal, 0}; }); }},
-      {"material of the vertices, at each pixel", [=](Frame& f, int x, const Color& c) {
+      {"vertices, interpolated",
+       [=](Frame& f, int x, const Color& c) { vertices(f, x, c, [](DrawState&) {}); }},
+      {"vertices, flat",
+       [=](Frame& f, int x, const Color& c) {
+         vertices(f, x, c, [](DrawState& s) { s.shading = Shading::flat; });
+       }},
+      {"vertices, an operation that changes nothing",
+       [=](Frame& f, int x, const Color& c) {
+         vertices(f, x, c, [](DrawState& s) { s.alpha_test = AlphaTest{Compare::gequal, 0}; });
+       }},
+      {"material of the vertices, at each pixel",
+       [=](Frame& f, int x, const Color& c) {
          vertices(f, x, c, [&c](DrawState& s) {
            s.lighting = true;
            s.shading = Shading::phong;
@@ -83,12 +95,15 @@ std::vector<Source> sources(Meshes& meshes) {
            s.material.ambient = s.material.diffuse = {0, 0, 0, c.a};
          });
        }},
-      {"blended", [=](Frame& f, int x, const Color& c) {
+      {"blended",
+       [=](Frame& f, int x, const Color& c) {
          DrawState state = unlit_at(x, c);
-         state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::zero, .equation = BlendEquation::max};
+         state.blend =
+             BlendState{.src = BlendFactor::one, .dst = BlendFactor::zero, .equation = BlendEquation::max};
          f.draw(all.view(), state);
        }},
-      {"bitmap", [](Frame& f, int x, const Color& c) {
+      {"bitmap",
+       [](Frame& f, int x, const Color& c) {
          static const std::uint8_t bit = 0x80;
          f.draw_bitmap({.bits = &bit, .width = 1, .height = 1, .x = static_cast<double>(x), .color = c});
        }},
@@ -97,11 +112,17 @@ std::vector<Source> sources(Meshes& meshes) {
 
 /// Calls check(source, colours, words) for buffers of every depth and number of samples.
 template <class Check>
-void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, int first_bits, int last_bits, const Check& check) {
+void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, int first_bits, int last_bits,
+                     const Check& check) {
   for (int color_bits = first_bits; color_bits <= last_bits; ++color_bits)
     for (const int samples : {1, 4}) {
       const std::vector<Color> colors = colors_of(color_bits);
-      const FrameBufferFormat format{.width = static_cast<int>(colors.size()), .height = 1, .color_bits = color_bits, .depth = DepthFormat::none, .alpha_bits = color_bits % 3 == 0 ? 8 : 0, .samples = samples};
+      const FrameBufferFormat format{.width = static_cast<int>(colors.size()),
+                                     .height = 1,
+                                     .color_bits = color_bits,
+                                     .depth = DepthFormat::none,
+                                     .alpha_bits = color_bits % 3 == 0 ? 8 : 0,
+                                     .samples = samples};
       Renderer renderer({.threads = 1});
       Meshes meshes;
       for (const Source& source : sources(meshes)) {
@@ -115,7 +136,8 @@ void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, in
     }
 }
 
-// The component times the levels, plus a half, less than 2^bits, is rounded to a float once before its fraction is cut off.
+// The component times the levels, plus a half, less than 2^bits, is rounded to a float once before its
+// fraction is cut off.
 long double beyond_half(int bits) { return std::ldexp(1.0L, bits - 25); }
 
 TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
@@ -125,29 +147,38 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
     std::vector<Color> all;
     std::array<std::vector<float>, 4> c;
     for (std::size_t k = 0; k < 4; ++k) c[k] = telling_components(split.bits[k]);
-    for (std::size_t i = 0; i < std::max({c[0].size(), c[1].size(), c[2].size(), color_bits % 3 == 0 ? c[3].size() : 0}); ++i)
-      all.push_back({c[0][i % c[0].size()], c[1][i % c[1].size()], c[2][i % c[2].size()], c[3][i % c[3].size()]});
+    for (std::size_t i = 0;
+         i < std::max({c[0].size(), c[1].size(), c[2].size(), color_bits % 3 == 0 ? c[3].size() : 0}); ++i)
+      all.push_back(
+          {c[0][i % c[0].size()], c[1][i % c[1].size()], c[2][i % c[2].size()], c[3][i % c[3].size()]});
     return all;
   };
-  for_each_buffer(colors, 3, 24, [&](const char* source, const Split& split, const std::vector<Color>& found, const std::vector<std::uint32_t>& words) {
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      const float components[] = {found[i].r, found[i].g, found[i].b, found[i].a};
-      for (std::size_t c = 0; c < 4; ++c) {
-        if (split.bits[c] == 0) continue;
-        const std::int64_t level = split.level(words[i], c);
-        const double exact = static_cast<double>(components[c]) * split.levels(c);  // 24 + 8 bits
-        const long double off = std::abs(static_cast<long double>(level) - exact);
-        ASSERT_LE(off, 0.5L + beyond_half(split.bits[c])) << source << ": " << components[c] << " of component " << c << " is level " << level << " of " << split.levels(c);
-        keep_worst(worst[static_cast<std::size_t>(split.bits[c])], off);
-      }
-    }
-  });
+  for_each_buffer(colors, 3, 24,
+                  [&](const char* source, const Split& split, const std::vector<Color>& found,
+                      const std::vector<std::uint32_t>& words) {
+                    for (std::size_t i = 0; i < words.size(); ++i) {
+                      const float components[] = {found[i].r, found[i].g, found[i].b, found[i].a};
+                      for (std::size_t c = 0; c < 4; ++c) {
+                        if (split.bits[c] == 0) continue;
+                        const std::int64_t level = split.level(words[i], c);
+                        const double exact =
+                            static_cast<double>(components[c]) * split.levels(c);  // 24 + 8 bits
+                        const long double off = std::abs(static_cast<long double>(level) - exact);
+                        ASSERT_LE(off, 0.5L + beyond_half(split.bits[c]))
+                            << source << ": " << components[c] << " of component " << c << " is level "
+                            << level << " of " << split.levels(c);
+                        keep_worst(worst[static_cast<std::size_t>(split.bits[c])], off);
+                      }
+                    }
+                  });
   for (const int bits : {1, 5, 8})
-    expect_within("colour of " + std::to_string(bits) + " bits a component, beyond half a level", std::max(0.0L, worst[static_cast<std::size_t>(bits)] - 0.5L), beyond_half(bits), "levels");
+    expect_within("colour of " + std::to_string(bits) + " bits a component, beyond half a level",
+                  std::max(0.0L, worst[static_cast<std::size_t>(bits)] - 0.5L), beyond_half(bits), "levels");
 }
 
-// 0.30 R + 0.59 G + 0.11 B: weights that are floats (off by 2^-26, 2^-25 and 2^-28 at most), the product for blue (2^-28) and two sums up to 1 (2^-25 each), rounded, and the rounding
-// above. That is 1.875 * 2^-24 of 1.0.
+// 0.30 R + 0.59 G + 0.11 B: weights that are floats (off by 2^-26, 2^-25 and 2^-28 at most), the product for
+// blue (2^-28) and two sums up to 1 (2^-25 each), rounded, and the rounding above. That is 1.875 * 2^-24
+// of 1.0.
 TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
   for (const int color_bits : {1, 2}) {
     const long double bound = ((1 << color_bits) - 1) * 1.875L * 0x1p-24L + beyond_half(color_bits);
@@ -158,31 +189,37 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
       const int levels = (1 << bits) - 1;
       for (int half = 0; half <= 2 * levels; ++half)
         for (int i = 0; i < 200; ++i) {
-          // Greys, and colours whose luminance comes next to that number of halves, or as far beside it as would be wrong.
+          // Greys, and colours whose luminance comes next to that number of halves, or as far beside it as
+          // would be wrong.
           const double wanted = static_cast<double>(half) / (2 * levels);
           const float grey = static_cast<float>(wanted), r = random.between(0, 1), b = random.between(0, 1);
-          const float g = static_cast<float>((wanted - 0.30 * r - 0.11 * b) / 0.59 + (i % 9 - 4) * (i % 2 == 0 ? 0x1p-25 : 0x1p-23));
-          if (i < 3)
-            all.push_back({grey, grey, grey, 1});
-          else if (g >= 0 && g <= 1)
-            all.push_back({r, g, b, 1});
+          const float g = static_cast<float>((wanted - 0.30 * r - 0.11 * b) / 0.59 +
+                                             (i % 9 - 4) * (i % 2 == 0 ? 0x1p-25 : 0x1p-23));
+          if (i < 3) all.push_back({grey, grey, grey, 1});
+          else if (g >= 0 && g <= 1) all.push_back({r, g, b, 1});
         }
       return all;
     };
-    for_each_buffer(colors, color_bits, color_bits, [&](const char* source, const Split& split, const std::vector<Color>& found, const std::vector<std::uint32_t>& words) {
-      for (std::size_t i = 0; i < words.size(); ++i) {
-        const Color& c = found[i];
-        const long double exact = split.levels(0) * (0.30L * c.r + 0.59L * c.g + 0.11L * c.b);
-        const long double off = std::abs(static_cast<long double>(split.level(words[i], 0)) - exact);
-        ASSERT_LE(off, 0.5L + bound) << source << ": " << c.r << ", " << c.g << ", " << c.b;
-        keep_worst(worst, off);
-      }
-    });
-    expect_within("luminance of " + std::to_string(color_bits) + (color_bits > 1 ? " bits" : " bit") + ", beyond half a level", std::max(0.0L, worst - 0.5L), bound, "levels");
+    for_each_buffer(colors, color_bits, color_bits,
+                    [&](const char* source, const Split& split, const std::vector<Color>& found,
+                        const std::vector<std::uint32_t>& words) {
+                      for (std::size_t i = 0; i < words.size(); ++i) {
+                        const Color& c = found[i];
+                        const long double exact = split.levels(0) * (0.30L * c.r + 0.59L * c.g + 0.11L * c.b);
+                        const long double off =
+                            std::abs(static_cast<long double>(split.level(words[i], 0)) - exact);
+                        ASSERT_LE(off, 0.5L + bound) << source << ": " << c.r << ", " << c.g << ", " << c.b;
+                        keep_worst(worst, off);
+                      }
+                    });
+    expect_within("luminance of " + std::to_string(color_bits) + (color_bits > 1 ? " bits" : " bit") +
+                      ", beyond half a level",
+                  std::max(0.0L, worst - 0.5L), bound, "levels");
   }
 }
 
-// Texels and pixels of images, 8 bits a component, have no roundings before: exactly the nearest. No middle between two levels is among them, since 255 (2 k + 1) is odd.
+// Texels and pixels of images, 8 bits a component, have no roundings before: exactly the nearest. No middle
+// between two levels is among them, since 255 (2 k + 1) is odd.
 TEST(ColorRounding, OfImagesIsExact) {
   std::vector<std::uint8_t> texels;
   for (int i = 0; i < 256; ++i)
@@ -196,7 +233,11 @@ TEST(ColorRounding, OfImagesIsExact) {
     const auto words = color_words(buffer);
     const Split split(format);
     for (std::size_t i = 0; i < 256; ++i)
-      for (std::size_t c = 0; c < 4; ++c) ASSERT_EQ(split.level(words[i], c), static_cast<std::int64_t>((Ratio{std::int64_t{texels[4 * i + c]} * split.levels(c), 255}.rounded()))) << color_bits;
+      for (std::size_t c = 0; c < 4; ++c)
+        ASSERT_EQ(split.level(words[i], c),
+                  static_cast<std::int64_t>(
+                      (Ratio{std::int64_t{texels[4 * i + c]} * split.levels(c), 255}.rounded())))
+            << color_bits;
   }
 }
 
@@ -216,23 +257,38 @@ TEST(ColorRounding, OfWhatIsShownIsExact) {
     Image image(buffer);
     buffer.read_color(image.target());
     for (std::size_t i = 0; i < words.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(image.bytes[4 * i + c], static_cast<int>((Ratio{255 * split.level(words[i], c), split.levels(c)}.rounded()))) << color_bits << " bits, word " << words[i];
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_EQ(image.bytes[4 * i + c],
+                  static_cast<int>((Ratio{255 * split.level(words[i], c), split.levels(c)}.rounded())))
+            << color_bits << " bits, word " << words[i];
   }
 }
 
-// Indices are rounded to the nearest whole number, halves up, and go round at 2^bits. Exactly, unless they are below 0: then what the modulus is added to is
-// rounded to a float, of 24 bits, before.
+// Indices are rounded to the nearest whole number, halves up, and go round at 2^bits. Exactly, unless they
+// are below 0: then what the modulus is added to is rounded to a float, of 24 bits, before.
 TEST(ColorRounding, OfIndicesIsExact) {
   double worst = 0;
   for (int bits = 1; bits <= 24; ++bits) {
-    std::vector<float> indices{0, -0.0f, std::numeric_limits<float>::denorm_min(), -std::numeric_limits<float>::denorm_min(), 1e9f, -1e9f, 3e38f, -3e38f};
+    std::vector<float> indices{0,
+                               -0.0f,
+                               std::numeric_limits<float>::denorm_min(),
+                               -std::numeric_limits<float>::denorm_min(),
+                               1e9f,
+                               -1e9f,
+                               3e38f,
+                               -3e38f};
     Random random(static_cast<std::uint64_t>(bits));
     for (int i = 0; i < 400; ++i) {
-      const float whole = static_cast<float>(random.next() % (2u << bits)) - static_cast<float>(i % 4 == 3 ? 1u << bits : 0u), at = whole + (i % 2 == 0 ? 0.5f : 0.0f);
+      const float whole = static_cast<float>(random.next() % (2u << bits)) -
+                          static_cast<float>(i % 4 == 3 ? 1u << bits : 0u),
+                  at = whole + (i % 2 == 0 ? 0.5f : 0.0f);
       indices.insert(indices.end(), {std::nextafter(at, -kInfinity), at, std::nextafter(at, kInfinity)});
     }
     for (const Shading shading : {Shading::flat, Shading::gouraud}) {
-      FrameBuffer buffer({.width = static_cast<int>(indices.size()), .height = 1, .color_mode = ColorMode::index, .color_bits = bits});
+      FrameBuffer buffer({.width = static_cast<int>(indices.size()),
+                          .height = 1,
+                          .color_mode = ColorMode::index,
+                          .color_bits = bits});
       Frame frame(buffer);
       std::deque<MeshData> meshes;
       for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -249,10 +305,12 @@ TEST(ColorRounding, OfIndicesIsExact) {
       for (std::size_t i = 0; i < indices.size(); ++i) {
         const double index = static_cast<double>(indices[i]), modulus = std::ldexp(1.0, bits);
         if (index >= 0) {
-          ASSERT_EQ(words[i], std::fmod(std::floor(index + 0.5), modulus)) << indices[i] << " in " << bits << " bits";
+          ASSERT_EQ(words[i], std::fmod(std::floor(index + 0.5), modulus))
+              << indices[i] << " in " << bits << " bits";
           continue;
         }
-        const double off = std::abs(std::remainder(words[i] - index, modulus));  // sums of less than 2^28 and of more than 2^-25: exact
+        const double off = std::abs(std::remainder(
+            words[i] - index, modulus));  // sums of less than 2^28 and of more than 2^-25: exact
         ASSERT_LE(off, 0.5 + std::ldexp(1.0, bits - 25)) << indices[i] << " in " << bits << " bits";
         keep_worst(worst, off - 0.5);
       }

@@ -22,8 +22,10 @@ struct Tally {
     std::optional<bool> overlaps;
     for (std::size_t i = 0; i < counts.size(); ++i) {
       const Cover cover = expected.pixels.empty() ? Cover::once : expected.pixels[i];
-      const bool crack = cover == Cover::once && counts[i] == 0, stray = cover == Cover::never && counts[i] > 0;
-      bool again = cover != Cover::never && counts[i] > 1 && !(expected.folds_along_cuts && cover == Cover::at_most_once);
+      const bool crack = cover == Cover::once && counts[i] == 0,
+                 stray = cover == Cover::never && counts[i] > 0;
+      bool again = cover != Cover::never && counts[i] > 1 &&
+                   !(expected.folds_along_cuts && cover == Cover::at_most_once);
       if (again && expected.overlaps) {
         if (!overlaps) overlapping += *(overlaps = expected.overlaps());
         again = !*overlaps;
@@ -43,7 +45,8 @@ struct Tally {
 std::vector<std::unique_ptr<CaseRenderer>> tesseras(const CaseFormat& format) {
   std::vector<std::unique_ptr<CaseRenderer>> all;
   for (const InstructionSet set : available_instruction_sets())
-    for (const int tile_size : {32, 64, 128}) all.push_back(make_tessera(format, {.threads = 1, .tile_size = tile_size, .instruction_set = set}));
+    for (const int tile_size : {32, 64, 128})
+      all.push_back(make_tessera(format, {.threads = 1, .tile_size = tile_size, .instruction_set = set}));
   return all;
 }
 
@@ -64,19 +67,25 @@ CaseDraw counting(const CountedMesh& mesh) {
 
 CountedMesh mesh_of(const std::vector<WindowPoint>& points, int width, int height) {
   CountedMesh mesh;
-  for (const WindowPoint& p : points) mesh.add_vertex(static_cast<double>(p.x) / (128.0 * width) - 1, static_cast<double>(p.y) / (128.0 * height) - 1);
+  for (const WindowPoint& p : points)
+    mesh.add_vertex(static_cast<double>(p.x) / (128.0 * width) - 1,
+                    static_cast<double>(p.y) / (128.0 * height) - 1);
   return mesh;
 }
 
 bool Grid::folds() const {
   bool folded = false;
-  for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) { folded |= !has_diagonal(p, q, r, s) && !has_diagonal(q, r, s, p); });
+  for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
+    folded |= !has_diagonal(p, q, r, s) && !has_diagonal(q, r, s, p);
+  });
   return folded;
 }
 
 bool Grid::is_convex() const {
   bool convex = true;
-  for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) { convex &= has_diagonal(p, q, r, s) && has_diagonal(q, r, s, p); });
+  for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
+    convex &= has_diagonal(p, q, r, s) && has_diagonal(q, r, s, p);
+  });
   return convex;
 }
 
@@ -89,26 +98,33 @@ void Grid::cut_into(CountedMesh& mesh, MeshRandom& random) const {
   mesh.shuffle(random);
 }
 
-void expect_coverage(const std::string& what, const CaseFormat& format, const std::function<void(const Count& count, bool is_tessera)>& meshes) {
+void expect_coverage(const std::string& what, const CaseFormat& format,
+                     const std::function<void(const Count& count, bool is_tessera)>& meshes) {
   Tally ours, mesas;
   {
     const std::vector<std::unique_ptr<CaseRenderer>> renderers = tesseras(format);
     std::size_t frame = 0;
     int messages = 0;
-    meshes([&](const std::vector<CaseDraw>& draws, const std::string& name, const Expected& expected) {
-      const std::vector<int> counts = renderers[frame++ % renderers.size()]->count(draws);
-      const std::size_t wrong = ours.add(counts, expected);
-      if (wrong == counts.size() || messages++ > 5) return;
-      const auto width = static_cast<std::size_t>(format.width);
-      ADD_FAILURE() << what << ", " << name << ": pixel (" << wrong % width << ", " << wrong / width << ") from the top left is covered " << counts[wrong] << " times";
-    }, true);
+    meshes(
+        [&](const std::vector<CaseDraw>& draws, const std::string& name, const Expected& expected) {
+          const std::vector<int> counts = renderers[frame++ % renderers.size()]->count(draws);
+          const std::size_t wrong = ours.add(counts, expected);
+          if (wrong == counts.size() || messages++ > 5) return;
+          const auto width = static_cast<std::size_t>(format.width);
+          ADD_FAILURE() << what << ", " << name << ": pixel (" << wrong % width << ", " << wrong / width
+                        << ") from the top left is covered " << counts[wrong] << " times";
+        },
+        true);
   }
   const std::unique_ptr<CaseRenderer> mesa = make_mesa(format);
   if (mesa)
-    meshes([&](const std::vector<CaseDraw>& draws, const std::string&, const Expected& expected) { mesas.add(mesa->count(draws), expected); }, false);
+    meshes([&](const std::vector<CaseDraw>& draws, const std::string&,
+               const Expected& expected) { mesas.add(mesa->count(draws), expected); },
+           false);
   EXPECT_LE(ours.overlapping, ours.meshes / 100);
   EXPECT_GT(ours.pixels, 10000u) << what;
-  EXPECT_TRUE(ours.once > 10000 || ours.never == ours.pixels) << what << ": hardly a pixel is sure to be covered";
+  EXPECT_TRUE(ours.once > 10000 || ours.never == ours.pixels)
+      << what << ": hardly a pixel is sure to be covered";
   const auto row = [&](const std::string& kind, long double measured, long double by_mesa) {
     expect_within(what + ": " + kind, measured, 0, "pixels");
     if (mesa) set_beside(what + ": " + kind, by_mesa);

@@ -18,10 +18,14 @@ struct MeshRandom {
   std::mt19937 random;
   explicit MeshRandom(int n) : random(static_cast<std::uint32_t>(n)) {}
   double unit() { return static_cast<double>(random()) * 0x1p-32; }
-  int between(int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)); }
+  int between(int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+  }
   bool coin() { return between(0, 1) != 0; }
   template <class T, std::size_t n>
-  T one_of(const T (&values)[n]) { return values[static_cast<std::size_t>(between(0, n - 1))]; }
+  T one_of(const T (&values)[n]) {
+    return values[static_cast<std::size_t>(between(0, n - 1))];
+  }
 };
 
 /// Triangles in clip space.
@@ -33,7 +37,9 @@ struct CountedMesh {
     for (const double c : {x, y, z, w}) positions.push_back(static_cast<float>(c));
     return static_cast<std::uint32_t>(positions.size() / 4 - 1);
   }
-  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    indices.insert(indices.end(), {a, b, c});
+  }
   std::size_t triangles() const { return indices.size() / 3; }
   /// The same triangles in any order, with either winding, from any of their vertices on.
   void shuffle(MeshRandom& random);
@@ -58,16 +64,20 @@ struct Grid {
   int columns = 1, rows = 1;
   std::vector<WindowPoint> points;  ///< of the window, or of any other plane
 
-  std::uint32_t index(int column, int row) const { return static_cast<std::uint32_t>(row * (columns + 1) + column); }
+  std::uint32_t index(int column, int row) const {
+    return static_cast<std::uint32_t>(row * (columns + 1) + column);
+  }
   /// Calls cell(p, q, r, s), the corners in order.
   template <class Cell>
   void for_each_cell(const Cell& cell) const {
     for (int j = 0; j < rows; ++j)
-      for (int i = 0; i < columns; ++i) cell(index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
+      for (int i = 0; i < columns; ++i)
+        cell(index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
   }
   /// Whether the way from p to r is inside the cell.
   bool has_diagonal(std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) const {
-    return doubled_area(points[p], points[q], points[r]) >= 0 && doubled_area(points[p], points[r], points[s]) >= 0;
+    return doubled_area(points[p], points[q], points[r]) >= 0 &&
+           doubled_area(points[p], points[r], points[s]) >= 0;
   }
   /// Cells that turn inside out overlap their neighbours.
   bool folds() const;
@@ -81,18 +91,24 @@ enum class Cover : std::uint8_t { never, once, at_most_once };
 
 /// What a mesh should cover.
 struct Expected {
-  std::vector<Cover> pixels{};         ///< rows from the top; empty: all of them once
-  std::function<bool()> overlaps{};    ///< asked where something is covered again: whether that is in the mesh itself, once it is snapped
-  bool folds_along_cuts = false;       ///< where at most once is expected it may be again: slivers between an edge and a cut, thinner than what snapping moves them by, turn over
+  std::vector<Cover> pixels{};       ///< rows from the top; empty: all of them once
+  std::function<bool()> overlaps{};  ///< asked where something is covered again: whether that is in the mesh
+                                     ///< itself, once it is snapped
+  bool folds_along_cuts = false;  ///< where at most once is expected it may be again: slivers between an edge
+                                  ///< and a cut, thinner than what snapping moves them by, turn over
 };
 /// Counts a frame's pixels; `name` is that of the mesh in messages.
-using Count = std::function<void(const std::vector<CaseDraw>& draws, const std::string& name, const Expected& expected)>;
+using Count = std::function<void(const std::vector<CaseDraw>& draws, const std::string& name,
+                                 const Expected& expected)>;
 
-/// Expects that nothing is left out, covered again, or covered where nothing should be, with Mesa's figures beside.
+/// Expects that nothing is left out, covered again, or covered where nothing should be, with Mesa's figures
+/// beside.
 ///
 /// Of one mesh in a hundred at most the triangles may overlap.
 ///
-/// @param meshes  counts all meshes there are. Tessera takes turns with tiles of all sizes and all instruction sets.
-void expect_coverage(const std::string& what, const CaseFormat& format, const std::function<void(const Count& count, bool is_tessera)>& meshes);
+/// @param meshes  counts all meshes there are. Tessera takes turns with tiles of all sizes and all
+/// instruction sets.
+void expect_coverage(const std::string& what, const CaseFormat& format,
+                     const std::function<void(const Count& count, bool is_tessera)>& meshes);
 
 }  // namespace tessera::test

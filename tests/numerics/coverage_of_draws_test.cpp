@@ -1,5 +1,6 @@
-// Which pixels a triangle covers, by each of the ways that its pixels may go: most draws do not count in a blended buffer, as other tests do. Each triangle
-// is nearer than all before it, so that who is seen, how often something was drawn and how far the depth is are known from exact integers. No tolerance.
+// Which pixels a triangle covers, by each of the ways that its pixels may go: most draws do not count in a
+// blended buffer, as other tests do. Each triangle is nearer than all before it, so that who is seen, how
+// often something was drawn and how far the depth is are known from exact integers. No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,17 +35,24 @@ struct Way {
 const Way kWays[] = {
     {"flat", [](DrawState& state) { state.shading = Shading::flat; }},
     {"gouraud", [](DrawState&) {}},
-    {"phong", [](DrawState& state) {
+    {"phong",
+     [](DrawState& state) {
        state.lighting = true;
        state.shading = Shading::phong;
        state.material = {.ambient = {0, 0, 0, 1}, .diffuse = {0, 0, 0, 1}};
        state.color_material = ColorMaterial::emission;
      }},
-    {"nearest", [](DrawState& state) { state.texture_env = TextureEnv::replace; }, true, TextureFilter::nearest},
-    {"bilinear", [](DrawState& state) { state.texture_env = TextureEnv::replace; }, true, TextureFilter::linear},
+    {"nearest", [](DrawState& state) { state.texture_env = TextureEnv::replace; }, true,
+     TextureFilter::nearest},
+    {"bilinear", [](DrawState& state) { state.texture_env = TextureEnv::replace; }, true,
+     TextureFilter::linear},
     {"blended", [](DrawState& state) { state.blend = BlendState{}; }},  // by an alpha of 1
     {"alpha_test", [](DrawState& state) { state.alpha_test = AlphaTest{}; }},
-    {"depth_alone", [](DrawState& state) { state.color_mask = {false, false, false, false}; }, false},
+    {"depth_alone",
+     [](DrawState& state) {
+       state.color_mask = {false, false, false, false};
+     },
+     false},
 };
 
 struct Depth {
@@ -52,9 +60,13 @@ struct Depth {
   DepthFormat format = DepthFormat::none;
   Compare test = Compare::always;
 };
-const Depth kDepths[] = {{"no depth"}, {"24 bits, less", DepthFormat::unorm24, Compare::less}, {"24 bits, lequal", DepthFormat::unorm24, Compare::lequal},
-                         {"16 bits, less", DepthFormat::unorm16, Compare::less}, {"32 bits, less", DepthFormat::unorm32, Compare::less},
-                         {"float, less", DepthFormat::float32, Compare::less}, {"float, lequal", DepthFormat::float32, Compare::lequal}};
+const Depth kDepths[] = {{"no depth"},
+                         {"24 bits, less", DepthFormat::unorm24, Compare::less},
+                         {"24 bits, lequal", DepthFormat::unorm24, Compare::lequal},
+                         {"16 bits, less", DepthFormat::unorm16, Compare::less},
+                         {"32 bits, less", DepthFormat::unorm32, Compare::less},
+                         {"float, less", DepthFormat::float32, Compare::less},
+                         {"float, lequal", DepthFormat::float32, Compare::lequal}};
 
 struct Painter {
   std::string name;
@@ -66,8 +78,11 @@ std::vector<Painter> painters() {
   for (const InstructionSet set : available_instruction_sets())
     for (const int tile_size : {32, 64, 128})
       for (const bool defers : {false, true}) {
-        const RendererOptions options{.threads = 1, .tile_size = tile_size, .instruction_set = set, .defer_shading = defers};
-        painters.push_back({std::string(name(set)) + ", tiles of " + std::to_string(tile_size) + (defers ? "" : ", shaded at once"), options, std::make_unique<Renderer>(options)});
+        const RendererOptions options{
+            .threads = 1, .tile_size = tile_size, .instruction_set = set, .defer_shading = defers};
+        painters.push_back({std::string(name(set)) + ", tiles of " + std::to_string(tile_size) +
+                                (defers ? "" : ", shaded at once"),
+                            options, std::make_unique<Renderer>(options)});
       }
   return painters;
 }
@@ -75,7 +90,9 @@ std::vector<Painter> painters() {
 std::vector<OwnedPixels> meshes() {
   std::vector<OwnedPixels> meshes;
   for (int n = 0; n < (long_tests() ? 600 : 6); ++n) meshes.push_back(OwnedPixels::of_shapes(n));
-  for (int n = 0; n < (long_tests() ? 500 : 5); ++n) meshes.push_back(OwnedPixels::of_grid(n, std::array{1.5, 5.0, 9.0, 26.0, 60.0}[static_cast<std::size_t>(n % 5)]));
+  for (int n = 0; n < (long_tests() ? 500 : 5); ++n)
+    meshes.push_back(
+        OwnedPixels::of_grid(n, std::array{1.5, 5.0, 9.0, 26.0, 60.0}[static_cast<std::size_t>(n % 5)]));
   return meshes;
 }
 
@@ -90,12 +107,19 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
   CoverageOfDraws() {
     if (!GetParam().filter) return;
     const std::vector<std::uint8_t> texels = OwnedPixels::texels();
-    const TextureImage image{.pixels = texels.data(), .width = OwnedPixels::kTextureSide, .height = OwnedPixels::kTextureSide, .channels = 4, .bottom_row_first = true};
+    const TextureImage image{.pixels = texels.data(),
+                             .width = OwnedPixels::kTextureSide,
+                             .height = OwnedPixels::kTextureSide,
+                             .channels = 4,
+                             .bottom_row_first = true};
     texture_.emplace(image, TextureSampler{.mag = *GetParam().filter, .min = *GetParam().filter});
   }
 
   void draw(const Depth& depth, bool counts, const OwnedPixels& mesh, Painter& painter) {
-    FrameBuffer buffer({.width = OwnedPixels::kSide, .height = OwnedPixels::kSide, .depth = depth.format, .stencil_bits = 8});
+    FrameBuffer buffer({.width = OwnedPixels::kSide,
+                        .height = OwnedPixels::kSide,
+                        .depth = depth.format,
+                        .stencil_bits = 8});
     const Way& way = GetParam();
     DrawState state{.lighting = false};
     way.change(state);
@@ -103,27 +127,37 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
     state.depth = {.enabled = depth.format != DepthFormat::none, .test = depth.test};
     if (counts) state.stencil = StencilState{.front = {.zpass = StencilOp::incr_wrap}};
     Frame frame(buffer);
-    frame.clear({.color = Color{0, 0, 0, 1}, .depth = state.depth.enabled ? std::optional(1.0) : std::nullopt, .stencil = 0u});
-    frame.draw({.positions = mesh.positions, .normals = state.lighting ? FloatArray(mesh.normals) : FloatArray(), .colors = mesh.colors,
-                .texcoords = state.texture != nullptr ? FloatArray(mesh.texcoords) : FloatArray()}, state);
+    frame.clear({.color = Color{0, 0, 0, 1},
+                 .depth = state.depth.enabled ? std::optional(1.0) : std::nullopt,
+                 .stencil = 0u});
+    frame.draw({.positions = mesh.positions,
+                .normals = state.lighting ? FloatArray(mesh.normals) : FloatArray(),
+                .colors = mesh.colors,
+                .texcoords = state.texture != nullptr ? FloatArray(mesh.texcoords) : FloatArray()},
+               state);
     const FrameStats stats = painter.renderer->finish(frame);
 
     Wrong here;
     buffer.read_color_words(words_);
-    for (std::size_t i = 0; i < kPixels; ++i) here.colors += words_[i] != (way.has_color ? mesh.color_word(i) : 0) ? 1 : 0;
+    for (std::size_t i = 0; i < kPixels; ++i)
+      here.colors += words_[i] != (way.has_color ? mesh.color_word(i) : 0) ? 1 : 0;
     if (state.depth.enabled) {
       buffer.read_depth_words(words_);
-      for (std::size_t i = 0; i < kPixels; ++i) here.depths += words_[i] != mesh.depth_word(i, depth.format) ? 1 : 0;
+      for (std::size_t i = 0; i < kPixels; ++i)
+        here.depths += words_[i] != mesh.depth_word(i, depth.format) ? 1 : 0;
     }
     if (counts) {
       buffer.read_stencil(stencil_);
       for (std::size_t i = 0; i < kPixels; ++i) here.counts += stencil_[i] != (mesh.times(i) & 255) ? 1 : 0;
     }
     // What was drawn and is hidden by now shows only here.
-    if (way.has_color && !painter.options.defer_shading) here.times = std::abs(static_cast<long double>(stats.shaded_pixels) - static_cast<long double>(mesh.covered));
+    if (way.has_color && !painter.options.defer_shading)
+      here.times =
+          std::abs(static_cast<long double>(stats.shaded_pixels) - static_cast<long double>(mesh.covered));
     if (here.any() && !wrong_.any())
-      ADD_FAILURE() << way.name << ", " << depth.name << (counts ? ", counted" : "") << ", " << painter.name << ": colours wrong " << here.colors << ", depths " << here.depths << ", counts " << here.counts
-                    << ", drawn " << stats.shaded_pixels << " instead of " << mesh.covered;
+      ADD_FAILURE() << way.name << ", " << depth.name << (counts ? ", counted" : "") << ", " << painter.name
+                    << ": colours wrong " << here.colors << ", depths " << here.depths << ", counts "
+                    << here.counts << ", drawn " << stats.shaded_pixels << " instead of " << mesh.covered;
     wrong_.colors += here.colors;
     wrong_.depths += here.depths;
     wrong_.counts += here.counts;
@@ -144,8 +178,10 @@ TEST_P(CoverageOfDraws, EqualsExactIntegers) {
   std::size_t turn = 0;
   for (const Depth& depth : kDepths)
     for (const bool counts : {false, true}) {
-      if (!GetParam().has_color && depth.format == DepthFormat::none && !counts) continue;  // nothing is stored
-      for (std::size_t n = 0; n < std::max(all.size(), by.size()); ++n) draw(depth, counts, all[turn++ % all.size()], by[n % by.size()]);
+      if (!GetParam().has_color && depth.format == DepthFormat::none && !counts)
+        continue;  // nothing is stored
+      for (std::size_t n = 0; n < std::max(all.size(), by.size()); ++n)
+        draw(depth, counts, all[turn++ % all.size()], by[n % by.size()]);
     }
   const std::string name = "covered exactly, " + GetParam().name;
   expect_within(name + ": pixels of another colour", wrong_.colors, 0, "pixels");
@@ -153,7 +189,8 @@ TEST_P(CoverageOfDraws, EqualsExactIntegers) {
   expect_within(name + ": counted in the stencil otherwise", wrong_.counts, 0, "pixels");
   if (GetParam().has_color) expect_within(name + ": drawn more or less often", wrong_.times, 0, "pixels");
 }
-INSTANTIATE_TEST_SUITE_P(Ways, CoverageOfDraws, testing::ValuesIn(kWays), [](const auto& way) { return way.param.name; });
+INSTANTIATE_TEST_SUITE_P(Ways, CoverageOfDraws, testing::ValuesIn(kWays),
+                         [](const auto& way) { return way.param.name; });
 
 }  // namespace
 }  // namespace tessera::test

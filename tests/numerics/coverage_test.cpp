@@ -1,5 +1,6 @@
-// Triangles that share edges cover each pixel exactly once: whole meshes on a buffer that counts, through all of the engine. Corners are whole
-// numbers of 1/256 pixel, so no rounding comes before the rule. No tolerance.
+// Triangles that share edges cover each pixel exactly once: whole meshes on a buffer that counts, through all
+// of the engine. Corners are whole numbers of 1/256 pixel, so no rounding comes before the rule. No
+// tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,15 +21,18 @@ namespace {
 constexpr int kSide = 64;
 const CaseFormat kFormat{.width = kSide, .height = kSide};
 
-int how_many(bool is_tessera, int normal, int in_long_tests) { return is_tessera && long_tests() ? in_long_tests : normal; }
+int how_many(bool is_tessera, int normal, int in_long_tests) {
+  return is_tessera && long_tests() ? in_long_tests : normal;
+}
 
-// Beyond the frame on all sides. Inner vertices are anywhere, or multiples of half a pixel: pixel centres, and corners of pixels and tiles. Or of 1/16:
-// sample positions.
+// Beyond the frame on all sides. Inner vertices are anywhere, or multiples of half a pixel: pixel centres,
+// and corners of pixels and tiles. Or of 1/16: sample positions.
 Grid jittered_grid(MeshRandom& random, double jitter, int most_cells = 24) {
   Grid grid{random.between(1, most_cells), random.between(1, most_cells), {}};
   const int snap = random.one_of({1, 16, 128, 256});
   const auto place = [&](int n, int last) {
-    const double cell = (kSide + 8.0) * 256 / last, at = cell * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) - 1024;
+    const double cell = (kSide + 8.0) * 256 / last,
+                 at = cell * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) - 1024;
     return std::llround(at / snap) * snap;
   };
   for (int j = 0; j <= grid.rows; ++j)
@@ -83,44 +87,53 @@ TEST(ExactlyOnce, Fans) {
   expect_coverage("fans around a pixel's centre", kFormat, [](const Count& count, bool is_tessera) {
     for (int n = 0; n < how_many(is_tessera, 2000, 100000); ++n) {
       MeshRandom random(n);
-      const WindowPoint center{random.between(0, kSide) * 256 + random.between(0, 1) * 128, random.between(0, kSide) * 256 + random.between(0, 1) * 128};
+      const WindowPoint center{random.between(0, kSide) * 256 + random.between(0, 1) * 128,
+                               random.between(0, kSide) * 256 + random.between(0, 1) * 128};
       const int spokes = random.between(5, 200);
       std::vector<WindowPoint> points{center};
       for (int i = 0; i < spokes; ++i) {
-        const double angle = 2 * std::numbers::pi * (i + 0.9 * random.unit()) / spokes, radius = 256 * kSide * (6 + 5 * random.unit());
-        points.push_back({center.x + std::llround(radius * std::cos(angle)), center.y + std::llround(radius * std::sin(angle))});
+        const double angle = 2 * std::numbers::pi * (i + 0.9 * random.unit()) / spokes,
+                     radius = 256 * kSide * (6 + 5 * random.unit());
+        points.push_back({center.x + std::llround(radius * std::cos(angle)),
+                          center.y + std::llround(radius * std::sin(angle))});
       }
       CountedMesh mesh = mesh_of(points, kSide, kSide);
-      for (std::uint32_t i = 1; i < points.size(); ++i) mesh.add_triangle(0, i, i + 1 < points.size() ? i + 1 : 1);
+      for (std::uint32_t i = 1; i < points.size(); ++i)
+        mesh.add_triangle(0, i, i + 1 < points.size() ? i + 1 : 1);
       mesh.shuffle(random);
       count({counting(mesh)}, "fan " + std::to_string(n), {});
     }
   });
 }
 
-// 1/256 pixel wide and 16,384 pixels long; and needles from one point, whose other ends are 1/256 pixel apart.
+// 1/256 pixel wide and 16,384 pixels long; and needles from one point, whose other ends are 1/256 pixel
+// apart.
 TEST(ExactlyOnce, LongSlivers) {
   constexpr int kLong = 16384, kShort = 2, kCount = 256 * kShort;
   for (const bool lying : {true, false}) {
     const int width = lying ? kLong : kShort, height = lying ? kShort : kLong;
-    expect_coverage(lying ? "slivers, lying" : "slivers, standing", {.width = width, .height = height}, [&](const Count& count, bool) {
-      MeshRandom random(0);
-      const auto point = [&](std::int64_t along, std::int64_t across) { return lying ? WindowPoint{along, across} : WindowPoint{across, along}; };
-      Grid grid = lying ? Grid{1, kCount, {}} : Grid{kCount, 1, {}};
-      for (int j = 0; j <= grid.rows; ++j)
-        for (int i = 0; i <= grid.columns; ++i) grid.points.push_back({lying ? i * kLong * 256 : i, lying ? j : j * kLong * 256});
-      count({counting(triangles_of(grid, random, width, height))}, "parallel", {});
+    expect_coverage(lying ? "slivers, lying" : "slivers, standing", {.width = width, .height = height},
+                    [&](const Count& count, bool) {
+                      MeshRandom random(0);
+                      const auto point = [&](std::int64_t along, std::int64_t across) {
+                        return lying ? WindowPoint{along, across} : WindowPoint{across, along};
+                      };
+                      Grid grid = lying ? Grid{1, kCount, {}} : Grid{kCount, 1, {}};
+                      for (int j = 0; j <= grid.rows; ++j)
+                        for (int i = 0; i <= grid.columns; ++i)
+                          grid.points.push_back({lying ? i * kLong * 256 : i, lying ? j : j * kLong * 256});
+                      count({counting(triangles_of(grid, random, width, height))}, "parallel", {});
 
-      for (const int corner : {0, kCount}) {
-        std::vector<WindowPoint> points{point(0, corner), point(0, kCount - corner)};
-        for (int k = 0; k <= kCount; ++k) points.push_back(point(kLong * 256, k));
-        CountedMesh mesh = mesh_of(points, width, height);
-        for (std::uint32_t k = 0; k < kCount; ++k) mesh.add_triangle(0, k + 2, k + 3);
-        mesh.add_triangle(0, 1, corner == 0 ? kCount + 2 : 2);
-        mesh.shuffle(random);
-        count({counting(mesh)}, "from corner " + std::to_string(corner), {});
-      }
-    });
+                      for (const int corner : {0, kCount}) {
+                        std::vector<WindowPoint> points{point(0, corner), point(0, kCount - corner)};
+                        for (int k = 0; k <= kCount; ++k) points.push_back(point(kLong * 256, k));
+                        CountedMesh mesh = mesh_of(points, width, height);
+                        for (std::uint32_t k = 0; k < kCount; ++k) mesh.add_triangle(0, k + 2, k + 3);
+                        mesh.add_triangle(0, 1, corner == 0 ? kCount + 2 : 2);
+                        mesh.shuffle(random);
+                        count({counting(mesh)}, "from corner " + std::to_string(corner), {});
+                      }
+                    });
   }
 }
 
@@ -129,7 +142,8 @@ std::vector<CaseDraw> rows_of(const Grid& grid, Primitive primitive) {
   std::vector<CaseDraw> draws;
   for (int j = 0; j < grid.rows; ++j) {
     CountedMesh row = mesh_of(grid.points, kSide, kSide);
-    for (int i = 0; i <= grid.columns; ++i) row.indices.insert(row.indices.end(), {grid.index(i, j), grid.index(i, j + 1)});
+    for (int i = 0; i <= grid.columns; ++i)
+      row.indices.insert(row.indices.end(), {grid.index(i, j), grid.index(i, j + 1)});
     draws.push_back(counting(row));
     draws.back().primitive = primitive;
   }
@@ -137,7 +151,9 @@ std::vector<CaseDraw> rows_of(const Grid& grid, Primitive primitive) {
 }
 CaseDraw quads_of(const Grid& grid) {
   CountedMesh quads = mesh_of(grid.points, kSide, kSide);
-  grid.for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) { quads.indices.insert(quads.indices.end(), {p, q, r, s}); });
+  grid.for_each_cell([&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
+    quads.indices.insert(quads.indices.end(), {p, q, r, s});
+  });
   CaseDraw draw = counting(quads);
   draw.primitive = Primitive::quads;
   return draw;
@@ -148,7 +164,8 @@ std::vector<CaseDraw> parts_of_a_polygon(MeshRandom& random) {
   std::vector<WindowPoint> points;
   for (int i = 0; i < corners; ++i) {  // around the frame, however few
     const double angle = 2 * std::numbers::pi * i / corners;
-    points.push_back({128 * kSide + std::llround(40000 * std::cos(angle)), 128 * kSide + std::llround(40000 * std::sin(angle))});
+    points.push_back({128 * kSide + std::llround(40000 * std::cos(angle)),
+                      128 * kSide + std::llround(40000 * std::sin(angle))});
   }
   std::vector<std::vector<std::uint32_t>> whole{{}}, parts;
   for (int i = 0; i < corners; ++i) whole[0].push_back(static_cast<std::uint32_t>(i));
@@ -194,7 +211,9 @@ TEST(ExactlyOnce, StripsQuadsFansAndPolygons) {
 /// Words of a buffer with several samples, of which each pixel shows the mean. Mesa's OSMesa has one.
 class SampledBuffer {
  public:
-  explicit SampledBuffer(int samples) : buffer_({.width = kSide, .height = kSide, .depth = DepthFormat::none, .samples = samples}), words_(kSide * kSide) {}
+  explicit SampledBuffer(int samples)
+      : buffer_({.width = kSide, .height = kSide, .depth = DepthFormat::none, .samples = samples}),
+        words_(kSide * kSide) {}
   template <class Record>
   const std::vector<std::uint32_t>& draw(const Record& record) {
     Frame frame(buffer_);
@@ -211,11 +230,14 @@ class SampledBuffer {
   std::vector<std::uint32_t> words_;
 };
 
-// Two ways, because plain draws and those with operations find samples by ways of their own. What one sample has too often could make up for another in
-// the mean, so each sample's stencil counts, and what has not come to 1 is then painted white. Of plain draws, all white leave no other pixel; and colours
-// of their own show the same picture in the reverse order, if none lies on another.
+// Two ways, because plain draws and those with operations find samples by ways of their own. What one sample
+// has too often could make up for another in the mean, so each sample's stencil counts, and what has not come
+// to 1 is then painted white. Of plain draws, all white leave no other pixel; and colours of their own show
+// the same picture in the reverse order, if none lies on another.
 TEST(ExactlyOnce, EachSampleOfAPixel) {
-  const DrawState counts{.lighting = false, .stencil = StencilState{.front = {.zpass = StencilOp::incr_wrap}}, .color_mask = {false, false, false, false}};
+  const DrawState counts{.lighting = false,
+                         .stencil = StencilState{.front = {.zpass = StencilOp::incr_wrap}},
+                         .color_mask = {false, false, false, false}};
   const DrawState white{.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false};
   const DrawState colored{.shading = Shading::flat, .lighting = false};
   DrawState shows = white;
@@ -238,24 +260,33 @@ TEST(ExactlyOnce, EachSampleOfAPixel) {
       const long miscounted_here = differing(buffer.draw([&](Frame& frame) {
         frame.draw(drawn, counts);
         frame.draw({.positions = whole}, shows);
-      }), [](std::size_t) { return 0u; });
-      const long left_out_here = differing(buffer.draw([&](Frame& frame) { frame.draw(drawn, white); }), [](std::size_t) { return 0xffffffu; });
+      }),
+                                             [](std::size_t) { return 0u; });
+      const long left_out_here = differing(buffer.draw([&](Frame& frame) { frame.draw(drawn, white); }),
+                                           [](std::size_t) { return 0xffffffu; });
 
       std::vector<float> positions, colors;
-      for (const std::uint32_t i : mesh.indices) positions.insert(positions.end(), mesh.positions.begin() + 4 * static_cast<std::ptrdiff_t>(i), mesh.positions.begin() + 4 * static_cast<std::ptrdiff_t>(i) + 4);
+      for (const std::uint32_t i : mesh.indices)
+        positions.insert(positions.end(), mesh.positions.begin() + 4 * static_cast<std::ptrdiff_t>(i),
+                         mesh.positions.begin() + 4 * static_cast<std::ptrdiff_t>(i) + 4);
       for (std::size_t t = 0; t < mesh.triangles(); ++t) {
         const float r = static_cast<float>(random.unit()), g = static_cast<float>(random.unit());
         for (int k = 0; k < 3; ++k) colors.insert(colors.end(), {r, g, 1, 1});
       }
       std::vector<std::uint32_t> order(mesh.indices.size());
       std::iota(order.begin(), order.end(), 0u);
-      const auto in_order = [&](Frame& frame) { frame.draw({.positions = positions, .position_components = 4, .colors = colors, .indices = order}, colored); };
+      const auto in_order = [&](Frame& frame) {
+        frame.draw({.positions = positions, .position_components = 4, .colors = colors, .indices = order},
+                   colored);
+      };
       const std::vector<std::uint32_t> forwards = buffer.draw(in_order);
       std::reverse(order.begin(), order.end());
-      const long overlapped_here = differing(buffer.draw(in_order), [&](std::size_t i) { return forwards[i]; });
+      const long overlapped_here =
+          differing(buffer.draw(in_order), [&](std::size_t i) { return forwards[i]; });
 
       if (miscounted_here + left_out_here + overlapped_here > 0 && miscounted + left_out + overlapped == 0)
-        ADD_FAILURE() << samples << " samples, mesh " << n << ": pixels miscounted " << miscounted_here << ", left out " << left_out_here << ", overlapped " << overlapped_here;
+        ADD_FAILURE() << samples << " samples, mesh " << n << ": pixels miscounted " << miscounted_here
+                      << ", left out " << left_out_here << ", overlapped " << overlapped_here;
       miscounted += static_cast<long double>(miscounted_here);
       left_out += static_cast<long double>(left_out_here);
       overlapped += static_cast<long double>(overlapped_here);

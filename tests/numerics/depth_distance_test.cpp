@@ -24,14 +24,17 @@ CaseDraw sheet(Dice& dice, double tilt) {
   std::array<std::array<float, 4>, 4> corners{};
   for (std::size_t k = 0; k < 4; ++k) {
     const double away = 1 + (tilt - 1) * dice.unit();
-    corners[k] = {static_cast<float>((k == 1 || k == 2 ? 1.25 : -1.25) * away), static_cast<float>((k >= 2 ? 1.25 : -1.25) * away), static_cast<float>(-away), 1};
+    corners[k] = {static_cast<float>((k == 1 || k == 2 ? 1.25 : -1.25) * away),
+                  static_cast<float>((k >= 2 ? 1.25 : -1.25) * away), static_cast<float>(-away), 1};
   }
-  for (const std::size_t k : {0, 1, 2, 0, 2, 3}) draw.positions.insert(draw.positions.end(), corners[k].begin(), corners[k].end());
+  for (const std::size_t k : {0, 1, 2, 0, 2, 3})
+    draw.positions.insert(draw.positions.end(), corners[k].begin(), corners[k].end());
   return draw;
 }
 
 // Where one of them is drawn, it is the nearer one, whichever comes first.
-bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const Matrix& turn, double distance, double part) {
+bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const Matrix& turn, double distance,
+              double part) {
   const Matrix projection = perspective(90, 1, 0.1, kInfinity, true) * turn;
   nearer.transform = projection * scale(distance * (1 - part), distance * (1 - part), distance * (1 - part));
   farther.transform = projection * scale(distance, distance, distance);
@@ -39,29 +42,37 @@ bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const M
   farther.color = {1, 0, 0, 1};
   int seen = 0;
   for (const bool near_first : {false, true})
-    for (const std::array<float, 3>& color : renderer.draw(near_first ? std::vector{nearer, farther} : std::vector{farther, nearer}).colors) {
+    for (const std::array<float, 3>& color :
+         renderer.draw(near_first ? std::vector{nearer, farther} : std::vector{farther, nearer}).colors) {
       if (color[0] > 0) return false;
       seen += color[1] > 0 ? 1 : 0;
     }
   return seen > kSide;
 }
 
-// A floor below the viewer, `height` times what it is in `positions`, from straight below to 6 heights ahead and `sides` to the left and right.
+// A floor below the viewer, `height` times what it is in `positions`, from straight below to 6 heights ahead
+// and `sides` to the left and right.
 CaseDraw floor(double sides) {
   CaseDraw draw{.test_depth = true, .depth_func = Compare::greater};
-  for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, -6.0}, {-1.0, -1.0}, {1.0, -6.0}, {-1.0, -6.0}})
+  for (const auto& [x, z] :
+       {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, -6.0}, {-1.0, -1.0}, {1.0, -6.0}, {-1.0, -6.0}})
     for (const double c : {x * sides, -1.0, z, 1.0}) draw.positions.push_back(static_cast<float>(c));
   return draw;
 }
 
-// z = 0.1 / distance. A relative difference of eps = 2^-23 is at least the step between two floats. Each of the two depths is off by the roundings of the
-// vertices' depths, whose shares are positive and sum up to the depth, and by its own: by 2^-23 of itself. Twice that and a step are 3 eps; where all vertices
-// are as far away, there is one rounding, and it is 2. The vertices' places are snapped, all four alike.
+// z = 0.1 / distance. A relative difference of eps = 2^-23 is at least the step between two floats. Each of
+// the two depths is off by the roundings of the vertices' depths, whose shares are positive and sum up to the
+// depth, and by its own: by 2^-23 of itself. Twice that and a step are 3 eps; where all vertices are as far
+// away, there is one rounding, and it is 2. The vertices' places are snapped, all four alike.
 TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
   constexpr int kMost = 1000;
   const auto figure = [](const auto& make_draw, const Matrix& turn, double farthest, int distances) {
     return [=](const MakeRenderer& make, bool is_tessera) {
-      const auto renderer = make({.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = true, .cleared_depth = 0});
+      const auto renderer = make({.width = kSide,
+                                  .height = kSide,
+                                  .depth = DepthFormat::float32,
+                                  .reversed = true,
+                                  .cleared_depth = 0});
       int needed = 1;
       Dice dice(21);
       for (int n = 0; n < (is_tessera && long_tests() ? 20 * distances : distances); ++n) {
@@ -69,65 +80,94 @@ TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
         const CaseDraw draw = make_draw(dice);
         for (int k = needed; k <= 16; ++k)  // all from the needed one on
           if (!is_apart(*renderer, draw, draw, turn, distance, k * 0x1p-23)) needed = k + 1;
-        while (needed > 16 && needed < kMost && !is_apart(*renderer, draw, draw, turn, distance, needed * 0x1p-23)) ++needed;
+        while (needed > 16 && needed < kMost &&
+               !is_apart(*renderer, draw, draw, turn, distance, needed * 0x1p-23))
+          ++needed;
       }
       return static_cast<long double>(needed);
     };
   };
   const auto sheets = [](double tilt) { return [tilt](Dice& dice) { return sheet(dice, tilt); }; };
   const auto floors = [](double sides) { return [sides](Dice&) { return floor(sides); }; };
-  expect_figure("reversed depth, floats, 0.1 .. 5 million away, facing the viewer: apart by", 2, "2^-23", figure(sheets(1), Matrix(), 5e6, 150));
-  expect_figure("reversed depth, floats, 0.1 .. 5 million away, tilted: apart by", 3, "2^-23", figure(sheets(1.5), Matrix(), 5e6, 150));
+  expect_figure("reversed depth, floats, 0.1 .. 5 million away, facing the viewer: apart by", 2, "2^-23",
+                figure(sheets(1), Matrix(), 5e6, 150));
+  expect_figure("reversed depth, floats, 0.1 .. 5 million away, tilted: apart by", 3, "2^-23",
+                figure(sheets(1.5), Matrix(), 5e6, 150));
   for (const double roll : {0.0, 30.0, 45.0, 120.0})
     for (const double sides : {10.0, 1000.0, 100000.0})
-      expect_figure("reversed depth, floats, floors 1:" + std::to_string(static_cast<int>(sides)) + ", rolled by " + std::to_string(static_cast<int>(roll)) + ": apart by", 3, "2^-23",
-                    figure(floors(sides), rotate(roll, 0, 0, 1), 8e5, 30));
+      expect_figure("reversed depth, floats, floors 1:" + std::to_string(static_cast<int>(sides)) +
+                        ", rolled by " + std::to_string(static_cast<int>(roll)) + ": apart by",
+                    3, "2^-23", figure(floors(sides), rotate(roll, 0, 0, 1), 8e5, 30));
 }
 
-// depth = 1 - near / distance, exactly; at infinity, where w is 0 before the projection, the far end. What is stored, and that it is drawn at all.
+// depth = 1 - near / distance, exactly; at infinity, where w is 0 before the projection, the far end. What is
+// stored, and that it is drawn at all.
 TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
   for (const DepthCase& depth : kDepthCases)
-    expect_figure("far = infinity, " + std::string(depth.name) + ", facing the viewer", 0, "levels", [&](const MakeRenderer& make, bool is_tessera) {
-      const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format, .cleared_depth = 0});
-      Dice dice(22);
-      long double worst = 0;
-      for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 100); ++n) {
-        const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * dice.unit()), size = std::isinf(distance) ? 1 : distance;
-        CaseDraw draw{.test_depth = true, .depth_func = Compare::gequal, .transform = perspective(90, 1, 1, kInfinity) * scale(size, size, size)};
-        for (const double c : {-1.5, -1.5, 4.5, -1.5, -1.5, 4.5}) {
-          draw.positions.push_back(static_cast<float>(c));
-          if (draw.positions.size() % 4 == 2) draw.positions.insert(draw.positions.end(), {-1, std::isinf(distance) ? 0.0f : 1.0f});
-        }
-        const CasePicture& picture = renderer->draw({draw});
-        const long double exact = 1 - 1.0L / static_cast<long double>(distance);
-        const std::int64_t expected = depth.is_float() ? std::bit_cast<std::uint32_t>(static_cast<float>(exact)) : static_cast<std::int64_t>(std::floor(exact * static_cast<long double>(depth.levels()) + 0.5L));
-        for (std::size_t i = 0; i < picture.depth.size(); ++i)
-          keep_worst(worst, picture.colors[i][0] > 0 ? std::abs(picture.depth[i] - expected) : depth.levels());
-      }
-      return worst;
-    });
+    expect_figure(
+        "far = infinity, " + std::string(depth.name) + ", facing the viewer", 0, "levels",
+        [&](const MakeRenderer& make, bool is_tessera) {
+          const auto renderer =
+              make({.width = kSide, .height = kSide, .depth = depth.format, .cleared_depth = 0});
+          Dice dice(22);
+          long double worst = 0;
+          for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 100); ++n) {
+            const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * dice.unit()),
+                         size = std::isinf(distance) ? 1 : distance;
+            CaseDraw draw{.test_depth = true,
+                          .depth_func = Compare::gequal,
+                          .transform = perspective(90, 1, 1, kInfinity) * scale(size, size, size)};
+            for (const double c : {-1.5, -1.5, 4.5, -1.5, -1.5, 4.5}) {
+              draw.positions.push_back(static_cast<float>(c));
+              if (draw.positions.size() % 4 == 2)
+                draw.positions.insert(draw.positions.end(), {-1, std::isinf(distance) ? 0.0f : 1.0f});
+            }
+            const CasePicture& picture = renderer->draw({draw});
+            const long double exact = 1 - 1.0L / static_cast<long double>(distance);
+            const std::int64_t expected =
+                depth.is_float() ? std::bit_cast<std::uint32_t>(static_cast<float>(exact))
+                                 : static_cast<std::int64_t>(
+                                       std::floor(exact * static_cast<long double>(depth.levels()) + 0.5L));
+            for (std::size_t i = 0; i < picture.depth.size(); ++i)
+              keep_worst(worst,
+                         picture.colors[i][0] > 0 ? std::abs(picture.depth[i] - expected) : depth.levels());
+          }
+          return worst;
+        });
 }
 
-// A floor without end: up to the horizon each pixel shows it, none beyond, and no pixel is nearer than one below it.
+// A floor without end: up to the horizon each pixel shows it, none beyond, and no pixel is nearer than one
+// below it.
 TEST(DepthDistance, AFloorReachesTheHorizon) {
   for (const bool reversed : {false, true})
     for (const DepthCase& depth : kDepthCases)
-      expect_figure("far = infinity, " + std::string(depth.name) + (reversed ? ", reversed" : "") + ", a floor up to its horizon", 0, "pixels", [&](const MakeRenderer& make, bool) {
-        const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format, .reversed = reversed, .cleared_depth = reversed ? 1.0 : 0.0});
-        CaseDraw draw{.test_depth = true, .depth_func = reversed ? Compare::lequal : Compare::gequal, .transform = perspective(90, 1, 0.5, kInfinity, reversed)};
-        // From below the window's lower edge to the points at infinity straight ahead.
-        draw.positions = {-8, -1, -0.5f, 1, 8, -1, -0.5f, 1, 4, 0, -1, 0, -8, -1, -0.5f, 1, 4, 0, -1, 0, -4, 0, -1, 0};
-        const CasePicture& picture = renderer->draw({draw});
-        long double wrong = 0;
-        for (std::size_t y = 0; y < kSide; ++y)
-          for (std::size_t x = 0; x < kSide; ++x) {
-            const std::size_t at = y * kSide + x;
-            const bool is_floor = y >= kSide / 2, is_drawn = picture.colors[at][0] > 0;
-            const bool is_nearer = is_floor && y > kSide / 2 && (reversed ? picture.depth[at - kSide] > picture.depth[at] : picture.depth[at - kSide] < picture.depth[at]);
-            wrong += is_drawn != is_floor || is_nearer;
-          }
-        return wrong;
-      });
+      expect_figure("far = infinity, " + std::string(depth.name) + (reversed ? ", reversed" : "") +
+                        ", a floor up to its horizon",
+                    0, "pixels", [&](const MakeRenderer& make, bool) {
+                      const auto renderer = make({.width = kSide,
+                                                  .height = kSide,
+                                                  .depth = depth.format,
+                                                  .reversed = reversed,
+                                                  .cleared_depth = reversed ? 1.0 : 0.0});
+                      CaseDraw draw{.test_depth = true,
+                                    .depth_func = reversed ? Compare::lequal : Compare::gequal,
+                                    .transform = perspective(90, 1, 0.5, kInfinity, reversed)};
+                      // From below the window's lower edge to the points at infinity straight ahead.
+                      draw.positions = {-8, -1, -0.5f, 1, 8, -1, -0.5f, 1, 4,  0, -1, 0,
+                                        -8, -1, -0.5f, 1, 4, 0,  -1,    0, -4, 0, -1, 0};
+                      const CasePicture& picture = renderer->draw({draw});
+                      long double wrong = 0;
+                      for (std::size_t y = 0; y < kSide; ++y)
+                        for (std::size_t x = 0; x < kSide; ++x) {
+                          const std::size_t at = y * kSide + x;
+                          const bool is_floor = y >= kSide / 2, is_drawn = picture.colors[at][0] > 0;
+                          const bool is_nearer = is_floor && y > kSide / 2 &&
+                                                 (reversed ? picture.depth[at - kSide] > picture.depth[at]
+                                                           : picture.depth[at - kSide] < picture.depth[at]);
+                          wrong += is_drawn != is_floor || is_nearer;
+                        }
+                      return wrong;
+                    });
 }
 
 }  // namespace

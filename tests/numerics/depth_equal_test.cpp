@@ -1,5 +1,6 @@
-// Depths are a matter of the triangle and nothing else: drawn again, it is equal to itself at every pixel, whatever it is part of, however it is clipped,
-// coloured or tested, on each instruction set, in tiles of any size, with any number of samples. No tolerance.
+// Depths are a matter of the triangle and nothing else: drawn again, it is equal to itself at every pixel,
+// whatever it is part of, however it is clipped, coloured or tested, on each instruction set, in tiles of any
+// size, with any number of samples. No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@ namespace {
 
 constexpr int kSide = 128;
 
-// Whole ones, and ones that the near plane, the far plane or the guard band cuts. Four vertices for each: a quad.
+// Whole ones, and ones that the near plane, the far plane or the guard band cuts. Four vertices for each: a
+// quad.
 std::vector<float> random_corners(Dice& dice) {
   std::vector<float> positions;
   const auto add = [&](double x, double y, double z, double w) {
@@ -46,7 +48,11 @@ struct Twice {
 };
 
 Twice two_triangles(Dice& dice) {
-  Twice twice{.first = {.positions = random_corners(dice), .indices = {0, 1, 2, 0, 2, 3}, .color = {1, 0, 0, 1}, .test_depth = true}, .again = {}};
+  Twice twice{.first = {.positions = random_corners(dice),
+                        .indices = {0, 1, 2, 0, 2, 3},
+                        .color = {1, 0, 0, 1},
+                        .test_depth = true},
+              .again = {}};
   twice.again = twice.first;
   twice.again.color = {0, 1, 0, 1};
   twice.again.depth_func = Compare::equal;
@@ -60,7 +66,8 @@ CaseDraw larger_mesh(Dice& dice, CaseDraw draw) {
   draw.indices.clear();
   for (int n = 0; n < 40; ++n) {
     if (n == 23) draw.positions.insert(draw.positions.end(), original.begin(), original.end());
-    for (std::size_t i = 0; i < more.size(); ++i) draw.positions.push_back(i % 4 == 0 ? more[i] + 3 * std::abs(more[i + 3]) + 3e7f : more[i]);
+    for (std::size_t i = 0; i < more.size(); ++i)
+      draw.positions.push_back(i % 4 == 0 ? more[i] + 3 * std::abs(more[i + 3]) + 3e7f : more[i]);
   }
   for (std::uint32_t n = 0; n < 41; ++n)
     for (const std::uint32_t k : {0, 1, 2, 0, 2, 3}) draw.indices.push_back(4 * n + k);
@@ -89,17 +96,19 @@ void add_pixels(Pixels& pixels, const CasePicture& picture) {
 
 TEST(DepthEqual, TheSameTriangleAgainIsEqualEverywhere) {
   for (const DepthCase& depth : kDepthCases)
-    expect_figure("depth, " + std::string(depth.name) + ", the same triangle again", 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
-      const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format});
-      Dice dice(31);
-      Pixels pixels;
-      for (int n = 0; n < (is_tessera && long_tests() ? 10000 : 300); ++n) {
-        const Twice twice = two_triangles(dice);
-        for (const CaseDraw& again : {twice.again, larger_mesh(dice, twice.again)}) add_pixels(pixels, renderer->draw({twice.first, others(dice), again}));
-      }
-      EXPECT_GT(pixels.seen, 1e5);
-      return pixels.wrong;
-    });
+    expect_figure("depth, " + std::string(depth.name) + ", the same triangle again", 0, "pixels",
+                  [&](const MakeRenderer& make, bool is_tessera) {
+                    const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format});
+                    Dice dice(31);
+                    Pixels pixels;
+                    for (int n = 0; n < (is_tessera && long_tests() ? 10000 : 300); ++n) {
+                      const Twice twice = two_triangles(dice);
+                      for (const CaseDraw& again : {twice.again, larger_mesh(dice, twice.again)})
+                        add_pixels(pixels, renderer->draw({twice.first, others(dice), again}));
+                    }
+                    EXPECT_GT(pixels.seen, 1e5);
+                    return pixels.wrong;
+                  });
 }
 
 // Not a question to Mesa, which splits quads and polygons in ways of its own.
@@ -118,7 +127,9 @@ TEST(DepthEqual, SoItIsAsAPartOfOtherPrimitives) {
           add_pixels(pixels, renderer->draw({twice.first, others(dice), twice.again}));
         }
     EXPECT_GT(pixels.seen, 1e5);
-    expect_within("depth, " + std::string(depth.name) + ", the same triangle again, of a fan, a polygon, quads", pixels.wrong, 0, "pixels");
+    expect_within(
+        "depth, " + std::string(depth.name) + ", the same triangle again, of a fan, a polygon, quads",
+        pixels.wrong, 0, "pixels");
   }
 }
 
@@ -129,22 +140,36 @@ struct Way {
 };
 constexpr Way kWays[] = {
     {"plain", [](DrawState&, const Texture&) {}},
-    {"depth alone", [](DrawState& s, const Texture&) { s.color_mask = {false, false, false, false}; }},
+    {"depth alone",
+     [](DrawState& s, const Texture&) {
+       s.color_mask = {false, false, false, false};
+     }},
     {"flat", [](DrawState& s, const Texture&) { s.shading = Shading::flat, s.lighting = true; }},
     {"gouraud", [](DrawState& s, const Texture&) { s.lighting = true; }},
     {"phong", [](DrawState& s, const Texture&) { s.shading = Shading::phong, s.lighting = true; }},
     {"blended", [](DrawState& s, const Texture&) { s.blend = BlendState{}, s.material.diffuse.a = 0.5f; }},
     {"textured", [](DrawState& s, const Texture& t) { s.texture = &t; }},
-    {"textured and blended", [](DrawState& s, const Texture& t) { s.texture = &t, s.blend = BlendState{}, s.material.diffuse.a = 0.5f; }},
-    {"stencil", [](DrawState& s, const Texture&) { s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }},
+    {"textured and blended",
+     [](DrawState& s, const Texture& t) {
+       s.texture = &t, s.blend = BlendState{}, s.material.diffuse.a = 0.5f;
+     }},
+    {"stencil",
+     [](DrawState& s, const Texture&) { s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }},
     {"alpha tested", [](DrawState& s, const Texture&) { s.alpha_test = AlphaTest{.ref = 0.25f}; }},
     {"masked", [](DrawState& s, const Texture&) { s.plane_mask = 0x00ffff; }},
     {"logic", [](DrawState& s, const Texture&) { s.logic_op = LogicOp::xor_; }},
-    {"cut", [](DrawState& s, const Texture&) { s.scissor = Rect{0, 0, kSide, kSide}; }},
-    {"no offset", [](DrawState& s, const Texture&) { s.polygon_offset = {0, 1e-30f}; }},
+    {"cut",
+     [](DrawState& s, const Texture&) {
+       s.scissor = Rect{0, 0, kSide, kSide};
+     }},
+    {"no offset",
+     [](DrawState& s, const Texture&) {
+       s.polygon_offset = {0, 1e-30f};
+     }},
 };
 
-// In rectangles that together are the window: cut into other parts, small triangles and large ones go other ways.
+// In rectangles that together are the window: cut into other parts, small triangles and large ones go other
+// ways.
 void draw_in_parts(Frame& frame, const Mesh& mesh, DrawState state, int step) {
   for (int y = 0; y < kSide; y += step)
     for (int x = 0; x < kSide; x += step) {
@@ -199,9 +224,13 @@ TEST(DepthEqual, HoweverItIsDrawn) {
               renderer.finish(frame);
               expected.emplace(kSide * kSide);
               buffer.read_color_words(*expected);
-              compared += static_cast<std::size_t>(std::count_if(expected->begin(), expected->end(), [](std::uint32_t word) { return word != 0; }));
+              compared += static_cast<std::size_t>(std::count_if(
+                  expected->begin(), expected->end(), [](std::uint32_t word) { return word != 0; }));
             }
-            const auto where = [&](const std::string& way) { return way + ", " + depth.name + ", " + std::to_string(samples) + " samples, " + std::string(name(set)) + ", tiles of " + std::to_string(tile_size); };
+            const auto where = [&](const std::string& way) {
+              return way + ", " + depth.name + ", " + std::to_string(samples) + " samples, " +
+                     std::string(name(set)) + ", tiles of " + std::to_string(tile_size);
+            };
             for (const Way& way : kWays) {
               const auto words = words_of([&](Frame& frame) {
                 DrawState state = last;
@@ -210,7 +239,10 @@ TEST(DepthEqual, HoweverItIsDrawn) {
               });
               ASSERT_TRUE(words == *expected) << where(way.name);
             }
-            for (const int step : {4, 13, 64}) ASSERT_TRUE(words_of([&](Frame& frame) { draw_in_parts(frame, mesh, last, step); }) == *expected) << where("in parts of " + std::to_string(step));
+            for (const int step : {4, 13, 64})
+              ASSERT_TRUE(words_of([&](Frame& frame) { draw_in_parts(frame, mesh, last, step); }) ==
+                          *expected)
+                  << where("in parts of " + std::to_string(step));
           }
       }
     }

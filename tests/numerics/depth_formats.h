@@ -20,13 +20,16 @@ struct DepthCase {
   /// The largest stored number.
   std::int64_t levels() const { return (std::int64_t{1} << bits) - 1; }
 };
-inline constexpr DepthCase kUnorm16{DepthFormat::unorm16, 16, "16 bits"}, kUnorm24{DepthFormat::unorm24, 24, "24 bits"}, kUnorm32{DepthFormat::unorm32, 32, "32 bits"},
+inline constexpr DepthCase kUnorm16{DepthFormat::unorm16, 16, "16 bits"},
+    kUnorm24{DepthFormat::unorm24, 24, "24 bits"}, kUnorm32{DepthFormat::unorm32, 32, "32 bits"},
     kFloat32{DepthFormat::float32, 32, "floats"};
 inline constexpr DepthCase kUnorms[] = {kUnorm16, kUnorm24, kUnorm32};
 inline constexpr DepthCase kDepthCases[] = {kUnorm16, kUnorm24, kUnorm32, kFloat32};
 
 /// floor(numerator / denominator).
-inline Whole floor_of(Whole numerator, Whole denominator) { return numerator / denominator - (numerator % denominator < 0 ? 1 : 0); }
+inline Whole floor_of(Whole numerator, Whole denominator) {
+  return numerator / denominator - (numerator % denominator < 0 ? 1 : 0);
+}
 
 /// floor(z (2^b - 1) + 1/2) of a depth that is a fraction.
 inline std::int64_t exact_level(const DepthCase& depth, Whole numerator, Whole denominator) {

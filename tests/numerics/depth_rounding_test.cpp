@@ -1,8 +1,10 @@
-// How depths are rounded to each format: of clears and bitmaps at every kind of double against exact numbers; and that a polygon which is parallel to the screen has the very level of a
-// clear to its depth.
+// How depths are rounded to each format: of clears and bitmaps at every kind of double against exact numbers;
+// and that a polygon which is parallel to the screen has the very level of a clear to its depth.
 //
-// The bound. floor(z (2^b - 1) + 0.5) in doubles: the product and the sum, up to 2^b, are each rounded to 2^(b - 54). So next to a middle between two levels the farther of them may be
-// stored, by less than 2^(b - 53) of a level: 0.3, which as a double is less than 3/10, is the level of 3/10. Anywhere else it is the nearest level, as of a float the nearest float.
+// The bound. floor(z (2^b - 1) + 0.5) in doubles: the product and the sum, up to 2^b, are each rounded to
+// 2^(b - 54). So next to a middle between two levels the farther of them may be stored, by less than 2^(b -
+// 53) of a level: 0.3, which as a double is less than 3/10, is the level of 3/10. Anywhere else it is the
+// nearest level, as of a float the nearest float.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,27 +22,48 @@
 namespace tessera::test {
 namespace {
 
-constexpr DepthFormat kFormats[] = {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32};
-int bits_of(DepthFormat format) { return format == DepthFormat::unorm16 ? 16 : format == DepthFormat::unorm24 ? 24 : 32; }
-std::string name_of(DepthFormat format) { return format == DepthFormat::float32 ? "float" : std::to_string(bits_of(format)) + " bits"; }
+constexpr DepthFormat kFormats[] = {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32,
+                                    DepthFormat::float32};
+int bits_of(DepthFormat format) {
+  return format == DepthFormat::unorm16 ? 16 : format == DepthFormat::unorm24 ? 24 : 32;
+}
+std::string name_of(DepthFormat format) {
+  return format == DepthFormat::float32 ? "float" : std::to_string(bits_of(format)) + " bits";
+}
 
-long double beyond_half(DepthFormat format) { return format == DepthFormat::float32 ? 0 : std::ldexp(1.0L, bits_of(format) - 53); }
+long double beyond_half(DepthFormat format) {
+  return format == DepthFormat::float32 ? 0 : std::ldexp(1.0L, bits_of(format) - 53);
+}
 
-/// How far a word is from a depth, in levels, beyond half a level; of floats 0 for the nearest and 1 for any other. @pre z is 0, or above 2^-47
+/// How far a word is from a depth, in levels, beyond half a level; of floats 0 for the nearest and 1 for any
+/// other. @pre z is 0, or above 2^-47
 long double beyond(DepthFormat format, double z, std::uint32_t word) {
-  if (format == DepthFormat::float32) return word == std::bit_cast<std::uint32_t>(std::abs(static_cast<float>(z))) ? 0 : 1;
+  if (format == DepthFormat::float32)
+    return word == std::bit_cast<std::uint32_t>(std::abs(static_cast<float>(z))) ? 0 : 1;
   return (Ratio::of(z) * ((std::int64_t{1} << bits_of(format)) - 1)).distance(word) - 0.5L;
 }
 
 /// Levels, the middles between them, and what is next to both; the ends, and decimals as people write them.
 std::vector<double> telling_depths(DepthFormat format, Random& random, int count) {
-  std::vector<double> depths{0, -0.0, 1, 0.5, std::nextafter(1.0, 0.0), 0x1p-40, 0x1p-33, std::nextafter(0x1p-33, 0.0), std::nextafter(0x1p-33, 1.0)};
+  std::vector<double> depths{0,
+                             -0.0,
+                             1,
+                             0.5,
+                             std::nextafter(1.0, 0.0),
+                             0x1p-40,
+                             0x1p-33,
+                             std::nextafter(0x1p-33, 0.0),
+                             std::nextafter(0x1p-33, 1.0)};
   for (int i = 0; i <= 100; ++i) depths.push_back(i / 100.0);
   const double levels = std::ldexp(1.0, format == DepthFormat::float32 ? 24 : bits_of(format)) - 1;
   for (int i = 0; i < count; ++i) {
-    const double level = i < 40 ? i : i < 80 ? levels - (i - 40) : std::floor((random.next() + random.next() * 0x1p-32) * 0x1p-32 * levels), half = i % 2 == 0 ? 0.5 : 0.0;
+    const double level = i < 40   ? i
+                         : i < 80 ? levels - (i - 40)
+                                  : std::floor((random.next() + random.next() * 0x1p-32) * 0x1p-32 * levels),
+                 half = i % 2 == 0 ? 0.5 : 0.0;
     const double at = std::min((level + half) / levels, 1.0);
-    for (const double z : {std::nextafter(at, 0.0), at, at == 0 ? 0x1p-46 : std::nextafter(at, 2.0)}) depths.push_back(std::min(z, 1.0));
+    for (const double z : {std::nextafter(at, 0.0), at, at == 0 ? 0x1p-46 : std::nextafter(at, 2.0)})
+      depths.push_back(std::min(z, 1.0));
   }
   return depths;
 }
@@ -52,7 +75,8 @@ std::vector<std::uint32_t> words_of(DepthFormat format, const std::vector<double
   const int height = static_cast<int>((depths.size() + kRow - 1) / kRow);
   FrameBuffer buffer({.width = kRow, .height = height, .depth = format});
   Frame frame(buffer);
-  for (std::size_t i = 0; i < depths.size(); ++i) put(frame, {static_cast<int>(i % kRow), height - 1 - static_cast<int>(i / kRow), 1, 1}, depths[i]);
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    put(frame, {static_cast<int>(i % kRow), height - 1 - static_cast<int>(i / kRow), 1, 1}, depths[i]);
   Renderer({.threads = 1}).finish(frame);
   std::vector<std::uint32_t> words = depth_words(buffer);
   words.resize(depths.size());
@@ -67,16 +91,24 @@ TEST(DepthRounding, OfClearsAndBitmapsIsToTheNearestLevel) {
     const auto clears = words_of(format, depths, clear_to);
     const auto bitmaps = words_of(format, depths, [](Frame& frame, Rect at, double z) {
       static const std::uint8_t bit = 0x80;
-      frame.draw_bitmap({.bits = &bit, .width = 1, .height = 1, .x = static_cast<double>(at.x), .y = static_cast<double>(at.y), .depth = z}, {.depth = {.test = Compare::always}});
+      frame.draw_bitmap({.bits = &bit,
+                         .width = 1,
+                         .height = 1,
+                         .x = static_cast<double>(at.x),
+                         .y = static_cast<double>(at.y),
+                         .depth = z},
+                        {.depth = {.test = Compare::always}});
     });
     EXPECT_TRUE(bitmaps == clears) << name_of(format);
     long double worst = 0;
     for (std::size_t i = 0; i < depths.size(); ++i) keep_worst(worst, beyond(format, depths[i], clears[i]));
-    expect_within("depth of clears, " + name_of(format) + ", beyond half a level", worst, beyond_half(format), "levels");
+    expect_within("depth of clears, " + name_of(format) + ", beyond half a level", worst, beyond_half(format),
+                  "levels");
   }
 }
 
-// Roundings on the way take a vertex that is stored as the middle of a level, and one that is moved from there by a level, to the very middles.
+// Roundings on the way take a vertex that is stored as the middle of a level, and one that is moved from
+// there by a level, to the very middles.
 TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
   Random random(2);
   for (const int bits : {16, 24}) {
@@ -109,14 +141,16 @@ TEST(DepthRounding, OfADepthRangeOfOneDepthIsThatOfClears) {
   const MeshData all = whole_window(0.4f);
   for (const DepthFormat format : kFormats) {
     const std::vector<double> depths = telling_depths(format, random, 500);
-    const auto clears = words_of(format, depths, clear_to), polygons = words_of(format, depths, [&](Frame& frame, Rect at, double z) {
+    const auto clears = words_of(format, depths, clear_to),
+               polygons = words_of(format, depths, [&](Frame&frame, Rect at, double z) {
                  DrawState state;
                  state.depth.test = Compare::always;
                  state.scissor = at;
                  state.depth_near = state.depth_far = z;
                  frame.draw(all.view(), state);
                });
-    for (std::size_t i = 0; i < depths.size(); ++i) ASSERT_EQ(polygons[i], clears[i]) << std::hexfloat << depths[i] << ", " << name_of(format);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+      ASSERT_EQ(polygons[i], clears[i]) << std::hexfloat << depths[i] << ", " << name_of(format);
   }
 }
 
@@ -131,9 +165,11 @@ std::vector<float> telling_clip_depths(DepthFormat format, bool reversed, Random
   return telling;
 }
 
-// Whole triangles, small ones and such as are clipped; points and lines; on each instruction set, with one sample and several.
+// Whole triangles, small ones and such as are clipped; points and lines; on each instruction set, with one
+// sample and several.
 TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
-  constexpr int kWidth = 96, kHeight = 64, kCell = 8, kColumns = kWidth / kCell, kCells = kColumns * (kHeight / kCell);
+  constexpr int kWidth = 96, kHeight = 64, kCell = 8, kColumns = kWidth / kCell,
+                kCells = kColumns * (kHeight / kCell);
   Random random(2);
   int turn = 0;
   for (const DepthFormat format : kFormats)
@@ -150,7 +186,9 @@ TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
           const std::size_t count = std::min<std::size_t>(kCells, telling.size() - first);
           std::vector<MeshData> meshes;
           for (std::size_t i = 0; i < count; ++i) {
-            const float z = telling[first + i], size = i % 3 == 0 ? 1.0f : i % 3 == 1 ? 1000.0f : 1e6f;  // of the viewport's half
+            const float z = telling[first + i], size = i % 3 == 0   ? 1.0f
+                                                       : i % 3 == 1 ? 1000.0f
+                                                                    : 1e6f;  // of the viewport's half
             MeshData mesh = rectangle(-size, -size, size, size, z);
             if (i % 5 == 4) {
               mesh = {};
@@ -165,7 +203,8 @@ TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
           for (std::size_t i = 0; i < count; ++i) {
             DrawState state;
             state.depth.test = Compare::always;
-            state.viewport = state.scissor = Rect{static_cast<int>(i) % kColumns * kCell, static_cast<int>(i) / kColumns * kCell, kCell, kCell};
+            state.viewport = state.scissor = Rect{static_cast<int>(i) % kColumns * kCell,
+                                                  static_cast<int>(i) / kColumns * kCell, kCell, kCell};
             state.point_size = state.line_width = 4 * kCell;
             frame.draw(meshes[i].view(), state);
           }
@@ -173,10 +212,13 @@ TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
           const auto words = depth_words(buffer);
           for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
-              const std::size_t cell = static_cast<std::size_t>((kHeight - 1 - y) / kCell * kColumns + x / kCell);
+              const std::size_t cell =
+                  static_cast<std::size_t>((kHeight - 1 - y) / kCell * kColumns + x / kCell);
               if (cell >= count) continue;
               ASSERT_EQ(words[static_cast<std::size_t>(y * kWidth + x)], expected[first + cell])
-                  << std::hexfloat << telling[first + cell] << (reversed ? " reversed" : "") << ", " << name_of(format) << ", " << samples << " samples, cell " << cell << " at " << x << ", " << y << ", on " << name(set);
+                  << std::hexfloat << telling[first + cell] << (reversed ? " reversed" : "") << ", "
+                  << name_of(format) << ", " << samples << " samples, cell " << cell << " at " << x << ", "
+                  << y << ", on " << name(set);
             }
         }
       }

@@ -13,25 +13,30 @@
 
 namespace tessera::test {
 
-/// |found - exact| in units in the last place (ulp) of `exact`, a double or a long double within the doubles' normal range.
+/// |found - exact| in units in the last place (ulp) of `exact`, a double or a long double within the doubles'
+/// normal range.
 template <class Real>
 Real ulps(float found, Real exact) {
   const Real size = std::abs(exact);
   const auto rounded = static_cast<double>(size);
   const std::uint64_t cut_off = std::bit_cast<std::uint64_t>(rounded) - (rounded > size ? 1 : 0);
   const int exponent = std::max(static_cast<int>(cut_off >> 52) - 1023, -126);
-  return std::abs(found - exact) * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + 23 - exponent) << 52);
+  return std::abs(found - exact) *
+         std::bit_cast<double>(static_cast<std::uint64_t>(1023 + 23 - exponent) << 52);
 }
 
 inline std::uint32_t bits_of(float f) { return std::bit_cast<std::uint32_t>(f); }
 
-inline constexpr std::uint32_t kSampled = 2039;  // a prime: no bit of the mantissa stays what it is
+inline constexpr std::uint32_t kSampled = 2039;           // a prime: no bit of the mantissa stays what it is
 inline constexpr std::size_t kFloatBatch = kBatchPoints;  // what kernels are given at a time
 inline constexpr std::size_t kFloatChunk = 65536;
 static_assert(kFloatChunk % kFloatBatch == 0);
 
-/// Floats from the bits `first` to `last`, one in `step` (of 2039: every exponent has some 4100, evenly), and in long runs each; whole batches at a time.
-inline void for_floats(std::uint32_t first, std::uint32_t last, const std::function<void(const std::vector<float>&)>& chunk, std::uint32_t step = kSampled) {
+/// Floats from the bits `first` to `last`, one in `step` (of 2039: every exponent has some 4100, evenly), and
+/// in long runs each; whole batches at a time.
+inline void for_floats(std::uint32_t first, std::uint32_t last,
+                       const std::function<void(const std::vector<float>&)>& chunk,
+                       std::uint32_t step = kSampled) {
   if (long_tests()) step = 1;
   std::vector<float> floats;
   const auto run = [&] {

@@ -1,7 +1,9 @@
-// What of a plane in clip space is seen in a window: regions between straight lines whose coefficients are whole numbers, exact as they stand.
+// What of a plane in clip space is seen in a window: regions between straight lines whose coefficients are
+// whole numbers, exact as they stand.
 //
-// A point p0 a + p1 b + p2 c of the plane through three points (as vectors of x y z w) is seen at the window point q = (X, Y, 1) if its x, y and w are a
-// positive multiple of q. So a, b and c are linear functions of q, by Cramer's rule; and with them z, all distances from clip planes, and attributes.
+// A point p0 a + p1 b + p2 c of the plane through three points (as vectors of x y z w) is seen at the window
+// point q = (X, Y, 1) if its x, y and w are a positive multiple of q. So a, b and c are linear functions of
+// q, by Cramer's rule; and with them z, all distances from clip planes, and attributes.
 #pragma once
 
 #include <algorithm>
@@ -30,14 +32,19 @@ struct SquareView {
 struct Linear {
   Wide dx = 0, dy = 0, one = 0;
   Wide at(Wide x, Wide y) const { return dx * x + dy * y + one; }
-  long double at(long double x, long double y) const { return static_cast<long double>(dx) * x + static_cast<long double>(dy) * y + static_cast<long double>(one); }
-  friend Linear operator+(const Linear& a, const Linear& b) { return {a.dx + b.dx, a.dy + b.dy, a.one + b.one}; }
+  long double at(long double x, long double y) const {
+    return static_cast<long double>(dx) * x + static_cast<long double>(dy) * y +
+           static_cast<long double>(one);
+  }
+  friend Linear operator+(const Linear& a, const Linear& b) {
+    return {a.dx + b.dx, a.dy + b.dy, a.one + b.one};
+  }
   friend Linear operator*(std::int64_t f, const Linear& a) { return {f * a.dx, f * a.dy, f * a.one}; }
 };
 
-/// How far a vertex may be drawn from where it is, in x and in y: half of the 1/256 pixel to which it snaps. Where it is clipped its coordinates are
-/// rounded in double before, and each of these roundings moves it by about 2^-52 of 16,383 pixels, which is in the 2^-12 pixels more. In half pixels,
-/// over kReachScale.
+/// How far a vertex may be drawn from where it is, in x and in y: half of the 1/256 pixel to which it snaps.
+/// Where it is clipped its coordinates are rounded in double before, and each of these roundings moves it by
+/// about 2^-52 of 16,383 pixels, which is in the 2^-12 pixels more. In half pixels, over kReachScale.
 inline constexpr int kReach = 9, kReachScale = 2048;
 static_assert(kReach == kReachScale / 256 + kReachScale / 2048);
 
@@ -45,7 +52,9 @@ static_assert(kReach == kReachScale / 256 + kReachScale / 2048);
 struct SeenPlane {
   std::array<Linear, 3> coordinates;
 
-  Linear mix(std::int64_t a, std::int64_t b, std::int64_t c) const { return a * coordinates[0] + b * coordinates[1] + c * coordinates[2]; }
+  Linear mix(std::int64_t a, std::int64_t b, std::int64_t c) const {
+    return a * coordinates[0] + b * coordinates[1] + c * coordinates[2];
+  }
 };
 
 /// Nothing of a plane through the eye.
@@ -55,7 +64,8 @@ inline std::optional<SeenPlane> seen_plane(const std::array<ClipPoint, 3>& p, co
   for (std::size_t k = 0; k < 3; ++k) {
     // The determinant with q in place of p[k].
     const ClipPoint &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
-    const Linear cofactors{Wide{a.y} * b.w - Wide{a.w} * b.y, Wide{a.w} * b.x - Wide{a.x} * b.w, Wide{a.x} * b.y - Wide{a.y} * b.x};
+    const Linear cofactors{Wide{a.y} * b.w - Wide{a.w} * b.y, Wide{a.w} * b.x - Wide{a.x} * b.w,
+                           Wide{a.x} * b.y - Wide{a.y} * b.x};
     determinant = cofactors.dx * p[k].x + cofactors.dy * p[k].y + cofactors.one * p[k].w;
     seen.coordinates[k] = {cofactors.dx, cofactors.dy, cofactors.one * view.side};
   }
@@ -71,28 +81,40 @@ struct ExactRegion {
   std::vector<Linear> outside;  ///< nothing is drawn where one of them is negative
 
   enum class Side { in, out, near_edge };
-  /// Near the edge are points that are in after a move by kReach in x and y, and out after another: vertices are drawn that far from where they are, so
-  /// what is drawn of a convex polygon holds all that is farther inside, and nothing that is farther outside than that.
+  /// Near the edge are points that are in after a move by kReach in x and y, and out after another: vertices
+  /// are drawn that far from where they are, so what is drawn of a convex polygon holds all that is farther
+  /// inside, and nothing that is farther outside than that.
   Side side(Wide x, Wide y) const {
-    const auto margin = [](const Linear& l) { return kReach * ((l.dx < 0 ? -l.dx : l.dx) + (l.dy < 0 ? -l.dy : l.dy)); };
-    if (std::any_of(outside.begin(), outside.end(), [&](const Linear& l) { return kReachScale * l.at(x, y) < -margin(l); })) return Side::out;
-    return std::all_of(inside.begin(), inside.end(), [&](const Linear& l) { return kReachScale * l.at(x, y) > margin(l); }) ? Side::in : Side::near_edge;
+    const auto margin = [](const Linear& l) {
+      return kReach * ((l.dx < 0 ? -l.dx : l.dx) + (l.dy < 0 ? -l.dy : l.dy));
+    };
+    if (std::any_of(outside.begin(), outside.end(),
+                    [&](const Linear& l) { return kReachScale * l.at(x, y) < -margin(l); }))
+      return Side::out;
+    return std::all_of(inside.begin(), inside.end(),
+                       [&](const Linear& l) { return kReachScale * l.at(x, y) > margin(l); })
+               ? Side::in
+               : Side::near_edge;
   }
 };
 
-/// A pixel's centre in half pixels from the viewport's; rows of a buffer that is `height` pixels high from the top.
+/// A pixel's centre in half pixels from the viewport's; rows of a buffer that is `height` pixels high from
+/// the top.
 inline std::array<Wide, 2> center_of(int column, int row, int height, const SquareView& view) {
   return {2 * (column - view.x) + 1 - view.side, 2 * (height - 1 - row - view.y) + 1 - view.side};
 }
 
 /// How often a mesh without gaps and overlaps that fills the region covers the pixels of a buffer.
-inline std::vector<Cover> covers_of(const ExactRegion& region, int width, int height, const SquareView& view) {
+inline std::vector<Cover> covers_of(const ExactRegion& region, int width, int height,
+                                    const SquareView& view) {
   std::vector<Cover> covers;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
       const auto [x, y] = center_of(column, row, height, view);
       const ExactRegion::Side side = region.side(x, y);
-      covers.push_back(side == ExactRegion::Side::in ? Cover::once : side == ExactRegion::Side::out ? Cover::never : Cover::at_most_once);
+      covers.push_back(side == ExactRegion::Side::in    ? Cover::once
+                       : side == ExactRegion::Side::out ? Cover::never
+                                                        : Cover::at_most_once);
     }
   return covers;
 }

@@ -1,5 +1,6 @@
-// The caller's floating-point environment: each rounding, flush to zero, denormals as zero, each with and without traps, around every call of the interface. It changes no bit
-// of what comes out, is not changed by it, and no trap springs, whatever the numbers are.
+// The caller's floating-point environment: each rounding, flush to zero, denormals as zero, each with and
+// without traps, around every call of the interface. It changes no bit of what comes out, is not changed by
+// it, and no trap springs, whatever the numbers are.
 //
 // Between the modes' begin and end nothing is computed but by the library.
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@
 namespace tessera::test {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity(), kDenormal = 1e-40f;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                kInfinity = std::numeric_limits<float>::infinity(), kDenormal = 1e-40f;
 
 std::string described(unsigned mode) {
   char text[64];
@@ -73,24 +75,37 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAMatrix) {
         shadow = planar_shadow({0.1, 0.9, 0.2, 0.3}, light);
         calibrated = calibrated_camera({333.3, 313.1, 100.7, 77.3, 201, 151}, seen, 0.1, 33);
       },
-      [&] { return bits_of({turned, seen, wide, skew, box, moved, scaled, product, shadow, calibrated.view, calibrated.projection}); });
+      [&] {
+        return bits_of({turned, seen, wide, skew, box, moved, scaled, product, shadow, calibrated.view,
+                        calibrated.projection});
+      });
 }
 
 TEST(FloatingPointEnvironment, ChangesNoColorOfAPalette) {
   std::vector<std::vector<Color>> palettes;
-  const FrameBufferFormat format{.width = 3, .height = 2, .color_mode = ColorMode::index, .color_bits = 3, .palette = {{0.1f, 0.3f, 0.7f, 1}, {0.9f, 0.499f, 0.501f, 1}, {1.5f / 255, 2.5f / 255, kDenormal, 1}}};
+  const FrameBufferFormat format{
+      .width = 3,
+      .height = 2,
+      .color_mode = ColorMode::index,
+      .color_bits = 3,
+      .palette = {{0.1f, 0.3f, 0.7f, 1}, {0.9f, 0.499f, 0.501f, 1}, {1.5f / 255, 2.5f / 255, kDenormal, 1}}};
   const std::vector<Color> other{{0.5f / 255, 254.5f / 255, 0.33f, 1}, {0.7f, kDenormal, 0.2f, 1}};
   std::vector<std::uint8_t> shown(96);
   expect_the_same_in_every_mode(
       [&] {
         palettes.clear();
-        for (const char* const name : {"bw", "gray", "ega16", "vga256", "web216"}) palettes.push_back(named_palette(name, 8));
+        for (const char* const name : {"bw", "gray", "ega16", "vga256", "web216"})
+          palettes.push_back(named_palette(name, 8));
         palettes.push_back(default_palette(3));
         FrameBuffer buffer(format);
         const ImageTarget target{.pixels = shown.data(), .width = 3, .height = 2, .stride_bytes = 12};
         buffer.read_color(target);
         buffer.set_palette(other);
-        buffer.read_color({.pixels = shown.data() + 24, .width = 3, .height = 2, .stride_bytes = 12, .order = PixelOrder::bgra8});
+        buffer.read_color({.pixels = shown.data() + 24,
+                           .width = 3,
+                           .height = 2,
+                           .stride_bytes = 12,
+                           .order = PixelOrder::bgra8});
         Frame frame(buffer);
         frame.clear({.color = Color{0.6f, 0.1f, 0.3f, 1}});  // to the nearest entry
         Renderer({.threads = 1}).finish(frame);
@@ -100,7 +115,8 @@ TEST(FloatingPointEnvironment, ChangesNoColorOfAPalette) {
         std::vector<std::uint32_t> bits;
         for (const auto& palette : palettes)
           for (const Color& c : palette)
-            for (const float component : {c.r, c.g, c.b, c.a}) bits.push_back(std::bit_cast<std::uint32_t>(component));
+            for (const float component : {c.r, c.g, c.b, c.a})
+              bits.push_back(std::bit_cast<std::uint32_t>(component));
         bits.insert(bits.end(), shown.begin(), shown.end());
         return bits;
       });
@@ -114,12 +130,14 @@ struct ReadBack {
 
   explicit ReadBack(const FrameBufferFormat& f) {
     const std::size_t pixels = static_cast<std::size_t>(f.width * f.height);
-    words.resize(pixels), depth_words.resize(pixels), shown.resize(4 * pixels), stencil.resize(pixels), depth.resize(pixels), view_depth.resize(pixels), accumulation.resize(4 * pixels);
+    words.resize(pixels), depth_words.resize(pixels), shown.resize(4 * pixels), stencil.resize(pixels),
+        depth.resize(pixels), view_depth.resize(pixels), accumulation.resize(4 * pixels);
   }
   void read(const FrameBuffer& buffer, const Camera& camera) {
     const FrameBufferFormat& f = buffer.format();
     buffer.read_color_words(words);
-    buffer.read_color({.pixels = shown.data(), .width = f.width, .height = f.height, .stride_bytes = 4 * f.width});
+    buffer.read_color(
+        {.pixels = shown.data(), .width = f.width, .height = f.height, .stride_bytes = 4 * f.width});
     if (f.depth != DepthFormat::none) {
       buffer.read_depth_words(depth_words);
       buffer.read_depth(depth);
@@ -151,12 +169,15 @@ std::vector<FrameBufferFormat> formats() {
   return all;
 }
 
-// Triangles, points, lines, outlines, textures, bitmaps, images, shadows, every operation and accumulation; on every instruction set, with one thread and several.
+// Triangles, points, lines, outlines, textures, bitmaps, images, shadows, every operation and accumulation;
+// on every instruction set, with one thread and several.
 TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
   const ThreadLimit limit(3);
   std::vector<std::unique_ptr<Renderer>> renderers;
   for (const InstructionSet set : available_instruction_sets())
-    for (const int threads : {1, 3}) renderers.push_back(std::make_unique<Renderer>(RendererOptions{.threads = threads, .instruction_set = set}));
+    for (const int threads : {1, 3})
+      renderers.push_back(
+          std::make_unique<Renderer>(RendererOptions{.threads = threads, .instruction_set = set}));
   for (const FrameBufferFormat& format : formats()) {
     const RandomOperations scene(format, 24);
     std::uint64_t expected = 0;
@@ -168,7 +189,10 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
       scene.record(shown);
       ReadBack found(format);
       std::vector<std::uint8_t> scanned(4 * pixel_count(buffer));
-      const ImageTarget target{.pixels = scanned.data(), .width = format.width, .height = format.height, .stride_bytes = 4 * format.width};
+      const ImageTarget target{.pixels = scanned.data(),
+                               .width = format.width,
+                               .height = format.height,
+                               .stride_bytes = 4 * format.width};
       std::vector<float> normals(3 * pixel_count(buffer));
       frame.capture({.normals = normals});
       Renderer& renderer = *renderers[turn++ % renderers.size()];
@@ -191,13 +215,17 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
   }
 }
 
-// Made, recorded and finished in the mode: textures, and draws whose numbers have to be worked out when they are recorded.
+// Made, recorded and finished in the mode: textures, and draws whose numbers have to be worked out when they
+// are recorded.
 TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
-  const FrameBufferFormat format{.width = 60, .height = 40, .depth = DepthFormat::float32, .accumulation_bits = 16};
+  const FrameBufferFormat format{
+      .width = 60, .height = 40, .depth = DepthFormat::float32, .accumulation_bits = 16};
   std::vector<std::uint8_t> texels;
   Random random(16);
   for (int i = 0; i < 4 * 13 * 11; ++i) texels.push_back(static_cast<std::uint8_t>(random.next()));
-  MeshData mesh = rectangle(-0.9f, -0.7f, 0.8f, 0.9f, -0.3f), line = rectangle(-0.9f, 0.7f, 0.8f, -0.9f, 0.2f), denormal = rectangle(-kDenormal, -kDenormal, kDenormal, kDenormal);
+  MeshData mesh = rectangle(-0.9f, -0.7f, 0.8f, 0.9f, -0.3f),
+           line = rectangle(-0.9f, 0.7f, 0.8f, -0.9f, 0.2f),
+           denormal = rectangle(-kDenormal, -kDenormal, kDenormal, kDenormal);
   mesh.texcoords = {0.1f, 0.3f, 1.9f, 0.2f, 2.3f, 1.7f, -0.3f, 1.1f};
   mesh.normals = {0.1f, 0.2f, 0.9f, 0.3f, -0.2f, 0.8f, kDenormal, 0, kDenormal, 0, 0.1f, 0.7f};
   line.primitive = Primitive::lines;
@@ -215,7 +243,8 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
   spot.position = {0.3f, 1.7f, 2.2f, 0.9f};
   spot.spot_cutoff = 61, spot.spot_exponent = 2.7f;
   const std::vector<Light> lights{Light{}, spot};
-  const Camera camera{.view = look_at({0.1, 0.2, 1.3}, {0, 0, 0}, {0, 1, 0}), .projection = perspective(77, 1.5, 0.1, 9)};
+  const Camera camera{.view = look_at({0.1, 0.2, 1.3}, {0, 0, 0}, {0, 1, 0}),
+                      .projection = perspective(77, 1.5, 0.1, 9)};
   const Accum half{.op = AccumOp::load, .value = 0.3337}, back{.op = AccumOp::return_, .value = 2.1};
   ReadBack found(format);
   std::string reasons;
@@ -237,8 +266,21 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
         frame.draw(denormal.view(), scaled);
         frame.draw(mesh.view(), points);
         frame.draw(line.view(), points);
-        frame.draw_bitmap({.bits = texels.data(), .width = 13, .height = 9, .stride_bytes = 7, .x = 3.9, .y = -1.1, .depth = 0.1, .color = {0.3f, 0.4f, 0.1f, 1}});
-        frame.draw_image({.pixels = texels.data(), .width = 13, .height = 11, .x = 30.3, .y = 7.7, .zoom_x = 0.77, .zoom_y = -1.3});
+        frame.draw_bitmap({.bits = texels.data(),
+                           .width = 13,
+                           .height = 9,
+                           .stride_bytes = 7,
+                           .x = 3.9,
+                           .y = -1.1,
+                           .depth = 0.1,
+                           .color = {0.3f, 0.4f, 0.1f, 1}});
+        frame.draw_image({.pixels = texels.data(),
+                          .width = 13,
+                          .height = 11,
+                          .x = 30.3,
+                          .y = 7.7,
+                          .zoom_x = 0.77,
+                          .zoom_y = -1.3});
         frame.accumulate(half);
         frame.accumulate(back);
         reasons = frame.explain(1) + frame.explain(2);
@@ -248,7 +290,8 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
       [&] { return reasons + std::to_string(found.hash()); });
 }
 
-// Refused, with the same words: a trap for comparisons with NaN must not spring first. What is dropped is no trap either.
+// Refused, with the same words: a trap for comparisons with NaN must not spring first. What is dropped is no
+// trap either.
 TEST(FloatingPointEnvironment, NeitherTrapsNorChangesWhatIsWrong) {
   std::vector<std::function<void()>> wrong;
   const auto draw = [&](const std::function<void(DrawState&)>& change) {
@@ -276,16 +319,47 @@ TEST(FloatingPointEnvironment, NeitherTrapsNorChangesWhatIsWrong) {
     camera.projection.m[3] = double{odd};
     Light light;
     light.spot_cutoff = odd;
-    const Bitmap bitmap{.bits = reinterpret_cast<const std::uint8_t*>("x"), .width = 1, .height = 1, .x = double{odd}};
-    const PixelImage image{.pixels = reinterpret_cast<const std::uint8_t*>("abcd"), .width = 1, .height = 1, .zoom_x = double{odd}};
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8}); Frame(b).clear(clear); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8}); Frame(b).clear(color); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8, .accumulation_bits = 16}); Frame(b).accumulate(accum); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8}); Frame(b).set_camera(camera); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8}); Frame(b).set_lights({light}); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8}); Frame(b).draw_bitmap(bitmap); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8}); Frame(b).draw_image(image); });
-    wrong.push_back([=] { FrameBuffer b({.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 2, .palette = {{odd, 0, 0, 1}}}); });
+    const Bitmap bitmap{
+        .bits = reinterpret_cast<const std::uint8_t*>("x"), .width = 1, .height = 1, .x = double{odd}};
+    const PixelImage image{.pixels = reinterpret_cast<const std::uint8_t*>("abcd"),
+                           .width = 1,
+                           .height = 1,
+                           .zoom_x = double{odd}};
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8});
+      Frame(b).clear(clear);
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8});
+      Frame(b).clear(color);
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8, .accumulation_bits = 16});
+      Frame(b).accumulate(accum);
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8});
+      Frame(b).set_camera(camera);
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8});
+      Frame(b).set_lights({light});
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8});
+      Frame(b).draw_bitmap(bitmap);
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8, .height = 8});
+      Frame(b).draw_image(image);
+    });
+    wrong.push_back([=] {
+      FrameBuffer b({.width = 8,
+                     .height = 8,
+                     .color_mode = ColorMode::index,
+                     .color_bits = 2,
+                     .palette = {{odd, 0, 0, 1}}});
+    });
     wrong.push_back([=] { (void)perspective(double{odd}, 1, 0.1, 10); });
     wrong.push_back([=] { (void)look_at({0, 0, double{odd}}, {0, 0, 0}, {0, 1, 0}); });
     wrong.push_back([=] { (void)rotate(10, double{odd}, 0, 1); });
@@ -324,9 +398,10 @@ TEST(FloatingPointEnvironment, IsAsBeforeAfterAFrameThatFails) {
   FrameBuffer buffer({.width = 80, .height = 80}), lost({.width = 8, .height = 8});
   const MeshData mesh = whole_window();
   bool stops = false;
-  Renderer renderer({.threads = 1, .progress = [&](double) { return !stops; }}), logs({.threads = 1, .log = [](LogLevel level, std::string_view) {
-    if (level == LogLevel::debug) throw std::runtime_error("full");
-  }});
+  Renderer renderer({.threads = 1, .progress = [&](double) { return !stops; }}),
+      logs({.threads = 1, .log = [](LogLevel level, std::string_view) {
+              if (level == LogLevel::debug) throw std::runtime_error("full");
+            }});
   Frame frame(lost);
   frame.clear({.color = Color{}});
   frame.keep({});

@@ -13,9 +13,12 @@ namespace tessera::test {
 /// Bits of the control register; all exceptions masked is the default, with nothing else.
 struct HostModes {
   static constexpr unsigned kDefault = 0x1f80, kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-  static constexpr unsigned kRounding[] = {0x0000, 0x2000, 0x4000, 0x6000};      ///< to nearest, down, up, towards 0
-  static constexpr unsigned kAllTraps = 0x1f80, kUsualTraps = 0x0680;            ///< each exception; invalid operation, division by 0, overflow
-  static constexpr unsigned kControl = 0xffc0;                                   ///< all but the flags
+  static constexpr unsigned kRounding[] = {0x0000, 0x2000, 0x4000,
+                                           0x6000};  ///< to nearest, down, up, towards 0
+  static constexpr unsigned kAllTraps = 0x1f80,
+                            kUsualTraps =
+                                0x0680;  ///< each exception; invalid operation, division by 0, overflow
+  static constexpr unsigned kControl = 0xffc0;  ///< all but the flags
 
   /// Each combination of rounding, flushing and traps.
   static std::vector<unsigned> all() {
@@ -23,7 +26,8 @@ struct HostModes {
     for (const unsigned rounding : kRounding)
       for (const unsigned flush : {0u, kFlushToZero})
         for (const unsigned denormals : {0u, kDenormalsAreZero})
-          for (const unsigned traps : {0u, kUsualTraps, kAllTraps}) modes.push_back((kDefault & ~traps) | rounding | flush | denormals);
+          for (const unsigned traps : {0u, kUsualTraps, kAllTraps})
+            modes.push_back((kDefault & ~traps) | rounding | flush | denormals);
     return modes;
   }
 };

@@ -1,5 +1,6 @@
-// What reaches to 10^30 on both sides of the eye is seen where it is: ground planes under any camera, edges that pass close by from far away to far away.
-// A pixel is judged by the ray through it, in long doubles and from the plane's own numbers, which have no part in its size.
+// What reaches to 10^30 on both sides of the eye is seen where it is: ground planes under any camera, edges
+// that pass close by from far away to far away. A pixel is judged by the ray through it, in long doubles and
+// from the plane's own numbers, which have no part in its size.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +17,8 @@ namespace {
 
 constexpr int kSide = 64;
 
-// What is seen at a point of the window; of what may be off by 1/256 pixel, of which snapping is half, both ways count.
+// What is seen at a point of the window; of what may be off by 1/256 pixel, of which snapping is half, both
+// ways count.
 template <class IsSeen>
 std::vector<Cover> seen_pixels(const IsSeen& is_seen) {
   std::vector<Cover> covers;
@@ -24,42 +26,49 @@ std::vector<Cover> seen_pixels(const IsSeen& is_seen) {
     for (int x = 0; x < kSide; ++x) {
       int seen = 0;
       for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}})
-        seen += is_seen((x + 0.5L + dx / 256.0L) * 2 / kSide - 1, 1 - (y + 0.5L + dy / 256.0L) * 2 / kSide) ? 1 : 0;
+        seen += is_seen((x + 0.5L + dx / 256.0L) * 2 / kSide - 1, 1 - (y + 0.5L + dy / 256.0L) * 2 / kSide)
+                    ? 1
+                    : 0;
       covers.push_back(seen == 4 ? Cover::once : seen == 0 ? Cover::never : Cover::at_most_once);
     }
   return covers;
 }
 
 void expect_ground_planes(const std::string& what, bool reversed) {
-  expect_coverage(what, {.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = reversed}, [reversed](const Count& count, bool is_tessera) {
-    for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 1000); ++n) {
-      MeshRandom random(n);
-      const double near = random.one_of({0.01, 0.5, 2.0}), pitch = random.between(-60, 60), roll = random.one_of({0.0, 30.0, 117.0});
-      const bool looks_ahead = n % 4 == 0;
-      const Matrix eye = looks_ahead ? Matrix() : rotate(roll, 0, 0, 1) * rotate(pitch, 1, 0, 0);
-      const int size = random.between(20, 100);
-      CountedMesh mesh;
-      for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-        const double far_x = std::ldexp(x * (1 + 0.5 * random.unit()), size), far_z = std::ldexp(z * (1 + 0.5 * random.unit()), size);
-        mesh.add_vertex(far_x, -1, far_z, 1);
-      }
-      mesh.add_triangle(0, 1, 2);
-      mesh.add_triangle(0, 2, 3);
-      mesh.shuffle(random);
-      CaseDraw draw = counting(mesh);
-      draw.transform = perspective(90, 1, near, std::numeric_limits<double>::infinity(), reversed) * eye;
-      // Clip coordinates of any size are the same places.
-      const int scale = random.between(-8, 8) * 100;
-      if (is_tessera)
-        for (double& element : draw.transform->m) element = std::ldexp(element, scale);
-      const auto is_seen = [&](long double x, long double y) {
-        const long double to[] = {x, y, -1};  // in eye space, and how far down that is in the plane's
-        const long double down = -(eye.m[1] * to[0] + eye.m[5] * to[1] + eye.m[9] * to[2]);
-        return down > 0 && 1 / down >= near;
-      };
-      count({draw}, "plane " + std::to_string(n) + " scale " + std::to_string(scale), {.pixels = seen_pixels(is_seen), .folds_along_cuts = true});  // along the horizon, too
-    }
-  });
+  expect_coverage(
+      what, {.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = reversed},
+      [reversed](const Count& count, bool is_tessera) {
+        for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 1000); ++n) {
+          MeshRandom random(n);
+          const double near = random.one_of({0.01, 0.5, 2.0}), pitch = random.between(-60, 60),
+                       roll = random.one_of({0.0, 30.0, 117.0});
+          const bool looks_ahead = n % 4 == 0;
+          const Matrix eye = looks_ahead ? Matrix() : rotate(roll, 0, 0, 1) * rotate(pitch, 1, 0, 0);
+          const int size = random.between(20, 100);
+          CountedMesh mesh;
+          for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+            const double far_x = std::ldexp(x * (1 + 0.5 * random.unit()), size),
+                         far_z = std::ldexp(z * (1 + 0.5 * random.unit()), size);
+            mesh.add_vertex(far_x, -1, far_z, 1);
+          }
+          mesh.add_triangle(0, 1, 2);
+          mesh.add_triangle(0, 2, 3);
+          mesh.shuffle(random);
+          CaseDraw draw = counting(mesh);
+          draw.transform = perspective(90, 1, near, std::numeric_limits<double>::infinity(), reversed) * eye;
+          // Clip coordinates of any size are the same places.
+          const int scale = random.between(-8, 8) * 100;
+          if (is_tessera)
+            for (double& element : draw.transform->m) element = std::ldexp(element, scale);
+          const auto is_seen = [&](long double x, long double y) {
+            const long double to[] = {x, y, -1};  // in eye space, and how far down that is in the plane's
+            const long double down = -(eye.m[1] * to[0] + eye.m[5] * to[1] + eye.m[9] * to[2]);
+            return down > 0 && 1 / down >= near;
+          };
+          count({draw}, "plane " + std::to_string(n) + " scale " + std::to_string(scale),
+                {.pixels = seen_pixels(is_seen), .folds_along_cuts = true});  // along the horizon, too
+        }
+      });
 }
 
 TEST(HugeClipping, LeavesTheGroundUnderAnyCamera) {
@@ -67,25 +76,32 @@ TEST(HugeClipping, LeavesTheGroundUnderAnyCamera) {
   expect_ground_planes("ground of 10^6 to 10^30, reversed depth", true);
 }
 
-// Two triangles, of which the first has what is to the left of a line through the window's middle, or near it.
+// Two triangles, of which the first has what is to the left of a line through the window's middle, or near
+// it.
 TEST(HugeClipping, LeavesEdgesWhereTheyPass) {
-  expect_coverage("edges 10^4 to 10^30 long", {.width = kSide, .height = kSide}, [](const Count& count, bool is_tessera) {
-    for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 2000); ++n) {
-      MeshRandom random(n);
-      // From one end through the middle to the other, `apart` times as far away: floats of few bits, so that the line is exactly that.
-      const int size = random.between(14, 100), apart = random.between(0, 10);
-      const double x = random.between(-15, 15), y = random.between(-15, 15);
-      if (x == 0 && y == 0) continue;
-      CountedMesh mesh;
-      const std::uint32_t a = mesh.add_vertex(std::ldexp(x, size), std::ldexp(y, size)), b = mesh.add_vertex(std::ldexp(-x, size - apart), std::ldexp(-y, size - apart));
-      const std::uint32_t left = mesh.add_vertex(std::ldexp(-y, size), std::ldexp(x, size)), right = mesh.add_vertex(std::ldexp(y, size), std::ldexp(-x, size));
-      mesh.add_triangle(a, left, b);
-      const bool both = random.coin();
-      if (both) mesh.add_triangle(b, right, a);
-      mesh.shuffle(random);
-      count({counting(mesh)}, "edge " + std::to_string(n), {.pixels = seen_pixels([&](long double px, long double py) { return both || x * py - y * px > 0; })});
-    }
-  });
+  expect_coverage(
+      "edges 10^4 to 10^30 long", {.width = kSide, .height = kSide}, [](const Count& count, bool is_tessera) {
+        for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 2000); ++n) {
+          MeshRandom random(n);
+          // From one end through the middle to the other, `apart` times as far away: floats of few bits, so
+          // that the line is exactly that.
+          const int size = random.between(14, 100), apart = random.between(0, 10);
+          const double x = random.between(-15, 15), y = random.between(-15, 15);
+          if (x == 0 && y == 0) continue;
+          CountedMesh mesh;
+          const std::uint32_t a = mesh.add_vertex(std::ldexp(x, size), std::ldexp(y, size)),
+                              b = mesh.add_vertex(std::ldexp(-x, size - apart), std::ldexp(-y, size - apart));
+          const std::uint32_t left = mesh.add_vertex(std::ldexp(-y, size), std::ldexp(x, size)),
+                              right = mesh.add_vertex(std::ldexp(y, size), std::ldexp(-x, size));
+          mesh.add_triangle(a, left, b);
+          const bool both = random.coin();
+          if (both) mesh.add_triangle(b, right, a);
+          mesh.shuffle(random);
+          count({counting(mesh)}, "edge " + std::to_string(n),
+                {.pixels = seen_pixels(
+                     [&](long double px, long double py) { return both || x * py - y * px > 0; })});
+        }
+      });
 }
 
 }  // namespace

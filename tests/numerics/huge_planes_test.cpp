@@ -1,5 +1,5 @@
-// Planes beside whose vertices their distance from the eye is nothing: a double does not hold 10^30 and 1 at once, a picture does. The oracle is the plane's own few
-// digits, in whole numbers.
+// Planes beside whose vertices their distance from the eye is nothing: a double does not hold 10^30 and 1 at
+// once, a picture does. The oracle is the plane's own few digits, in whole numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,12 +20,17 @@ namespace {
 
 constexpr int kSide = 64;
 
-/// Around the origin of (u, v), each corner's u 2^size and up to half as much more, its v 2^size_v; as floats.
+/// Around the origin of (u, v), each corner's u 2^size and up to half as much more, its v 2^size_v; as
+/// floats.
 struct Corners {
   std::array<std::array<float, 2>, 4> at;
   Corners(MeshRandom& random, int size, int size_v) {
-    const auto u = [&](int sign) { return static_cast<float>(std::ldexp(sign * (1 + 0.5 * random.unit()), size)); };
-    const auto v = [&](int sign) { return static_cast<float>(std::ldexp(sign * (1 + 0.5 * random.unit()), size_v)); };
+    const auto u = [&](int sign) {
+      return static_cast<float>(std::ldexp(sign * (1 + 0.5 * random.unit()), size));
+    };
+    const auto v = [&](int sign) {
+      return static_cast<float>(std::ldexp(sign * (1 + 0.5 * random.unit()), size_v));
+    };
     at = {{{u(-1), v(-1)}, {u(1), v(-1)}, {u(1), v(1)}, {u(-1), v(1)}}};
   }
 };
@@ -35,7 +40,9 @@ Matrix matrix_of(const ClipPlane& plane, int exponent) {
   Matrix m;
   const std::int64_t ClipPoint::*const rows[] = {&ClipPoint::x, &ClipPoint::y, &ClipPoint::z, &ClipPoint::w};
   for (std::size_t r = 0; r < 4; ++r) {
-    const double columns[] = {static_cast<double>(plane.to_u.*rows[r]), static_cast<double>(plane.to_v.*rows[r]), 0, static_cast<double>(plane.origin.*rows[r])};
+    const double columns[] = {static_cast<double>(plane.to_u.*rows[r]),
+                              static_cast<double>(plane.to_v.*rows[r]), 0,
+                              static_cast<double>(plane.origin.*rows[r])};
     for (std::size_t c = 0; c < 4; ++c) m.m[4 * r + c] = std::ldexp(columns[c], exponent);
   }
   return m;
@@ -45,41 +52,53 @@ Matrix matrix_of(const ClipPlane& plane, int exponent) {
 constexpr int kMostInOracle = 38;
 
 void expect_planes(const std::string& what, bool reversed) {
-  expect_coverage(what, {.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = reversed}, [reversed](const Count& count, bool is_tessera) {
-    for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 3000); ++n) {
-      MeshRandom random(n);
-      ClipPlane plane = random_plane(random);
-      // Some along the near plane: what is far away is as near to it as what is seen.
-      const int to_near = reversed ? 1 : -1;
-      if (n % 3 == 0) plane.to_u.z = to_near * plane.to_u.w;
-      if (n % 6 == 0) plane.to_v.z = to_near * plane.to_v.w;
-      const SquareView view{0, 0, kSide};
-      const std::optional<SeenPlane> seen = plane.seen(view);
-      if (!seen) continue;
-      const int size = random.between(10, 110), exponent = is_tessera ? random.one_of({0, 0, random.between(-800, 1000 - size), 970 - size}) : 0;
-      const int size_v = random.coin() ? size : random.between(3, size);
-      const Corners corners(random, size, size_v);
-      CountedMesh mesh;
-      for (const auto& [u, v] : corners.at) mesh.add_vertex(double{u}, double{v}, 0, 1);
-      const bool is_fan = random.coin();
-      if (is_fan) {
-        // Around a vertex anywhere, where two edges may be nearer to each other, in the window, than snapping moves them.
-        const int middle = random.between(-4, size - 1);
-        const double u = std::ldexp(random.unit() - 0.5, middle), v = std::ldexp(random.unit() - 0.5, std::min(middle, size_v));
-        mesh.add_vertex(u, v, 0, 1);
-        for (const std::uint32_t k : {0, 1, 2, 3}) mesh.add_triangle(4, k, (k + 1) % 4);
-      } else {
-        const std::uint32_t first = random.coin() ? 0 : 1;
-        mesh.add_triangle(first, first + 1, first + 2);
-        mesh.add_triangle(first, first + 2, (first + 3) % 4);
-      }
-      mesh.shuffle(random);
-      CaseDraw draw = counting(mesh);
-      draw.transform = matrix_of(plane, exponent);
-      count({draw}, "plane " + std::to_string(n) + " of 2^" + std::to_string(size) + " times 2^" + std::to_string(exponent),
-            {.pixels = covers_of(plane.region(*seen, std::int64_t{1} << std::min(size_v, kMostInOracle), reversed), kSide, kSide, view), .overlaps = [&] { return snapping_folds(mesh, view, reversed, *draw.transform); }, .folds_along_cuts = true});
-    }
-  });
+  expect_coverage(
+      what, {.width = kSide, .height = kSide, .depth = DepthFormat::float32, .reversed = reversed},
+      [reversed](const Count& count, bool is_tessera) {
+        for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 3000); ++n) {
+          MeshRandom random(n);
+          ClipPlane plane = random_plane(random);
+          // Some along the near plane: what is far away is as near to it as what is seen.
+          const int to_near = reversed ? 1 : -1;
+          if (n % 3 == 0) plane.to_u.z = to_near * plane.to_u.w;
+          if (n % 6 == 0) plane.to_v.z = to_near * plane.to_v.w;
+          const SquareView view{0, 0, kSide};
+          const std::optional<SeenPlane> seen = plane.seen(view);
+          if (!seen) continue;
+          const int size = random.between(10, 110),
+                    exponent =
+                        is_tessera ? random.one_of({0, 0, random.between(-800, 1000 - size), 970 - size}) : 0;
+          const int size_v = random.coin() ? size : random.between(3, size);
+          const Corners corners(random, size, size_v);
+          CountedMesh mesh;
+          for (const auto& [u, v] : corners.at) mesh.add_vertex(double{u}, double{v}, 0, 1);
+          const bool is_fan = random.coin();
+          if (is_fan) {
+            // Around a vertex anywhere, where two edges may be nearer to each other, in the window, than
+            // snapping moves them.
+            const int middle = random.between(-4, size - 1);
+            const double u = std::ldexp(random.unit() - 0.5, middle),
+                         v = std::ldexp(random.unit() - 0.5, std::min(middle, size_v));
+            mesh.add_vertex(u, v, 0, 1);
+            for (const std::uint32_t k : {0, 1, 2, 3}) mesh.add_triangle(4, k, (k + 1) % 4);
+          } else {
+            const std::uint32_t first = random.coin() ? 0 : 1;
+            mesh.add_triangle(first, first + 1, first + 2);
+            mesh.add_triangle(first, first + 2, (first + 3) % 4);
+          }
+          mesh.shuffle(random);
+          CaseDraw draw = counting(mesh);
+          draw.transform = matrix_of(plane, exponent);
+          count({draw},
+                "plane " + std::to_string(n) + " of 2^" + std::to_string(size) + " times 2^" +
+                    std::to_string(exponent),
+                {.pixels = covers_of(
+                     plane.region(*seen, std::int64_t{1} << std::min(size_v, kMostInOracle), reversed), kSide,
+                     kSide, view),
+                 .overlaps = [&] { return snapping_folds(mesh, view, reversed, *draw.transform); },
+                 .folds_along_cuts = true});
+        }
+      });
 }
 
 TEST(HugePlanes, AreSeenWhereTheirNumbersSay) {
@@ -104,7 +123,8 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t k = 0; k < 3; ++k) {
       // A triangle that holds the origin: two corners, and one across from their middle.
-      const float u = k < 2 ? corners.at[k][0] : -(corners.at[0][0] + corners.at[1][0]) / 2, v = k < 2 ? corners.at[k][1] : -(corners.at[0][1] + corners.at[1][1]) / 2;
+      const float u = k < 2 ? corners.at[k][0] : -(corners.at[0][0] + corners.at[1][0]) / 2,
+                  v = k < 2 ? corners.at[k][1] : -(corners.at[0][1] + corners.at[1][1]) / 2;
       positions.insert(positions.end(), {u, v, 0, 1});
       for (int c = 0; c < 3; ++c) colors.push_back(static_cast<float>(random.between(0, 255)) / 255);
       colors.push_back(1);
@@ -119,7 +139,8 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
     renderer.finish(frame);
     // The last vertex weighs as much as the other two, whose weights are as their middle is the mean.
     const std::vector<std::uint32_t> words = color_words(buffer);
-    const ExactRegion region = plane.region(*seen, 1 << 12);  // of a far larger triangle, what is seen without the horizon
+    const ExactRegion region =
+        plane.region(*seen, 1 << 12);  // of a far larger triangle, what is seen without the horizon
     for (std::size_t i = 0; i < words.size(); ++i) {
       const auto [x, y] = center_of(static_cast<int>(i % kSide), static_cast<int>(i / kSide), kSide, view);
       if (region.side(x, y) != ExactRegion::Side::in) continue;
@@ -143,11 +164,14 @@ TEST(HugePlanes, HaveOutlinesOfAnySize) {
     Frame frame(buffer);
     frame.clear({.color = Color{0, 0, 0, 1}});
     std::vector<float> positions;
-    for (const auto& [x, z] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}) positions.insert(positions.end(), {std::ldexp(static_cast<float>(x), size), 0, std::ldexp(static_cast<float>(z), size)});
+    for (const auto& [x, z] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}})
+      positions.insert(positions.end(),
+                       {std::ldexp(static_cast<float>(x), size), 0, std::ldexp(static_cast<float>(z), size)});
     DrawState state;
     state.lighting = false;
     state.front_mode = state.back_mode = PolygonMode::line;
-    state.transform = perspective(90, 1, 2, std::numeric_limits<double>::infinity()) * rotate(roll, 0, 0, 1) * rotate(yaw, 0, 1, 0) * translate(0, -1, 0);
+    state.transform = perspective(90, 1, 2, std::numeric_limits<double>::infinity()) * rotate(roll, 0, 0, 1) *
+                      rotate(yaw, 0, 1, 0) * translate(0, -1, 0);
     frame.draw({.primitive = Primitive::quads, .positions = positions}, state);
     renderer.finish(frame);
     return color_words(buffer);
@@ -155,8 +179,10 @@ TEST(HugePlanes, HaveOutlinesOfAnySize) {
   for (const double roll : {0.0, 30.0, -71.0})
     for (const double yaw : {0.0, 20.0, 45.0}) {
       const std::vector<std::uint32_t> small = outline(roll, yaw, 20);
-      EXPECT_GT(std::count_if(small.begin(), small.end(), [](std::uint32_t word) { return word != 0; }), 3 * kSide / 2);  // the horizon and the near edge
-      for (const int size : {40, 50, 60, 80, 100}) EXPECT_EQ(outline(roll, yaw, size), small) << "roll " << roll << ", yaw " << yaw << ", 2^" << size;
+      EXPECT_GT(std::count_if(small.begin(), small.end(), [](std::uint32_t word) { return word != 0; }),
+                3 * kSide / 2);  // the horizon and the near edge
+      for (const int size : {40, 50, 60, 80, 100})
+        EXPECT_EQ(outline(roll, yaw, size), small) << "roll " << roll << ", yaw " << yaw << ", 2^" << size;
     }
 }
 

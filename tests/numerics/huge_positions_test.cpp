@@ -1,4 +1,5 @@
-// Vertices as far away as floats and doubles go: what is seen of their triangles and lines is still what it should be, and what cannot be exact stays in the window.
+// Vertices as far away as floats and doubles go: what is seen of their triangles and lines is still what it
+// should be, and what cannot be exact stays in the window.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 constexpr int kSide = 64;
 constexpr std::uint32_t kRed = 0xff0000;
 
-std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state, const Camera& camera, InstructionSet set, int samples = 1) {
+std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state, const Camera& camera,
+                                    InstructionSet set, int samples = 1) {
   FrameBuffer buffer({.width = kSide, .height = kSide, .samples = samples});
   Frame frame(buffer);
   frame.set_camera(camera);
@@ -39,37 +41,43 @@ TEST(HugePositions, TrianglesCoverTheirHalfOfTheWindow) {
       for (const float far : {1e6f, 1e15f, 1e17f, 1e30f, 3e38f})
         for (int side = 0; side < 4; ++side)
           for (const bool turned : {false, true})
-            for (const Primitive primitive : {Primitive::triangles, Primitive::polygon, Primitive::triangle_fan}) {
+            for (const Primitive primitive :
+                 {Primitive::triangles, Primitive::polygon, Primitive::triangle_fan}) {
               const float sign = side % 2 == 0 ? -1.0f : 1.0f;
               std::vector<float> positions{-far, 0, 0, far, 0, 0, 0, sign * far, 0};
               if (side >= 2)
                 for (std::size_t v = 0; v < 3; ++v) std::swap(positions[3 * v], positions[3 * v + 1]);
               if (turned)
                 for (std::size_t k = 0; k < 3; ++k) std::swap(positions[k], positions[3 + k]);
-              const auto words = words_of(mesh_of(primitive, positions), unlit({1, 0, 0, 1}), {}, set, samples);
+              const auto words =
+                  words_of(mesh_of(primitive, positions), unlit({1, 0, 0, 1}), {}, set, samples);
               for (int y = 0; y < kSide; ++y)
                 for (int x = 0; x < kSide; ++x) {
                   const int along = side < 2 ? kSide - 1 - y : x;
-                  ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)], (sign < 0) == (along < kSide / 2) ? kRed : 0) << far << ", side " << side << ", pixel " << x << ", " << y;
+                  ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)],
+                            (sign < 0) == (along < kSide / 2) ? kRed : 0)
+                      << far << ", side " << side << ", pixel " << x << ", " << y;
                 }
             }
 }
 
 // The same halves, counted, for Mesa's row.
 TEST(HugePositions, NoPixelIsInTheWrongHalf) {
-  expect_figure("pixels wrong behind an edge with ends at 10^6 to 3 10^38", 0, "pixels", [](const MakeRenderer& make, bool) {
-    const std::unique_ptr<CaseRenderer> renderer = make({.width = kSide, .height = kSide});
-    long double wrong = 0;
-    for (const float far : {1e6f, 1e15f, 1e17f, 1e30f, 3e38f})
-      for (const float sign : {-1.0f, 1.0f}) {
-        const CasePicture& picture = renderer->draw({{.positions = {-far, 0, 0, 1, far, 0, 0, 1, 0, sign * far, 0, 1}}});
-        for (std::size_t i = 0; i < picture.colors.size(); ++i) {
-          const bool is_seen = picture.colors[i][0] > 0.5f;
-          wrong += is_seen == ((sign > 0) == (i < picture.colors.size() / 2)) ? 0 : 1;
-        }
-      }
-    return wrong;
-  });
+  expect_figure("pixels wrong behind an edge with ends at 10^6 to 3 10^38", 0, "pixels",
+                [](const MakeRenderer& make, bool) {
+                  const std::unique_ptr<CaseRenderer> renderer = make({.width = kSide, .height = kSide});
+                  long double wrong = 0;
+                  for (const float far : {1e6f, 1e15f, 1e17f, 1e30f, 3e38f})
+                    for (const float sign : {-1.0f, 1.0f}) {
+                      const CasePicture& picture =
+                          renderer->draw({{.positions = {-far, 0, 0, 1, far, 0, 0, 1, 0, sign * far, 0, 1}}});
+                      for (std::size_t i = 0; i < picture.colors.size(); ++i) {
+                        const bool is_seen = picture.colors[i][0] > 0.5f;
+                        wrong += is_seen == ((sign > 0) == (i < picture.colors.size() / 2)) ? 0 : 1;
+                      }
+                    }
+                  return wrong;
+                });
 }
 
 TEST(HugePositions, TrianglesAroundTheWindowCoverAllOfIt) {
@@ -79,7 +87,8 @@ TEST(HugePositions, TrianglesAroundTheWindowCoverAllOfIt) {
         std::vector<float> positions;
         for (int k = 0; k < 3; ++k) {
           const double angle = 0.2618 * turn + 2.0944 * k;
-          positions.insert(positions.end(), {far * static_cast<float>(std::cos(angle)), far * static_cast<float>(std::sin(angle)), 0});
+          positions.insert(positions.end(), {far * static_cast<float>(std::cos(angle)),
+                                             far * static_cast<float>(std::sin(angle)), 0});
         }
         const auto words = words_of(mesh_of(Primitive::triangles, positions), unlit({1, 0, 0, 1}), {}, set);
         ASSERT_EQ(std::count(words.begin(), words.end(), kRed), kSide * kSide) << far << ", turn " << turn;
@@ -93,13 +102,18 @@ TEST(HugePositions, LinesAreDrawnFromSideToSide) {
         std::vector<float> positions{-far, 1 / 64.0f, 0, end, 1 / 64.0f, 0};
         if (standing)
           for (std::size_t v = 0; v < 2; ++v) std::swap(positions[3 * v], positions[3 * v + 1]);
-        const auto words = words_of(mesh_of(Primitive::lines, positions), unlit({1, 0, 0, 1}), {}, InstructionSet::automatic);
+        const auto words = words_of(mesh_of(Primitive::lines, positions), unlit({1, 0, 0, 1}), {},
+                                    InstructionSet::automatic);
         for (int y = 0; y < kSide; ++y)
-          for (int x = 0; x < kSide; ++x) ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)], (standing ? x == kSide / 2 : y == kSide / 2 - 1) ? kRed : 0) << far << ", " << end << ": " << x << ", " << y;
+          for (int x = 0; x < kSide; ++x)
+            ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)],
+                      (standing ? x == kSide / 2 : y == kSide / 2 - 1) ? kRed : 0)
+                << far << ", " << end << ": " << x << ", " << y;
       }
 }
 
-// Clip coordinates mean the same whatever they are multiplied by. Depth and coverage do not look at 1 / w, which is a float.
+// Clip coordinates mean the same whatever they are multiplied by. Depth and coverage do not look at 1 / w,
+// which is a float.
 TEST(HugePositions, APowerOfTwoInTheProjectionMovesNothing) {
   Random random(6);
   MeshData mesh;
@@ -123,7 +137,8 @@ TEST(HugePositions, APowerOfTwoInTheProjectionMovesNothing) {
         const std::vector<std::uint32_t> depths = depth_words(buffer);
         found.insert(found.end(), depths.begin(), depths.end());
         if (expected.empty()) expected = found;
-        ASSERT_TRUE(found == expected) << "2^" << exponent << " on " << name(set) << ", mode " << static_cast<int>(mode);
+        ASSERT_TRUE(found == expected)
+            << "2^" << exponent << " on " << name(set) << ", mode " << static_cast<int>(mode);
       }
     }
 }

@@ -1,4 +1,5 @@
-// What is the same at all vertices is the same at all pixels, exactly: whole and clipped triangles, however they are shaded, lit, textured and stored.
+// What is the same at all vertices is the same at all pixels, exactly: whole and clipped triangles, however
+// they are shaded, lit, textured and stored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,91 +28,117 @@ std::vector<float> random_positions(Dice& dice) {
     const double w = std::exp2(20 * dice.unit());
     const auto within = [&](double most) { return most * (2 * dice.unit() - 1); };
     if (is_whole)
-      for (const double c : {w * clip_x(p.x, kSide), w * clip_y(p.y, kSide), 0.0, w}) positions.push_back(static_cast<float>(c));
+      for (const double c : {w * clip_x(p.x, kSide), w * clip_y(p.y, kSide), 0.0, w})
+        positions.push_back(static_cast<float>(c));
     else
-      for (const double c : {within(dice.maybe() ? reach : 2), within(2), within(1.5), 4 * dice.unit() - (dice.maybe() ? 1 : 0)}) positions.push_back(static_cast<float>(c));
+      for (const double c : {within(dice.maybe() ? reach : 2), within(2), within(1.5),
+                             4 * dice.unit() - (dice.maybe() ? 1 : 0)})
+        positions.push_back(static_cast<float>(c));
   }
   return positions;
 }
 
 float random_constant(Dice& dice) {
   const float c = static_cast<float>(dice.unit());
-  return dice.maybe() ? c : (std::floor(255 * c) + 0.5f) / 255;  // on the border between two levels, or a hair beside it
+  return dice.maybe()
+             ? c
+             : (std::floor(255 * c) + 0.5f) / 255;  // on the border between two levels, or a hair beside it
 }
 
 TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
-  expect_figure("colours, the same at all vertices: off by", 0, "levels", [](const MakeRenderer& make, bool is_tessera) {
-    const auto renderer = make({.width = kSide, .height = kSide});
-    Dice dice(51);
-    long double worst = 0, seen = 0;
-    for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
-      CaseDraw draw{.positions = random_positions(dice)};
-      const float c[3] = {random_constant(dice), random_constant(dice), 1};
-      for (int k = 0; k < 3; ++k) draw.colors.insert(draw.colors.end(), {c[0], c[1], c[2], 1});
-      for (const std::array<float, 3>& color : renderer->draw({draw}).colors) {
-        if (color[2] == 0) continue;
-        ++seen;
-        for (std::size_t k = 0; k < 3; ++k) {
-          // Mesa's colours are not rounded to levels.
-          const float expected = is_tessera ? std::floor(std::fma(c[k], 255.0f, 0.5f)) / 255.0f : c[k];
-          keep_worst(worst, 255 * std::abs(static_cast<long double>(color[k]) - expected));
-        }
-      }
-    }
-    EXPECT_GT(seen, 1e5);
-    return worst;
-  });
+  expect_figure("colours, the same at all vertices: off by", 0, "levels",
+                [](const MakeRenderer& make, bool is_tessera) {
+                  const auto renderer = make({.width = kSide, .height = kSide});
+                  Dice dice(51);
+                  long double worst = 0, seen = 0;
+                  for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
+                    CaseDraw draw{.positions = random_positions(dice)};
+                    const float c[3] = {random_constant(dice), random_constant(dice), 1};
+                    for (int k = 0; k < 3; ++k) draw.colors.insert(draw.colors.end(), {c[0], c[1], c[2], 1});
+                    for (const std::array<float, 3>& color : renderer->draw({draw}).colors) {
+                      if (color[2] == 0) continue;
+                      ++seen;
+                      for (std::size_t k = 0; k < 3; ++k) {
+                        // Mesa's colours are not rounded to levels.
+                        const float expected =
+                            is_tessera ? std::floor(std::fma(c[k], 255.0f, 0.5f)) / 255.0f : c[k];
+                        keep_worst(worst, 255 * std::abs(static_cast<long double>(color[k]) - expected));
+                      }
+                    }
+                  }
+                  EXPECT_GT(seen, 1e5);
+                  return worst;
+                });
 }
 
-// From pixel centre to pixel centre, so that edges go through centres, where the vertex that weighs most has no weight: however much that is, a pixel is white.
+// From pixel centre to pixel centre, so that edges go through centres, where the vertex that weighs most has
+// no weight: however much that is, a pixel is white.
 TEST(InterpolationConstant, WhateverTheRatiosOfW) {
-  expect_figure("white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels", [](const MakeRenderer& make, bool) {
-    const auto renderer = make({.width = kSide, .height = kSide});
-    Dice dice(57);
-    long double wrong = 0, seen = 0;
-    constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
-    const auto centre = [&] { return static_cast<std::int64_t>(kSide * dice.unit()) * kGrid + kGrid / 2; };
-    for (int n = 0; n < 400; ++n) {
-      const double ratio = dice.one_of(kRatios);
-      const int heavy = static_cast<int>(3 * dice.unit()), second = dice.maybe() ? (heavy + 1) % 3 : heavy;
-      CaseDraw with_ratio, without;
-      for (int k = 0; k < 3; ++k) {
-        const double x = clip_x(centre(), kSide), y = clip_y(centre(), kSide), w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
-        for (const double c : {w * x, w * y, 0.0, w}) with_ratio.positions.push_back(static_cast<float>(c));
-        for (const double c : {x, y, 0.0, 1.0}) without.positions.push_back(static_cast<float>(c));
-        for (CaseDraw* draw : {&with_ratio, &without}) draw->colors.insert(draw->colors.end(), {1, 1, 1, 1});
-      }
-      const auto expected = renderer->draw({without}).colors, found = renderer->draw({with_ratio}).colors;
-      for (std::size_t i = 0; i < expected.size(); ++i) {
-        seen += expected[i][0];
-        wrong += expected[i] == found[i] ? 0 : 1;
-      }
-    }
-    EXPECT_GT(seen, 1e5);
-    return wrong;
-  });
+  expect_figure("white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels",
+                [](const MakeRenderer& make, bool) {
+                  const auto renderer = make({.width = kSide, .height = kSide});
+                  Dice dice(57);
+                  long double wrong = 0, seen = 0;
+                  constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
+                  const auto centre = [&] {
+                    return static_cast<std::int64_t>(kSide * dice.unit()) * kGrid + kGrid / 2;
+                  };
+                  for (int n = 0; n < 400; ++n) {
+                    const double ratio = dice.one_of(kRatios);
+                    const int heavy = static_cast<int>(3 * dice.unit()),
+                              second = dice.maybe() ? (heavy + 1) % 3 : heavy;
+                    CaseDraw with_ratio, without;
+                    for (int k = 0; k < 3; ++k) {
+                      const double x = clip_x(centre(), kSide), y = clip_y(centre(), kSide),
+                                   w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
+                      for (const double c : {w * x, w * y, 0.0, w})
+                        with_ratio.positions.push_back(static_cast<float>(c));
+                      for (const double c : {x, y, 0.0, 1.0})
+                        without.positions.push_back(static_cast<float>(c));
+                      for (CaseDraw* draw : {&with_ratio, &without})
+                        draw->colors.insert(draw->colors.end(), {1, 1, 1, 1});
+                    }
+                    const auto expected = renderer->draw({without}).colors,
+                               found = renderer->draw({with_ratio}).colors;
+                    for (std::size_t i = 0; i < expected.size(); ++i) {
+                      seen += expected[i][0];
+                      wrong += expected[i] == found[i] ? 0 : 1;
+                    }
+                  }
+                  EXPECT_GT(seen, 1e5);
+                  return wrong;
+                });
 }
 
 // Between two texels, where the least change would show.
 TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
   for (const bool nearest : {false, true})
-    expect_figure(std::string("texture coordinates, the same at all vertices") + (nearest ? ", nearest" : ", linear") + ": colours apart", 0, "levels", [nearest](const MakeRenderer& make, bool is_tessera) {
-      const auto renderer = make({.width = kSide, .height = kSide, .texture_width = 2, .texture_height = 2, .texture = {32, 255, 255, 32}, .nearest_texel = nearest});
-      Dice dice(52);
-      long double worst = 0;
-      long seen = 0;
-      for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
-        CaseDraw draw{.positions = random_positions(dice), .textured = true};
-        const float s = dice.maybe() ? 0.5f : random_constant(dice), t = dice.maybe() ? 0.5f : random_constant(dice);
-        for (int k = 0; k < 3; ++k) draw.texcoords.insert(draw.texcoords.end(), {s, t});
-        float low = 2, high = 0;
-        for (const std::array<float, 3>& color : renderer->draw({draw}).colors)
-          if (color[0] > 0) low = std::min(low, color[0]), high = std::max(high, color[0]), ++seen;
-        if (high > 0) keep_worst(worst, 255 * (static_cast<long double>(high) - low));
-      }
-      EXPECT_GT(seen, 100000);
-      return worst;
-    });
+    expect_figure(std::string("texture coordinates, the same at all vertices") +
+                      (nearest ? ", nearest" : ", linear") + ": colours apart",
+                  0, "levels", [nearest](const MakeRenderer& make, bool is_tessera) {
+                    const auto renderer = make({.width = kSide,
+                                                .height = kSide,
+                                                .texture_width = 2,
+                                                .texture_height = 2,
+                                                .texture = {32, 255, 255, 32},
+                                                .nearest_texel = nearest});
+                    Dice dice(52);
+                    long double worst = 0;
+                    long seen = 0;
+                    for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
+                      CaseDraw draw{.positions = random_positions(dice), .textured = true};
+                      const float s = dice.maybe() ? 0.5f : random_constant(dice),
+                                  t = dice.maybe() ? 0.5f : random_constant(dice);
+                      for (int k = 0; k < 3; ++k) draw.texcoords.insert(draw.texcoords.end(), {s, t});
+                      float low = 2, high = 0;
+                      for (const std::array<float, 3>& color : renderer->draw({draw}).colors)
+                        if (color[0] > 0)
+                          low = std::min(low, color[0]), high = std::max(high, color[0]), ++seen;
+                      if (high > 0) keep_worst(worst, 255 * (static_cast<long double>(high) - low));
+                    }
+                    EXPECT_GT(seen, 100000);
+                    return worst;
+                  });
 }
 
 struct Way {
@@ -122,12 +149,17 @@ constexpr Way kWays[] = {
     {"plain", [](DrawState&, const Texture&) {}},
     {"textured", [](DrawState& s, const Texture& t) { s.texture = &t; }},
     {"blended", [](DrawState& s, const Texture&) { s.blend = BlendState{}; }},
-    {"tested", [](DrawState& s, const Texture&) { s.alpha_test = AlphaTest{.func = Compare::equal, .ref = 0.7f}, s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }},
+    {"tested",
+     [](DrawState& s, const Texture&) {
+       s.alpha_test = AlphaTest{.func = Compare::equal, .ref = 0.7f},
+       s.stencil = StencilState{.front = {.zpass = StencilOp::incr}};
+     }},
     {"two lights' colours", [](DrawState& s, const Texture&) { s.color_material = ColorMaterial::diffuse; }},
 };
 
-// By every way of shading, on each instruction set, in one and several samples: one word wherever a triangle covers all of a pixel. Lights far away and one normal: lit points are
-// alike, too. The alpha test passes only what is equal to the vertices' alpha.
+// By every way of shading, on each instruction set, in one and several samples: one word wherever a triangle
+// covers all of a pixel. Lights far away and one normal: lit points are alike, too. The alpha test passes
+// only what is equal to the vertices' alpha.
 TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
   const std::uint8_t texels[4] = {32, 255, 255, 32};
   const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
@@ -142,17 +174,24 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
         for (int n = 0; n < (long_tests() ? 500 : 15); ++n) {
           const std::vector<float> positions = random_positions(dice);
           std::vector<float> colors, normals, texcoords;
-          const float r = random_constant(dice), g = random_constant(dice), s = dice.maybe() ? 0.5f : random_constant(dice);
-          const float x = static_cast<float>(dice.unit() - 0.5), y = static_cast<float>(dice.unit() - 0.5), z = static_cast<float>(dice.unit());
+          const float r = random_constant(dice), g = random_constant(dice),
+                      s = dice.maybe() ? 0.5f : random_constant(dice);
+          const float x = static_cast<float>(dice.unit() - 0.5), y = static_cast<float>(dice.unit() - 0.5),
+                      z = static_cast<float>(dice.unit());
           for (int k = 0; k < 3; ++k) {
             colors.insert(colors.end(), {r, g, 0.9f, 0.7f});
             normals.insert(normals.end(), {x, y, z});
             texcoords.insert(texcoords.end(), {s, 0.5f});
           }
-          const Mesh mesh{.positions = positions, .position_components = 4, .normals = normals, .colors = colors, .texcoords = texcoords};
+          const Mesh mesh{.positions = positions,
+                          .position_components = 4,
+                          .normals = normals,
+                          .colors = colors,
+                          .texcoords = texcoords};
           const auto draw = [&](const DrawState& state, std::vector<std::uint32_t>& to) {
             Frame frame(buffer);
-            frame.set_lights({Light{.position = {0.3f, 0.2f, 1, 0}}, Light{.diffuse = {0.2f, 0.3f, 0.1f, 1}, .position = {-0.5f, 0.4f, 0.3f, 0}}});
+            frame.set_lights({Light{.position = {0.3f, 0.2f, 1, 0}},
+                              Light{.diffuse = {0.2f, 0.3f, 0.1f, 1}, .position = {-0.5f, 0.4f, 0.3f, 0}}});
             frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .stencil = 0});
             frame.draw(mesh, state);
             renderer.finish(frame);
@@ -183,7 +222,9 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
                 for (std::size_t i = 0; i < words.size(); ++i) {
                   if (covered[i] != 0xffffff) continue;
                   if (!word) word = words[i];
-                  ASSERT_EQ(words[i], *word) << way.name << (lit ? ", lit, " : ", ") << static_cast<int>(shading) << ", " << name(set) << ", " << samples << " samples, pixel " << i;
+                  ASSERT_EQ(words[i], *word)
+                      << way.name << (lit ? ", lit, " : ", ") << static_cast<int>(shading) << ", "
+                      << name(set) << ", " << samples << " samples, pixel " << i;
                   ASSERT_NE(words[i], 0u);
                   ++seen;
                 }

@@ -1,10 +1,13 @@
-// Interpolated values before anything is rounded to levels: their error, and how far they leave the range of the three vertices; from the kernels' barycentric
-// coordinates on each instruction set. The last step is that of the twin, whose bits the kernels have (Interpolate in tests/shading).
+// Interpolated values before anything is rounded to levels: their error, and how far they leave the range of
+// the three vertices; from the kernels' barycentric coordinates on each instruction set. The last step is
+// that of the twin, whose bits the kernels have (Interpolate in tests/shading).
 //
-// u = 2^-24. A weight is a product of positive factors, each rounded once. Where vertex 0 has none (on the opposite edge), b1 + b2 is off by 4 u at most: two
-// sums, quotient, product, or, without perspective, 1/area, its product, the edge and the multiply-add. So first + b1 (second - first) + b2 (third - first) leaves
-// the range by 4 u of the larger difference, and by one u each of it and of the two sums' results: with M the largest of the three, of one sign, 7 u M, as
-// differences are no larger than M; of both signs, differences are at most 2 M: 12 u M.
+// u = 2^-24. A weight is a product of positive factors, each rounded once. Where vertex 0 has none (on the
+// opposite edge), b1 + b2 is off by 4 u at most: two sums, quotient, product, or, without perspective,
+// 1/area, its product, the edge and the multiply-add. So first + b1 (second - first) + b2 (third - first)
+// leaves the range by 4 u of the larger difference, and by one u each of it and of the two sums' results:
+// with M the largest of the three, of one sign, 7 u M, as differences are no larger than M; of both signs,
+// differences are at most 2 M: 12 u M.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,10 +36,14 @@ Corners random_corners(Dice& dice, bool one_sign) {
   const int kind = static_cast<int>(dice.between(0, 3));
   for (float& f : a) {
     const double part = dice.unit();
-    f = static_cast<float>(kind == 0 ? part : kind == 1 ? 1 + std::floor(8 * part) * 0x1p-23 : kind == 2 ? std::exp(20 * part - 10) : 255 * part);
+    f = static_cast<float>(kind == 0   ? part
+                           : kind == 1 ? 1 + std::floor(8 * part) * 0x1p-23
+                           : kind == 2 ? std::exp(20 * part - 10)
+                                       : 255 * part);
     if (!one_sign && dice.maybe()) f = -f;
   }
-  if (dice.maybe()) a[static_cast<std::size_t>(dice.between(0, 2))] = a[static_cast<std::size_t>(dice.between(0, 2))];
+  if (dice.maybe())
+    a[static_cast<std::size_t>(dice.between(0, 2))] = a[static_cast<std::size_t>(dice.between(0, 2))];
   return a;
 }
 
@@ -48,24 +55,32 @@ struct Reciprocals {
 
 // Calls pixel(triangle, 1/w, barycentric, x, y) for all pixels within, in the window's far corner.
 template <class Pixel>
-void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tests() ? 200000 : 8000, const Reciprocals& reciprocals = {}) {
+void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tests() ? 200000 : 8000,
+                    const Reciprocals& reciprocals = {}) {
   Dice dice(seed);
   std::vector<float> b1(kTile * kTile), b2(kTile * kTile);
   for (int n = 0; n < count; ++n) {
     const bool is_wide = n % 4 == 0;
-    const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile, octaves = n % 3 == 0 ? 0 : reciprocals.octaves;
+    const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile,
+              octaves = n % 3 == 0 ? 0 : reciprocals.octaves;
     WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), width, kTile);
     WindowVertex v[3];
     for (std::size_t k = 0; k < 3; ++k) {
       t.at[k].x += (16384 - width) * kGrid;
       const bool is_largest = octaves == 0 || k == static_cast<std::size_t>(n / 3 % 3);
-      v[k] = {static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0, reciprocals.largest * (is_largest ? 1.0f : static_cast<float>(std::exp2(-octaves * dice.unit())))};
+      v[k] = {
+          static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0,
+          reciprocals.largest * (is_largest ? 1.0f : static_cast<float>(std::exp2(-octaves * dice.unit())))};
     }
     for (const Isa isa : available_isas()) {
       if (!tile_barycentrics(isa)(v, tile_x, 0, kTile, b1.data(), b2.data())) continue;
       for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)
-          if (t.contains(WindowTriangle::center(tile_x + x, y))) pixel(dice, t, v, BarycentricReference{b1[static_cast<std::size_t>(y * kTile + x)], b2[static_cast<std::size_t>(y * kTile + x)]}, WindowTriangle::center(tile_x + x, y));
+          if (t.contains(WindowTriangle::center(tile_x + x, y)))
+            pixel(dice, t, v,
+                  BarycentricReference{b1[static_cast<std::size_t>(y * kTile + x)],
+                                       b2[static_cast<std::size_t>(y * kTile + x)]},
+                  WindowTriangle::center(tile_x + x, y));
     }
   }
 }
@@ -74,7 +89,8 @@ float largest_of(const Corners& a) { return std::max({std::abs(a[0]), std::abs(a
 
 TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
   long double worst[2] = {0, 0}, count = 0;
-  for_each_pixel(41, [&](Dice& dice, const WindowTriangle&, const WindowVertex (&)[3], const BarycentricReference& at, const GridPoint&) {
+  for_each_pixel(41, [&](Dice& dice, const WindowTriangle&, const WindowVertex(&)[3],
+                         const BarycentricReference& at, const GridPoint&) {
     for (const bool one_sign : {false, true}) {
       const Corners a = random_corners(dice, one_sign);
       const auto [low, high] = std::minmax({a[0], a[1], a[2]});
@@ -88,20 +104,24 @@ TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
   expect_within("interpolated, of both signs, beyond the range", worst[0], 12, "2^-24 of the largest");
 }
 
-/// Raises to how far weights are off, in u of themselves. Linear in the window where all 1/w count as the same.
-void keep_worst_weight(long double& worst, const WindowTriangle& t, const std::array<float, 3>& rw, const BarycentricReference& at, const GridPoint& p) {
+/// Raises to how far weights are off, in u of themselves. Linear in the window where all 1/w count as the
+/// same.
+void keep_worst_weight(long double& worst, const WindowTriangle& t, const std::array<float, 3>& rw,
+                       const BarycentricReference& at, const GridPoint& p) {
   long double weights[3], sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * rw[k];
   for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
     keep_worst(worst, exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
 }
 
-// Of what is linear in the window: 1/area, its product with what is left of an edge, and the multiply-add of the edge. Under perspective 1/area is the same in all
-// weights, and each has a ratio of 1/w besides and that ratio's product: four apart from it, so that two weights are eight apart; two sums, quotient, product.
-// None is a difference, so zero is exactly that.
+// Of what is linear in the window: 1/area, its product with what is left of an edge, and the multiply-add of
+// the edge. Under perspective 1/area is the same in all weights, and each has a ratio of 1/w besides and that
+// ratio's product: four apart from it, so that two weights are eight apart; two sums, quotient, product. None
+// is a difference, so zero is exactly that.
 TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
   long double worst[2] = {0, 0}, count[2] = {0, 0};
-  for_each_pixel(44, [&](Dice&, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
+  for_each_pixel(44, [&](Dice&, const WindowTriangle& t, const WindowVertex(&v)[3],
+                         const BarycentricReference& at, const GridPoint& p) {
     const bool is_affine = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
     keep_worst_weight(worst[is_affine], t, {v[0].rw, v[1].rw, v[2].rw}, at, p);
     ++count[is_affine];
@@ -118,25 +138,41 @@ TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
     float largest;
     bool has_perspective;
   };
-  const Case cases[] = {{0x1p-121f, false}, {std::nextafter(kLow, 0.0f), false}, {kLow, false}, {std::nextafter(kLow, 1.0f), true}, {0x1p-119f, true},
-                        {0x1p119f, true},   {std::nextafter(kHigh, 1.0f), true}, {kHigh, false}, {std::nextafter(kHigh, HUGE_VALF), false}, {0x1p121f, false}};
+  const Case cases[] = {{0x1p-121f, false},
+                        {std::nextafter(kLow, 0.0f), false},
+                        {kLow, false},
+                        {std::nextafter(kLow, 1.0f), true},
+                        {0x1p-119f, true},
+                        {0x1p119f, true},
+                        {std::nextafter(kHigh, 1.0f), true},
+                        {kHigh, false},
+                        {std::nextafter(kHigh, HUGE_VALF), false},
+                        {0x1p121f, false}};
   long double worst[2] = {0, 0}, count[2] = {0, 0};
   for (const auto& [largest, has_perspective] : cases)
-    for_each_pixel(45, [&, perspective = has_perspective](Dice&, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
-      if (v[0].rw == v[1].rw && v[1].rw == v[2].rw) return;
-      keep_worst_weight(worst[perspective], t, perspective ? std::array{v[0].rw, v[1].rw, v[2].rw} : std::array{1.0f, 1.0f, 1.0f}, at, p);
-      ++count[perspective];
-    }, 800, {largest, 4});
+    for_each_pixel(
+        45,
+        [&, perspective = has_perspective](Dice&, const WindowTriangle& t, const WindowVertex(&v)[3],
+                                           const BarycentricReference& at, const GridPoint& p) {
+          if (v[0].rw == v[1].rw && v[1].rw == v[2].rw) return;
+          keep_worst_weight(
+              worst[perspective], t,
+              perspective ? std::array{v[0].rw, v[1].rw, v[2].rw} : std::array{1.0f, 1.0f, 1.0f}, at, p);
+          ++count[perspective];
+        },
+        800, {largest, 4});
   for (const long double seen : count) EXPECT_GT(seen, 10000);
-  expect_within("barycentric coordinates, 1/w beyond 2^-120 .. 2^120: linear in the window", worst[0], 3, "2^-24 of themselves");
+  expect_within("barycentric coordinates, 1/w beyond 2^-120 .. 2^120: linear in the window", worst[0], 3,
+                "2^-24 of themselves");
   expect_within("barycentric coordinates, 1/w just within", worst[1], 12, "2^-24 of themselves");
 }
 
-// Barycentric coordinates are within 9 u of perspective, and count by their differences, which are rounded themselves; each sum
-// once more by what it comes to, and that is no more than the largest.
+// Barycentric coordinates are within 9 u of perspective, and count by their differences, which are rounded
+// themselves; each sum once more by what it comes to, and that is no more than the largest.
 TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
   long double worst = 0;
-  for_each_pixel(42, [&](Dice& dice, const WindowTriangle& t, const WindowVertex (&v)[3], const BarycentricReference& at, const GridPoint& p) {
+  for_each_pixel(42, [&](Dice& dice, const WindowTriangle& t, const WindowVertex(&v)[3],
+                         const BarycentricReference& at, const GridPoint& p) {
     const Corners a = random_corners(dice, false);
     long double sum = 0, weights = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -144,11 +180,13 @@ TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
       sum += weight * a[k];
       weights += weight;
     }
-    const long double differences = std::abs(static_cast<long double>(a[1]) - a[0]) + std::abs(static_cast<long double>(a[2]) - a[0]);
+    const long double differences =
+        std::abs(static_cast<long double>(a[1]) - a[0]) + std::abs(static_cast<long double>(a[2]) - a[0]);
     const long double bound = kUnit * (10 * differences + 2.01L * largest_of(a));
     keep_worst(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
   });
-  expect_within("interpolated, w apart by up to 10^6: error", worst, 1, "of 10 roundings of differences and 2 of the largest");
+  expect_within("interpolated, w apart by up to 10^6: error", worst, 1,
+                "of 10 roundings of differences and 2 of the largest");
 }
 
 }  // namespace

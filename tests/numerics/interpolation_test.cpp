@@ -1,5 +1,5 @@
-// What is interpolated within triangles, as it is stored: against perspective in long double through the snapped vertices, with steep gradients, slivers,
-// w apart by 10^6 and windows of 16,384 pixels.
+// What is interpolated within triangles, as it is stored: against perspective in long double through the
+// snapped vertices, with steep gradients, slivers, w apart by 10^6 and windows of 16,384 pixels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,13 +29,17 @@ struct Window {
 constexpr Window kWindows[] = {{256, 256, 12}, {16384, 16, 2}, {16, 16384, 2}};
 
 // With two bits each, products with window coordinates are exact floats.
-double random_w(Dice& dice, int octaves) { return std::ldexp(dice.maybe() ? 1 : 1.5, static_cast<int>(dice.between(0, octaves))); }
+double random_w(Dice& dice, int octaves) {
+  return std::ldexp(dice.maybe() ? 1 : 1.5, static_cast<int>(dice.between(0, octaves)));
+}
 
 WindowTriangle somewhere(Dice& dice, WindowShape shape, const Window& window) {
-  if (shape != WindowShape::small || dice.between(0, 3) == 0) return random_triangle(dice, shape, window.width, window.height);
+  if (shape != WindowShape::small || dice.between(0, 3) == 0)
+    return random_triangle(dice, shape, window.width, window.height);
   const int width = std::min(64, window.width), height = std::min(64, window.height);  // in the far corner
   WindowTriangle t = random_triangle(dice, shape, width, height);
-  for (GridPoint& p : t.at) p = {p.x + (window.width - width) * kGrid, p.y + (window.height - height) * kGrid};
+  for (GridPoint& p : t.at)
+    p = {p.x + (window.width - width) * kGrid, p.y + (window.height - height) * kGrid};
   return t;
 }
 
@@ -43,12 +47,15 @@ using Colors = std::function<float(Dice&)>;
 
 // Calls pixel(triangle, x, y, colour) wherever one is seen.
 template <class Pixel>
-void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, int rounds, const Colors& colors, const Pixel& pixel) {
+void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, int rounds,
+                    const Colors& colors, const Pixel& pixel) {
   Dice dice(80 + static_cast<std::uint32_t>(shape));
   std::size_t seen = 0;
   for (const Window& window : kWindows) {
     const auto renderer = make({.width = window.width, .height = window.height});
-    const std::size_t count = shape == WindowShape::any ? 8 : shape == WindowShape::centers || shape == WindowShape::sliver ? 50 : 254;
+    const std::size_t count = shape == WindowShape::any                                       ? 8
+                              : shape == WindowShape::centers || shape == WindowShape::sliver ? 50
+                                                                                              : 254;
     for (int round = 0; round < rounds * window.frames; ++round) {
       std::vector<Colored> all;
       CaseDraw draw;
@@ -56,16 +63,24 @@ void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, in
         Colored t{.triangle = somewhere(dice, shape, window), .w = {}, .color = {}};
         for (std::size_t k = 0; k < 3; ++k) {
           t.w[k] = random_w(dice, octaves);
-          for (const double c : {clip_x(t.triangle.at[k].x, window.width), clip_y(t.triangle.at[k].y, window.height), 0.0, 1.0}) draw.positions.push_back(static_cast<float>(c * t.w[k]));
-          for (float& c : t.color[k]) c = k > 0 && dice.between(0, 3) == 0 ? t.color[0][static_cast<std::size_t>(&c - t.color[k].data())] : colors(dice);
-          draw.colors.insert(draw.colors.end(), {t.color[k][0], t.color[k][1], static_cast<float>(n + 1) / 255, 1});
+          for (const double c : {clip_x(t.triangle.at[k].x, window.width),
+                                 clip_y(t.triangle.at[k].y, window.height), 0.0, 1.0})
+            draw.positions.push_back(static_cast<float>(c * t.w[k]));
+          for (float& c : t.color[k])
+            c = k > 0 && dice.between(0, 3) == 0
+                    ? t.color[0][static_cast<std::size_t>(&c - t.color[k].data())]
+                    : colors(dice);
+          draw.colors.insert(draw.colors.end(),
+                             {t.color[k][0], t.color[k][1], static_cast<float>(n + 1) / 255, 1});
         }
         all.push_back(t);
       }
       const CasePicture& picture = renderer->draw({draw});
       for (int y = 0; y < window.height; ++y)
         for (int x = 0; x < window.width; ++x) {
-          const std::array<float, 3>& color = picture.colors[static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) + static_cast<std::size_t>(x)];
+          const std::array<float, 3>& color =
+              picture.colors[static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
+                             static_cast<std::size_t>(x)];
           const auto number = static_cast<std::size_t>(std::lround(color[2] * 255)) - 1;
           if (number >= all.size() || !all[number].triangle.contains(WindowTriangle::center(x, y))) continue;
           pixel(all[number], x, y, color);
@@ -84,25 +99,33 @@ int rounds_of(bool is_tessera) { return is_tessera && long_tests() ? 40 : 1; }
 TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
   for (const int octaves : {0, 20})
     for (const WindowShape shape : kWindowShapes)
-      expect_figure("colours, triangles " + kNames[static_cast<std::size_t>(shape)] + (octaves == 0 ? "" : ", w apart by 10^6"), 0.50059L, "levels", [&](const MakeRenderer& make, bool is_tessera) {
-        long double worst = 0;
-        for_each_pixel(make, shape, octaves, rounds_of(is_tessera), [](Dice& dice) { return static_cast<float>(dice.unit()); }, [&](const Colored& t, int x, int y, const std::array<float, 3>& color) {
-          for (std::size_t c = 0; c < 2; ++c) {
-            long double sum = 0, weights = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-              const long double weight = static_cast<long double>(t.triangle.edge(k, WindowTriangle::center(x, y))) / t.w[k];
-              sum += weight * t.color[k][c];
-              weights += weight;
-            }
-            keep_worst(worst, std::abs(level_of(color[c]) - 255 * sum / weights));
-          }
-        });
-        return worst;
-      });
+      expect_figure(
+          "colours, triangles " + kNames[static_cast<std::size_t>(shape)] +
+              (octaves == 0 ? "" : ", w apart by 10^6"),
+          0.50059L, "levels", [&](const MakeRenderer& make, bool is_tessera) {
+            long double worst = 0;
+            for_each_pixel(
+                make, shape, octaves, rounds_of(is_tessera),
+                [](Dice& dice) { return static_cast<float>(dice.unit()); },
+                [&](const Colored& t, int x, int y, const std::array<float, 3>& color) {
+                  for (std::size_t c = 0; c < 2; ++c) {
+                    long double sum = 0, weights = 0;
+                    for (std::size_t k = 0; k < 3; ++k) {
+                      const long double weight =
+                          static_cast<long double>(t.triangle.edge(k, WindowTriangle::center(x, y))) / t.w[k];
+                      sum += weight * t.color[k][c];
+                      weights += weight;
+                    }
+                    keep_worst(worst, std::abs(level_of(color[c]) - 255 * sum / weights));
+                  }
+                });
+            return worst;
+          });
 }
 
-// Interpolation leaves the range of the vertices by no more than 7 * 2^-24 of the largest, here 256 (interpolation_range_test.cpp): so a level beyond
-// all of the vertices' own is stored only where a vertex is nearer than that to the border between two.
+// Interpolation leaves the range of the vertices by no more than 7 * 2^-24 of the largest, here 256
+// (interpolation_range_test.cpp): so a level beyond all of the vertices' own is stored only where a vertex is
+// nearer than that to the border between two.
 constexpr float kHair = 0x1p-13f;
 static_assert(7 * 0x1p-24 * 256 < kHair);
 
@@ -128,56 +151,72 @@ float at_border(Dice& dice) {
 TEST(Interpolation, OfColorsStaysInTheRangeOfTheVertices) {
   for (const bool borders : {false, true})
     for (const int octaves : {0, 20})
-      expect_figure(std::string("colours") + (octaves == 0 ? "" : ", w apart by 10^6") + (borders ? ", of vertices between two levels" : "") + ", beyond the vertices' own", 0, "levels", [&](const MakeRenderer& make, bool is_tessera) {
-        long double worst = 0;
-        for (const WindowShape shape : kWindowShapes)
-          for_each_pixel(make, shape, octaves, rounds_of(is_tessera), borders ? at_border : off_borders, [&](const Colored& t, int, int, const std::array<float, 3>& color) {
-            for (std::size_t c = 0; c < 2; ++c) {
-              const auto [low, high] = std::minmax({t.color[0][c], t.color[1][c], t.color[2][c]});
-              const auto level = [](float each) { return static_cast<long double>(std::floor(std::fma(each, 255.0f, 0.5f))); };
-              keep_worst(worst, level(low) - level_of(color[c]), level_of(color[c]) - level(high));
-            }
+      expect_figure(
+          std::string("colours") + (octaves == 0 ? "" : ", w apart by 10^6") +
+              (borders ? ", of vertices between two levels" : "") + ", beyond the vertices' own",
+          0, "levels", [&](const MakeRenderer& make, bool is_tessera) {
+            long double worst = 0;
+            for (const WindowShape shape : kWindowShapes)
+              for_each_pixel(
+                  make, shape, octaves, rounds_of(is_tessera), borders ? at_border : off_borders,
+                  [&](const Colored& t, int, int, const std::array<float, 3>& color) {
+                    for (std::size_t c = 0; c < 2; ++c) {
+                      const auto [low, high] = std::minmax({t.color[0][c], t.color[1][c], t.color[2][c]});
+                      const auto level = [](float each) {
+                        return static_cast<long double>(std::floor(std::fma(each, 255.0f, 0.5f)));
+                      };
+                      keep_worst(worst, level(low) - level_of(color[c]), level_of(color[c]) - level(high));
+                    }
+                  });
+            return worst;
           });
-        return worst;
-      });
 }
 
-// Texels of a row of 16: from the picture one sees which one was taken, also of pixels whose centres are on an edge or a vertex. Vertices are right on
-// texels' borders, where a hair less is another texel, or 2^-20 within them, more than the 7 * 2^-24 that sums round by.
+// Texels of a row of 16: from the picture one sees which one was taken, also of pixels whose centres are on
+// an edge or a vertex. Vertices are right on texels' borders, where a hair less is another texel, or 2^-20
+// within them, more than the 7 * 2^-24 that sums round by.
 TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
   constexpr int kTexels = 16, kSide = 256;
-  CaseFormat format{.width = kSide, .height = kSide, .texture_width = kTexels, .texture_height = 2, .nearest_texel = true};
-  for (int i = 0; i < 2 * kTexels; ++i) format.texture.push_back(static_cast<std::uint8_t>(16 * (i % kTexels) + 8));
+  CaseFormat format{
+      .width = kSide, .height = kSide, .texture_width = kTexels, .texture_height = 2, .nearest_texel = true};
+  for (int i = 0; i < 2 * kTexels; ++i)
+    format.texture.push_back(static_cast<std::uint8_t>(16 * (i % kTexels) + 8));
   for (const bool borders : {false, true})
     for (const int octaves : {0, 20})
-      expect_figure(std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") + (borders ? ", of vertices on their borders" : "") + ", beside the range", 0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
-        const auto renderer = make(format);
-        Dice dice(90);
-        long double worst = 0, seen = 0;
-        for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
-          const WindowTriangle t = random_triangle(dice, WindowShape::centers, kSide, kSide);
-          CaseDraw draw{.textured = true};
-          std::array<std::int64_t, 3> texel{};
-          for (std::size_t k = 0; k < 3; ++k) {
-            texel[k] = k > 0 && dice.maybe() ? texel[k - 1] : dice.between(2, kTexels - 2);
-            const double w = random_w(dice, octaves);
-            for (const double c : {clip_x(t.at[k].x, kSide), clip_y(t.at[k].y, kSide), 0.0, 1.0}) draw.positions.push_back(static_cast<float>(c * w));
-            draw.texcoords.insert(draw.texcoords.end(), {static_cast<float>(texel[k]) / kTexels + (borders ? 0 : 0x1p-20f), 0.25f});
-          }
-          const auto [low, high] = std::minmax({texel[0], texel[1], texel[2]});
-          const CasePicture& picture = renderer->draw({draw});
-          for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
-              const float color = picture.colors[static_cast<std::size_t>(y * kSide + x)][0];
-              if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
-              const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
-              keep_worst(worst, low - taken, taken - high);
-              seen += 1;
+      expect_figure(
+          std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") +
+              (borders ? ", of vertices on their borders" : "") + ", beside the range",
+          0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
+            const auto renderer = make(format);
+            Dice dice(90);
+            long double worst = 0, seen = 0;
+            for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
+              const WindowTriangle t = random_triangle(dice, WindowShape::centers, kSide, kSide);
+              CaseDraw draw{.textured = true};
+              std::array<std::int64_t, 3> texel{};
+              for (std::size_t k = 0; k < 3; ++k) {
+                texel[k] = k > 0 && dice.maybe() ? texel[k - 1] : dice.between(2, kTexels - 2);
+                const double w = random_w(dice, octaves);
+                for (const double c : {clip_x(t.at[k].x, kSide), clip_y(t.at[k].y, kSide), 0.0, 1.0})
+                  draw.positions.push_back(static_cast<float>(c * w));
+                draw.texcoords.insert(
+                    draw.texcoords.end(),
+                    {static_cast<float>(texel[k]) / kTexels + (borders ? 0 : 0x1p-20f), 0.25f});
+              }
+              const auto [low, high] = std::minmax({texel[0], texel[1], texel[2]});
+              const CasePicture& picture = renderer->draw({draw});
+              for (int y = 0; y < kSide; ++y)
+                for (int x = 0; x < kSide; ++x) {
+                  const float color = picture.colors[static_cast<std::size_t>(y * kSide + x)][0];
+                  if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
+                  const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
+                  keep_worst(worst, low - taken, taken - high);
+                  seen += 1;
+                }
             }
-        }
-        EXPECT_GT(seen, 1000);
-        return worst;
-      });
+            EXPECT_GT(seen, 1000);
+            return worst;
+          });
 }
 
 }  // namespace

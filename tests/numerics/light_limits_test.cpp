@@ -1,5 +1,5 @@
-// Lights, scenes and normals of any size: lights as far away as numbers go, scenes from 2^-60 to 2^60, normals of any length; and whatever comes to the
-// kernels comes out within 0..1.
+// Lights, scenes and normals of any size: lights as far away as numbers go, scenes from 2^-60 to 2^60,
+// normals of any length; and whatever comes to the kernels comes out within 0..1.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -14,20 +14,24 @@
 namespace tessera::test {
 namespace {
 
-// Far lights shine like those without a place, with what attenuation leaves of them. xyz / w is taken in double.
+// Far lights shine like those without a place, with what attenuation leaves of them. xyz / w is taken in
+// double.
 TEST(LightLimits, LightsAsFarAwayAsNumbersGo) {
   Draws draws{std::mt19937(31)};
   Real worst = 0;
   LitPatches scene;
   for (int n = 0; n < 200 * (long_tests() ? 30 : 1); ++n) {
     scene.shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong});
-    scene.model = {.ambient = {0, 0, 0, 1}, .local_viewer = draws.one_in(2), .specular = draws.of({Highlight::blinn, Highlight::phong})};
+    scene.model = {.ambient = {0, 0, 0, 1},
+                   .local_viewer = draws.one_in(2),
+                   .specular = draws.of({Highlight::blinn, Highlight::phong})};
     scene.material = any_material(draws);
     any_patches(draws, scene);
     scene.lights = {any_light(draws, 1, 1)};
     Light& light = scene.lights[0];
     const auto [x, y, z] = draws.direction();
-    const auto size = static_cast<float>(std::pow(10, draws.between(-2, 38))), w = static_cast<float>(draws.of({1, -1}) * std::pow(10, draws.between(-38, 2)));
+    const auto size = static_cast<float>(std::pow(10, draws.between(-2, 38))),
+               w = static_cast<float>(draws.of({1, -1}) * std::pow(10, draws.between(-38, 2)));
     light.position = {x * size, y * size, z * size, w};
     const double distance = static_cast<double>(size) / static_cast<double>(std::abs(w));
     const auto spread = [&](double k) { return static_cast<float>(k > 1e-38 && k < 1e38 ? k : 0); };
@@ -35,7 +39,8 @@ TEST(LightLimits, LightsAsFarAwayAsNumbersGo) {
     light.attenuation_linear = draws.one_in(3) ? spread(1 / distance) : 0;
     light.attenuation_quadratic = draws.one_in(3) ? spread(1 / (distance * distance)) : 0;
     const Real sign = w < 0 ? 1 : -1;
-    for (std::size_t c = 0; c < 3; ++c) light.spot_direction[c] = static_cast<float>(sign * std::array{x, y, z}[c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      light.spot_direction[c] = static_cast<float>(sign * std::array{x, y, z}[c]);
     if (light.spot_cutoff < 10 || light.spot_cutoff > 80) light.spot_cutoff = 180;
     if (light.spot_cutoff == 180 && draws.one_in(3)) light.spot_cutoff = 90;
     light.spot_exponent = std::min(light.spot_exponent, 20.0f);
@@ -53,7 +58,9 @@ TEST(LightLimits, ScenesOfAnySize) {
     for (int n = 0; n < 2 * (long_tests() ? 30 : 1); ++n) {
       scene.extent = std::ldexp(1.0, exponent);
       scene.shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong});
-      scene.model = {.ambient = {0, 0, 0, 1}, .local_viewer = draws.one_in(2), .specular = draws.of({Highlight::blinn, Highlight::phong})};
+      scene.model = {.ambient = {0, 0, 0, 1},
+                     .local_viewer = draws.one_in(2),
+                     .specular = draws.of({Highlight::blinn, Highlight::phong})};
       scene.material = any_material(draws);
       any_patches(draws, scene);
       scene.lights = {any_light(draws, 2, scene.extent), any_light(draws, 2, scene.extent)};
@@ -62,7 +69,8 @@ TEST(LightLimits, ScenesOfAnySize) {
   expect_within("scenes from 2^-60 to 2^60", worst, 1, "levels of 255");
 }
 
-// Where normals are normalized at the vertex any length will do, and so it will where Phong renormalizes them, if all of a mesh have about the same.
+// Where normals are normalized at the vertex any length will do, and so it will where Phong renormalizes
+// them, if all of a mesh have about the same.
 TEST(LightLimits, NormalsOfAnyLength) {
   Draws draws{std::mt19937(33)};
   Real worst = 0;
@@ -77,7 +85,8 @@ TEST(LightLimits, NormalsOfAnyLength) {
           for (std::size_t c = 0; c < 3; ++c) n[c] = static_cast<float>(std::ldexp(unit[c], exponent));
         }
       scene.normalize = normalize;
-      scene.shading = normalize ? draws.of({Shading::flat, Shading::gouraud, Shading::phong}) : Shading::phong;
+      scene.shading =
+          normalize ? draws.of({Shading::flat, Shading::gouraud, Shading::phong}) : Shading::phong;
       scene.material = any_material(draws);
       scene.material.shininess = std::min(scene.material.shininess, 128.0f);
       scene.lights = {any_light(draws, 2, 1), any_light(draws, 2, 1)};
@@ -86,16 +95,20 @@ TEST(LightLimits, NormalsOfAnyLength) {
   expect_within("normals from 2^-120 to 2^126", worst, 1, "levels of 255");
 }
 
-// Flat and Gouraud take normals as they are, whatever comes of that; a normal of 0 sees neither diffuse light nor highlights.
+// Flat and Gouraud take normals as they are, whatever comes of that; a normal of 0 sees neither diffuse light
+// nor highlights.
 TEST(LightLimits, NormalsAsTheyAre) {
   LitPatches scene;
-  scene.material = {.ambient = {0.25f, 0, 0, 1}, .diffuse = {1, 1, 0, 1}, .specular = {0, 0, 0.5f, 1}, .shininess = 2};
+  scene.material = {
+      .ambient = {0.25f, 0, 0, 1}, .diffuse = {1, 1, 0, 1}, .specular = {0, 0, 0.5f, 1}, .shininess = 2};
   scene.lights = {Light{.ambient = {1, 1, 1, 1}, .diffuse = {0.5f, 0.5f, 0.5f, 1}}};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
     for (const float size : {0.0f, 1e-45f, 1e-30f, 0.1f, 0.5f, 1.0f, 1e30f, 3e38f}) {
       scene.normalize = size == 0 && shading != Shading::flat;
       if (shading == Shading::phong && size != 0) continue;
-      for (Patch& patch : scene.patches) patch = {.normals = {{{0, 0, size}, {0, 0, size}, {0, 0, size}, {0, 0, size}}}, .z = {}, .front = true};
+      for (Patch& patch : scene.patches)
+        patch = {
+            .normals = {{{0, 0, size}, {0, 0, size}, {0, 0, size}, {0, 0, size}}}, .z = {}, .front = true};
       scene.shading = shading;
       EXPECT_LE(scene.error_in_levels(), 0.501L) << size;
     }
@@ -107,7 +120,8 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
   const auto any = [&](bool finite) {
     for (;;) {
       const float odd[] = {0, -0.0f, 1, -1, 1e-45f, 0x1p-126f, 3.4028235e38f, -3.4028235e38f, 1e19f, -1e-23f};
-      const float f = draws.one_in(3) ? draws.of(odd) : std::bit_cast<float>(static_cast<std::uint32_t>(draws.random()));
+      const float f =
+          draws.one_in(3) ? draws.of(odd) : std::bit_cast<float>(static_cast<std::uint32_t>(draws.random()));
       if (!finite || std::isfinite(f)) return f;
     }
   };
@@ -117,10 +131,12 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
   std::size_t between = 0;
   for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
     SurfaceMaterial material{.shininess = draws.of({0.0f, 0.01f, 0.5f, 128.0f, 16384.0f})};
-    for (Rgb* c : {&material.ambient, &material.diffuse, &material.specular, &material.emission}) draws.one_in(2) ? fill(*c, true) : c->fill(static_cast<float>(draws.unit()));
+    for (Rgb* c : {&material.ambient, &material.diffuse, &material.specular, &material.emission})
+      draws.one_in(2) ? fill(*c, true) : c->fill(static_cast<float>(draws.unit()));
     std::vector<EyeLight> lights(1 + draws.random() % 3);
     for (EyeLight& l : lights) {
-      for (std::array<float, 3>* v : {&l.ambient, &l.diffuse, &l.specular, &l.attenuation}) draws.one_in(2) ? fill(*v, true) : v->fill(static_cast<float>(draws.unit()));
+      for (std::array<float, 3>* v : {&l.ambient, &l.diffuse, &l.specular, &l.attenuation})
+        draws.one_in(2) ? fill(*v, true) : v->fill(static_cast<float>(draws.unit()));
       l.directional = draws.one_in(3);
       l.position = l.spot_direction = draws.direction();
       if (!l.directional) fill(l.position, true);
@@ -128,8 +144,12 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
       l.spot_exponent = draws.of({0.0f, 0.5f, 1.0f, 2.0f, 64.0f, 128.0f, 16384.0f});
     }
     const bool renormalize = draws.one_in(2);
-    LightingProgram program = plan_lighting(material, {.ambient = draws.one_in(4), .diffuse = draws.one_in(4)}, lights,
-                                            {.local_viewer = draws.one_in(2), .phong_highlight = draws.one_in(2), .unit_normals = renormalize && draws.one_in(2)}, nullptr);
+    LightingProgram program =
+        plan_lighting(material, {.ambient = draws.one_in(4), .diffuse = draws.one_in(4)}, lights,
+                      {.local_viewer = draws.one_in(2),
+                       .phong_highlight = draws.one_in(2),
+                       .unit_normals = renormalize && draws.one_in(2)},
+                      nullptr);
     program.renormalize = renormalize;
     program.negate_normal = draws.one_in(2);
     ShadingBatch batch{};
@@ -139,14 +159,18 @@ TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
     for (int i = 0; i < 16; ++i)
       for (int c = 0; c < 3; ++c) {
         const auto k = static_cast<std::size_t>(c);
-        given[i].normal[k] = batch.field[kNormalX + c][i], given[i].position[k] = batch.field[kPositionX + c][i], given[i].vertex[k] = batch.field[kVertexR + c][i];
+        given[i].normal[k] = batch.field[kNormalX + c][i],
+        given[i].position[k] = batch.field[kPositionX + c][i],
+        given[i].vertex[k] = batch.field[kVertexR + c][i];
       }
     light_points(draws.one_in(4) ? available_isas().back() : available_isas().front())(program, batch, 16);
     for (const int field : {kColorR, kColorG, kColorB})
       for (int i = 0; i < 16; ++i) {
         const float c = batch.field[field][i];
         ASSERT_TRUE(c >= 0 && c <= 1) << c;
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(c), std::bit_cast<std::uint32_t>(light_point_reference(program, given[i])[static_cast<std::size_t>(field - kColorR)]));
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(c),
+                  std::bit_cast<std::uint32_t>(
+                      light_point_reference(program, given[i])[static_cast<std::size_t>(field - kColorR)]));
         between += c > 0 && c < 1;
       }
   }

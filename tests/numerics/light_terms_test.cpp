@@ -1,8 +1,9 @@
-// Each term of the lighting equation by itself, as the kernels compute it from the floats they are given, beside long double: bounds that follow from
-// counting roundings.
+// Each term of the lighting equation by itself, as the kernels compute it from the floats they are given,
+// beside long double: bounds that follow from counting roundings.
 //
-// u = 2^-24 is the largest relative error of one rounding; products of (1 + u) are taken to first order, and bounds are rounded up. `dot` rounds a
-// product of its last components once and adds two more, so that it is within 3 u of the sum of the magnitudes that it adds.
+// u = 2^-24 is the largest relative error of one rounding; products of (1 + u) are taken to first order, and
+// bounds are rounded up. `dot` rounds a product of its last components once and adds two more, so that it is
+// within 3 u of the sum of the magnitudes that it adds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,9 @@ constexpr Real kUnit = 0x1p-24L;
 struct Point {
   std::array<float, 3> normal{}, position{};
 };
-RealPoint real_point(const Point& p, bool renormalize) { return {renormalize ? normalized(real3(p.normal)) : real3(p.normal), real3(p.position)}; }
+RealPoint real_point(const Point& p, bool renormalize) {
+  return {renormalize ? normalized(real3(p.normal)) : real3(p.normal), real3(p.position)};
+}
 
 RealLight real_light(const EyeLight& l) {
   RealLight r{real3(l.ambient), real3(l.diffuse), real3(l.specular)};
@@ -38,7 +41,8 @@ RealLight real_light(const EyeLight& l) {
 }
 
 /// What one light makes of points, in red.
-std::vector<float> lit_red(const SurfaceMaterial& material, const EyeLight& light, const LightingModel& model, bool renormalize, const std::vector<Point>& points) {
+std::vector<float> lit_red(const SurfaceMaterial& material, const EyeLight& light, const LightingModel& model,
+                           bool renormalize, const std::vector<Point>& points) {
   LightingProgram program = plan_lighting(material, {}, {light}, model, nullptr);
   program.renormalize = renormalize;
   std::vector<float> red;
@@ -85,7 +89,8 @@ std::vector<Point> any_points(Draws& draws, bool of_any_length, double scale = 1
   return points;
 }
 
-// Products of colours and their sum, one rounding each: the scene's, and those of lights without a place, which are sums before a point is lit.
+// Products of colours and their sum, one rounding each: the scene's, and those of lights without a place,
+// which are sums before a point is lit.
 TEST(LightTerms, Ambient) {
   Draws draws{std::mt19937(21)};
   Real worst = 0;
@@ -96,13 +101,15 @@ TEST(LightTerms, Ambient) {
     light.ambient = {static_cast<float>(draws.unit()) / 2, 0, 0};
     const LightingModel model{.scene_ambient = {static_cast<float>(draws.unit()) / 2, 0, 0}};
     const Real exact = Real{material.ambient[0]} * (Real{model.scene_ambient[0]} + light.ambient[0]);
-    for (const float found : lit_red(material, light, model, false, any_points(draws, false))) keep_worst(worst, std::abs(found - exact) / exact);
+    for (const float found : lit_red(material, light, model, false, any_points(draws, false)))
+      keep_worst(worst, std::abs(found - exact) / exact);
   }
   expect_within("ambient term, relative", worst / kUnit, 2, "2^-24");
 }
 
-// Of the offset each component is rounded: distance u, squared distance 2 u; its square rounds three times (5 u), its root once (3.5 u); the denominator
-// is at most 6 u off by its quadratic part (5 u and once more), 5.5 u by its linear one; its reciprocal rounds once. Coefficients of one sign.
+// Of the offset each component is rounded: distance u, squared distance 2 u; its square rounds three times (5
+// u), its root once (3.5 u); the denominator is at most 6 u off by its quadratic part (5 u and once
+// more), 5.5 u by its linear one; its reciprocal rounds once. Coefficients of one sign.
 TEST(LightTerms, Attenuation) {
   Draws draws{std::mt19937(22)};
   Real worst = 0;
@@ -112,12 +119,15 @@ TEST(LightTerms, Attenuation) {
     EyeLight light = any_light(draws, false, scale);
     light.ambient = {0x1p-20f, 0, 0};
     const double distance = static_cast<double>(length(real3(light.position)));
-    for (std::size_t k = 0; k < 3; ++k) light.attenuation[k] = draws.one_in(3) ? 0 : static_cast<float>(draws.unit() / std::pow(distance, k));
+    for (std::size_t k = 0; k < 3; ++k)
+      light.attenuation[k] = draws.one_in(3) ? 0 : static_cast<float>(draws.unit() / std::pow(distance, k));
     if (light.attenuation == std::array<float, 3>{0, 0, 0}) continue;
     const std::vector<Point> points = any_points(draws, false, scale);
-    const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, false, points);
+    const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light,
+                                             {.scene_ambient = {0, 0, 0}}, false, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Real att = LightAtPoint(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0).att;
+      const Real att =
+          LightAtPoint(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0).att;
       if (!(att < 0x1p19L)) continue;
       keep_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
       ++measured;
@@ -127,9 +137,10 @@ TEST(LightTerms, Attenuation) {
   expect_within("attenuation, relative", worst / kUnit, 7, "2^-24");
 }
 
-// L's components are 6.5 u off: the offset 2 u in its direction, the reciprocal of its length 3.5 u, their product u; those of a renormalized normal
-// 4.5 u. Products of these with the normal and their sums: 3 u. Of what is added up, at most the length of the normal, not of the cosine: light
-// that grazes has an absolute bound.
+// L's components are 6.5 u off: the offset 2 u in its direction, the reciprocal of its length 3.5 u, their
+// product u; those of a renormalized normal 4.5 u. Products of these with the normal and their sums: 3 u. Of
+// what is added up, at most the length of the normal, not of the cosine: light that grazes has an absolute
+// bound.
 TEST(LightTerms, Diffuse) {
   Draws draws{std::mt19937(23)};
   for (const bool directional : {true, false})
@@ -141,23 +152,34 @@ TEST(LightTerms, Diffuse) {
         light.diffuse = {0.5f, 0, 0};
         std::vector<Point> points = any_points(draws, renormalize, scale);
         for (std::size_t i = 0; i < points.size(); i += 2) {  // light that grazes
-          const Real3 l = directional ? real3(light.position) : normalized(real3(light.position) - real3(points[i].position)), normal = real3(points[i].normal);
-          const Real3 across = normalized(normal - l * (dot(normal, l) * (1 - std::exp2(draws.between(-30, -2))))) * length(normal);
+          const Real3 l = directional ? real3(light.position)
+                                      : normalized(real3(light.position) - real3(points[i].position)),
+                      normal = real3(points[i].normal);
+          const Real3 across =
+              normalized(normal - l * (dot(normal, l) * (1 - std::exp2(draws.between(-30, -2))))) *
+              length(normal);
           for (std::size_t c = 0; c < 3; ++c) points[i].normal[c] = static_cast<float>(across[c]);
         }
-        const std::vector<float> found = lit_red({.diffuse = {1, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, renormalize, points);
+        const std::vector<float> found =
+            lit_red({.diffuse = {1, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, renormalize, points);
         for (std::size_t i = 0; i < points.size(); ++i) {
-          const Real cosine = std::max<Real>(LightAtPoint(real_light(light), real_point(points[i], renormalize), false, Highlight::blinn, 0, 0).n_dot_l, 0);
+          const Real cosine =
+              std::max<Real>(LightAtPoint(real_light(light), real_point(points[i], renormalize), false,
+                                          Highlight::blinn, 0, 0)
+                                 .n_dot_l,
+                             0);
           keep_worst(worst, std::abs(2 * found[i] - cosine));
         }
       }
-      expect_within(std::string("max(L.n, 0) of ") + (directional ? "a direction" : "a point") + (renormalize ? ", renormalized, absolute" : ", absolute"), worst / kUnit,
-                    (directional ? 0 : 6.5L) + (renormalize ? 4.5L : 0) + 3, "2^-24");
+      expect_within(std::string("max(L.n, 0) of ") + (directional ? "a direction" : "a point") +
+                        (renormalize ? ", renormalized, absolute" : ", absolute"),
+                    worst / kUnit, (directional ? 0 : 6.5L) + (renormalize ? 4.5L : 0) + 3, "2^-24");
     }
 }
 
-// The relative error, in u, of a power of a cosine that is so much off, and what the power itself loses (functions_test.cpp), and one rounding. Whole
-// ones are products. @param exponent  of the cosine, or of its square
+// The relative error, in u, of a power of a cosine that is so much off, and what the power itself loses
+// (functions_test.cpp), and one rounding. Whole ones are products. @param exponent  of the cosine, or of its
+// square
 Real of_power(Real cosine_error, Real cosine, Real y, Real power, float exponent) {
   const int whole = whole_power(exponent);
   return y * cosine_error / cosine + (whole != 0 ? whole : power < 1 / 256.0L ? 230.4L : 17.8L);
@@ -176,13 +198,17 @@ TEST(LightTerms, Spot) {
       light.spot_exponent = y;
       std::vector<Point> points = any_points(draws, false);
       for (Point& p : points) {  // within the cone
-        const Real tilt = draws.between(0, 2) / std::sqrt(std::max(y, 4.0f)), away = std::exp2(draws.between(-2, 2));
-        const Real3 at = real3(light.position) + normalized(real3(light.spot_direction) + real3(draws.direction()) * tilt) * away;
+        const Real tilt = draws.between(0, 2) / std::sqrt(std::max(y, 4.0f)),
+                   away = std::exp2(draws.between(-2, 2));
+        const Real3 at = real3(light.position) +
+                         normalized(real3(light.spot_direction) + real3(draws.direction()) * tilt) * away;
         for (std::size_t c = 0; c < 3; ++c) p.position[c] = static_cast<float>(at[c]);
       }
-      const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light, {.scene_ambient = {0, 0, 0}}, false, points);
+      const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light,
+                                               {.scene_ambient = {0, 0, 0}}, false, points);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const LightAtPoint exact(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0);
+        const LightAtPoint exact(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0,
+                                 0);
         const Real spot = exact.spot.high, error = std::abs(2 * found[i] - spot);
         if (exact.spot_cosine < 64 * 9.5L * kUnit || spot < 0x1p-120L) continue;
         keep_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
@@ -204,31 +230,42 @@ struct HighlightWay {
 
   bool of_square() const { return squared && kind == Highlight::blinn && !sharp && (local || !directional); }
 
-  /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot products, of L + E and, but of squares, its length. Sharp ones take
-  /// normals and directions for units, which floats are within u.
+  /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot
+  /// products, of L + E and, but of squares, its length. Sharp ones take normals and directions for units,
+  /// which floats are within u.
   Real cosine_error(const LightAtPoint& exact) const {
-    const Real given = sharp ? 1 : 0, n = renormalize ? 4.5L : given, l = directional ? given : 6.5L, v = local ? 4.5L : 0, n_dot_l = l + n + 3, n_dot_v = local ? v + n + 3 : n;
-    // Sharp: the difference of two vectors, S and n or E and R, is off by that much, and half its square by that times the difference, half the error's own square,
-    // and 1.5 u more; one rounding below 1 is u / 2.
+    const Real given = sharp ? 1 : 0, n = renormalize ? 4.5L : given, l = directional ? given : 6.5L,
+               v = local ? 4.5L : 0, n_dot_l = l + n + 3, n_dot_v = local ? v + n + 3 : n;
+    // Sharp: the difference of two vectors, S and n or E and R, is off by that much, and half its square by
+    // that times the difference, half the error's own square, and 1.5 u more; one rounding below 1 is u / 2.
     const auto of_difference = [&](Real error) {
       const Real apart = std::sqrt(2 * std::max<Real>(1 - exact.highlight_base, 0));
       return apart * error + 0.5L * error * error * kUnit + 1.5L * apart * apart + 0.5L;
     };
-    const bool constant_half = directional && !local;  // rounded once; of an L whose length is taken for 1, E has too much or too little weight in it
-    if (kind == Highlight::blinn && constant_half) return sharp ? of_difference(l / exact.half_length + 1 + n + 1) : 1 + n + 3;
-    // Of squares neither root nor length: the sum of the two cosines u, half of what its square, the square of L + E and their quotient have, u, 5 u and u.
-    if (kind == Highlight::blinn) return sharp ? of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1) : (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
-    return sharp ? of_difference(l + v + 2 + 2 * n_dot_l + 2 * n + 1) : 2 * (n_dot_l + n_dot_v) + 2 + l + (local ? v + 3 : 0) + 1;
+    const bool constant_half = directional && !local;  // rounded once; of an L whose length is taken for 1, E
+                                                       // has too much or too little weight in it
+    if (kind == Highlight::blinn && constant_half)
+      return sharp ? of_difference(l / exact.half_length + 1 + n + 1) : 1 + n + 3;
+    // Of squares neither root nor length: the sum of the two cosines u, half of what its square, the square
+    // of L + E and their quotient have, u, 5 u and u.
+    if (kind == Highlight::blinn)
+      return sharp ? of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1)
+                   : (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
+    return sharp ? of_difference(l + v + 2 + 2 * n_dot_l + 2 * n + 1)
+                 : 2 * (n_dot_l + n_dot_v) + 2 + l + (local ? v + 3 : 0) + 1;
   }
 };
 
 /// Normals near where the highlight is brightest.
-void face_highlights(Draws& draws, const HighlightWay& way, const EyeLight& light, Real y, std::vector<Point>& points) {
+void face_highlights(Draws& draws, const HighlightWay& way, const EyeLight& light, Real y,
+                     std::vector<Point>& points) {
   for (Point& p : points) {
-    const Real3 at = real3(p.position), l = way.directional ? real3(light.position) : normalized(real3(light.position) - at);
+    const Real3 at = real3(p.position),
+                l = way.directional ? real3(light.position) : normalized(real3(light.position) - at);
     const Real3 e = way.local ? normalized(at * -1) : Real3{0, 0, 1};
     const Real off = draws.between(0, 3) / std::sqrt(std::max<Real>(y, 10));
-    const Real3 facing = normalized(normalized(l + e) + real3(draws.direction()) * off) * (way.renormalize ? draws.between(0.5, 2) : 1);
+    const Real3 facing = normalized(normalized(l + e) + real3(draws.direction()) * off) *
+                         (way.renormalize ? draws.between(0.5, 2) : 1);
     for (std::size_t c = 0; c < 3; ++c) p.normal[c] = static_cast<float>(facing[c]);
   }
 }
@@ -240,28 +277,47 @@ TEST(LightTerms, Highlights) {
       Real share = 0, levels = 0;
       int measured = 0;
       for (int n = 0; n < rounds(1600); ++n) {
-        const HighlightWay way{kind, (n & 1) != 0, (n & 2) != 0, (n & 4) != 0, y > kSharpShininess, y > kSharpShininess || (n & 8) != 0, y >= 1 && (n & 8) != 0};
+        const HighlightWay way{kind,
+                               (n & 1) != 0,
+                               (n & 2) != 0,
+                               (n & 4) != 0,
+                               y > kSharpShininess,
+                               y > kSharpShininess || (n & 8) != 0,
+                               y >= 1 && (n & 8) != 0};
         EyeLight light = any_light(draws, way.directional);
         light.specular = {0.5f, 0, 0};
-        const LightingModel model{.scene_ambient = {0, 0, 0}, .local_viewer = way.local, .phong_highlight = kind == Highlight::phong, .unit_normals = way.unit};
+        const LightingModel model{.scene_ambient = {0, 0, 0},
+                                  .local_viewer = way.local,
+                                  .phong_highlight = kind == Highlight::phong,
+                                  .unit_normals = way.unit};
         std::vector<Point> points = any_points(draws, false);
         face_highlights(draws, way, light, y, points);
-        const std::vector<float> found = lit_red({.diffuse = {0, 0, 0}, .specular = {1, 0, 0}, .shininess = y}, light, model, way.renormalize, points);
+        const std::vector<float> found =
+            lit_red({.diffuse = {0, 0, 0}, .specular = {1, 0, 0}, .shininess = y}, light, model,
+                    way.renormalize, points);
         RealLight exact_light = real_light(light);
         if (way.sharp && way.directional) exact_light.position = normalized(exact_light.position);
         for (std::size_t i = 0; i < points.size(); ++i) {
-          const LightAtPoint exact(exact_light, real_point(points[i], way.renormalize || way.sharp), way.local, kind, y, 0);
-          const Real shine = exact.highlight.high, cosine_error = way.cosine_error(exact), error = std::abs(2 * found[i] - shine);
-          if (exact.n_dot_l < 20 * kUnit || exact.highlight_base < 64 * cosine_error * kUnit) continue;  // another formula, or none
+          const LightAtPoint exact(exact_light, real_point(points[i], way.renormalize || way.sharp),
+                                   way.local, kind, y, 0);
+          const Real shine = exact.highlight.high, cosine_error = way.cosine_error(exact),
+                     error = std::abs(2 * found[i] - shine);
+          if (exact.n_dot_l < 20 * kUnit || exact.highlight_base < 64 * cosine_error * kUnit)
+            continue;  // another formula, or none
           // Those below 2^-32 are left out.
-          keep_worst(share, error / (shine * of_power(cosine_error, exact.highlight_base, y, shine, way.of_square() ? y / 2 : y) * kUnit + 0x1p-31L));
+          keep_worst(share, error / (shine *
+                                         of_power(cosine_error, exact.highlight_base, y, shine,
+                                                  way.of_square() ? y / 2 : y) *
+                                         kUnit +
+                                     0x1p-31L));
           // Where light comes from just behind what is seen, nothing is left of L + E but their roundings.
           if (kind == Highlight::phong || exact.half_length >= 0.125L) keep_worst(levels, error * 255);
           ++measured;
         }
       }
       EXPECT_GT(measured, rounds(1600) * static_cast<int>(kPoints) / 2) << y;
-      const std::string quantity = std::string(kind == Highlight::blinn ? "Blinn" : "Phong") + " highlight of exponent " + std::to_string(y).substr(0, 5);
+      const std::string quantity = std::string(kind == Highlight::blinn ? "Blinn" : "Phong") +
+                                   " highlight of exponent " + std::to_string(y).substr(0, 5);
       expect_within(quantity + ", of its roundings", share, 1, "");
       expect_within(quantity + ", absolute", levels, 1, "levels of 255");
     }

@@ -1,5 +1,6 @@
-// Section 5 of the specification in long double: what a point looks like under lights, term by term. Where rounding decides on which side of a jump a
-// point lies (the edge of a cone, the terminator of a highlight), both sides are right: sums are intervals.
+// Section 5 of the specification in long double: what a point looks like under lights, term by term. Where
+// rounding decides on which side of a jump a point lies (the edge of a cone, the terminator of a highlight),
+// both sides are right: sums are intervals.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +33,12 @@ struct RealRange {
   Real low = 0, high = 0;
 };
 /// factor * range, whichever sign the factor has.
-inline RealRange operator*(Real factor, const RealRange& r) { return {std::min(factor * r.low, factor * r.high), std::max(factor * r.low, factor * r.high)}; }
-inline RealRange operator+(const RealRange& a, const RealRange& b) { return {a.low + b.low, a.high + b.high}; }
+inline RealRange operator*(Real factor, const RealRange& r) {
+  return {std::min(factor * r.low, factor * r.high), std::max(factor * r.low, factor * r.high)};
+}
+inline RealRange operator+(const RealRange& a, const RealRange& b) {
+  return {a.low + b.low, a.high + b.high};
+}
 
 /// A light as seen from the eye's space: directions of length 1.
 struct RealLight {
@@ -47,7 +52,8 @@ struct RealLight {
 inline RealLight real_light(const Light& l, const Matrix& view = {}) {
   const auto seen = [&](const Real3& v, Real w) {
     Real3 s;
-    for (std::size_t i = 0; i < 3; ++i) s[i] = dot({view.m[4 * i], view.m[4 * i + 1], view.m[4 * i + 2]}, v) + view.m[4 * i + 3] * w;
+    for (std::size_t i = 0; i < 3; ++i)
+      s[i] = dot({view.m[4 * i], view.m[4 * i + 1], view.m[4 * i + 2]}, v) + view.m[4 * i + 3] * w;
     return s;
   };
   const Real3 xyz = seen({l.position[0], l.position[1], l.position[2]}, l.position[3]);
@@ -71,49 +77,57 @@ inline Real real_power(Real x, Real y) { return y == 0 ? 1 : x > 0 ? std::pow(x,
 /// What one light does at one point. `slack` is how far the cosines of an implementation may be off.
 struct LightAtPoint {
   Real att = 1, n_dot_l = 0, spot_cosine = 1, highlight_base = 0;
-  Real half_length = 2;                ///< |L + E|, Blinn's
+  Real half_length = 2;  ///< |L + E|, Blinn's
   RealRange spot{1, 1}, highlight{0, 0};
 
-  LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, Highlight kind, Real shininess, Real slack) {
+  LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, Highlight kind,
+               Real shininess, Real slack) {
     const Real3 offset = light.directional ? light.position : light.position - point.position;
     const Real distance = length(offset);
     const Real3 l = light.directional ? light.position : normalized(offset);
     if (distance == 0) slack = 0;  // nothing to round there: L is 0
     if (!light.directional) {
-      const Real denominator = light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance * distance;
+      const Real denominator =
+          light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance * distance;
       att = denominator > 0 ? 1 / denominator : 1e6L;
     }
     if (light.spot_cutoff != 180) {
       spot_cosine = -dot(l, light.spot_direction);
-      const Real edge = light.spot_cutoff == 90 ? 0 : std::cos(light.spot_cutoff * std::numbers::pi_v<Real> / 180);
+      const Real edge =
+          light.spot_cutoff == 90 ? 0 : std::cos(light.spot_cutoff * std::numbers::pi_v<Real> / 180);
       const Real inside = real_power(spot_cosine, light.spot_exponent);
-      const bool surely = spot_cosine >= edge + slack && spot_cosine > slack, maybe = spot_cosine >= edge - slack && spot_cosine > -slack;
+      const bool surely = spot_cosine >= edge + slack && spot_cosine > slack,
+                 maybe = spot_cosine >= edge - slack && spot_cosine > -slack;
       spot = {surely ? inside : 0, maybe ? inside : 0};
     }
     n_dot_l = dot(point.normal, l);
     const Real3 e = local_viewer ? normalized(point.position * -1) : Real3{0, 0, 1}, half = l + e;
     half_length = length(half);
-    if (kind == Highlight::blinn)
-      highlight_base = dot(normalized(half), point.normal);
-    else
-      highlight_base = dot(point.normal * (2 * n_dot_l) - l, e);
-    const Real shine = real_power(highlight_base, shininess), reach = slack * std::max<Real>(length(point.normal), 1);
+    if (kind == Highlight::blinn) highlight_base = dot(normalized(half), point.normal);
+    else highlight_base = dot(point.normal * (2 * n_dot_l) - l, e);
+    const Real shine = real_power(highlight_base, shininess),
+               reach = slack * std::max<Real>(length(point.normal), 1);
     highlight = {n_dot_l > reach ? shine : 0, n_dot_l > -reach && (slack > 0 || n_dot_l > 0) ? shine : 0};
   }
 };
 
 /// The colour of a point of a front face (else of a back face), clamped to 0..1.
-inline std::array<RealRange, 3> lit_color(const Material& material, std::span<const Light> lights, const LightModel& model, RealPoint point, Real slack, bool front = true,
-                                          const Matrix& view = {}) {
+inline std::array<RealRange, 3> lit_color(const Material& material, std::span<const Light> lights,
+                                          const LightModel& model, RealPoint point, Real slack,
+                                          bool front = true, const Matrix& view = {}) {
   if (!front) point.normal = point.normal * -1;
   std::array<RealRange, 3> sum;
-  const Real3 emission = real3(material.emission), scene = real3(model.ambient), ambient = real3(material.ambient), diffuse = real3(material.diffuse), specular = real3(material.specular);
+  const Real3 emission = real3(material.emission), scene = real3(model.ambient),
+              ambient = real3(material.ambient), diffuse = real3(material.diffuse),
+              specular = real3(material.specular);
   for (std::size_t c = 0; c < 3; ++c) sum[c].low = sum[c].high = emission[c] + scene[c] * ambient[c];
   for (const Light& given : lights) {
     const RealLight light = real_light(given, view);
     const LightAtPoint at(light, point, model.local_viewer, model.specular, material.shininess, slack);
     for (std::size_t c = 0; c < 3; ++c) {
-      const Real even = light.ambient[c] * ambient[c] + std::max<Real>(at.n_dot_l, 0) * light.diffuse[c] * diffuse[c], shine = light.specular[c] * specular[c];
+      const Real even = light.ambient[c] * ambient[c] +
+                        std::max<Real>(at.n_dot_l, 0) * light.diffuse[c] * diffuse[c],
+                 shine = light.specular[c] * specular[c];
       // The four corners of what may be: inside the cone or not, with the highlight or not.
       RealRange all{};
       bool first = true;

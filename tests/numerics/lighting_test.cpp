@@ -1,7 +1,8 @@
-// Whole sums of lights through the public interface, within one level of 255 of long double (lighting_oracle.h).
+// Whole sums of lights through the public interface, within one level of 255 of long double
+// (lighting_oracle.h).
 //
-// Why one level: half a level is what storing rounds by; everything else is roundings of terms, each at most some 2^-24 times the exponent
-// (light_terms_test.cpp), of which half a level is 32,900.
+// Why one level: half a level is what storing rounds by; everything else is roundings of terms, each at most
+// some 2^-24 times the exponent (light_terms_test.cpp), of which half a level is 32,900.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,9 @@
 namespace tessera::test {
 namespace {
 
-const char* name(Shading s) { return s == Shading::flat ? "flat" : s == Shading::gouraud ? "Gouraud" : "Phong"; }
+const char* name(Shading s) {
+  return s == Shading::flat ? "flat" : s == Shading::gouraud ? "Gouraud" : "Phong";
+}
 
 class WholeSums : public testing::TestWithParam<int> {};
 
@@ -46,13 +49,16 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
         any_patches(draws, scene);
         keep_worst(worst, scene.error_in_levels());
       }
-    expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) + (count == 1 ? " light" : " lights"), worst, 1, "levels of 255");
+    expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) +
+                      (count == 1 ? " light" : " lights"),
+                  worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{LitPatches::kCount}) << "nothing was measured";
   }
 }
 INSTANTIATE_TEST_SUITE_P(Lighting, WholeSums, testing::Values(1, 8, 64, 1000));
 
-// What only one pixel in thousands of random ones would see: each patch faces the highlight, up to an angle where it has all but faded.
+// What only one pixel in thousands of random ones would see: each patch faces the highlight, up to an angle
+// where it has all but faded.
 TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
   Draws draws{std::mt19937(11)};
   for (const float shininess : {0.5f, 128.0f, 10000.0f}) {
@@ -62,7 +68,10 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
       scene.shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong});
       scene.model.local_viewer = draws.one_in(2);
       scene.model.specular = draws.of({Highlight::blinn, Highlight::phong});
-      scene.material = {.ambient = {0, 0, 0, 1}, .diffuse = {0.1f, 0, 0, 1}, .specular = {0.25f, 0.5f, 1, 1}, .shininess = shininess};
+      scene.material = {.ambient = {0, 0, 0, 1},
+                        .diffuse = {0.1f, 0, 0, 1},
+                        .specular = {0.25f, 0.5f, 1, 1},
+                        .shininess = shininess};
       const auto [x, y, z] = draws.direction();
       scene.lights = {Light{.position = {4 * x, 4 * y, 2 + 2 * std::abs(z), draws.one_in(2) ? 0.0f : 1.0f}}};
       any_patches(draws, scene);
@@ -71,16 +80,20 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
         Patch& patch = scene.patches[static_cast<std::size_t>(p)];
         for (float& at : patch.z) at = -std::abs(at);
         for (int k = 0; k < 4; ++k) {
-          const Real3 at = real3(scene.corner(p, k)), l = light.directional ? light.position : normalized(light.position - at);
-          const Real3 e = scene.model.local_viewer ? normalized(at * -1) : Real3{0, 0, 1}, peak = normalized(l + e);
+          const Real3 at = real3(scene.corner(p, k)),
+                      l = light.directional ? light.position : normalized(light.position - at);
+          const Real3 e = scene.model.local_viewer ? normalized(at * -1) : Real3{0, 0, 1},
+                      peak = normalized(l + e);
           const double off = draws.between(0, 3) / std::sqrt(std::max(shininess, 10.0f));
           const std::array<float, 3> bend = draws.direction();
-          for (std::size_t c = 0; c < 3; ++c) patch.normals[static_cast<std::size_t>(k)][c] = static_cast<float>(peak[c] + off * bend[c]);
+          for (std::size_t c = 0; c < 3; ++c)
+            patch.normals[static_cast<std::size_t>(k)][c] = static_cast<float>(peak[c] + off * bend[c]);
         }
       }
       keep_worst(worst, scene.error_in_levels());
     }
-    expect_within("highlight of exponent " + std::to_string(shininess).substr(0, 7), worst, 1, "levels of 255");
+    expect_within("highlight of exponent " + std::to_string(shininess).substr(0, 7), worst, 1,
+                  "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{20 * LitPatches::kCount});
   }
 }
@@ -97,7 +110,11 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
       const auto [x, y, z] = draws.direction();
       // So far that the cone fades within the frame.
       const auto distance = static_cast<float>(std::min(std::sqrt(exponent), 30.0f) + 2);
-      scene.lights = {Light{.ambient = {1, 1, 1, 1}, .position = {distance * x, distance * y, distance * std::abs(z), 1}, .spot_direction = {-x, -y, -std::abs(z)}, .spot_exponent = exponent, .spot_cutoff = 60}};
+      scene.lights = {Light{.ambient = {1, 1, 1, 1},
+                            .position = {distance * x, distance * y, distance * std::abs(z), 1},
+                            .spot_direction = {-x, -y, -std::abs(z)},
+                            .spot_exponent = exponent,
+                            .spot_cutoff = 60}};
       keep_worst(worst, scene.error_in_levels());
     }
     expect_within("cone of exponent " + std::to_string(exponent).substr(0, 7), worst, 1, "levels of 255");
@@ -105,9 +122,11 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
   }
 }
 
-// Patches that all lie in the plane z = 0 and face the viewer, each corner and middle at whole multiples of 1/16.
+// Patches that all lie in the plane z = 0 and face the viewer, each corner and middle at whole multiples of
+// 1/16.
 void lie_flat(LitPatches& scene) {
-  for (Patch& patch : scene.patches) patch = {.normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}, .z = {}, .front = true};
+  for (Patch& patch : scene.patches)
+    patch = {.normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}, .z = {}, .front = true};
 }
 
 TEST(Lighting, OfALightInTheSurfaceIsItsAmbientPart) {
@@ -119,9 +138,14 @@ TEST(Lighting, OfALightInTheSurfaceIsItsAmbientPart) {
         scene.slack = 0;  // L.n is exactly 0
         scene.shading = shading;
         scene.model.local_viewer = local;
-        scene.material = {.ambient = {0.25f, 0.5f, 0, 1}, .diffuse = {1, 1, 1, 1}, .specular = {1, 1, 1, 1}, .shininess = shininess};
+        scene.material = {.ambient = {0.25f, 0.5f, 0, 1},
+                          .diffuse = {1, 1, 1, 1},
+                          .specular = {1, 1, 1, 1},
+                          .shininess = shininess};
         // In general position, at a corner, in a patch's middle.
-        for (const std::array<float, 4>& at : {std::array{0.3f, 3.7f, 0.0f, 1.0f}, std::array{0.25f, -0.5f, 0.0f, 1.0f}, std::array{0.0625f, 0.0625f, 0.0f, 1.0f}, std::array{1.0f, 2.0f, 0.0f, 0.0f}}) {
+        for (const std::array<float, 4>& at :
+             {std::array{0.3f, 3.7f, 0.0f, 1.0f}, std::array{0.25f, -0.5f, 0.0f, 1.0f},
+              std::array{0.0625f, 0.0625f, 0.0f, 1.0f}, std::array{1.0f, 2.0f, 0.0f, 0.0f}}) {
           scene.lights = {Light{.ambient = {0.5f, 0.5f, 0.5f, 1}, .position = at}};
           EXPECT_LE(scene.error_in_levels(), 0.501L) << name(shading) << ", shininess " << shininess;
         }
@@ -140,9 +164,13 @@ TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
     any_patches(draws, scene);
     scene.material = any_material(draws);
     scene.lights = {any_light(draws, 1, 1)};
-    const int p = LitPatches::kSide / 2 * (LitPatches::kSide + 1);  // its last corner but two is the eye, if it lies in the plane z = 0
-    scene.patches[static_cast<std::size_t>(p)].z.fill(draws.one_in(2) ? 0 : static_cast<float>(draws.between(-2, 2)));
-    std::array<float, 3> at = draws.one_in(2) ? std::array<float, 3>{0, 0, 0} : scene.corner(p, draws.of({0, 2, 3}));
+    const int p =
+        LitPatches::kSide / 2 *
+        (LitPatches::kSide + 1);  // its last corner but two is the eye, if it lies in the plane z = 0
+    scene.patches[static_cast<std::size_t>(p)].z.fill(
+        draws.one_in(2) ? 0 : static_cast<float>(draws.between(-2, 2)));
+    std::array<float, 3> at =
+        draws.one_in(2) ? std::array<float, 3>{0, 0, 0} : scene.corner(p, draws.of({0, 2, 3}));
     if (draws.one_in(3))  // the middle of the patch, which Phong lights
       for (std::size_t c = 0; c < 3; ++c) at[c] = (scene.corner(p, 0)[c] + scene.corner(p, 2)[c]) / 2;
     scene.lights[0].position = {at[0], at[1], at[2], 1};
@@ -157,15 +185,24 @@ TEST(Lighting, OfAttenuationWithoutAPositiveDenominatorIsAMillion) {
   lie_flat(scene);
   scene.material = {.ambient = {1, 1, 1, 1}, .diffuse = {1, 1, 1, 1}};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
-    for (const std::array<float, 3>& k : {std::array{0.0f, 0.0f, 0.0f}, std::array{-1.0f, 0.0f, 0.0f}, std::array{1.0f, -2.0f, 0.0f}, std::array{0.0f, 0.0f, -1e30f}, std::array{1.0f, 1.0f, -8.0f}}) {
+    for (const std::array<float, 3>& k :
+         {std::array{0.0f, 0.0f, 0.0f}, std::array{-1.0f, 0.0f, 0.0f}, std::array{1.0f, -2.0f, 0.0f},
+          std::array{0.0f, 0.0f, -1e30f}, std::array{1.0f, 1.0f, -8.0f}}) {
       scene.shading = shading;
-      scene.lights = {Light{.ambient = {1e-7f, 2e-7f, 3e-7f, 1}, .diffuse = {3e-7f, 2e-7f, 1e-7f, 1}, .position = {0, 0, 2, 1}, .attenuation_constant = k[0], .attenuation_linear = k[1], .attenuation_quadratic = k[2]}};
-      EXPECT_LE(scene.error_in_levels(), 0.501L) << name(shading) << " " << k[0] << " " << k[1] << " " << k[2];
+      scene.lights = {Light{.ambient = {1e-7f, 2e-7f, 3e-7f, 1},
+                            .diffuse = {3e-7f, 2e-7f, 1e-7f, 1},
+                            .position = {0, 0, 2, 1},
+                            .attenuation_constant = k[0],
+                            .attenuation_linear = k[1],
+                            .attenuation_quadratic = k[2]}};
+      EXPECT_LE(scene.error_in_levels(), 0.501L)
+          << name(shading) << " " << k[0] << " " << k[1] << " " << k[2];
     }
   EXPECT_GT(scene.unsaturated, std::size_t{14 * LitPatches::kCount});
 }
 
-// A light shows where its cone ends by its ambient part: on the axis alone, a thousandth of a degree above the surface, in its own plane, nowhere.
+// A light shows where its cone ends by its ambient part: on the axis alone, a thousandth of a degree above
+// the surface, in its own plane, nowhere.
 TEST(Lighting, ConesEndWhereTheyShould) {
   LitPatches scene;
   lie_flat(scene);
@@ -174,14 +211,19 @@ TEST(Lighting, ConesEndWhereTheyShould) {
     scene.shading = shading;
     scene.slack = slack;
     const float middle = shading == Shading::phong ? 0.0625f : 0.125f;  // of a patch, or of one's last corner
-    scene.lights = {Light{.ambient = {1, 0.5f, 0.25f, 1}, .position = {middle, middle, z, 1}, .spot_direction = {0, 0, spot_z}, .spot_cutoff = cutoff}};
+    scene.lights = {Light{.ambient = {1, 0.5f, 0.25f, 1},
+                          .position = {middle, middle, z, 1},
+                          .spot_direction = {0, 0, spot_z},
+                          .spot_cutoff = cutoff}};
     EXPECT_LE(scene.error_in_levels(), 0.501L) << cutoff << " " << z;
-    return std::count_if(scene.levels.begin(), scene.levels.end(), [](const std::array<int, 3>& c) { return c[0] > 0; });
+    return std::count_if(scene.levels.begin(), scene.levels.end(),
+                         [](const std::array<int, 3>& c) { return c[0] > 0; });
   };
   for (const Shading shading : {Shading::flat, Shading::phong}) {
     EXPECT_EQ(lit(0, 1, 0, shading), 1) << "the patch straight below";
     EXPECT_EQ(lit(0, 0x1p-20f, 0, shading), 1);
-    const auto inside = lit(89.999f, 1.7453e-5f, kCosineSlack, shading);  // its tangent's: as far as 1 from there
+    const auto inside =
+        lit(89.999f, 1.7453e-5f, kCosineSlack, shading);  // its tangent's: as far as 1 from there
     EXPECT_TRUE(inside > 100 && inside < 250) << inside;
     EXPECT_EQ(lit(90, 0x1p-20f, 0, shading), LitPatches::kCount);
     EXPECT_EQ(lit(90, 0, 0, shading), 0) << "V.D is 0";
@@ -192,7 +234,8 @@ TEST(Lighting, ConesEndWhereTheyShould) {
   }
 }
 
-// Down to where cosines as floats say nothing at all: 2^-24 below 1 is 0.02 degrees. Cones are 2^-22 wider than they should be, and L and D have roundings of their own.
+// Down to where cosines as floats say nothing at all: 2^-24 below 1 is 0.02 degrees. Cones are 2^-22 wider
+// than they should be, and L and D have roundings of their own.
 TEST(Lighting, NarrowConesEndWhereTheyShould) {
   constexpr double kDegree = std::numbers::pi / 180;
   Draws draws{std::mt19937(15)};
@@ -213,13 +256,15 @@ TEST(Lighting, NarrowConesEndWhereTheyShould) {
       scene.lights = {light};
       scene.slack = static_cast<Real>(std::sin(cutoff * kDegree) * slack + slack * slack / 2);
       EXPECT_LE(scene.error_in_levels(), 0.501L) << cutoff << " " << static_cast<int>(shading);
-      const auto lit = std::count_if(scene.levels.begin(), scene.levels.end(), [](const std::array<int, 3>& c) { return c[0] > 0; });
+      const auto lit = std::count_if(scene.levels.begin(), scene.levels.end(),
+                                     [](const std::array<int, 3>& c) { return c[0] > 0; });
       EXPECT_TRUE(lit > 40 && lit < 90) << lit << " of a circle that is 50 large, and foreshortened";
     }
 }
 
-// The normals of two corners nearly cancel out in the middle: what they were rounded by (2^-24 of each, and 2 more as they are interpolated) is then that
-// much of what is left of them. Where nothing is left, there is no diffuse light.
+// The normals of two corners nearly cancel out in the middle: what they were rounded by (2^-24 of each, and 2
+// more as they are interpolated) is then that much of what is left of them. Where nothing is left, there is
+// no diffuse light.
 TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
   Draws draws{std::mt19937(14)};
   Real worst = 0;
@@ -238,10 +283,8 @@ TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
     const std::array<float, 3> l = draws.direction();
     scene.lights = {Light{.ambient = {1, 1, 1, 1}, .position = {l[0], l[1], l[2], 0}}};
     const Real error = scene.error_in_levels() - 0.5L;
-    if (left == 0)
-      EXPECT_LE(error, 0.001L);
-    else
-      keep_worst(worst, error / 255 / (3 * 0x1p-24L / (left / 2) + kCosineSlack));
+    if (left == 0) EXPECT_LE(error, 0.001L);
+    else keep_worst(worst, error / 255 / (3 * 0x1p-24L / (left / 2) + kCosineSlack));
   }
   expect_within("Phong between opposite normals, of 3 * 2^-24 over the length of their mean", worst, 1, "");
 }

@@ -33,11 +33,12 @@ struct Draws {
   }
 };
 
-/// Where rounding may decide: cosines of the engine are within 15 * 2^-24 (light_terms_test.cpp) of those of what it is given, and the normals and
-/// directions it is given were rounded once, each by less than 2^-24.
+/// Where rounding may decide: cosines of the engine are within 15 * 2^-24 (light_terms_test.cpp) of those of
+/// what it is given, and the normals and directions it is given were rounded once, each by less than 2^-24.
 inline constexpr Real kCosineSlack = 20 * 0x1p-24L;
 
-/// One quad: its first and third corner meet in the middle of its pixel, the last one is the provoking vertex.
+/// One quad: its first and third corner meet in the middle of its pixel, the last one is the provoking
+/// vertex.
 struct Patch {
   std::array<std::array<float, 3>, 4> normals{};
   std::array<float, 4> z{};
@@ -53,12 +54,14 @@ class LitPatches {
   std::vector<Light> lights;
   Shading shading = Shading::gouraud;
   bool normalize = true;
-  double extent = 1;                   ///< the frame shows -extent .. extent, a power of two
+  double extent = 1;  ///< the frame shows -extent .. extent, a power of two
   Real slack = kCosineSlack;
   std::array<Patch, kCount> patches{};
-  Matrix view{}, world_from_eye{};     ///< of the camera; patches are where it sees them, lights are in the world
+  Matrix view{},
+      world_from_eye{};  ///< of the camera; patches are where it sees them, lights are in the world
 
-  /// A camera turned any way, up to 10^4 frames from the world's origin; each light as it was from there, but for its rounding to floats.
+  /// A camera turned any way, up to 10^4 frames from the world's origin; each light as it was from there, but
+  /// for its rounding to floats.
   void move_camera(Draws& draws) {
     const auto [ax, ay, az] = draws.direction();
     const auto [ex, ey, ez] = draws.direction();
@@ -68,7 +71,8 @@ class LitPatches {
     const auto moved = [&](const std::array<float, 3>& v, double w) {
       std::array<float, 3> to{};
       for (std::size_t i = 0; i < 3; ++i)
-        to[i] = static_cast<float>(world_from_eye.m[4 * i] * v[0] + world_from_eye.m[4 * i + 1] * v[1] + world_from_eye.m[4 * i + 2] * v[2] + world_from_eye.m[4 * i + 3] * w);
+        to[i] = static_cast<float>(world_from_eye.m[4 * i] * v[0] + world_from_eye.m[4 * i + 1] * v[1] +
+                                   world_from_eye.m[4 * i + 2] * v[2] + world_from_eye.m[4 * i + 3] * w);
       return to;
     };
     for (Light& l : lights) {
@@ -82,10 +86,12 @@ class LitPatches {
   std::array<float, 3> corner(int patch, int k) const {
     const int column = patch % kSide + (k == 1 || k == 2), row = patch / kSide + (k < 2);
     const double scale = 2 * extent / kSide;
-    return {static_cast<float>(column * scale - extent), static_cast<float>(extent - row * scale), patches[static_cast<std::size_t>(patch)].z[static_cast<std::size_t>(k)]};
+    return {static_cast<float>(column * scale - extent), static_cast<float>(extent - row * scale),
+            patches[static_cast<std::size_t>(patch)].z[static_cast<std::size_t>(k)]};
   }
 
-  /// By how many levels of 255 what the engine stores is off, of which storing it may take half a level: the most of all pixels.
+  /// By how many levels of 255 what the engine stores is off, of which storing it may take half a level: the
+  /// most of all pixels.
   Real error_in_levels() {
     draw();
     Real worst = 0;
@@ -100,20 +106,23 @@ class LitPatches {
     return worst;
   }
   std::array<std::array<int, 3>, kCount> levels{};
-  std::size_t unsaturated = 0;         ///< components that no clamp touched, of all frames
+  std::size_t unsaturated = 0;  ///< components that no clamp touched, of all frames
 
   void draw() {
     std::vector<float> positions, normals;
     for (int p = 0; p < kCount; ++p)
       for (int k = 0; k < 4; ++k) {
-        const int turned = patches[static_cast<std::size_t>(p)].front ? k : (6 - k) % 4;  // 2 1 0 3: the last corner stays
-        const std::array<float, 3> at = corner(p, turned), n = patches[static_cast<std::size_t>(p)].normals[static_cast<std::size_t>(turned)];
+        const int turned =
+            patches[static_cast<std::size_t>(p)].front ? k : (6 - k) % 4;  // 2 1 0 3: the last corner stays
+        const std::array<float, 3> at = corner(p, turned), n = patches[static_cast<std::size_t>(p)]
+                                                                   .normals[static_cast<std::size_t>(turned)];
         positions.insert(positions.end(), at.begin(), at.end());
         normals.insert(normals.end(), n.begin(), n.end());
       }
     Frame frame(buffer_);
     frame.clear({.color = Color{0, 0, 0, 1}});
-    frame.set_camera({.view = view, .projection = orthographic(-extent, extent, -extent, extent, -4 * extent, 4 * extent)});
+    frame.set_camera({.view = view,
+                      .projection = orthographic(-extent, extent, -extent, extent, -4 * extent, 4 * extent)});
     frame.set_lights(lights);
     frame.set_light_model(model);
     DrawState state;
@@ -140,9 +149,13 @@ class LitPatches {
     const Material& used = front ? material : back_material;
     if (shading == Shading::flat) return lit_color(used, lights, model, point(p, 3), slack, front, view);
     const RealPoint a = point(p, 0), b = point(p, 2);
-    if (shading == Shading::phong) return lit_color(used, lights, model, {normalized(a.normal + b.normal), (a.position + b.position) * 0.5L}, slack, front, view);
+    if (shading == Shading::phong)
+      return lit_color(used, lights, model,
+                       {normalized(a.normal + b.normal), (a.position + b.position) * 0.5L}, slack, front,
+                       view);
     std::array<RealRange, 3> mean;
-    const auto of_a = lit_color(used, lights, model, a, slack, front, view), of_b = lit_color(used, lights, model, b, slack, front, view);
+    const auto of_a = lit_color(used, lights, model, a, slack, front, view),
+               of_b = lit_color(used, lights, model, b, slack, front, view);
     for (std::size_t c = 0; c < 3; ++c) mean[c] = 0.5L * (of_a[c] + of_b[c]);
     return mean;
   }

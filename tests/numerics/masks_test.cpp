@@ -1,4 +1,5 @@
-// Write masks, plane by plane: of whatever is drawn, in every format, exactly the bits of the mask change, and to what they would have been without it.
+// Write masks, plane by plane: of whatever is drawn, in every format, exactly the bits of the mask change,
+// and to what they would have been without it.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -30,8 +31,11 @@ MeshData with_colors(MeshData mesh) {
 
 // What they borrow is static.
 std::vector<Kind> kinds() {
-  // One triangle: of two, each with colours of its own at a pixel that both have samples of, a mean would be left.
-  static const MeshData window = with_colors({.positions = {-1, -1, 0.2f, 3, -1, 0.2f, -1, 3, 0.2f}, .indices = {0, 1, 2}}), corners = with_colors(rectangle(-0.7f, -0.8f, 0.9f, 0.6f));
+  // One triangle: of two, each with colours of its own at a pixel that both have samples of, a mean would be
+  // left.
+  static const MeshData window = with_colors(
+                            {.positions = {-1, -1, 0.2f, 3, -1, 0.2f, -1, 3, 0.2f}, .indices = {0, 1, 2}}),
+                        corners = with_colors(rectangle(-0.7f, -0.8f, 0.9f, 0.6f));
   static const std::vector<std::uint8_t> bytes = [] {
     std::vector<std::uint8_t> all;
     Random random(13);
@@ -39,7 +43,8 @@ std::vector<Kind> kinds() {
     return all;
   }();
   static const Texture texture({.pixels = bytes.data(), .width = 16, .height = 8});
-  const auto mesh = [](const MeshData& data, Primitive primitive, const std::function<void(DrawState&)>& change) {
+  const auto mesh = [](const MeshData& data, Primitive primitive,
+                       const std::function<void(DrawState&)>& change) {
     return [&data, primitive, change](Frame& frame, const FragmentState& fragments) {
       DrawState state = draw_state_of(fragments);
       state.lighting = false;
@@ -51,39 +56,58 @@ std::vector<Kind> kinds() {
       frame.draw(view, state);
     };
   };
-  return {{"one colour", true, [](Frame& frame, const FragmentState& fragments) {
-             static const MeshData plain = whole_window(0.2f);
-             DrawState state = draw_state_of(fragments);
-             state.lighting = false;
-             state.material.diffuse = {0.37f, 0.81f, 0.55f, 0.63f};
-             frame.draw(plain.view(), state);
-           }},
-          {"interpolated", true, mesh(window, Primitive::triangles, [](DrawState&) {})},
-          {"flat", true, mesh(window, Primitive::triangles, [](DrawState& s) { s.shading = Shading::flat; })},
-          {"lit at each pixel", true, mesh(window, Primitive::triangles, [](DrawState& s) {
-             s.lighting = true;
-             s.shading = Shading::phong;
-             s.color_material = ColorMaterial::ambient_and_diffuse;
-             s.material.color_indexes = {{3, 99, 200}};
-           })},
-          {"textured", true, mesh(window, Primitive::triangles, [](DrawState& s) { s.texture = &texture; })},
-          {"a part", false, mesh(corners, Primitive::triangles, [](DrawState&) {})},
-          {"lines", false, mesh(corners, Primitive::line_loop, [](DrawState&) {})},
-          {"points", false, mesh(corners, Primitive::points, [](DrawState&) {})},
-          {"outlines", false, mesh(corners, Primitive::quads, [](DrawState& s) { s.front_mode = PolygonMode::line; })},
-          {"bitmap", false, [](Frame& frame, const FragmentState& fragments) {
-             frame.draw_bitmap({.bits = bytes.data(), .width = kWidth, .height = kHeight, .color = {0.3f, 0.7f, 0.1f, 0.2f}}, fragments);
-           }},
-          {"image", true, [](Frame& frame, const FragmentState& fragments) { frame.draw_image({.pixels = bytes.data(), .width = kWidth, .height = kHeight}, fragments); }}};
+  return {
+      {"one colour", true,
+       [](Frame& frame, const FragmentState& fragments) {
+         static const MeshData plain = whole_window(0.2f);
+         DrawState state = draw_state_of(fragments);
+         state.lighting = false;
+         state.material.diffuse = {0.37f, 0.81f, 0.55f, 0.63f};
+         frame.draw(plain.view(), state);
+       }},
+      {"interpolated", true, mesh(window, Primitive::triangles, [](DrawState&) {})},
+      {"flat", true, mesh(window, Primitive::triangles, [](DrawState& s) { s.shading = Shading::flat; })},
+      {"lit at each pixel", true,
+       mesh(window, Primitive::triangles,
+            [](DrawState& s) {
+              s.lighting = true;
+              s.shading = Shading::phong;
+              s.color_material = ColorMaterial::ambient_and_diffuse;
+              s.material.color_indexes = {{3, 99, 200}};
+            })},
+      {"textured", true, mesh(window, Primitive::triangles, [](DrawState& s) { s.texture = &texture; })},
+      {"a part", false, mesh(corners, Primitive::triangles, [](DrawState&) {})},
+      {"lines", false, mesh(corners, Primitive::line_loop, [](DrawState&) {})},
+      {"points", false, mesh(corners, Primitive::points, [](DrawState&) {})},
+      {"outlines", false,
+       mesh(corners, Primitive::quads, [](DrawState& s) { s.front_mode = PolygonMode::line; })},
+      {"bitmap", false,
+       [](Frame& frame, const FragmentState& fragments) {
+         frame.draw_bitmap(
+             {.bits = bytes.data(), .width = kWidth, .height = kHeight, .color = {0.3f, 0.7f, 0.1f, 0.2f}},
+             fragments);
+       }},
+      {"image", true, [](Frame& frame, const FragmentState& fragments) {
+         frame.draw_image({.pixels = bytes.data(), .width = kWidth, .height = kHeight}, fragments);
+       }}};
 }
 
 std::vector<FrameBufferFormat> formats() {
   std::vector<FrameBufferFormat> all;
   const auto add = [&](ColorMode mode, int bits, int alpha_bits, Dither dither, int samples) {
-    all.push_back({.width = kWidth, .height = kHeight, .color_mode = mode, .color_bits = bits, .alpha_bits = alpha_bits, .dither = dither, .samples = samples});
+    all.push_back({.width = kWidth,
+                   .height = kHeight,
+                   .color_mode = mode,
+                   .color_bits = bits,
+                   .alpha_bits = alpha_bits,
+                   .dither = dither,
+                   .samples = samples});
   };
-  for (const int bits : {1, 2, 3, 8, 15, 16, 24}) add(ColorMode::rgb, bits, bits % 2 == 0 ? 8 : 0, bits == 8 || bits == 15 ? Dither::bayer4 : Dither::none, 1);
-  for (const int bits : {1, 4, 8, 24}) add(ColorMode::index, bits, 0, bits == 4 ? Dither::bayer2 : Dither::none, 1);
+  for (const int bits : {1, 2, 3, 8, 15, 16, 24})
+    add(ColorMode::rgb, bits, bits % 2 == 0 ? 8 : 0, bits == 8 || bits == 15 ? Dither::bayer4 : Dither::none,
+        1);
+  for (const int bits : {1, 4, 8, 24})
+    add(ColorMode::index, bits, 0, bits == 4 ? Dither::bayer2 : Dither::none, 1);
   add(ColorMode::rgb, 24, 8, Dither::none, 4);
   add(ColorMode::rgb, 13, 0, Dither::bayer8, 8);
   return all;
@@ -103,7 +127,8 @@ Buffers run(const FrameBufferFormat& format, const std::function<void(Frame&)>& 
   }();
   FrameBuffer buffer(format);
   Frame frame(buffer);
-  frame.draw_image({.pixels = background.data(), .width = kWidth, .height = kHeight}, {.depth = {.enabled = false}});
+  frame.draw_image({.pixels = background.data(), .width = kWidth, .height = kHeight},
+                   {.depth = {.enabled = false}});
   renderer.finish(frame);  // samples, too, begin with one word a pixel
   draw(frame);
   renderer.finish(frame);
@@ -121,10 +146,15 @@ std::vector<FragmentState> operations(const FrameBufferFormat& format) {
 TEST(Masks, ChangeTheBitsOfTheirPlanesAlone) {
   for (const FrameBufferFormat& format : formats())
     for (const Kind& kind : kinds()) {
-      if (format.samples > 1 && !kind.covers_all) continue;  // a mean of words that keep some of their bits is no word that keeps them
+      if (format.samples > 1 && !kind.covers_all)
+        continue;  // a mean of words that keep some of their bits is no word that keeps them
       for (const FragmentState& operation : operations(format)) {
-        SCOPED_TRACE(std::string(kind.name) + ", " + describe(format) + (operation.blend ? ", blended" : operation.logic_op != LogicOp::copy ? ", xor" : ""));
-        const Buffers before = run(format, [](Frame&) {}), full = run(format, [&](Frame& frame) { kind.draw(frame, operation); });
+        SCOPED_TRACE(std::string(kind.name) + ", " + describe(format) +
+                     (operation.blend                       ? ", blended"
+                      : operation.logic_op != LogicOp::copy ? ", xor"
+                                                            : ""));
+        const Buffers before = run(format, [](Frame&) {}),
+                      full = run(format, [&](Frame&frame) { kind.draw(frame, operation); });
         const int planes = format.color_bits + format.alpha_bits;
         const bool all_or_none = format.color_mode == ColorMode::index || format.color_bits <= 2;
         Random random(15);
@@ -133,17 +163,22 @@ TEST(Masks, ChangeTheBitsOfTheirPlanesAlone) {
           masked.plane_mask = turn < planes ? 1u << turn : turn == planes ? 0 : random.next();
           if (turn > planes + 1) {
             const bool red = turn % 2 == 0;
-            masked.color_mask = {red, all_or_none ? red : random.next() % 2 == 0, all_or_none ? red : random.next() % 2 == 0, random.next() % 2 == 0};
+            masked.color_mask = {red, all_or_none ? red : random.next() % 2 == 0,
+                                 all_or_none ? red : random.next() % 2 == 0, random.next() % 2 == 0};
           }
           std::uint32_t mask = 0;
           const Split split(format);
           for (std::size_t c = 0; c < 4; ++c)
-            if (masked.color_mask[c] && (format.color_mode == ColorMode::rgb || c == 3)) mask |= static_cast<std::uint32_t>(split.levels(c)) << split.shift[c];
-          if (format.color_mode == ColorMode::index) mask = masked.color_mask[0] ? (1u << format.color_bits) - 1 : 0;
+            if (masked.color_mask[c] && (format.color_mode == ColorMode::rgb || c == 3))
+              mask |= static_cast<std::uint32_t>(split.levels(c)) << split.shift[c];
+          if (format.color_mode == ColorMode::index)
+            mask = masked.color_mask[0] ? (1u << format.color_bits) - 1 : 0;
           mask &= masked.plane_mask;
           const Buffers after = run(format, [&](Frame& frame) { kind.draw(frame, masked); });
           for (std::size_t i = 0; i < after.words.size(); ++i)
-            ASSERT_EQ(after.words[i], (before.words[i] & ~mask) | (full.words[i] & mask)) << std::hex << "mask " << mask << ": " << before.words[i] << " became " << after.words[i] << ", without a mask " << full.words[i];
+            ASSERT_EQ(after.words[i], (before.words[i] & ~mask) | (full.words[i] & mask))
+                << std::hex << "mask " << mask << ": " << before.words[i] << " became " << after.words[i]
+                << ", without a mask " << full.words[i];
           ASSERT_TRUE(after.depths == full.depths) << "depth has a mask of its own";
         }
       }
@@ -151,14 +186,18 @@ TEST(Masks, ChangeTheBitsOfTheirPlanesAlone) {
 }
 
 TEST(Masks, OfDepthKeepEveryPlaneOfIt) {
-  for (const DepthFormat depth : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
+  for (const DepthFormat depth :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (const int samples : {1, 4})
       for (const Kind& kind : kinds())
         for (const bool enabled : {true, false}) {
           SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(samples) + " samples");
-          const FrameBufferFormat format{.width = kWidth, .height = kHeight, .depth = depth, .samples = samples};
-          const DepthState open{.test = Compare::always}, masked{.enabled = enabled, .test = Compare::always, .write = !enabled};
-          const Buffers before = run(format, [](Frame&) {}), full = run(format, [&](Frame& frame) { kind.draw(frame, {.depth = open}); });
+          const FrameBufferFormat format{
+              .width = kWidth, .height = kHeight, .depth = depth, .samples = samples};
+          const DepthState open{.test = Compare::always},
+              masked{.enabled = enabled, .test = Compare::always, .write = !enabled};
+          const Buffers before = run(format, [](Frame&) {}),
+                        full = run(format, [&](Frame&frame) { kind.draw(frame, {.depth = open}); });
           const Buffers after = run(format, [&](Frame& frame) { kind.draw(frame, {.depth = masked}); });
           ASSERT_TRUE(after.depths == before.depths);
           ASSERT_TRUE(after.words == full.words) << "colour is written";

@@ -1,5 +1,5 @@
-// Transforms that hardly are any: singular, mirrored, a million times longer one way than another; normals under them beside the inverse transpose in
-// long double.
+// Transforms that hardly are any: singular, mirrored, a million times longer one way than another; normals
+// under them beside the inverse transpose in long double.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -45,7 +45,8 @@ Real33 cofactors(const Real33& m, Real sign) {
   return r;
 }
 
-/// Normals that the engine makes of those of points, each point with a transform of its own, in a pixel of its own: as a capture has them.
+/// Normals that the engine makes of those of points, each point with a transform of its own, in a pixel of
+/// its own: as a capture has them.
 class NormalProbe {
  public:
   struct Case {
@@ -64,7 +65,11 @@ class NormalProbe {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       frame.set_camera({.view = cases[i].view, .projection = {}});
       frame.draw({.primitive = Primitive::points, .positions = origin, .normals = cases[i].normal},
-                 {.transform = cases[i].transform, .shading = cases[i].shading, .normalize = cases[i].normalize, .depth = {.enabled = false}, .viewport = Rect{static_cast<int>(i) % kSide, static_cast<int>(i) / kSide, 1, 1}});
+                 {.transform = cases[i].transform,
+                  .shading = cases[i].shading,
+                  .normalize = cases[i].normalize,
+                  .depth = {.enabled = false},
+                  .viewport = Rect{static_cast<int>(i) % kSide, static_cast<int>(i) / kSide, 1, 1}});
     }
     frame.capture({.normals = captured});
     renderer_.finish(frame);
@@ -87,21 +92,25 @@ Matrix turn(Draws& draws) {
 }
 /// Each axis by up to 10^`decades` or 10^-`decades`, some the other way round.
 Matrix stretch(Draws& draws, double decades) {
-  const auto any = [&] { return std::pow(10, draws.between(-decades, decades)) * (draws.one_in(2) ? -1 : 1); };
+  const auto any = [&] {
+    return std::pow(10, draws.between(-decades, decades)) * (draws.one_in(2) ? -1 : 1);
+  };
   const double x = any(), y = any();
   return scale(x, y, any());
 }
 
-// How far the direction may be off, and how surely its sign is known. An element of view times transform adds up three products (3 roundings of each,
-// of `sums`, what is added up of magnitudes); a cofactor is a difference of two products of these (two elements' errors, and two roundings), the
-// determinant adds up three (3 more).
+// How far the direction may be off, and how surely its sign is known. An element of view times transform adds
+// up three products (3 roundings of each, of `sums`, what is added up of magnitudes); a cofactor is a
+// difference of two products of these (two elements' errors, and two roundings), the determinant adds up
+// three (3 more).
 struct NormalBound {
   Real direction, determinant;
   NormalBound(const Matrix& view, const Matrix& transform, const Real3& normal, const Real3& exact) {
     const Real33 sums = real33(view, true) * real33(transform, true), most = cofactors(sums, 1);
     const Real3 magnitudes{std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])};
-    // Of the sum with the normal: 3 roundings more, one by the determinant; directions turn by the error over the length, and lose as much again as
-    // they are normalized. Then three floats are rounded at the vertex, and normalized once more at the pixel (4.5).
+    // Of the sum with the normal: 3 roundings more, one by the determinant; directions turn by the error over
+    // the length, and lose as much again as they are normalized. Then three floats are rounded at the vertex,
+    // and normalized once more at the pixel (4.5).
     direction = 2 * length(most * magnitudes) * (2 * 3 + 2 + 4) * kDouble / length(exact) + 6 * kFloat;
     determinant = dot(sums.row[0], most.row[0]) * (3 * 3 + 2 + 3) * kDouble;
   }
@@ -115,12 +124,14 @@ Real worst_direction(NormalProbe& probe, const std::vector<NormalProbe::Case>& c
     const NormalProbe::Case& c = cases[i];
     const Real33 matrix = real33(c.view) * real33(c.transform), inverse_transpose = cofactors(matrix, -1);
     const Real determinant = dot(matrix.row[0], inverse_transpose.row[0]);
-    const Real3 exact = inverse_transpose * real3(c.normal) * (determinant < 0 ? -1 : 1), got = real3(found[i]);
+    const Real3 exact = inverse_transpose * real3(c.normal) * (determinant < 0 ? -1 : 1),
+                got = real3(found[i]);
     const NormalBound bound(c.view, c.transform, real3(c.normal), exact);
     EXPECT_TRUE(std::isfinite(length(got)) && length(got) < 1.000001L);
     if (!(length(exact) > 0) || bound.direction > 1) continue;  // any direction, or none
     Real error = length(got - normalized(exact));
-    if (std::abs(determinant) <= bound.determinant) error = std::min(error, length(got + normalized(exact)));  // which side is anybody's guess
+    if (std::abs(determinant) <= bound.determinant)
+      error = std::min(error, length(got + normalized(exact)));  // which side is anybody's guess
     keep_worst(worst, error / bound.direction);
   }
   return worst;
@@ -137,11 +148,15 @@ TEST(Matrices, NormalsAreThoseOfTheInverseTranspose) {
         // 10^100 for all axes together: one that is 10^200 times as long as another leaves nothing of it.
         const double all = decades > 6 ? std::pow(10, draws.between(-decades, decades)) : 1;
         const Matrix view = draws.one_in(2) ? turn(draws) : turn(draws) * scale(1e6, 1e6, 1e6);
-        cases.push_back({view, scale(all, all, all) * turn(draws) * stretch(draws, std::min(decades, 6.0)) * turn(draws), draws.direction(), draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
+        cases.push_back(
+            {view, scale(all, all, all) * turn(draws) * stretch(draws, std::min(decades, 6.0)) * turn(draws),
+             draws.direction(), draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
       }
       keep_worst(worst, worst_direction(probe, cases));
     }
-    expect_within("normals under scalings of 10^" + std::to_string(static_cast<int>(decades)) + ", of (12 double eps of the condition + 6 * 2^-24)", worst, 1, "");
+    expect_within("normals under scalings of 10^" + std::to_string(static_cast<int>(decades)) +
+                      ", of (12 double eps of the condition + 6 * 2^-24)",
+                  worst, 1, "");
   }
 }
 
@@ -156,16 +171,20 @@ TEST(Matrices, NormalsUnderNearlySingularTransforms) {
       Matrix m;
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t r = 0; r < 3; ++r) m.m[4 * r + k] = draws.between(-1, 1);
-      const double apart = draws.one_in(4) ? 0 : std::exp2(draws.between(-60, 0)), of_a = draws.between(-1, 1), of_b = draws.one_in(8) ? 0 : draws.between(-1, 1);
+      const double apart = draws.one_in(4) ? 0 : std::exp2(draws.between(-60, 0)),
+                   of_a = draws.between(-1, 1), of_b = draws.one_in(8) ? 0 : draws.between(-1, 1);
       for (std::size_t k = 0; k < 3; ++k) {
         if (draws.one_in(16)) m.m[4 + k] = m.m[k];
         m.m[8 + k] = of_a * m.m[k] + of_b * m.m[4 + k] + apart * draws.between(-1, 1);
       }
-      cases.push_back({draws.one_in(2) ? Matrix{} : turn(draws), draws.one_in(20) ? scale(0, draws.between(-1, 1), 0) : m, draws.direction(), draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
+      cases.push_back({draws.one_in(2) ? Matrix{} : turn(draws),
+                       draws.one_in(20) ? scale(0, draws.between(-1, 1), 0) : m, draws.direction(),
+                       draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
     }
     keep_worst(worst, worst_direction(probe, cases));
   }
-  expect_within("normals under nearly singular transforms, of (12 double eps of the condition + 6 * 2^-24)", worst, 1, "");
+  expect_within("normals under nearly singular transforms, of (12 double eps of the condition + 6 * 2^-24)",
+                worst, 1, "");
 }
 
 // One axis by 10^-6 to 10^-300, or to nothing: the normals of what is left.
@@ -174,11 +193,13 @@ TEST(Matrices, NormalsOfWhatIsFlattened) {
   std::vector<NormalProbe::Case> cases;
   for (const double flat : {1e-6, 1e-100, 1e-170, 1e-300, -1e-300, 0.0})
     for (const bool normalize : {true, false})
-      for (const Shading shading : {Shading::gouraud, Shading::phong}) cases.push_back({{}, scale(1, 1, flat), {0.6f, 0.0f, 0.8f}, normalize, shading});
+      for (const Shading shading : {Shading::gouraud, Shading::phong})
+        cases.push_back({{}, scale(1, 1, flat), {0.6f, 0.0f, 0.8f}, normalize, shading});
   const std::vector<std::array<float, 3>> found = probe.normals(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const double flat = cases[i].transform.m[10];
-    if (!cases[i].normalize && cases[i].shading == Shading::gouraud && std::abs(flat) < 1e-6) continue;  // as long as floats have no room for
+    if (!cases[i].normalize && cases[i].shading == Shading::gouraud && std::abs(flat) < 1e-6)
+      continue;  // as long as floats have no room for
     EXPECT_NEAR(found[i][0], std::abs(flat) > 1e-7 ? 0.75e-6 : 0, 1e-12) << flat;
     EXPECT_FLOAT_EQ(found[i][2], flat < 0 ? -1 : 1) << flat;
   }

@@ -1,5 +1,5 @@
-// Normalization at vertices and at pixels against results of long double: the largest error in units in the last place (ulp) of what is exact. In quarters
-// of all floats, so that long runs of them go side by side.
+// Normalization at vertices and at pixels against results of long double: the largest error in units in the
+// last place (ulp) of what is exact. In quarters of all floats, so that long runs of them go side by side.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,13 +30,15 @@ struct Vectors {
       xyz.push_back(x);
       for (int k = 0; k < 2; ++k) {
         const std::uint64_t bits = random(), octaves_down = (bits & 0xffff) % 40;
-        const double size = std::bit_cast<double>((1024 - octaves_down) << 52), other = x * size * (1 + static_cast<double>(bits >> 32) * 0x1p-32);
+        const double size = std::bit_cast<double>((1024 - octaves_down) << 52),
+                     other = x * size * (1 + static_cast<double>(bits >> 32) * 0x1p-32);
         xyz.push_back(static_cast<float>((bits >> 16) % 16 == 0 ? 0 : std::min(other, largest)));
       }
     }
   }
   std::array<long double, 3> unit(std::size_t i) const {
-    const long double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2], inverse = 1 / std::sqrt(x * x + y * y + z * z);
+    const long double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2],
+                      inverse = 1 / std::sqrt(x * x + y * y + z * z);
     return {x * inverse, y * inverse, z * inverse};
   }
 };
@@ -49,7 +51,9 @@ class FunctionsNormals : public testing::TestWithParam<unsigned> {
   template <class Found>
   long double worst(float first, float last, const Found& found) {
     const std::uint64_t quarter = GetParam(), all = bits_of(last) - bits_of(first) + 1;
-    const auto border = [&](std::uint64_t n) { return static_cast<std::uint32_t>(bits_of(first) + n * all / 4); };
+    const auto border = [&](std::uint64_t n) {
+      return static_cast<std::uint32_t>(bits_of(first) + n * all / 4);
+    };
     std::mt19937_64 random(6 + quarter);
     long double most = 0;
     for_floats(border(quarter), border(quarter + 1) - 1, [&](const std::vector<float>& floats) {
@@ -66,42 +70,51 @@ class FunctionsNormals : public testing::TestWithParam<unsigned> {
     });
     return most;
   }
-  std::string row(const std::string& what) const { return what + ", quarter " + std::to_string(GetParam() + 1) + " of 4"; }
+  std::string row(const std::string& what) const {
+    return what + ", quarter " + std::to_string(GetParam() + 1) + " of 4";
+  }
 };
 
 // In double, so that squares of all floats are numbers: 3.5 roundings of 2^-53 before the one to a float.
 TEST_P(FunctionsNormals, OfVertices) {
   EyeTransform transform;
   for (int k = 0; k < 3; ++k) transform.normal_matrix[4 * k] = 1;
-  const auto found = [&](const float* xyz, float (&unit)[3][kFloatBatch]) {
-    for (std::size_t at = 0; at < kFloatBatch; at += kVertexBatch) eye_normals(available_isas().front())(transform, {xyz + 3 * at, 3}, kVertexBatch, unit[0] + at, unit[1] + at, unit[2] + at);
+  const auto found = [&](const float* xyz, float(&unit)[3][kFloatBatch]) {
+    for (std::size_t at = 0; at < kFloatBatch; at += kVertexBatch)
+      eye_normals(available_isas().front())(transform, {xyz + 3 * at, 3}, kVertexBatch, unit[0] + at,
+                                            unit[1] + at, unit[2] + at);
   };
-  expect_within(row("normalize at vertices, every float"), worst(0x1p-149f, kLargest, found), 0.50001L, "ulp");
+  expect_within(row("normalize at vertices, every float"), worst(0x1p-149f, kLargest, found), 0.50001L,
+                "ulp");
 }
 
-/// A program of lights along x, y and z, whose diffuse parts are what the points' normals are, in red, green and blue.
+/// A program of lights along x, y and z, whose diffuse parts are what the points' normals are, in red, green
+/// and blue.
 LightingProgram normals_as_colors() {
   std::vector<EyeLight> lights(3);
   for (std::size_t k = 0; k < 3; ++k) {
     lights[k].position = lights[k].diffuse = lights[k].specular = {0, 0, 0};
     lights[k].position[k] = lights[k].diffuse[k] = 1;
   }
-  LightingProgram program = plan_lighting({.ambient = {0, 0, 0}, .diffuse = {1, 1, 1}}, {}, lights, {.scene_ambient = {0, 0, 0}}, nullptr);
+  LightingProgram program = plan_lighting({.ambient = {0, 0, 0}, .diffuse = {1, 1, 1}}, {}, lights,
+                                          {.scene_ambient = {0, 0, 0}}, nullptr);
   program.renormalize = true;
   return program;
 }
 
-// In floats: of the squared length 3 roundings, half of which stay; of the root, its reciprocal and the product one each.
+// In floats: of the squared length 3 roundings, half of which stay; of the root, its reciprocal and the
+// product one each.
 TEST_P(FunctionsNormals, OfPixels) {
   const LightingProgram program = normals_as_colors();
-  const auto found = [&](const float* xyz, float (&unit)[3][kFloatBatch]) {
+  const auto found = [&](const float* xyz, float(&unit)[3][kFloatBatch]) {
     ShadingBatch batch{};
     for (std::size_t i = 0; i < kFloatBatch; ++i)
       for (std::size_t k = 0; k < 3; ++k) batch.field[kNormalX + k][i] = xyz[3 * i + k];
     light_points(available_isas().front())(program, batch, kBatchPoints);
     for (std::size_t k = 0; k < 3; ++k) std::copy_n(batch.field[kColorR + k], kFloatBatch, unit[k]);
   };
-  expect_within(row("normalize at pixels, lengths of 2^-60 to 2^60"), worst(0x1p-60f, 0x1p60f, found), 4.5, "ulp");
+  expect_within(row("normalize at pixels, lengths of 2^-60 to 2^60"), worst(0x1p-60f, 0x1p60f, found), 4.5,
+                "ulp");
 }
 
 INSTANTIATE_TEST_SUITE_P(Quarters, FunctionsNormals, testing::Range(0u, 4u));

@@ -1,5 +1,6 @@
-// Odd numbers in a mesh's arrays, for every primitive: what is not finite drops the primitives that have it, no more and no fewer, and is counted; what is finite, however large or small,
-// is drawn, the same on every instruction set. Sizes and indices that do not fit are refused when the mesh is drawn.
+// Odd numbers in a mesh's arrays, for every primitive: what is not finite drops the primitives that have it,
+// no more and no fewer, and is counted; what is finite, however large or small, is drawn, the same on every
+// instruction set. Sizes and indices that do not fit are refused when the mesh is drawn.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +16,10 @@ namespace tessera::test {
 namespace {
 
 constexpr int kVertices = 24;  // makes whole primitives of all kinds
-constexpr Primitive kPrimitives[] = {Primitive::points, Primitive::lines, Primitive::line_strip, Primitive::line_loop, Primitive::triangles, Primitive::triangle_strip, Primitive::triangle_fan, Primitive::quads, Primitive::quad_strip, Primitive::polygon};
+constexpr Primitive kPrimitives[] = {Primitive::points,       Primitive::lines,     Primitive::line_strip,
+                                     Primitive::line_loop,    Primitive::triangles, Primitive::triangle_strip,
+                                     Primitive::triangle_fan, Primitive::quads,     Primitive::quad_strip,
+                                     Primitive::polygon};
 
 using Element = std::vector<std::uint32_t>;
 
@@ -23,18 +27,32 @@ using Element = std::vector<std::uint32_t>;
 std::vector<Element> elements_of(Primitive primitive, std::uint32_t n) {
   std::vector<Element> elements;
   switch (primitive) {
-    case Primitive::points: for (std::uint32_t i = 0; i < n; ++i) elements.push_back({i}); break;
-    case Primitive::lines: for (std::uint32_t i = 0; i + 1 < n; i += 2) elements.push_back({i, i + 1}); break;
+    case Primitive::points:
+      for (std::uint32_t i = 0; i < n; ++i) elements.push_back({i});
+      break;
+    case Primitive::lines:
+      for (std::uint32_t i = 0; i + 1 < n; i += 2) elements.push_back({i, i + 1});
+      break;
     case Primitive::line_strip:
     case Primitive::line_loop:
       for (std::uint32_t i = 0; i + 1 < n; ++i) elements.push_back({i, i + 1});
       if (primitive == Primitive::line_loop) elements.push_back({n - 1, 0});
       break;
-    case Primitive::triangles: for (std::uint32_t i = 0; i + 2 < n; i += 3) elements.push_back({i, i + 1, i + 2}); break;
-    case Primitive::triangle_strip: for (std::uint32_t i = 0; i + 2 < n; ++i) elements.push_back({i + i % 2, i + 1 - i % 2, i + 2}); break;
-    case Primitive::triangle_fan: for (std::uint32_t i = 0; i + 2 < n; ++i) elements.push_back({0, i + 1, i + 2}); break;
-    case Primitive::quads: for (std::uint32_t i = 0; i + 3 < n; i += 4) elements.push_back({i, i + 1, i + 2, i + 3}); break;
-    case Primitive::quad_strip: for (std::uint32_t i = 0; i + 3 < n; i += 2) elements.push_back({i, i + 1, i + 3, i + 2}); break;
+    case Primitive::triangles:
+      for (std::uint32_t i = 0; i + 2 < n; i += 3) elements.push_back({i, i + 1, i + 2});
+      break;
+    case Primitive::triangle_strip:
+      for (std::uint32_t i = 0; i + 2 < n; ++i) elements.push_back({i + i % 2, i + 1 - i % 2, i + 2});
+      break;
+    case Primitive::triangle_fan:
+      for (std::uint32_t i = 0; i + 2 < n; ++i) elements.push_back({0, i + 1, i + 2});
+      break;
+    case Primitive::quads:
+      for (std::uint32_t i = 0; i + 3 < n; i += 4) elements.push_back({i, i + 1, i + 2, i + 3});
+      break;
+    case Primitive::quad_strip:
+      for (std::uint32_t i = 0; i + 3 < n; i += 2) elements.push_back({i, i + 1, i + 3, i + 2});
+      break;
     case Primitive::polygon:
       elements.emplace_back();
       for (std::uint32_t i = 0; i < n; ++i) elements.back().push_back(i);
@@ -44,7 +62,8 @@ std::vector<Element> elements_of(Primitive primitive, std::uint32_t n) {
 }
 std::uint64_t counted(const Element& e) { return e.size() < 3 ? 1 : e.size() - 2; }  // as FrameStats has it
 
-// Everywhere in the window; but for the positions all vertices have the same, so that it does not matter how what is left is drawn.
+// Everywhere in the window; but for the positions all vertices have the same, so that it does not matter how
+// what is left is drawn.
 MeshData mesh_of(Primitive primitive) {
   MeshData mesh;
   mesh.primitive = primitive;
@@ -52,7 +71,9 @@ MeshData mesh_of(Primitive primitive) {
   for (int i = 0; i < kVertices; ++i) {
     const double angle = 6.2831853 * i / kVertices;  // around, for the polygon to be convex
     const bool round = primitive == Primitive::polygon || primitive == Primitive::triangle_fan;
-    for (const double c : {round ? std::cos(angle) * 0.9 : random.between(-0.9f, 0.9f), round ? std::sin(angle) * 0.8 : random.between(-0.9f, 0.9f), 0.3}) mesh.positions.push_back(static_cast<float>(c));
+    for (const double c : {round ? std::cos(angle) * 0.9 : random.between(-0.9f, 0.9f),
+                           round ? std::sin(angle) * 0.8 : random.between(-0.9f, 0.9f), 0.3})
+      mesh.positions.push_back(static_cast<float>(c));
     mesh.normals.insert(mesh.normals.end(), {0.3f, 0.1f, 0.9f});
     mesh.colors.insert(mesh.colors.end(), {0.2f, 0.5f, 0.9f, 1});
     mesh.texcoords.insert(mesh.texcoords.end(), {0.3f, 0.6f});
@@ -65,7 +86,8 @@ struct Drawn {
   Fingerprint fingerprint;
   FrameStats stats;
 };
-Drawn draw(const MeshData& mesh, const DrawState& state, const FrameBufferFormat& format, InstructionSet set = InstructionSet::automatic) {
+Drawn draw(const MeshData& mesh, const DrawState& state, const FrameBufferFormat& format,
+           InstructionSet set = InstructionSet::automatic) {
   FrameBuffer buffer(format);
   Frame frame(buffer);
   frame.clear({.color = Color{0.1f, 0.1f, 0.1f, 1}});
@@ -79,15 +101,16 @@ MeshData without(const MeshData& mesh, std::uint32_t vertex, std::uint64_t& drop
   MeshData rest = mesh;
   const std::vector<Element> elements = elements_of(mesh.primitive, kVertices);
   const std::size_t corners = elements.front().size();
-  rest.primitive = corners == 1 ? Primitive::points : corners == 2 ? Primitive::lines : corners == 3 ? Primitive::triangles : Primitive::quads;
+  rest.primitive = corners == 1   ? Primitive::points
+                   : corners == 2 ? Primitive::lines
+                   : corners == 3 ? Primitive::triangles
+                                  : Primitive::quads;
   dropped = 0;
   rest.indices.clear();
   for (const Element& e : elements) {
     const bool has = std::find(e.begin(), e.end(), vertex) != e.end();
-    if (has)
-      dropped += counted(e);
-    else
-      rest.indices.insert(rest.indices.end(), e.begin(), e.end());
+    if (has) dropped += counted(e);
+    else rest.indices.insert(rest.indices.end(), e.begin(), e.end());
   }
   if (rest.indices.empty()) rest = {};
   return rest;
@@ -101,11 +124,18 @@ struct Array {
 };
 std::vector<Array> arrays() {
   const auto index = [](const FrameBufferFormat& f) { return f.color_mode == ColorMode::index; };
-  return {{"positions", &MeshData::positions, 3, [](const DrawState&, const FrameBufferFormat&) { return true; }},
-          {"normals", &MeshData::normals, 3, [](const DrawState& s, const FrameBufferFormat&) { return s.lighting; }},
-          {"colors", &MeshData::colors, 4, [=](const DrawState& s, const FrameBufferFormat& f) { return !index(f) && (!s.lighting || s.color_material != ColorMaterial::none); }},
-          {"texcoords", &MeshData::texcoords, 2, [=](const DrawState& s, const FrameBufferFormat& f) { return s.texture != nullptr && !index(f); }},
-          {"color_indices", &MeshData::color_indices, 1, [=](const DrawState& s, const FrameBufferFormat& f) { return index(f) && !s.lighting; }}};
+  return {
+      {"positions", &MeshData::positions, 3, [](const DrawState&, const FrameBufferFormat&) { return true; }},
+      {"normals", &MeshData::normals, 3,
+       [](const DrawState& s, const FrameBufferFormat&) { return s.lighting; }},
+      {"colors", &MeshData::colors, 4,
+       [=](const DrawState& s, const FrameBufferFormat& f) {
+         return !index(f) && (!s.lighting || s.color_material != ColorMaterial::none);
+       }},
+      {"texcoords", &MeshData::texcoords, 2,
+       [=](const DrawState& s, const FrameBufferFormat& f) { return s.texture != nullptr && !index(f); }},
+      {"color_indices", &MeshData::color_indices, 1,
+       [=](const DrawState& s, const FrameBufferFormat& f) { return index(f) && !s.lighting; }}};
 }
 
 const Texture& some_texture() {
@@ -114,7 +144,8 @@ const Texture& some_texture() {
   return texture;
 }
 
-/// Calls check(state, format) for shadings, textures, polygon modes, samples and formats, one turn after the other.
+/// Calls check(state, format) for shadings, textures, polygon modes, samples and formats, one turn after the
+/// other.
 template <class Check>
 void for_each_way(const Check& check) {
   int turn = 0;
@@ -139,7 +170,9 @@ void for_each_way(const Check& check) {
 }
 
 TEST(OddData, WhatIsNotFiniteDropsThePrimitivesThatHaveIt) {
-  constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::signaling_NaN(), std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+  constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::signaling_NaN(),
+                            std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
   Random random(24);
   for (const Primitive primitive : kPrimitives)
     for_each_way([&](const DrawState& state, const FrameBufferFormat& format) {
@@ -147,15 +180,18 @@ TEST(OddData, WhatIsNotFiniteDropsThePrimitivesThatHaveIt) {
       for (const Array& array : arrays()) {
         MeshData bad = good;
         const std::uint32_t vertex = random.next() % kVertices;
-        (bad.*array.values)[array.each * vertex + random.next() % array.each] = kOdd[random.next() % std::size(kOdd)];
+        (bad.*array.values)[array.each * vertex + random.next() % array.each] =
+            kOdd[random.next() % std::size(kOdd)];
         std::uint64_t dropped = 0;
         const MeshData rest = array.matters(state, format) ? without(good, vertex, dropped) : good;
         const Drawn found = draw(bad, state, format), expected = draw(rest, state, format);
         EXPECT_EQ(found.fingerprint, expected.fingerprint) << "what is left";
         EXPECT_EQ(found.stats.dropped_non_finite, dropped);
         if (testing::Test::HasFailure()) {
-          ADD_FAILURE() << "primitive " << static_cast<int>(primitive) << ", " << array.name << " of vertex " << vertex << ", " << (state.lighting ? "lit" : "unlit") << ", shading " << static_cast<int>(state.shading) << ", mode "
-                        << static_cast<int>(state.front_mode) << ", cull " << static_cast<int>(state.cull) << ", " << describe(format);
+          ADD_FAILURE() << "primitive " << static_cast<int>(primitive) << ", " << array.name << " of vertex "
+                        << vertex << ", " << (state.lighting ? "lit" : "unlit") << ", shading "
+                        << static_cast<int>(state.shading) << ", mode " << static_cast<int>(state.front_mode)
+                        << ", cull " << static_cast<int>(state.cull) << ", " << describe(format);
           return;
         }
       }
@@ -181,12 +217,14 @@ TEST(OddData, WhatIsFiniteIsDrawnTheSameOnEveryInstructionSet) {
           const Drawn found = draw(odd, state, format, set);
           EXPECT_EQ(found.stats.dropped_non_finite, 0u) << array.name;
           if (!first) first = found.fingerprint;
-          EXPECT_EQ(found.fingerprint, *first) << array.name << " of primitive " << static_cast<int>(primitive) << " on " << name(set);
+          EXPECT_EQ(found.fingerprint, *first)
+              << array.name << " of primitive " << static_cast<int>(primitive) << " on " << name(set);
         }
       }
       // Outside of where it may draw there is the clear alone.
       MeshData odd = mesh_of(primitive);
-      for (int k = 0; k < 9; ++k) odd.positions[random.next() % odd.positions.size()] = values[random.next() % values.size()];
+      for (int k = 0; k < 9; ++k)
+        odd.positions[random.next() % odd.positions.size()] = values[random.next() % values.size()];
       FrameBuffer buffer(format);
       Frame frame(buffer);
       frame.draw(odd.view(), state);
@@ -195,12 +233,14 @@ TEST(OddData, WhatIsFiniteIsDrawnTheSameOnEveryInstructionSet) {
       for (int y = 0; y < format.height; ++y)
         for (int x = 0; x < format.width; ++x)
           if (!contains(state.viewport, x, y) || !contains(state.scissor, x, y)) {
-            ASSERT_EQ(words[static_cast<std::size_t>((format.height - 1 - y) * format.width + x)], 0u) << x << ", " << y;
+            ASSERT_EQ(words[static_cast<std::size_t>((format.height - 1 - y) * format.width + x)], 0u)
+                << x << ", " << y;
           }
     });
 }
 
-// Vertices at the same position share a normal; what is no number is at none, and must not be looked for among all others of its kind.
+// Vertices at the same position share a normal; what is no number is at none, and must not be looked for
+// among all others of its kind.
 TEST(OddData, ManyVerticesThatAreNoNumbersTakeNoLonger) {
   const std::vector<float> positions(3 * 300000, std::numeric_limits<float>::quiet_NaN());
   FrameBuffer buffer({.width = 40, .height = 30});
@@ -209,7 +249,8 @@ TEST(OddData, ManyVerticesThatAreNoNumbersTakeNoLonger) {
   const std::clock_t begin = std::clock();
   const FrameStats stats = Renderer({.threads = 1}).finish(frame);
   EXPECT_EQ(stats.dropped_non_finite, 100000u);
-  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10) << "a search through all of them, for each: minutes";
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10)
+      << "a search through all of them, for each: minutes";
 }
 
 TEST(OddData, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
@@ -217,16 +258,21 @@ TEST(OddData, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
   for (const Primitive primitive : kPrimitives) {
     MeshData data = mesh_of(primitive);
     std::vector<std::uint16_t> narrow;
-    for (std::uint32_t i = 0; i < kVertices; ++i) data.indices.push_back(i), narrow.push_back(static_cast<std::uint16_t>(i));
+    for (std::uint32_t i = 0; i < kVertices; ++i)
+      data.indices.push_back(i), narrow.push_back(static_cast<std::uint16_t>(i));
     Frame frame(buffer);
     const auto error = [&](const Mesh& mesh) { return error_of([&] { frame.draw(mesh); }).value_or(""); };
-    for (const std::size_t place : {std::size_t{0}, std::size_t{1}, std::size_t{13}, std::size_t{kVertices - 1}})
-      for (const std::uint32_t wrong : {std::uint32_t{kVertices}, 0x7fffu, 0xffffu, 0x80000000u, 0xffffffffu}) {
+    for (const std::size_t place :
+         {std::size_t{0}, std::size_t{1}, std::size_t{13}, std::size_t{kVertices - 1}})
+      for (const std::uint32_t wrong :
+           {std::uint32_t{kVertices}, 0x7fffu, 0xffffu, 0x80000000u, 0xffffffffu}) {
         std::vector<std::uint32_t> wide = data.indices;
         wide[place] = wrong;
         Mesh mesh = data.view();
         mesh.indices = wide;
-        EXPECT_THAT(error(mesh), testing::AllOf(testing::HasSubstr("index " + std::to_string(place) + " "), testing::HasSubstr(std::to_string(wrong)), testing::HasSubstr("24")));
+        EXPECT_THAT(error(mesh),
+                    testing::AllOf(testing::HasSubstr("index " + std::to_string(place) + " "),
+                                   testing::HasSubstr(std::to_string(wrong)), testing::HasSubstr("24")));
         if (wrong > 0xffff) continue;
         std::vector<std::uint16_t> half = narrow;
         half[place] = static_cast<std::uint16_t>(wrong);
@@ -242,7 +288,8 @@ TEST(OddData, SizesThatWrapAreRefused) {
   FrameBuffer buffer({.width = 8, .height = 8});
   Frame frame(buffer);
   constexpr std::size_t kQuarter = std::size_t{1} << 62, kMost = std::numeric_limits<std::size_t>::max();
-  for (const std::size_t wrong : {kQuarter, kQuarter + 3, kMost, kMost / 4, kMost / 3 + 1, std::size_t{1} << 32})
+  for (const std::size_t wrong :
+       {kQuarter, kQuarter + 3, kMost, kMost / 4, kMost / 3 + 1, std::size_t{1} << 32})
     for (const int components : {3, 4}) {
       Mesh mesh{.positions = FloatArray(floats.data(), wrong, 0), .position_components = components};
       EXPECT_TRUE(error_of([&] { frame.draw(mesh); })) << wrong << " positions of " << components;
@@ -266,7 +313,8 @@ TEST(OddData, SizesThatWrapAreRefused) {
       EXPECT_TRUE(error_of([&] { frame.draw(mesh); })) << wrong << " indices";
       for (const int bits : {0, -32, 8, 31, 64}) {
         mesh.indices.count = 6, mesh.indices.bits = bits;
-        EXPECT_THAT(error_of([&] { frame.draw(mesh); }).value_or(""), testing::HasSubstr(std::to_string(bits) + " bits"));
+        EXPECT_THAT(error_of([&] { frame.draw(mesh); }).value_or(""),
+                    testing::HasSubstr(std::to_string(bits) + " bits"));
       }
     }
   EXPECT_EQ(frame.draw_count(), 0u);

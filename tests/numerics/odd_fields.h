@@ -1,5 +1,6 @@
-// The table of every number in the structs of the interface: where it stands, which values of it are refused, and by which call. A struct that gets another member fails to
-// compile here; its row belongs beside the others of it.
+// The table of every number in the structs of the interface: where it stands, which values of it are refused,
+// and by which call. A struct that gets another member fails to compile here; its row belongs beside the
+// others of it.
 #pragma once
 
 #include <cstdio>
@@ -16,11 +17,11 @@ enum class Verdict { fine, refused, either };
 /// One number, and the odd values that it is given.
 struct Field {
   std::string name;
-  const char* call;                                           ///< that refuses it
+  const char* call;  ///< that refuses it
   std::size_t values = 0;
-  std::function<bool(World&, std::size_t)> set;               ///< false: that world has no such number
+  std::function<bool(World&, std::size_t)> set;  ///< false: that world has no such number
   std::function<Verdict(std::size_t)> verdict;
-  std::function<std::vector<std::string>(std::size_t)> found; ///< how a message may name the value
+  std::function<std::vector<std::string>(std::size_t)> found;  ///< how a message may name the value
 };
 
 template <class T>
@@ -32,8 +33,11 @@ std::vector<std::string> texts_of(T value) {
 
 /// @param at  World& -> T*, null where that world has none
 template <class T, class At, class Rule>
-Field field(std::string name, const char* call, const At& at, const Rule& rule, const std::vector<T>& values) {
-  return {std::move(name), call, values.size(),
+Field field(std::string name, const char* call, const At& at, const Rule& rule,
+            const std::vector<T>& values) {
+  return {std::move(name),
+          call,
+          values.size(),
           [=](World& world, std::size_t i) {
             T* const place = at(world);
             if (place != nullptr) *place = values[i];
@@ -41,10 +45,8 @@ Field field(std::string name, const char* call, const At& at, const Rule& rule, 
           },
           [=](std::size_t i) { return rule(values[i]); },
           [=](std::size_t i) {
-            if constexpr (std::is_enum_v<T>)
-              return texts_of(static_cast<unsigned>(values[i]));
-            else
-              return texts_of(values[i]);
+            if constexpr (std::is_enum_v<T>) return texts_of(static_cast<unsigned>(values[i]));
+            else return texts_of(values[i]);
           }};
 }
 template <class At>
@@ -59,28 +61,44 @@ class Fields {
     all.push_back(field<NumberAt<At>>(name, call, at, rule, odd_values<NumberAt<At>>()));
   }
   template <class At, class Rule>
-  void number(const std::string& name, const char* call, const At& at, const Rule& rule, const std::vector<NumberAt<At>>& values) {
+  void number(const std::string& name, const char* call, const At& at, const Rule& rule,
+              const std::vector<NumberAt<At>>& values) {
     all.push_back(field<NumberAt<At>>(name, call, at, rule, values));
   }
   /// Each of several numbers, side by side.
   template <class At, class Rule>
   void numbers(const std::string& name, const char* call, int count, const At& at, const Rule& rule) {
-    for (int i = 0; i < count; ++i) number(name + "[" + std::to_string(i) + "]", call, [at, i](World& w) { auto* first = at(w); return first == nullptr ? nullptr : first + i; }, rule);
+    for (int i = 0; i < count; ++i)
+      number(
+          name + "[" + std::to_string(i) + "]", call,
+          [at, i](World& w) {
+            auto* first = at(w);
+            return first == nullptr ? nullptr : first + i;
+          },
+          rule);
   }
   template <class At, class Rule>
   void color(const std::string& name, const char* call, const At& at, const Rule& rule) {
-    numbers(name, call, 4, [at](World& w) { Color* const c = at(w); return c == nullptr ? nullptr : &c->r; }, rule);
+    numbers(
+        name, call, 4,
+        [at](World& w) {
+          Color* const c = at(w);
+          return c == nullptr ? nullptr : &c->r;
+        },
+        rule);
   }
   /// An enumeration: what lies beyond its last value.
   template <class At>
   void choice(const std::string& name, const char* call, const At& at, NumberAt<At> last) {
     using Enum = NumberAt<At>;
     const unsigned beyond = static_cast<unsigned>(last) + 1;
-    all.push_back(field<Enum>(name, call, at, [](Enum) { return Verdict::refused; }, {static_cast<Enum>(beyond), static_cast<Enum>(127), static_cast<Enum>(255)}));
+    all.push_back(field<Enum>(name, call, at, [](Enum) { return Verdict::refused; },
+                              {static_cast<Enum>(beyond), static_cast<Enum>(127), static_cast<Enum>(255)}));
   }
   /// @param at  World& -> std::optional<Rect>*
   template <class At, class Position, class Size>
-  void rect(const std::string& name, const char* call, const At& at, const Position& position, const Size& size) {
+  void rect(const std::string& name, const char* call, const At& at, const Position& position,
+            const Size& size) {
     const auto part = [at](int Rect::*member) {
       return [at, member](World& w) -> int* {
         std::optional<Rect>* const rect = at(w);
@@ -108,38 +126,68 @@ inline Verdict not_negative(double v) { return v >= 0 ? Verdict::fine : Verdict:
 
 inline void add_material(Fields& f, const std::string& name, const std::function<Material*(World&)>& at) {
   const auto part = [at](auto member) {
-    return [at, member](World& w) { Material* const m = at(w); return m == nullptr ? nullptr : &(m->*member); };
+    return [at, member](World& w) {
+      Material* const m = at(w);
+      return m == nullptr ? nullptr : &(m->*member);
+    };
   };
-  [[maybe_unused]] const auto know = [](const Material& m) { [[maybe_unused]] const auto& [ambient, diffuse, specular, emission, shininess, color_indexes] = m; };
+  [[maybe_unused]] const auto know = [](const Material& m) {
+    [[maybe_unused]] const auto& [ambient, diffuse, specular, emission, shininess, color_indexes] = m;
+  };
   f.color(name + ".ambient", "Frame::draw", part(&Material::ambient), finite);
   f.color(name + ".diffuse", "Frame::draw", part(&Material::diffuse), finite);
   f.color(name + ".specular", "Frame::draw", part(&Material::specular), finite);
   f.color(name + ".emission", "Frame::draw", part(&Material::emission), finite);
   f.number(name + ".shininess", "Frame::draw", part(&Material::shininess), within(0, 16384));
-  f.numbers(name + ".color_indexes", "Frame::draw", 3, [at](World& w) { Material* const m = at(w); return m == nullptr || !m->color_indexes ? nullptr : m->color_indexes->data(); }, finite);
+  f.numbers(
+      name + ".color_indexes", "Frame::draw", 3,
+      [at](World& w) {
+        Material* const m = at(w);
+        return m == nullptr || !m->color_indexes ? nullptr : m->color_indexes->data();
+      },
+      finite);
 }
 
 inline void add_lights(Fields& f) {
   [[maybe_unused]] const auto know = [](const Light& l, const LightModel& m) {
-    [[maybe_unused]] const auto& [ambient, diffuse, specular, position, spot_direction, spot_exponent, spot_cutoff, constant, linear, quadratic] = l;
+    [[maybe_unused]] const auto& [ambient, diffuse, specular, position, spot_direction, spot_exponent,
+                                  spot_cutoff, constant, linear, quadratic] = l;
     [[maybe_unused]] const auto& [scene_ambient, local_viewer, two_sided, highlight] = m;
   };
   for (const std::size_t i : {0, 1}) {
     const std::string name = "lights[" + std::to_string(i) + "]";
     constexpr const char* kCall = "Frame::set_lights";
-    f.color(name + ".ambient", kCall, [i](World& w) { return &w.lights[i].ambient; }, finite);
-    f.color(name + ".diffuse", kCall, [i](World& w) { return &w.lights[i].diffuse; }, finite);
-    f.color(name + ".specular", kCall, [i](World& w) { return &w.lights[i].specular; }, finite);
-    f.numbers(name + ".position", kCall, 4, [i](World& w) { return w.lights[i].position.data(); }, finite);
-    f.numbers(name + ".spot_direction", kCall, 3, [i](World& w) { return w.lights[i].spot_direction.data(); }, finite);
-    f.number(name + ".spot_exponent", kCall, [i](World& w) { return &w.lights[i].spot_exponent; }, within(0, 16384));
-    f.number(name + ".spot_cutoff", kCall, [i](World& w) { return &w.lights[i].spot_cutoff; }, cutoff);
-    f.number(name + ".attenuation_constant", kCall, [i](World& w) { return &w.lights[i].attenuation_constant; }, finite);
-    f.number(name + ".attenuation_linear", kCall, [i](World& w) { return &w.lights[i].attenuation_linear; }, finite);
-    f.number(name + ".attenuation_quadratic", kCall, [i](World& w) { return &w.lights[i].attenuation_quadratic; }, finite);
+    f.color(
+        name + ".ambient", kCall, [i](World& w) { return &w.lights[i].ambient; }, finite);
+    f.color(
+        name + ".diffuse", kCall, [i](World& w) { return &w.lights[i].diffuse; }, finite);
+    f.color(
+        name + ".specular", kCall, [i](World& w) { return &w.lights[i].specular; }, finite);
+    f.numbers(
+        name + ".position", kCall, 4, [i](World& w) { return w.lights[i].position.data(); }, finite);
+    f.numbers(
+        name + ".spot_direction", kCall, 3, [i](World& w) { return w.lights[i].spot_direction.data(); },
+        finite);
+    f.number(
+        name + ".spot_exponent", kCall, [i](World& w) { return &w.lights[i].spot_exponent; },
+        within(0, 16384));
+    f.number(
+        name + ".spot_cutoff", kCall, [i](World& w) { return &w.lights[i].spot_cutoff; }, cutoff);
+    f.number(
+        name + ".attenuation_constant", kCall, [i](World& w) { return &w.lights[i].attenuation_constant; },
+        finite);
+    f.number(
+        name + ".attenuation_linear", kCall, [i](World& w) { return &w.lights[i].attenuation_linear; },
+        finite);
+    f.number(
+        name + ".attenuation_quadratic", kCall, [i](World& w) { return &w.lights[i].attenuation_quadratic; },
+        finite);
   }
-  f.color("light_model.ambient", "Frame::set_light_model", [](World& w) { return &w.model.ambient; }, finite);
-  f.choice("light_model.specular", "Frame::set_light_model", [](World& w) { return &w.model.specular; }, Highlight::phong);
+  f.color(
+      "light_model.ambient", "Frame::set_light_model", [](World& w) { return &w.model.ambient; }, finite);
+  f.choice(
+      "light_model.specular", "Frame::set_light_model", [](World& w) { return &w.model.specular; },
+      Highlight::phong);
 }
 
 inline void add_clear_and_accum(Fields& f) {
@@ -148,31 +196,51 @@ inline void add_clear_and_accum(Fields& f) {
     [[maybe_unused]] const auto& [op, value, accum_scissor, color_mask] = a;
   };
   const auto optional = [](auto& o) { return o ? &*o : nullptr; };
-  f.color("clear.color", "Frame::clear", [=](World& w) { return optional(w.clear.color); }, within(0, 1));
-  f.number("clear.index", "Frame::clear", [=](World& w) { return optional(w.clear.index); }, within(0, 255));
-  f.number("clear.depth", "Frame::clear", [=](World& w) { return optional(w.clear.depth); }, within(0, 1));
-  f.number("clear.stencil", "Frame::clear", [=](World& w) { return optional(w.clear.stencil); }, within(0, 31));
-  f.color("clear.accumulation", "Frame::clear", [=](World& w) { return optional(w.clear.accumulation); }, within(-1, 1));
-  f.rect("clear.scissor", "Frame::clear", [](World& w) { return &w.clear.scissor; }, anything, not_negative);
-  f.number("accum.value", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->value : nullptr; }, finite);
-  f.choice("accum.op", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->op : nullptr; }, AccumOp::return_);
-  f.rect("accum.scissor", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->scissor : nullptr; }, anything, not_negative);
+  f.color(
+      "clear.color", "Frame::clear", [=](World& w) { return optional(w.clear.color); }, within(0, 1));
+  f.number(
+      "clear.index", "Frame::clear", [=](World& w) { return optional(w.clear.index); }, within(0, 255));
+  f.number(
+      "clear.depth", "Frame::clear", [=](World& w) { return optional(w.clear.depth); }, within(0, 1));
+  f.number(
+      "clear.stencil", "Frame::clear", [=](World& w) { return optional(w.clear.stencil); }, within(0, 31));
+  f.color(
+      "clear.accumulation", "Frame::clear", [=](World& w) { return optional(w.clear.accumulation); },
+      within(-1, 1));
+  f.rect(
+      "clear.scissor", "Frame::clear", [](World& w) { return &w.clear.scissor; }, anything, not_negative);
+  f.number(
+      "accum.value", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->value : nullptr; },
+      finite);
+  f.choice(
+      "accum.op", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->op : nullptr; },
+      AccumOp::return_);
+  f.rect(
+      "accum.scissor", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->scissor : nullptr; },
+      anything, not_negative);
 }
 
 /// What draws, bitmaps and images have in common.
 template <class StateAt>
 void add_fragments(Fields& f, const std::string& name, const char* call, const StateAt& at) {
-  [[maybe_unused]] const auto know = [](const FragmentState& s, const DepthState& d, const AlphaTest& a, const StencilState& st, const StencilFace& sf, const BlendState& b) {
-    [[maybe_unused]] const auto& [depth, alpha_test, stencil, blend, logic_op, color_mask, plane_mask, scissor] = s;
+  [[maybe_unused]] const auto know = [](const FragmentState& s, const DepthState& d, const AlphaTest& a,
+                                        const StencilState& st, const StencilFace& sf, const BlendState& b) {
+    [[maybe_unused]] const auto& [depth, alpha_test, stencil, blend, logic_op, color_mask, plane_mask,
+                                  scissor] = s;
     [[maybe_unused]] const auto& [enabled, test, write] = d;
     [[maybe_unused]] const auto& [func, ref] = a;
     [[maybe_unused]] const auto& [front, back] = st;
     [[maybe_unused]] const auto& [stencil_func, stencil_ref, mask, fail, zfail, zpass, write_mask] = sf;
     [[maybe_unused]] const auto& [src, dst, src_alpha, dst_alpha, equation, color] = b;
   };
-  f.choice(name + ".depth.test", call, [at](World& w) { return &at(w).depth.test; }, Compare::always);
-  f.number(name + ".alpha_test.ref", call, [at](World& w) { return at(w).alpha_test ? &at(w).alpha_test->ref : nullptr; }, within(0, 1));
-  f.choice(name + ".alpha_test.func", call, [at](World& w) { return at(w).alpha_test ? &at(w).alpha_test->func : nullptr; }, Compare::always);
+  f.choice(
+      name + ".depth.test", call, [at](World& w) { return &at(w).depth.test; }, Compare::always);
+  f.number(
+      name + ".alpha_test.ref", call,
+      [at](World& w) { return at(w).alpha_test ? &at(w).alpha_test->ref : nullptr; }, within(0, 1));
+  f.choice(
+      name + ".alpha_test.func", call,
+      [at](World& w) { return at(w).alpha_test ? &at(w).alpha_test->func : nullptr; }, Compare::always);
   for (const bool back : {false, true}) {
     const std::string face_name = name + (back ? ".stencil.back" : ".stencil.front");
     const auto face = [at, back](World& w) -> StencilFace* {
@@ -180,7 +248,10 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
       return !stencil ? nullptr : !back ? &stencil->front : stencil->back ? &*stencil->back : nullptr;
     };
     const auto part = [face](auto member) {
-      return [face, member](World& w) { StencilFace* const s = face(w); return s == nullptr ? nullptr : &(s->*member); };
+      return [face, member](World& w) {
+        StencilFace* const s = face(w);
+        return s == nullptr ? nullptr : &(s->*member);
+      };
     };
     f.number(face_name + ".ref", call, part(&StencilFace::ref), anything);
     f.number(face_name + ".mask", call, part(&StencilFace::mask), anything);
@@ -190,15 +261,33 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
     f.choice(face_name + ".zfail", call, part(&StencilFace::zfail), StencilOp::decr_wrap);
     f.choice(face_name + ".zpass", call, part(&StencilFace::zpass), StencilOp::decr_wrap);
   }
-  f.color(name + ".blend.color", call, [at](World& w) { return at(w).blend ? &at(w).blend->color : nullptr; }, within(0, 1));
-  f.choice(name + ".blend.src", call, [at](World& w) { return at(w).blend ? &at(w).blend->src : nullptr; }, BlendFactor::src_alpha_saturate);
-  f.choice(name + ".blend.dst", call, [at](World& w) { return at(w).blend ? &at(w).blend->dst : nullptr; }, BlendFactor::src_alpha_saturate);
-  f.choice(name + ".blend.src_alpha", call, [at](World& w) { return at(w).blend ? &at(w).blend->src_alpha.emplace() : nullptr; }, BlendFactor::src_alpha_saturate);
-  f.choice(name + ".blend.dst_alpha", call, [at](World& w) { return at(w).blend ? &at(w).blend->dst_alpha.emplace() : nullptr; }, BlendFactor::src_alpha_saturate);
-  f.choice(name + ".blend.equation", call, [at](World& w) { return at(w).blend ? &at(w).blend->equation : nullptr; }, BlendEquation::max);
-  f.choice(name + ".logic_op", call, [at](World& w) { return at(w).blend ? nullptr : &at(w).logic_op; }, LogicOp::set);
-  f.number(name + ".plane_mask", call, [at](World& w) { return &at(w).plane_mask; }, anything);
-  f.rect(name + ".scissor", call, [at](World& w) { return &at(w).scissor; }, anything, not_negative);
+  f.color(
+      name + ".blend.color", call, [at](World& w) { return at(w).blend ? &at(w).blend->color : nullptr; },
+      within(0, 1));
+  f.choice(
+      name + ".blend.src", call, [at](World& w) { return at(w).blend ? &at(w).blend->src : nullptr; },
+      BlendFactor::src_alpha_saturate);
+  f.choice(
+      name + ".blend.dst", call, [at](World& w) { return at(w).blend ? &at(w).blend->dst : nullptr; },
+      BlendFactor::src_alpha_saturate);
+  f.choice(
+      name + ".blend.src_alpha", call,
+      [at](World& w) { return at(w).blend ? &at(w).blend->src_alpha.emplace() : nullptr; },
+      BlendFactor::src_alpha_saturate);
+  f.choice(
+      name + ".blend.dst_alpha", call,
+      [at](World& w) { return at(w).blend ? &at(w).blend->dst_alpha.emplace() : nullptr; },
+      BlendFactor::src_alpha_saturate);
+  f.choice(
+      name + ".blend.equation", call,
+      [at](World& w) { return at(w).blend ? &at(w).blend->equation : nullptr; }, BlendEquation::max);
+  f.choice(
+      name + ".logic_op", call, [at](World& w) { return at(w).blend ? nullptr : &at(w).logic_op; },
+      LogicOp::set);
+  f.number(
+      name + ".plane_mask", call, [at](World& w) { return &at(w).plane_mask; }, anything);
+  f.rect(
+      name + ".scissor", call, [at](World& w) { return &at(w).scissor; }, anything, not_negative);
 }
 
 }  // namespace tessera::test

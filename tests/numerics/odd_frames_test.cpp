@@ -1,5 +1,5 @@
-// Frames in which many numbers are odd at a time: fields of the table of odd_fields.h and numbers of the mesh, any of them. The same on every instruction set and tile size, shaded at
-// once or later.
+// Frames in which many numbers are odd at a time: fields of the table of odd_fields.h and numbers of the
+// mesh, any of them. The same on every instruction set and tile size, shaded at once or later.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/odd_draw_fields.h"
@@ -10,18 +10,22 @@ namespace {
 
 // Any exponent that a number of its type can have.
 double of_any_size(Random& random, int lowest, int highest) {
-  const double size = std::ldexp(1.0 + random.between(0, 1), lowest + static_cast<int>(random.next() % static_cast<unsigned>(highest - lowest)));
+  const double size =
+      std::ldexp(1.0 + random.between(0, 1),
+                 lowest + static_cast<int>(random.next() % static_cast<unsigned>(highest - lowest)));
   return random.next() % 2 == 0 ? size : -size;
 }
 
 void spoil_mesh(MeshData& mesh, Random& random) {
   static const std::vector<float> odd = odd_values<float>();
-  for (std::vector<float>* const numbers : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.texcoords, &mesh.color_indices}) {
+  for (std::vector<float>* const numbers :
+       {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.texcoords, &mesh.color_indices}) {
     if (random.next() % 6 == 0) numbers->clear();
     if (numbers == &mesh.positions && numbers->empty()) continue;
     for (float& number : *numbers) {
       if (random.next() % 12 != 0) continue;
-      number = random.next() % 2 == 0 ? odd[random.next() % odd.size()] : static_cast<float>(of_any_size(random, -149, 127));
+      number = random.next() % 2 == 0 ? odd[random.next() % odd.size()]
+                                      : static_cast<float>(of_any_size(random, -149, 127));
     }
   }
   if (mesh.positions.empty()) mesh = {};
@@ -30,7 +34,10 @@ void spoil_mesh(MeshData& mesh, Random& random) {
 TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
   const std::vector<World> all = worlds();
   std::vector<Field> fields = all_fields();
-  std::erase_if(fields, [](const Field& f) { return f.name.starts_with("format.") || f.name.starts_with("options.") || f.name.starts_with("target.") || f.name.starts_with("texture."); });
+  std::erase_if(fields, [](const Field& f) {
+    return f.name.starts_with("format.") || f.name.starts_with("options.") || f.name.starts_with("target.") ||
+           f.name.starts_with("texture.");
+  });
   std::size_t finished = 0, rounds = long_tests() ? 40000 : 600;
   constexpr std::size_t kWrongOnce = 26531;
   for (std::size_t n = 0; n <= rounds; ++n) {
@@ -39,7 +46,9 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
     World world = all[random.next() % all.size()];
     SCOPED_TRACE("round " + std::to_string(round) + ", " + world.name);
     world.data.primitive = static_cast<Primitive>(random.next() % 10);
-    if (random.next() % 2 == 0) world.state.front_mode = static_cast<PolygonMode>(random.next() % 3), world.state.back_mode = static_cast<PolygonMode>(random.next() % 3);
+    if (random.next() % 2 == 0)
+      world.state.front_mode = static_cast<PolygonMode>(random.next() % 3),
+      world.state.back_mode = static_cast<PolygonMode>(random.next() % 3);
     spoil_mesh(world.data, random);
     for (std::size_t k = random.next() % 12; k > 0; --k) {
       const Field& field = fields[random.next() % fields.size()];
@@ -47,7 +56,8 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
       if (field.verdict(value) != Verdict::refused) field.set(world, value);
     }
     if (random.next() % 4 == 0)
-      for (double& element : world.camera.projection.m) element = random.next() % 2 == 0 ? of_any_size(random, -1022, 1023) : element;
+      for (double& element : world.camera.projection.m)
+        element = random.next() % 2 == 0 ? of_any_size(random, -1022, 1023) : element;
     if (random.next() % 8 == 0) {
       const double scale = std::ldexp(1.0, static_cast<int>(random.next() % 2000) - 1000);
       for (double& element : world.camera.projection.m) element = std::clamp(element * scale, -1e308, 1e308);
@@ -61,7 +71,8 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
         const Outcome outcome = run(copy, set);
         if (!first) first = outcome;
         ASSERT_EQ(outcome.message, first->message);
-        ASSERT_EQ(outcome.fingerprint, first->fingerprint) << "on " << name(set) << ", tiles of " << tile_size;
+        ASSERT_EQ(outcome.fingerprint, first->fingerprint)
+            << "on " << name(set) << ", tiles of " << tile_size;
         ASSERT_TRUE(outcome.shown == first->shown);
         finished += outcome.refused_by.empty();
       }

@@ -1,5 +1,5 @@
-// Odd numbers in the helpers that make matrices, one and two at a time: an error, or a matrix of finite numbers. Those that do not compute, and products, have no
-// errors: what takes a matrix has.
+// Odd numbers in the helpers that make matrices, one and two at a time: an error, or a matrix of finite
+// numbers. Those that do not compute, and products, have no errors: what takes a matrix has.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <limits>
 #include <string>
 
-#include "tests/numerics/odd_values.h"
 #include "tests/engine/api_support.h"
+#include "tests/numerics/odd_values.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
@@ -33,20 +33,44 @@ Light light_at(const Numbers& n, std::size_t first) {
 
 std::vector<Helper> helpers() {
   return {{"rotate", {30, 0.1, 0.7, 0.3}, [](const Numbers& n) { return rotate(n[0], n[1], n[2], n[3]); }},
-          {"look_at", {0.1, 0.7, 3.3, 0.2, -0.1, 0.3, 0.1, 1, 0.2}, [](const Numbers& n) { return look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}); }},
-          {"perspective", {47, 1.3, 0.1, 77}, [](const Numbers& n) { return perspective(n[0], n[1], n[2], n[3]); }},
-          {"perspective, reversed", {47, 1.3, 0.1, 77}, [](const Numbers& n) { return perspective(n[0], n[1], n[2], n[3], true); }},
-          {"frustum", {-0.1, 0.3, -0.7, 0.2, 0.1, 33}, [](const Numbers& n) { return frustum(n[0], n[1], n[2], n[3], n[4], n[5]); }},
-          {"frustum, reversed", {-0.1, 0.3, -0.7, 0.2, 0.1, 33}, [](const Numbers& n) { return frustum(n[0], n[1], n[2], n[3], n[4], n[5], true); }},
-          {"orthographic", {-0.1, 0.3, -0.7, 0.2, -2, 33}, [](const Numbers& n) { return orthographic(n[0], n[1], n[2], n[3], n[4], n[5]); }},
-          {"orthographic, reversed", {-0.1, 0.3, -0.7, 0.2, -2, 33}, [](const Numbers& n) { return orthographic(n[0], n[1], n[2], n[3], n[4], n[5], true); }},
-          {"calibrated_camera", {333, 313, 100, 77, 0.1, 33}, [](const Numbers& n) { return calibrated_camera({n[0], n[1], n[2], n[3], 201, 151}, {}, n[4], n[5]).projection; }},
-          {"calibrated_camera, camera_from_world", {0.9, 0.1, 0.3, 2, -0.1, 0.8, 0.2, 1, 0.3, -0.2, 0.9, 5, 0, 0, 0, 1}, [](const Numbers& n) {
+          {"look_at",
+           {0.1, 0.7, 3.3, 0.2, -0.1, 0.3, 0.1, 1, 0.2},
+           [](const Numbers& n) {
+             return look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]});
+           }},
+          {"perspective",
+           {47, 1.3, 0.1, 77},
+           [](const Numbers& n) { return perspective(n[0], n[1], n[2], n[3]); }},
+          {"perspective, reversed",
+           {47, 1.3, 0.1, 77},
+           [](const Numbers& n) { return perspective(n[0], n[1], n[2], n[3], true); }},
+          {"frustum",
+           {-0.1, 0.3, -0.7, 0.2, 0.1, 33},
+           [](const Numbers& n) { return frustum(n[0], n[1], n[2], n[3], n[4], n[5]); }},
+          {"frustum, reversed",
+           {-0.1, 0.3, -0.7, 0.2, 0.1, 33},
+           [](const Numbers& n) { return frustum(n[0], n[1], n[2], n[3], n[4], n[5], true); }},
+          {"orthographic",
+           {-0.1, 0.3, -0.7, 0.2, -2, 33},
+           [](const Numbers& n) { return orthographic(n[0], n[1], n[2], n[3], n[4], n[5]); }},
+          {"orthographic, reversed",
+           {-0.1, 0.3, -0.7, 0.2, -2, 33},
+           [](const Numbers& n) { return orthographic(n[0], n[1], n[2], n[3], n[4], n[5], true); }},
+          {"calibrated_camera",
+           {333, 313, 100, 77, 0.1, 33},
+           [](const Numbers& n) {
+             return calibrated_camera({n[0], n[1], n[2], n[3], 201, 151}, {}, n[4], n[5]).projection;
+           }},
+          {"calibrated_camera, camera_from_world",
+           {0.9, 0.1, 0.3, 2, -0.1, 0.8, 0.2, 1, 0.3, -0.2, 0.9, 5, 0, 0, 0, 1},
+           [](const Numbers& n) {
              Matrix camera_from_world;
              std::copy(n.begin(), n.end(), camera_from_world.m.begin());
              return calibrated_camera({333, 313, 100, 77, 201, 151}, camera_from_world, 0.1, 33).view;
            }},
-          {"planar_shadow", {0.1, 0.9, 0.2, 0.3, 0.1, 3.3, 0.7, 1}, [](const Numbers& n) { return planar_shadow({n[0], n[1], n[2], n[3]}, light_at(n, 4)); }}};
+          {"planar_shadow", {0.1, 0.9, 0.2, 0.3, 0.1, 3.3, 0.7, 1}, [](const Numbers& n) {
+             return planar_shadow({n[0], n[1], n[2], n[3]}, light_at(n, 4));
+           }}};
 }
 
 void expect_error_or_finite(const Helper& helper, const Numbers& numbers) {
@@ -77,7 +101,8 @@ TEST(OddMatrices, OfOneOddNumberAreErrorsOrFinite) {
         numbers[i] = odd;
         expect_error_or_finite(helper, numbers);
         if (!std::isnan(odd)) continue;
-        EXPECT_TRUE(error_of([&] { helper.make(numbers); })) << helper.name << ", number " << i << " is not a number";
+        EXPECT_TRUE(error_of([&] { helper.make(numbers); }))
+            << helper.name << ", number " << i << " is not a number";
       }
 }
 
@@ -108,14 +133,19 @@ TEST(OddMatrices, OfNumbersInAnyUnitAreErrorsOrFinite) {
 TEST(OddMatrices, OfPicturesWithoutPixelsAreErrors) {
   for (const int size : odd_values<int>())
     for (const bool wide : {false, true}) {
-      const auto make = [&] { return calibrated_camera({333, 313, 100, 77, wide ? size : 200, wide ? 150 : size}, {}, 0.1, 33); };
+      const auto make = [&] {
+        return calibrated_camera({333, 313, 100, 77, wide ? size : 200, wide ? 150 : size}, {}, 0.1, 33);
+      };
       EXPECT_EQ(error_of(make).has_value(), size < 1) << size;
     }
 }
 
 TEST(OddMatrices, OfAxesThatThereAreNoneOfAreErrors) {
   for (const int odd : {2, 127, 255})
-    EXPECT_THAT(error_of([&] { calibrated_camera({333, 313, 100, 77, 201, 151}, {}, 0.1, 33, static_cast<CameraAxes>(odd)); }).value_or(""), testing::HasSubstr("axes is " + std::to_string(odd)));
+    EXPECT_THAT(error_of([&] {
+                  calibrated_camera({333, 313, 100, 77, 201, 151}, {}, 0.1, 33, static_cast<CameraAxes>(odd));
+                }).value_or(""),
+                testing::HasSubstr("axes is " + std::to_string(odd)));
 }
 
 // Each number in its own place, to the bit, and nothing else changed.
@@ -125,14 +155,17 @@ TEST(OddMatrices, OfTranslationsAndScalesHoldTheNumbersThemselves) {
     const double x = odd[i], y = odd[(i + 7) % odd.size()], z = odd[(i + 19) % odd.size()];
     Matrix moved, stretched;
     moved.m[3] = stretched.m[0] = x, moved.m[7] = stretched.m[5] = y, moved.m[11] = stretched.m[10] = z;
-    const auto bits = [](const Matrix& matrix) { return std::bit_cast<std::array<std::uint64_t, 16>>(matrix.m); };
+    const auto bits = [](const Matrix& matrix) {
+      return std::bit_cast<std::array<std::uint64_t, 16>>(matrix.m);
+    };
     EXPECT_EQ(bits(translate(x, y, z)), bits(moved)) << x << " " << y << " " << z;
     EXPECT_EQ(bits(scale(x, y, z)), bits(stretched)) << x << " " << y << " " << z;
   }
 }
 
-// Each element is the sum of its four products: a NaN where one of them is or infinities differ, infinite where one is, else within its roundings. (Where sizes
-// of finite products sum up to more than a number can be, what comes out is a matter of their order.)
+// Each element is the sum of its four products: a NaN where one of them is or infinities differ, infinite
+// where one is, else within its roundings. (Where sizes of finite products sum up to more than a number can
+// be, what comes out is a matter of their order.)
 TEST(OddMatrices, OfProductsAreWhatTheNumbersComeTo) {
   const std::vector<double> odd = values();
   Random random(24);
@@ -140,12 +173,14 @@ TEST(OddMatrices, OfProductsAreWhatTheNumbersComeTo) {
   for (int n = 0; n < 20000; ++n) {
     Matrix left, right;
     for (Matrix* const matrix : {&left, &right})
-      for (double& element : matrix->m) element = random.next() % 8 == 0 ? odd[random.next() % odd.size()] : random.between(-3, 3);
+      for (double& element : matrix->m)
+        element = random.next() % 8 == 0 ? odd[random.next() % odd.size()] : random.between(-3, 3);
     const Matrix product = left * right;
     for (std::size_t at = 0; at < 16; ++at) {
       long double sum = 0, sizes = 0;
       for (std::size_t k = 0; k < 4; ++k) {
-        const long double term = static_cast<long double>(left.m[at / 4 * 4 + k]) * static_cast<long double>(right.m[4 * k + at % 4]);
+        const long double term = static_cast<long double>(left.m[at / 4 * 4 + k]) *
+                                 static_cast<long double>(right.m[4 * k + at % 4]);
         const double product_of_two = static_cast<double>(term);  // beyond the doubles' range it is infinite
         sum += product_of_two;
         if (std::isfinite(product_of_two)) sizes += std::abs(term);
@@ -165,7 +200,8 @@ TEST(OddMatrices, OfProductsAreWhatTheNumbersComeTo) {
       }
     }
   }
-  EXPECT_TRUE(numbers > 10000 && infinite > 10000 && not_numbers > 10000) << numbers << " " << infinite << " " << not_numbers;
+  EXPECT_TRUE(numbers > 10000 && infinite > 10000 && not_numbers > 10000)
+      << numbers << " " << infinite << " " << not_numbers;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What frame buffers are asked for by odd numbers: distances by any projection, whatever background, planes of no buffer. An error that names what was found, or the formula's distances.
+// What frame buffers are asked for by odd numbers: distances by any projection, whatever background, planes
+// of no buffer. An error that names what was found, or the formula's distances.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +33,9 @@ struct Depths {
     Renderer({.threads = 1}).finish(frame);
     std::vector<std::uint32_t> words(kColumns);
     buffer.read_depth_words(words);
-    for (const std::uint32_t word : words) stored.push_back(format == DepthFormat::float32 ? Real{std::bit_cast<float>(word)} : word / Real{0xffffff});
+    for (const std::uint32_t word : words)
+      stored.push_back(format == DepthFormat::float32 ? Real{std::bit_cast<float>(word)}
+                                                      : word / Real{0xffffff});
   }
   std::vector<float> distances(const Camera& camera, float background = -1) const {
     std::vector<float> all(kColumns, 7.0f);
@@ -42,12 +45,18 @@ struct Depths {
 };
 
 std::vector<Camera> cameras() {
-  return {{.projection = perspective(47, 1.3, 0.1, 77)}, {.projection = perspective(47, 1.3, 0.1, kInfinity)}, {.projection = perspective(47, 1.3, 0.1, 77, true), .reversed = true},
-          {.projection = perspective(47, 1.3, 0.1, kInfinity, true), .reversed = true}, {.projection = orthographic(-1, 3, -2, 2, -2, 33)}, {.projection = orthographic(-1, 3, -2, 2, -2, 33, true), .reversed = true}};
+  return {{.projection = perspective(47, 1.3, 0.1, 77)},
+          {.projection = perspective(47, 1.3, 0.1, kInfinity)},
+          {.projection = perspective(47, 1.3, 0.1, 77, true), .reversed = true},
+          {.projection = perspective(47, 1.3, 0.1, kInfinity, true), .reversed = true},
+          {.projection = orthographic(-1, 3, -2, 2, -2, 33)},
+          {.projection = orthographic(-1, 3, -2, 2, -2, 33, true), .reversed = true}};
 }
 
-// z of the eye solves (a z + b) / (c z + e) = depth; its distance is -z. Products and differences are of doubles.
-void expect_distances(const Depths& depths, const Camera& camera, const std::vector<float>& found, const std::string& where) {
+// z of the eye solves (a z + b) / (c z + e) = depth; its distance is -z. Products and differences are of
+// doubles.
+void expect_distances(const Depths& depths, const Camera& camera, const std::vector<float>& found,
+                      const std::string& where) {
   const auto& m = camera.projection.m;
   const Real a = m[10], b = m[11], c = m[14], e = m[15];
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -56,10 +65,14 @@ void expect_distances(const Depths& depths, const Camera& camera, const std::vec
       continue;
     }
     ASSERT_FALSE(std::isnan(found[i])) << where;
-    const Real z = camera.reversed ? depths.stored[i] : 2 * depths.stored[i] - 1, over = e * z - b, under = c * z - a;
-    const Real over_off = 0x1p-51L * (std::abs(e) + std::abs(b)), under_off = 0x1p-51L * (std::abs(c) + std::abs(a));
+    const Real z = camera.reversed ? depths.stored[i] : 2 * depths.stored[i] - 1, over = e * z - b,
+               under = c * z - a;
+    const Real over_off = 0x1p-51L * (std::abs(e) + std::abs(b)),
+               under_off = 0x1p-51L * (std::abs(c) + std::abs(a));
     if (!(std::abs(under) > 2 * under_off)) continue;  // as far away as roundings have it
-    const Real exact = over / under, off = 0x1p-24L * std::abs(exact) + 2 * (over_off + std::abs(exact) * under_off) / std::abs(under) + 0x1p-149L;
+    const Real exact = over / under, off = 0x1p-24L * std::abs(exact) +
+                                           2 * (over_off + std::abs(exact) * under_off) / std::abs(under) +
+                                           0x1p-149L;
     if (std::abs(exact) + off > 0x1p127L) continue;  // next to what a float can be, or beyond
     EXPECT_LE(std::abs(found[i] - exact), off) << where << ", depth " << depths.stored[i];
   }
@@ -80,17 +93,21 @@ TEST(OddReading, DistancesByOddProjectionsAreErrorsOrTheFormulas) {
             camera.projection.m[i] = first;
             camera.projection.m[j] = j == i ? first : odd[(i + 3 * j + turn++) % odd.size()];
             const auto& m = camera.projection.m;
-            const bool finite = std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); }), straight = m[8] == 0 && m[9] == 0 && m[12] == 0 && m[13] == 0;
+            const bool finite = std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); }),
+                       straight = m[8] == 0 && m[9] == 0 && m[12] == 0 && m[13] == 0;
             std::optional<std::vector<float>> found;
             const std::string message = error_of([&] { found = depths.distances(camera); }).value_or("");
-            const std::string where = "elements " + std::to_string(i) + " and " + std::to_string(j) + ": " + std::to_string(m[i]) + ", " + std::to_string(m[j]);
+            const std::string where = "elements " + std::to_string(i) + " and " + std::to_string(j) + ": " +
+                                      std::to_string(m[i]) + ", " + std::to_string(m[j]);
             if (!found) {
               ++refused;
               const Real ae = Real{m[10]} * m[15], bc = Real{m[11]} * m[14];
               const bool alike = std::abs(ae - bc) <= 0x1p-49L * (std::abs(ae) + std::abs(bc));
               // Products of numbers 2^1000 times as small as the largest are 0.
-              const Real largest = std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
-              EXPECT_TRUE(!finite || !straight || alike || std::abs(ae - bc) < 0x1p-1000L * largest * largest) << where << ": " << message;
+              const Real largest =
+                  std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
+              EXPECT_TRUE(!finite || !straight || alike || std::abs(ae - bc) < 0x1p-1000L * largest * largest)
+                  << where << ": " << message;
               EXPECT_THAT(message, testing::StartsWith("FrameBuffer::read_view_depth: projection")) << where;
               continue;
             }
@@ -109,10 +126,13 @@ TEST(OddReading, DistancesOfOneForAllDepthsAreErrors) {
   const Depths depths(DepthFormat::unorm24);
   const auto error = [&](double a, double b, double c, double e) {
     Camera camera;
-    camera.projection.m[10] = a, camera.projection.m[11] = b, camera.projection.m[14] = c, camera.projection.m[15] = e;
+    camera.projection.m[10] = a, camera.projection.m[11] = b, camera.projection.m[14] = c,
+    camera.projection.m[15] = e;
     return error_of([&] { depths.distances(camera); }).value_or("");
   };
-  EXPECT_EQ(error(0, 0, 0, 0), "FrameBuffer::read_view_depth: projection's rows of z and w are 0, 0, 0, 0 and 0, 0, 0, 0, they must not be multiples of each other, or all depths are the same");
+  EXPECT_EQ(error(0, 0, 0, 0),
+            "FrameBuffer::read_view_depth: projection's rows of z and w are 0, 0, 0, 0 and 0, 0, 0, 0, they "
+            "must not be multiples of each other, or all depths are the same");
   EXPECT_THAT(error(2, 4, 1, 2), testing::HasSubstr("0, 0, 2, 4 and 0, 0, 1, 2"));
   EXPECT_THAT(error(0, 0, 0, 1), testing::HasSubstr("multiples"));
   EXPECT_THAT(error(1.1, 2.2, 3.3 * (1 + 0x1p-52), 6.6), testing::HasSubstr("multiples"));
@@ -122,7 +142,8 @@ TEST(OddReading, DistancesOfOneForAllDepthsAreErrors) {
   EXPECT_THAT(error_of([&] { depths.distances(oblique); }).value_or(""), testing::HasSubstr("0.25, 0,"));
 }
 
-// A projection is as good as any multiple of it; the view has no say; the background is what it is, to the bit.
+// A projection is as good as any multiple of it; the view has no say; the background is what it is, to the
+// bit.
 TEST(OddReading, DistancesDependOnNothingElse) {
   for (const DepthFormat format : {DepthFormat::unorm24, DepthFormat::float32}) {
     const Depths depths(format);
@@ -141,7 +162,8 @@ TEST(OddReading, DistancesDependOnNothingElse) {
       for (const float background : odd_values<float>()) {
         const std::vector<float> found = depths.distances(plain, background);
         for (std::size_t i = 0; i < found.size(); ++i)
-          EXPECT_EQ(std::bit_cast<std::uint32_t>(found[i]), std::bit_cast<std::uint32_t>(expected[i] == -1 ? background : expected[i]));
+          EXPECT_EQ(std::bit_cast<std::uint32_t>(found[i]),
+                    std::bit_cast<std::uint32_t>(expected[i] == -1 ? background : expected[i]));
       }
     }
   }
@@ -158,9 +180,13 @@ TEST(OddReading, WhatIsNoBufferHasNoPlanes) {
     const auto which = static_cast<Buffer>(odd);
     EXPECT_EQ(buffer.plane_count(which), 0) << odd;
     EXPECT_EQ(buffer.allocated_bytes(which), 0u) << odd;
-    for (const int k : odd_values<int>()) EXPECT_THAT(error_of([&] { buffer.plane(which, k); }).value_or(""), testing::HasSubstr("buffer is " + std::to_string(odd))) << k;
+    for (const int k : odd_values<int>())
+      EXPECT_THAT(error_of([&] { buffer.plane(which, k); }).value_or(""),
+                  testing::HasSubstr("buffer is " + std::to_string(odd)))
+          << k;
   }
-  for (const int k : odd_values<int>()) EXPECT_EQ(error_of([&] { buffer.plane(Buffer::stencil, k); }).has_value(), k < 0 || k > 7) << k;
+  for (const int k : odd_values<int>())
+    EXPECT_EQ(error_of([&] { buffer.plane(Buffer::stencil, k); }).has_value(), k < 0 || k > 7) << k;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Frame buffers of the smallest, the largest and crooked sizes: what is drawn is what a larger buffer shows there, and planes, words, read-back and scan-out agree to the bit.
+// Frame buffers of the smallest, the largest and crooked sizes: what is drawn is what a larger buffer shows
+// there, and planes, words, read-back and scan-out agree to the bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +15,11 @@ namespace {
 struct Size {
   int width, height;
 };
-constexpr Size kSizes[] = {{1, 1}, {1, 16384}, {16384, 1}, {2, 3}, {3, 16383}, {16383, 2}, {31, 33}, {63, 65}, {129, 127}, {1, 4097}, {257, 1}};
+constexpr Size kSizes[] = {{1, 1},   {1, 16384}, {16384, 1}, {2, 3},    {3, 16383}, {16383, 2},
+                           {31, 33}, {63, 65},   {129, 127}, {1, 4097}, {257, 1}};
 
-/// Draws of every kind under a viewport that is larger than any of the buffers in one direction, so that each shows its lower left part of it.
+/// Draws of every kind under a viewport that is larger than any of the buffers in one direction, so that each
+/// shows its lower left part of it.
 struct Scene {
   Rect viewport;
   MeshData mesh, lines, points;
@@ -27,8 +30,11 @@ struct Scene {
     for (int i = 0; i < 60; ++i)
       for (int k = 0; k < 3; ++k) {
         // Near the lower left corner, and along the whole of the long side.
-        mesh.positions.insert(mesh.positions.end(), {random.between(-1.2f, i % 2 == 0 ? 1.2f : -0.9f), random.between(-1.2f, i % 3 == 0 ? 1.2f : -0.9f), random.between(-0.9f, 0.9f)});
-        mesh.colors.insert(mesh.colors.end(), {random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)});
+        mesh.positions.insert(mesh.positions.end(), {random.between(-1.2f, i % 2 == 0 ? 1.2f : -0.9f),
+                                                     random.between(-1.2f, i % 3 == 0 ? 1.2f : -0.9f),
+                                                     random.between(-0.9f, 0.9f)});
+        mesh.colors.insert(mesh.colors.end(), {random.between(0, 1), random.between(0, 1),
+                                               random.between(0, 1), random.between(0, 1)});
         mesh.color_indices.push_back(random.between(0, 255));
       }
     lines = points = mesh;
@@ -45,13 +51,27 @@ struct Scene {
     DrawState state = unlit({0.9f, 0.2f, 0.4f, 0.5f});
     state.viewport = viewport;
     state.line_width = state.point_size = 3;
-    if (format.stencil_bits > 0) state.stencil = StencilState{.front = {.zfail = StencilOp::incr_wrap, .zpass = StencilOp::invert}};
+    if (format.stencil_bits > 0)
+      state.stencil = StencilState{.front = {.zfail = StencilOp::incr_wrap, .zpass = StencilOp::invert}};
     frame.draw(mesh.view(), state);
     if (!index) state.blend.emplace();
     frame.draw(lines.view(), state);
     frame.draw(points.view(), state);
-    frame.draw_image({.pixels = bytes.data(), .width = 40, .height = 40, .x = -3, .y = -2, .zoom_x = 1.3, .zoom_y = 0.7, .depth = 0.4});
-    frame.draw_bitmap({.bits = bytes.data(), .width = 40, .height = 40, .x = -7, .y = -5, .depth = 0.3, .color = {0.1f, 0.9f, 0.7f, 1}});
+    frame.draw_image({.pixels = bytes.data(),
+                      .width = 40,
+                      .height = 40,
+                      .x = -3,
+                      .y = -2,
+                      .zoom_x = 1.3,
+                      .zoom_y = 0.7,
+                      .depth = 0.4});
+    frame.draw_bitmap({.bits = bytes.data(),
+                       .width = 40,
+                       .height = 40,
+                       .x = -7,
+                       .y = -5,
+                       .depth = 0.3,
+                       .color = {0.1f, 0.9f, 0.7f, 1}});
     frame.clear({.color = Color{0.5f, 0, 0.5f, 1}, .scissor = Rect{0, 0, 1, 1}});
     if (format.accumulation_bits > 0) {
       frame.accumulate({.op = AccumOp::load, .value = 0.7});
@@ -63,10 +83,14 @@ struct Scene {
 std::vector<FrameBufferFormat> formats(Size size) {
   const FrameBufferFormat base{.width = size.width, .height = size.height};
   std::vector<FrameBufferFormat> all(5, base);
-  all[1].color_bits = 15, all[1].depth = DepthFormat::float32, all[1].alpha_bits = 8, all[1].dither = Dither::bayer4, all[1].accumulation_bits = 16, all[1].stencil_bits = 3;
-  all[2].color_mode = ColorMode::index, all[2].color_bits = 7, all[2].depth = DepthFormat::unorm16, all[2].stencil_bits = 1;
-  all[3].samples = 4, all[3].depth = DepthFormat::unorm32, all[3].accumulation_bits = 32, all[3].color_bits = 23;
-  all[4].color_bits = 1, all[4].depth = DepthFormat::none, all[4].stencil_bits = 0, all[4].dither = Dither::bayer8;
+  all[1].color_bits = 15, all[1].depth = DepthFormat::float32, all[1].alpha_bits = 8,
+  all[1].dither = Dither::bayer4, all[1].accumulation_bits = 16, all[1].stencil_bits = 3;
+  all[2].color_mode = ColorMode::index, all[2].color_bits = 7, all[2].depth = DepthFormat::unorm16,
+  all[2].stencil_bits = 1;
+  all[3].samples = 4, all[3].depth = DepthFormat::unorm32, all[3].accumulation_bits = 32,
+  all[3].color_bits = 23;
+  all[4].color_bits = 1, all[4].depth = DepthFormat::none, all[4].stencil_bits = 0,
+  all[4].dither = Dither::bayer8;
   return all;
 }
 
@@ -79,20 +103,34 @@ void expect_planes(const FrameBuffer& buffer, Buffer which, const std::vector<Wo
     ASSERT_EQ(plane.height, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)
-        ASSERT_EQ(plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1, static_cast<int>(words[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] >> k & 1u)) << "plane " << k << " at " << x << ", " << y;
+        ASSERT_EQ(plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1,
+                  static_cast<int>(words[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                         static_cast<std::size_t>(x)] >>
+                                       k &
+                                   1u))
+            << "plane " << k << " at " << x << ", " << y;
   }
 }
 
-/// Into memory with a margin, whose rows go up where `upwards`; what lies outside of the part keeps its value.
-std::vector<std::uint8_t> shown(const FrameBuffer& buffer, PixelOrder order, bool upwards, const std::optional<Rect>& part, const std::function<void(const ImageTarget&)>& write) {
+/// Into memory with a margin, whose rows go up where `upwards`; what lies outside of the part keeps its
+/// value.
+std::vector<std::uint8_t> shown(const FrameBuffer& buffer, PixelOrder order, bool upwards,
+                                const std::optional<Rect>& part,
+                                const std::function<void(const ImageTarget&)>& write) {
   const int width = buffer.format().width, height = buffer.format().height;
   const std::ptrdiff_t stride = 4 * std::ptrdiff_t{width} + 12;
   std::vector<std::uint8_t> memory(static_cast<std::size_t>(stride * height), 0xcd), rows;
-  write({.pixels = memory.data() + (upwards ? stride * (height - 1) : 0), .width = width, .height = height, .stride_bytes = upwards ? -stride : stride, .order = order, .part = part});
+  write({.pixels = memory.data() + (upwards ? stride * (height - 1) : 0),
+         .width = width,
+         .height = height,
+         .stride_bytes = upwards ? -stride : stride,
+         .order = order,
+         .part = part});
   for (int y = 0; y < height; ++y) {
     const auto row = memory.begin() + stride * (upwards ? height - 1 - y : y);
     rows.insert(rows.end(), row, row + 4 * width);
-    EXPECT_TRUE(std::all_of(row + 4 * width, row + stride, [](std::uint8_t b) { return b == 0xcd; })) << "beside row " << y;
+    EXPECT_TRUE(std::all_of(row + 4 * width, row + stride, [](std::uint8_t b) { return b == 0xcd; }))
+        << "beside row " << y;
   }
   return rows;
 }
@@ -114,9 +152,12 @@ TEST(OddSizes, PlanesWordsReadBackAndScanOutAgree) {
       std::vector<std::uint8_t> expected;
       for (const PixelOrder order : {PixelOrder::rgba8, PixelOrder::bgra8})
         for (const bool upwards : {false, true}) {
-          const auto read = shown(buffer, order, upwards, {}, [&](const ImageTarget& target) { buffer.read_color(target); });
+          const auto read = shown(buffer, order, upwards, {},
+                                  [&](const ImageTarget& target) { buffer.read_color(target); });
           scene.record(shown_frame, format);
-          const auto scanned = shown(presented, order, upwards, {}, [&](const ImageTarget& target) { renderer.finish(shown_frame, target); });
+          const auto scanned = shown(presented, order, upwards, {}, [&](const ImageTarget& target) {
+            renderer.finish(shown_frame, target);
+          });
           ASSERT_TRUE(read == scanned) << "read back and scanned out";
           std::vector<std::uint8_t> turned = read;
           if (order == PixelOrder::bgra8)
@@ -126,14 +167,21 @@ TEST(OddSizes, PlanesWordsReadBackAndScanOutAgree) {
         }
       // A part of it: the same there, nothing elsewhere.
       const Rect part{size.width / 3, size.height / 2, size.width / 2 + 1, size.height / 3 + 1};
-      const auto some = shown(buffer, PixelOrder::rgba8, true, part, [&](const ImageTarget& target) { buffer.read_color(target); });
+      const auto some = shown(buffer, PixelOrder::rgba8, true, part,
+                              [&](const ImageTarget& target) { buffer.read_color(target); });
       for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
           const int up = size.height - 1 - y;
-          const bool inside = x >= part.x && x < part.x + part.width && up >= part.y && up < part.y + part.height;
-          for (std::size_t c = 0, i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)); c < 4; ++c) ASSERT_EQ(some[i + c], inside ? expected[i + c] : 0xcd) << x << ", " << y;
+          const bool inside =
+              x >= part.x && x < part.x + part.width && up >= part.y && up < part.y + part.height;
+          for (std::size_t c = 0,
+                           i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                                    static_cast<std::size_t>(x));
+               c < 4; ++c)
+            ASSERT_EQ(some[i + c], inside ? expected[i + c] : 0xcd) << x << ", " << y;
         }
-      // Stored levels are shown as the palette or the split of the bits says; without alpha planes alpha is 255.
+      // Stored levels are shown as the palette or the split of the bits says; without alpha planes alpha is
+      // 255.
       if (format.color_mode != ColorMode::rgb || format.color_bits <= 2 || format.alpha_bits == 8) continue;
       for (std::size_t i = 0; i < words.size(); ++i) ASSERT_EQ(expected[4 * i + 3], 255);
     }
@@ -147,7 +195,8 @@ TEST(OddSizes, ShowWhatALargerBufferShowsThere) {
     const Size larger{std::max(size.width, 40), std::max(size.height, 40)};
     const auto smalls = formats(size), larges = formats(larger);
     for (std::size_t f = 0; f < smalls.size(); ++f) {
-      SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", " + describe(smalls[f]));
+      SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", " +
+                   describe(smalls[f]));
       for (const int tile_size : {32, 128}) {
         Renderer renderer({.threads = 1, .tile_size = tile_size});
         FrameBuffer small(smalls[f]), large(larges[f]);
@@ -159,13 +208,17 @@ TEST(OddSizes, ShowWhatALargerBufferShowsThere) {
         const auto expect_part = [&](const auto& part, const auto& whole, const char* what) {
           for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
-              const std::size_t here = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
-              const std::size_t there = static_cast<std::size_t>(larger.height - size.height + y) * static_cast<std::size_t>(larger.width) + static_cast<std::size_t>(x);
+              const std::size_t here = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                                       static_cast<std::size_t>(x);
+              const std::size_t there = static_cast<std::size_t>(larger.height - size.height + y) *
+                                            static_cast<std::size_t>(larger.width) +
+                                        static_cast<std::size_t>(x);
               ASSERT_EQ(part[here], whole[there]) << what << " at " << x << ", " << y << " from the top";
             }
         };
         expect_part(color_words(small), color_words(large), "colour");
-        if (smalls[f].depth != DepthFormat::none) expect_part(depth_words(small), depth_words(large), "depth");
+        if (smalls[f].depth != DepthFormat::none)
+          expect_part(depth_words(small), depth_words(large), "depth");
         if (smalls[f].stencil_bits > 0) expect_part(stencil_values(small), stencil_values(large), "stencil");
         if (HasFatalFailure()) return;
       }

@@ -1,5 +1,6 @@
-// Every number of every struct of the interface is given every odd value: either the call that takes it refuses it, and says what it found, or there is a picture, the same on
-// every instruction set, that changed nothing outside of what may change.
+// Every number of every struct of the interface is given every odd value: either the call that takes it
+// refuses it, and says what it found, or there is a picture, the same on every instruction set, that changed
+// nothing outside of what may change.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/odd_draw_fields.h"
@@ -8,7 +9,8 @@
 namespace tessera::test {
 namespace {
 
-// Where neither draw nor image nor accumulation may write, the clear alone may have been; where that was not, what a new buffer holds.
+// Where neither draw nor image nor accumulation may write, the clear alone may have been; where that was not,
+// what a new buffer holds.
 void expect_nothing_outside(const World& w, const Outcome& outcome) {
   if (w.accum && w.accum->op == AccumOp::return_) return;
   const int width = w.format.width, height = w.format.height;
@@ -17,7 +19,8 @@ void expect_nothing_outside(const World& w, const Outcome& outcome) {
     for (int x = 0; x < width; ++x) {
       if (contains(w.state.viewport, x, y) && contains(w.state.scissor, x, y)) continue;
       if (contains(w.fragments.scissor, x, y)) continue;
-      const std::size_t i = static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const std::size_t i = static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x);
       const bool in_clear = contains(w.clear.scissor, x, y);
       std::optional<std::uint32_t>& word = in_clear ? cleared : uncleared;
       std::optional<std::uint32_t>& depth = in_clear ? far_cleared : far_uncleared;
@@ -33,7 +36,9 @@ void expect_nothing_outside(const World& w, const Outcome& outcome) {
 
 void expect_named(const Field& field, std::size_t value, const std::string& message) {
   const std::vector<std::string> texts = field.found(value);
-  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [&](const std::string& text) { return message.find(text) != std::string::npos; })) << "\"" << message << "\" does not say \"" << texts.front() << "\"";
+  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(),
+                          [&](const std::string& text) { return message.find(text) != std::string::npos; }))
+      << "\"" << message << "\" does not say \"" << texts.front() << "\"";
 }
 
 void expect_refusal_or_picture(const Field& field, std::size_t value, const World& world) {
@@ -45,7 +50,8 @@ void expect_refusal_or_picture(const Field& field, std::size_t value, const Worl
     const Outcome outcome = run(copy, set);
     const bool is_refused = !outcome.refused_by.empty();
     // A shadow may be too far away for numbers, whoever moved it there.
-    const bool is_about_shadow = copy.state.shadow_on && outcome.refused_by == "Frame::draw" && outcome.message.find("shadow") != std::string::npos;
+    const bool is_about_shadow = copy.state.shadow_on && outcome.refused_by == "Frame::draw" &&
+                                 outcome.message.find("shadow") != std::string::npos;
     if (is_refused && !is_about_shadow) {
       EXPECT_EQ(outcome.refused_by, field.call) << outcome.message;
     }
@@ -56,7 +62,8 @@ void expect_refusal_or_picture(const Field& field, std::size_t value, const Worl
       EXPECT_TRUE(verdict == Verdict::either || is_about_shadow) << outcome.message;
     }
     if (is_refused) return;
-    EXPECT_LE(outcome.stats.dropped_non_finite + outcome.stats.culled + outcome.stats.zero_area, outcome.stats.triangles_in);
+    EXPECT_LE(outcome.stats.dropped_non_finite + outcome.stats.culled + outcome.stats.zero_area,
+              outcome.stats.triangles_in);
     expect_nothing_outside(copy, outcome);
     if (!first) first = outcome;
     EXPECT_EQ(outcome.fingerprint, first->fingerprint) << "on " << name(set);
@@ -93,7 +100,8 @@ TEST(OddState, IsNotLookedForInVain) {
     std::size_t with = 0;
     for (World& world : worlds()) with += field.set(world, 0);
     somewhere += with > 0;
-    EXPECT_TRUE(with > 0 || field.name.starts_with("fragments.")) << field.name << " is in none of the worlds";
+    EXPECT_TRUE(with > 0 || field.name.starts_with("fragments."))
+        << field.name << " is in none of the worlds";
   }
   EXPECT_GT(somewhere, 250u);
 }
@@ -132,7 +140,8 @@ class Boaster : public Executor {
 TEST(OddState, OfExecutorsTakesNoMemoryForWorkersBeyondTheMost) {
   for (const int workers : odd_values<int>()) {
     std::optional<Renderer> renderer;
-    const auto error = error_of([&] { renderer.emplace(RendererOptions{.executor = std::make_shared<Boaster>(workers)}); });
+    const auto error =
+        error_of([&] { renderer.emplace(RendererOptions{.executor = std::make_shared<Boaster>(workers)}); });
     EXPECT_EQ(error.has_value(), workers < 1) << workers;
     if (!renderer) continue;
     EXPECT_EQ(renderer->options().threads, std::min(workers, 1024));

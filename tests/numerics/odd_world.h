@@ -1,4 +1,5 @@
-// All that can be said of a frame, as one object whose fields may be anything; and what becomes of it: an error at one of its calls, or a picture.
+// All that can be said of a frame, as one object whose fields may be anything; and what becomes of it: an
+// error at one of its calls, or a picture.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 
 namespace tessera::test {
 
-/// One value for each field of each struct of the interface. `texels` is memory for images of up to 16384 pixels in one direction.
+/// One value for each field of each struct of the interface. `texels` is memory for images of up to 16384
+/// pixels in one direction.
 struct World {
   std::string name;
   RendererOptions options{.threads = 1};
@@ -40,8 +42,10 @@ struct World {
     }();
     image.pixels = pixels.pixels = bitmap.bits = texels.data();
     Random random(22);
-    for (int i = 0; i < 30; ++i) {  // as triangles, lines or points; some beyond the near plane and the window
-      for (int c = 0; c < 3; ++c) data.positions.push_back(random.between(-2, 2)), data.normals.push_back(random.between(-1, 1));
+    for (int i = 0; i < 30;
+         ++i) {  // as triangles, lines or points; some beyond the near plane and the window
+      for (int c = 0; c < 3; ++c)
+        data.positions.push_back(random.between(-2, 2)), data.normals.push_back(random.between(-1, 1));
       for (int c = 0; c < 4; ++c) data.colors.push_back(random.between(0, 1));
       for (int c = 0; c < 2; ++c) data.texcoords.push_back(random.between(-1, 2));
       data.color_indices.push_back(random.between(0, 300));
@@ -136,12 +140,15 @@ inline std::vector<World> worlds() {
   std::vector<World> all(7);
   all[0].name = "gouraud";
   all[0].format.stencil_bits = 5;
-  all[0].clear = {.color = Color{0.25f, 0.5f, 0.75f, 1}, .depth = 0.9, .stencil = 3, .scissor = Rect{0, 0, 60, 60}};
+  all[0].clear = {
+      .color = Color{0.25f, 0.5f, 0.75f, 1}, .depth = 0.9, .stencil = 3, .scissor = Rect{0, 0, 60, 60}};
   all[1].name = "phong, textured, blended";
   all[1].state.shading = Shading::phong;
   all[1].textured = true;
   all[1].state.texture_env = TextureEnv::blend, all[1].state.texture_env_color = {0.3f, 0.6f, 0.9f, 1};
-  all[1].state.blend = BlendState{.src = BlendFactor::constant_color, .dst = BlendFactor::one_minus_constant_alpha, .color = {0.2f, 0.4f, 0.6f, 0.5f}};
+  all[1].state.blend = BlendState{.src = BlendFactor::constant_color,
+                                  .dst = BlendFactor::one_minus_constant_alpha,
+                                  .color = {0.2f, 0.4f, 0.6f, 0.5f}};
   all[1].state.alpha_test = AlphaTest{.ref = 0.1f};
   all[1].state.color_material = ColorMaterial::diffuse;
   all[1].format.alpha_bits = 8, all[1].format.accumulation_bits = 16;
@@ -153,11 +160,18 @@ inline std::vector<World> worlds() {
   all[2].format.samples = 4, all[2].format.depth = DepthFormat::float32;
   all[2].clear.depth = 0.8;
   all[2].state.depth_near = 0.1, all[2].state.depth_far = 0.9;
-  all[2].state.stencil = StencilState{.front = {.func = Compare::gequal, .ref = 5, .zpass = StencilOp::incr_wrap}, .back = StencilFace{.ref = 2, .zfail = StencilOp::replace}};
+  all[2].state.stencil =
+      StencilState{.front = {.func = Compare::gequal, .ref = 5, .zpass = StencilOp::incr_wrap},
+                   .back = StencilFace{.ref = 2, .zfail = StencilOp::replace}};
   all[2].fragments.stencil = all[2].state.stencil;
   all[3].name = "index lighting, points";
   all[3].data.primitive = Primitive::points;
-  all[3].format = {.width = 48, .height = 36, .color_mode = ColorMode::index, .color_bits = 8, .palette = {{0, 0, 0, 1}, {0.3f, 0.7f, 0.1f, 1}, {1, 1, 1, 1}}, .depth = DepthFormat::unorm32};
+  all[3].format = {.width = 48,
+                   .height = 36,
+                   .color_mode = ColorMode::index,
+                   .color_bits = 8,
+                   .palette = {{0, 0, 0, 1}, {0.3f, 0.7f, 0.1f, 1}, {1, 1, 1, 1}},
+                   .depth = DepthFormat::unorm32};
   all[3].state.material.color_indexes = {{3, 120, 250}};
   all[3].state.back_material->color_indexes = {{30, 20, 10}};
   all[3].clear = {.index = 7u, .depth = 1.0};
@@ -166,7 +180,8 @@ inline std::vector<World> worlds() {
   all[4].state.polygon_offset = {0.5f, 2};
   all[4].state.logic_op = LogicOp::xor_;
   all[4].state.provoking_vertex = ProvokingVertex::first;
-  all[4].format.depth = DepthFormat::unorm32, all[4].format.accumulation_bits = 32, all[4].format.dither = Dither::bayer4;
+  all[4].format.depth = DepthFormat::unorm32, all[4].format.accumulation_bits = 32,
+  all[4].format.dither = Dither::bayer4;
   all[4].accum = Accum{.op = AccumOp::mult, .value = 2};
   all[5].name = "a shadow, reversed";
   all[5].state.shadow_on = ShadowOn{.plane = {0.1, 1, 0.2, 2}, .light = 1, .color = {0.1f, 0.2f, 0.3f, 1}};

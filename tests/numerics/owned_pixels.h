@@ -15,13 +15,15 @@
 
 namespace tessera::test {
 
-/// Drawn into a buffer of kSide x kSide pixels over black, all of it in a window's corners, so that clip space holds them exactly. Colours, texels and depths
-/// of a triangle are everywhere the same, and levels of all formats.
+/// Drawn into a buffer of kSide x kSide pixels over black, all of it in a window's corners, so that clip
+/// space holds them exactly. Colours, texels and depths of a triangle are everywhere the same, and levels of
+/// all formats.
 class OwnedPixels {
  public:
-  static constexpr int kSide = 128;          ///< pixels
-  static constexpr int kTextureSide = 64;    ///< texels
-  static constexpr std::size_t kMost = 2047; ///< triangles: depths are 1 - k/4096, above a half, whose levels are integers and less than half of one
+  static constexpr int kSide = 128;           ///< pixels
+  static constexpr int kTextureSide = 64;     ///< texels
+  static constexpr std::size_t kMost = 2047;  ///< triangles: depths are 1 - k/4096, above a half, whose
+                                              ///< levels are integers and less than half of one
 
   /// Of all shapes, over each other.
   static OwnedPixels of_shapes(int n) {
@@ -41,11 +43,14 @@ class OwnedPixels {
     OwnedPixels owned;
     MeshRandom random(n);
     const int cells = std::min(30, static_cast<int>(kSide / cell) + 2);
-    const double left = random.unit() * (kSide - (cells - 1) * cell) - cell / 2, top = random.unit() * (kSide - (cells - 1) * cell) - cell / 2;
+    const double left = random.unit() * (kSide - (cells - 1) * cell) - cell / 2,
+                 top = random.unit() * (kSide - (cells - 1) * cell) - cell / 2;
     std::vector<WindowVertex> points;
     for (int j = 0; j <= cells; ++j)
       for (int i = 0; i <= cells; ++i) {
-        const auto moved = [&](double at) { return static_cast<std::int32_t>(std::lround(256 * (at + cell * (random.unit() - 0.5) * 2 / 3))); };
+        const auto moved = [&](double at) {
+          return static_cast<std::int32_t>(std::lround(256 * (at + cell * (random.unit() - 0.5) * 2 / 3)));
+        };
         const std::int32_t x = moved(left + i * cell);
         points.push_back({x, moved(top + j * cell), 0, 1});
       }
@@ -84,23 +89,29 @@ class OwnedPixels {
   }
 
  private:
-  static std::uint32_t word_of(std::uint32_t id) { return (id & 255) << 16 | (id >> 8) << 8 | (255 - (id & 255)); }
+  static std::uint32_t word_of(std::uint32_t id) {
+    return (id & 255) << 16 | (id >> 8) << 8 | (255 - (id & 255));
+  }
   static double depth_of(std::uint32_t id) { return 1 - (id + 1) / 4096.0; }
 
   void add(const Triangle& triangle) {
     constexpr std::int32_t kFarthest = 16000 * 256;  // within the guard band
     for (const WindowVertex& v : triangle)
       if (std::max(std::abs(v.x), std::abs(v.y)) > kFarthest) return;
-    if (triangles_.size() == kMost) throw std::length_error("OwnedPixels: no depth is left for another triangle");
+    if (triangles_.size() == kMost)
+      throw std::length_error("OwnedPixels: no depth is left for another triangle");
     const auto id = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
     const std::uint32_t word = word_of(id);
     for (const WindowVertex& v : triangle) {
-      positions.insert(positions.end(), {static_cast<float>(v.x) / (128 * kSide) - 1, 1 - static_cast<float>(v.y) / (128 * kSide), static_cast<float>(2 * depth_of(id) - 1)});
+      positions.insert(positions.end(), {static_cast<float>(v.x) / (128 * kSide) - 1,
+                                         1 - static_cast<float>(v.y) / (128 * kSide),
+                                         static_cast<float>(2 * depth_of(id) - 1)});
       for (const int shift : {16, 8, 0}) colors.push_back(static_cast<float>(word >> shift & 255) / 255);
       colors.push_back(1);
       normals.insert(normals.end(), {0, 0, 1});
-      texcoords.insert(texcoords.end(), {(static_cast<float>(id % kTextureSide) + 0.5f) / kTextureSide, (static_cast<float>(id / kTextureSide) + 0.5f) / kTextureSide});
+      texcoords.insert(texcoords.end(), {(static_cast<float>(id % kTextureSide) + 0.5f) / kTextureSide,
+                                         (static_cast<float>(id / kTextureSide) + 0.5f) / kTextureSide});
     }
   }
   void find_owners() {

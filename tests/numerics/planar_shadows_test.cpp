@@ -1,5 +1,6 @@
-// Shadows that are hardly cast: lights nearly in the plane, nearly parallel to it, very far away; planes of huge and tiny coefficients. Either there is
-// none, and draws say so, or the matrix takes points to the plane.
+// Shadows that are hardly cast: lights nearly in the plane, nearly parallel to it, very far away; planes of
+// huge and tiny coefficients. Either there is none, and draws say so, or the matrix takes points to the
+// plane.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -36,8 +37,9 @@ struct Shadow {
   }
 };
 
-// x goes to x - l (p.x) / (p.l). An element of the matrix multiplies l and p and divides by p.l (2 roundings), which is 4 roundings of its terms off, and
-// subtracts that from 1 or 0 (another). Of each product with the point that much; and what long double itself rounds.
+// x goes to x - l (p.x) / (p.l). An element of the matrix multiplies l and p and divides by p.l (2
+// roundings), which is 4 roundings of its terms off, and subtracts that from 1 or 0 (another). Of each
+// product with the point that much; and what long double itself rounds.
 Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
   const Real4 p = shadow.p(), l = shadow.l();
   const Real product = dot(p, l), condition = 1 / shadow.slope();
@@ -48,7 +50,9 @@ Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
       const Real removed = l[r] * p[c] / product;
       at += m.m[4 * r + c] * x[c];
       exact -= removed * x[c];
-      allowed += (((3 + 4 * condition) * std::abs(removed) + (r == c)) * kDouble + 8 * kLongDouble * (std::abs(removed) + 1)) * std::abs(x[c]);
+      allowed += (((3 + 4 * condition) * std::abs(removed) + (r == c)) * kDouble +
+                  8 * kLongDouble * (std::abs(removed) + 1)) *
+                 std::abs(x[c]);
     }
     keep_worst(worst, std::abs(at - exact) / allowed);
     from_plane += p[r] * at;
@@ -98,7 +102,8 @@ TEST(PlanarShadows, FallOntoThePlane) {
   expect_within("planar shadows, of 4 double eps over the sine between light and plane", worst, 1, "");
 }
 
-// From where the light is 2^-30 of its distance off the plane to where it is well off: refused up to 2^-22 of what is added up, right from there on.
+// From where the light is 2^-30 of its distance off the plane to where it is well off: refused up to 2^-22 of
+// what is added up, right from there on.
 TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
   Draws draws{std::mt19937(52)};
   Real worst = 0;
@@ -110,8 +115,10 @@ TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
     const Real4 l = shadow.l();
     Real4 p = shadow.p();
     if (l[3] == 0) {
-      const Real along = (p[0] * l[0] + p[1] * l[1] + p[2] * l[2]) / (l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
-      for (std::size_t k = 0; k < 3; ++k) shadow.plane[k] = static_cast<double>(p[k] - along * l[k] * (1 - off));
+      const Real along =
+          (p[0] * l[0] + p[1] * l[1] + p[2] * l[2]) / (l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+      for (std::size_t k = 0; k < 3; ++k)
+        shadow.plane[k] = static_cast<double>(p[k] - along * l[k] * (1 - off));
     } else {
       shadow.plane[3] = static_cast<double>(-(p[0] * l[0] + p[1] * l[1] + p[2] * l[2]) / l[3]) * (1 + off);
     }

@@ -10,7 +10,8 @@
 
 namespace tessera::test {
 
-/// The points origin + u to_u + v to_v, as vectors of x y z w. Everything is in whole numbers that floats hold.
+/// The points origin + u to_u + v to_v, as vectors of x y z w. Everything is in whole numbers that floats
+/// hold.
 struct ClipPlane {
   ClipPoint origin, to_u, to_v;
 
@@ -18,13 +19,16 @@ struct ClipPlane {
     const auto on = [&](std::int64_t ClipPoint::*c) { return origin.*c + u * to_u.*c + v * to_v.*c; };
     return {on(&ClipPoint::x), on(&ClipPoint::y), on(&ClipPoint::z), on(&ClipPoint::w)};
   }
-  std::optional<SeenPlane> seen(const SquareView& view) const { return seen_plane({origin, to_u, to_v}, view); }
+  std::optional<SeenPlane> seen(const SquareView& view) const {
+    return seen_plane({origin, to_u, to_v}, view);
+  }
   /// Adds vertices at points (u, v) of the plane, times a power of two.
   CountedMesh mesh_at(const std::vector<WindowPoint>& points, double scale = 1) const {
     CountedMesh mesh;
     for (const WindowPoint& p : points) {
       const ClipPoint c = at(p.x, p.y);
-      mesh.add_vertex(scale * static_cast<double>(c.x), scale * static_cast<double>(c.y), scale * static_cast<double>(c.z), scale * static_cast<double>(c.w));
+      mesh.add_vertex(scale * static_cast<double>(c.x), scale * static_cast<double>(c.y),
+                      scale * static_cast<double>(c.z), scale * static_cast<double>(c.w));
     }
     return mesh;
   }
@@ -46,7 +50,10 @@ struct ClipPlane {
 
 /// Coordinates of one digit, and so mostly steep to the window and through all clip planes.
 inline ClipPlane random_plane(MeshRandom& random) {
-  const auto point = [&] { return ClipPoint{random.between(-7, 7), random.between(-7, 7), random.between(-7, 7), random.between(-7, 7)}; };
+  const auto point = [&] {
+    return ClipPoint{random.between(-7, 7), random.between(-7, 7), random.between(-7, 7),
+                     random.between(-7, 7)};
+  };
   return {point(), point(), point()};
 }
 
@@ -57,7 +64,8 @@ inline Grid random_plane_grid(MeshRandom& random, std::int64_t size, int most_ce
     grid = {random.between(1, most_cells), random.between(1, most_cells), {}};
     const double jitter = random.unit();
     const auto place = [&](int n, int last) {
-      return std::llround(static_cast<double>(size) * (2 * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) / last - 1));
+      return std::llround(static_cast<double>(size) *
+                          (2 * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) / last - 1));
     };
     for (int j = 0; j <= grid.rows; ++j)
       for (int i = 0; i <= grid.columns; ++i) {

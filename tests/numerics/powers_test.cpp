@@ -1,5 +1,6 @@
-// Our own logarithms and powers against results of long double, and of double where there are billions of them: the largest error in units in the last
-// place (ulp) of what is exact, and relative to it. They have the same bits on every instruction set, which other tests compare: the fastest is measured.
+// Our own logarithms and powers against results of long double, and of double where there are billions of
+// them: the largest error in units in the last place (ulp) of what is exact, and relative to it. They have
+// the same bits on every instruction set, which other tests compare: the fastest is measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,11 +34,13 @@ struct Errors {
 
 std::vector<float> evaluated(PowerFunction function, float exponent, const std::vector<float>& arguments) {
   std::vector<float> results(arguments.size());
-  evaluate_power(available_isas().front())(function, arguments.data(), exponent, results.data(), arguments.size());
+  evaluate_power(available_isas().front())(function, arguments.data(), exponent, results.data(),
+                                           arguments.size());
   return results;
 }
 
-void measure(Errors& errors, PowerFunction function, std::uint32_t first, std::uint32_t last, const Exact& exact) {
+void measure(Errors& errors, PowerFunction function, std::uint32_t first, std::uint32_t last,
+             const Exact& exact) {
   for_floats(first, last, [&](const std::vector<float>& arguments) {
     const std::vector<float> results = evaluated(function, 1, arguments);
     for (std::size_t i = 0; i < arguments.size(); ++i) errors.add(results[i], exact(arguments[i]));
@@ -75,9 +78,10 @@ struct PowerErrors {
       if (exact >= 0x1p-8L) visible.add(results[i], exact);
     }
   }
-  // p = y log2 x is off by what the logarithm is, 2.09 u of it (u = 2^-24), and by half an ulp of its own, 64 u where |p| is between 64 and 128, 4 u between 4 and 8.
-  // 2^p is off by ln 2 times that, and by its own 1.2 ulp, which are no more than 2.4 u: (2.09 * 126 + 64) ln 2 + 2.4 = 229.4, and (2.09 * 8 + 4) ln 2 + 2.4 = 16.8. An ulp
-  // is between u and 2 u; where it is u, the share of 2^p's error is 1.2: 228.2 and 15.6.
+  // p = y log2 x is off by what the logarithm is, 2.09 u of it (u = 2^-24), and by half an ulp of its own, 64
+  // u where |p| is between 64 and 128, 4 u between 4 and 8. 2^p is off by ln 2 times that, and by its own 1.2
+  // ulp, which are no more than 2.4 u: (2.09 * 126 + 64) ln 2 + 2.4 = 229.4, and (2.09 * 8 + 4) ln 2 + 2.4
+  // = 16.8. An ulp is between u and 2 u; where it is u, the share of 2^p's error is 1.2: 228.2 and 15.6.
   void expect(const std::string& power) const {
     expect_within(power + " of at least 1/256, relative", visible.relative, 16.8L, "2^-24");
     expect_within(power + " of at least 1/256", visible.ulp, 15.6L, "ulp");
@@ -86,17 +90,25 @@ struct PowerErrors {
   }
 };
 
-// Exponents are 0 .. 16384. Of the large ones every float near enough to 1 to have a power. A test for each: with TESSERA_LONG one has up to a billion of
-// them. So what is exact is a double here, which is off by about 2^-28 of a float's ulp itself.
+// Exponents are 0 .. 16384. Of the large ones every float near enough to 1 to have a power. A test for each:
+// with TESSERA_LONG one has up to a billion of them. So what is exact is a double here, which is off by about
+// 2^-28 of a float's ulp itself.
 class FunctionsPowers : public testing::TestWithParam<float> {};
 TEST_P(FunctionsPowers, OfOneExponent) {
   const float y = GetParam();
   PowerErrors errors;
   const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kSmallestNormal);
-  for_floats(bits_of(least), bits_of(1), [&](const std::vector<float>& arguments) { errors.add<double>(y, arguments); }, y > 5000 ? 1 : y > 500 ? 7 : kSampled);
+  for_floats(
+      bits_of(least), bits_of(1),
+      [&](const std::vector<float>& arguments) { errors.add<double>(y, arguments); },
+      y > 5000  ? 1
+      : y > 500 ? 7
+                : kSampled);
   errors.expect("x^" + std::to_string(y).substr(0, 5));
 }
-INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsPowers, testing::Values(0.25f, 0.5f, 2.0f, 20.0f, 128.0f, 1000.0f, 7661.0f, 10000.0f, 16384.0f));
+INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsPowers,
+                         testing::Values(0.25f, 0.5f, 2.0f, 20.0f, 128.0f, 1000.0f, 7661.0f, 10000.0f,
+                                         16384.0f));
 
 // Exponents evenly in 0 .. 16384 and in their logarithms, and the powers evenly in theirs.
 TEST(Functions, PowersOfAnyExponent) {
@@ -106,14 +118,17 @@ TEST(Functions, PowersOfAnyExponent) {
   for (int n = 0; n < (long_tests() ? 1000000 : 10000); ++n) {
     const auto y = static_cast<float>(n % 2 == 0 ? 16384 * unit() : std::exp2(28 * unit() - 14));
     std::vector<float> arguments(48);
-    for (float& x : arguments) x = std::clamp(static_cast<float>(std::exp2((random() % 4 == 0 ? -8 : -126) * unit() / static_cast<double>(y))), kSmallestNormal, 1.0f);
+    for (float& x : arguments)
+      x = std::clamp(
+          static_cast<float>(std::exp2((random() % 4 == 0 ? -8 : -126) * unit() / static_cast<double>(y))),
+          kSmallestNormal, 1.0f);
     errors.add<long double>(y, arguments);
   }
   errors.expect("x^y, y in 0 .. 16384");
 }
 
-// Products: x^a x^b is off by what its factors are, a - 1 and b - 1 roundings of u, and by its own. Exponents in ranges of about as many floats each, a billion
-// with TESSERA_LONG: what is exact is a double here, too.
+// Products: x^a x^b is off by what its factors are, a - 1 and b - 1 roundings of u, and by its own. Exponents
+// in ranges of about as many floats each, a billion with TESSERA_LONG: what is exact is a double here, too.
 struct WholeExponents {
   int first, last;
 };
@@ -122,25 +137,38 @@ TEST_P(FunctionsWholePowers, OfExponents) {
   const auto [first, last] = GetParam();
   double share = 0;
   for (int n = first; n <= last; ++n)
-    for_floats(bits_of(static_cast<float>(std::exp2(-125.98 / n))), bits_of(1), [&](const std::vector<float>& arguments) {
-      const std::vector<float> results = evaluated(PowerFunction::chosen, static_cast<float>(n), arguments);
-      for (std::size_t i = 0; i < arguments.size(); ++i) keep_worst(share, std::abs(results[i] / std::pow(double{arguments[i]}, n) - 1) * (0x1p24 / (n - 1)));
-    }, kSampled * 16);
-  expect_within("x^n, n = " + std::to_string(first) + " .. " + std::to_string(last) + ", relative", share, 1, "(n - 1) 2^-24");
+    for_floats(
+        bits_of(static_cast<float>(std::exp2(-125.98 / n))), bits_of(1),
+        [&](const std::vector<float>& arguments) {
+          const std::vector<float> results =
+              evaluated(PowerFunction::chosen, static_cast<float>(n), arguments);
+          for (std::size_t i = 0; i < arguments.size(); ++i)
+            keep_worst(share,
+                       std::abs(results[i] / std::pow(double{arguments[i]}, n) - 1) * (0x1p24 / (n - 1)));
+        },
+        kSampled * 16);
+  expect_within("x^n, n = " + std::to_string(first) + " .. " + std::to_string(last) + ", relative", share, 1,
+                "(n - 1) 2^-24");
 }
 INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsWholePowers,
-                         testing::Values(WholeExponents{2, 4}, WholeExponents{5, 8}, WholeExponents{9, 16}, WholeExponents{17, 32}, WholeExponents{33, kLargestWholePower}),
-                         [](const auto& range) { return "Of" + std::to_string(range.param.first) + "To" + std::to_string(range.param.last); });
+                         testing::Values(WholeExponents{2, 4}, WholeExponents{5, 8}, WholeExponents{9, 16},
+                                         WholeExponents{17, 32}, WholeExponents{33, kLargestWholePower}),
+                         [](const auto& range) {
+                           return "Of" + std::to_string(range.param.first) + "To" +
+                                  std::to_string(range.param.last);
+                         });
 
 // They have no logarithm of ours: each counts as the smallest normal float. Nothing has the power 0.
 TEST(Functions, PowersOfSubnormalFloats) {
   std::vector<float> subnormal{0x1p-149f};
-  while (subnormal.size() < 16) subnormal.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(0x7fffff * subnormal.size() / 15)));
+  while (subnormal.size() < 16)
+    subnormal.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(0x7fffff * subnormal.size() / 15)));
   for (const float y : {0x1p-10f, 0.5f, 0.75f, 1.0f, 16384.0f}) {
     const float smallest = evaluated(PowerFunction::power, y, std::vector<float>(16, kSmallestNormal))[0];
     EXPECT_LE(ulps(smallest, std::exp2(std::max(-126.0L * y, -126.0L))), 228.2L) << y;
     EXPECT_EQ(evaluated(PowerFunction::power, y, subnormal), std::vector<float>(16, smallest)) << y;
-    EXPECT_EQ(evaluated(PowerFunction::power, y, std::vector<float>(16, 0.0f)), std::vector<float>(16, 0.0f)) << y;
+    EXPECT_EQ(evaluated(PowerFunction::power, y, std::vector<float>(16, 0.0f)), std::vector<float>(16, 0.0f))
+        << y;
   }
 }
 

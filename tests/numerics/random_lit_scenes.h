@@ -22,15 +22,19 @@ inline Color any_color(Draws& draws, double largest, bool negative) {
 inline Light any_light(Draws& draws, std::size_t of, double extent) {
   const double share = std::min(1.5, 8 / static_cast<double>(of));
   const bool negative = draws.one_in(4);
-  Light l{.ambient = draws.one_in(2) ? Color{0, 0, 0, 1} : any_color(draws, share / 4, negative), .diffuse = any_color(draws, share, negative), .specular = any_color(draws, share, negative)};
+  Light l{.ambient = draws.one_in(2) ? Color{0, 0, 0, 1} : any_color(draws, share / 4, negative),
+          .diffuse = any_color(draws, share, negative),
+          .specular = any_color(draws, share, negative)};
   const auto [x, y, z] = draws.direction();
   if (draws.one_in(4)) {
     l.position = {x, y, z, 0};
   } else {
     const double distance = extent * draws.of({0.1, 1.0, 3.0, 100.0}), w = draws.of({1.0, 2.0, -0.25});
-    l.position = {static_cast<float>(x * distance * w), static_cast<float>(y * distance * w), static_cast<float>(z * distance * w), static_cast<float>(w)};
+    l.position = {static_cast<float>(x * distance * w), static_cast<float>(y * distance * w),
+                  static_cast<float>(z * distance * w), static_cast<float>(w)};
     l.spot_cutoff = draws.of(kCutoffs);
-    const auto [kc, kl, kq] = draws.of<std::array<double, 3>>({{1, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}, {0, 1, 0}});
+    const auto [kc, kl, kq] = draws.of<std::array<double, 3>>(
+        {{1, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}, {0, 1, 0}});
     l.attenuation_constant = static_cast<float>(kc);
     l.attenuation_linear = static_cast<float>(kl / distance);
     l.attenuation_quadratic = static_cast<float>(kq / (distance * distance));
@@ -43,7 +47,10 @@ inline Light any_light(Draws& draws, std::size_t of, double extent) {
 }
 
 inline Material any_material(Draws& draws) {
-  Material m{.ambient = any_color(draws, 1, false), .diffuse = any_color(draws, 1, false), .specular = any_color(draws, 1, false), .emission = draws.one_in(2) ? Color{0, 0, 0, 1} : any_color(draws, 0.3, true)};
+  Material m{.ambient = any_color(draws, 1, false),
+             .diffuse = any_color(draws, 1, false),
+             .specular = any_color(draws, 1, false),
+             .emission = draws.one_in(2) ? Color{0, 0, 0, 1} : any_color(draws, 0.3, true)};
   m.shininess = draws.of(kExponents);
   return m;
 }
@@ -54,7 +61,8 @@ inline void any_patches(Draws& draws, LitPatches& scene) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::array<float, 3> bend = draws.direction();
       const double size = scene.normalize ? std::exp2(draws.between(-20, 20)) : draws.between(0.1, 1);
-      for (std::size_t c = 0; c < 3; ++c) patch.normals[k][c] = static_cast<float>((normal[c] + 0.2 * bend[c]) * size / 1.2);
+      for (std::size_t c = 0; c < 3; ++c)
+        patch.normals[k][c] = static_cast<float>((normal[c] + 0.2 * bend[c]) * size / 1.2);
       patch.z[k] = static_cast<float>(scene.extent * draws.between(-2, 2));
     }
     patch.front = !draws.one_in(2);

@@ -1,4 +1,5 @@
-// Where the 4 and 8 samples of a pixel lie, to 1/256 pixel, what each of them holds, and what becomes of them: all through the public interface, against exact whole numbers.
+// Where the 4 and 8 samples of a pixel lie, to 1/256 pixel, what each of them holds, and what becomes of
+// them: all through the public interface, against exact whole numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,8 @@ using Corners = std::array<Place, 3>;
 
 // The spec's table, in 1/16 pixel from the centre, y down.
 const std::vector<Place>& positions(int samples) {
-  static const std::vector<Place> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}, kEight{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+  static const std::vector<Place> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}},
+      kEight{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
   return samples == 4 ? kFour : kEight;
 }
 Place sample(int x, int y, int samples, std::size_t k) {
@@ -29,9 +31,12 @@ Place sample(int x, int y, int samples, std::size_t k) {
   return {kScale * x + kScale / 2 + 16 * p.x, kScale * y + kScale / 2 + 16 * p.y};
 }
 
-// Inside, where a point on an edge counts as moved by (e, e^2) to the right and downwards, for an e that is as small as need be: that is the top-left rule.
+// Inside, where a point on an edge counts as moved by (e, e^2) to the right and downwards, for an e that is
+// as small as need be: that is the top-left rule.
 bool covers(const Corners& t, const Place& p) {
-  const auto turn = [](const Place& a, const Place& b, const Place& c) { return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x); };
+  const auto turn = [](const Place& a, const Place& b, const Place& c) {
+    return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
+  };
   const Int128 area = turn(t[0], t[1], t[2]);
   if (area == 0) return false;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -47,7 +52,9 @@ struct Triangles {
   MeshData mesh;
   void add(const Corners& corners, double depth = 0.5) {
     for (const Place& p : corners)
-      mesh.positions.insert(mesh.positions.end(), {static_cast<float>(p.x) / (kScale * kSide / 2) - 1, 1 - static_cast<float>(p.y) / (kScale * kSide / 2), static_cast<float>(2 * depth - 1)});
+      mesh.positions.insert(mesh.positions.end(), {static_cast<float>(p.x) / (kScale * kSide / 2) - 1,
+                                                   1 - static_cast<float>(p.y) / (kScale * kSide / 2),
+                                                   static_cast<float>(2 * depth - 1)});
   }
   void add_at(const Place& p, double depth = 0.5) { add({p, {p.x + 1, p.y}, {p.x, p.y + 1}}, depth); }
   void color(const Color& c) {
@@ -63,8 +70,8 @@ class SamplePositions : public testing::TestWithParam<int> {
   FrameBufferFormat format() const { return {.width = kSide, .height = kSide, .samples = samples}; }
 };
 
-// A triangle of 1/256 pixel at each of the 65536 places of a pixel, each in a pixel of its own, the right angle in each corner: it covers the sample that lies in the corner
-// which is its top left one, and no other.
+// A triangle of 1/256 pixel at each of the 65536 places of a pixel, each in a pixel of its own, the right
+// angle in each corner: it covers the sample that lies in the corner which is its top left one, and no other.
 TEST_P(SamplePositions, AreWhereTheSpecSaysToThe256thOfAPixel) {
   constexpr int kHalf = kSide;
   for (int corner = 0; corner < 4; ++corner)
@@ -81,7 +88,8 @@ TEST_P(SamplePositions, AreWhereTheSpecSaysToThe256thOfAPixel) {
             if (turned) std::swap(t[1], t[2]);
             triangles.add(t);
             int count = 0;
-            for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k) count += covers(t, sample(x, y, samples, k));
+            for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k)
+              count += covers(t, sample(x, y, samples, k));
             covered += count;
             expected.push_back(0x010101u * static_cast<std::uint32_t>(mean_level(255 * count, samples)));
           }
@@ -90,14 +98,17 @@ TEST_P(SamplePositions, AreWhereTheSpecSaysToThe256thOfAPixel) {
         frame.draw(triangles.mesh.view(), unlit({1, 1, 1, 1}));
         Renderer({.threads = 1, .instruction_set = set}).finish(frame);
         EXPECT_EQ(covered, corner == 0 || corner == 1 ? samples : 0);
-        ASSERT_TRUE(color_words(buffer) == expected) << "corner " << corner << (turned ? ", turned" : "") << ", " << name(set);
+        ASSERT_TRUE(color_words(buffer) == expected)
+            << "corner " << corner << (turned ? ", turned" : "") << ", " << name(set);
       }
 }
 
 // Edges in any direction that pass a sample exactly, or by 1/256 pixel to either side.
 TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
   Random random(9);
-  const auto between = [&](int low, int high) { return low + static_cast<int>(random.next() % static_cast<unsigned>(high - low + 1)); };
+  const auto between = [&](int low, int high) {
+    return low + static_cast<int>(random.next() % static_cast<unsigned>(high - low + 1));
+  };
   Renderer renderer({.threads = 1});
   FrameBuffer buffer(format());
   for (int round = 0; round < (long_tests() ? 100 : 2); ++round) {
@@ -108,13 +119,16 @@ TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
         expected.push_back(0);
         if ((x + y) % 16 != round % 16) continue;
         const std::size_t near = random.next() % static_cast<unsigned>(samples);
-        const Place s = sample(x, y, samples, near), along{between(-3000, 3000), between(-3000, 3000)}, off{between(-1, 1), between(-1, 1)};
+        const Place s = sample(x, y, samples, near), along{between(-3000, 3000), between(-3000, 3000)},
+                    off{between(-1, 1), between(-1, 1)};
         const int before = between(0, 3), after = between(1, 3);
-        const Corners t{Place{s.x + off.x - before * along.x, s.y + off.y - before * along.y}, Place{s.x + off.x + after * along.x, s.y + off.y + after * along.y},
+        const Corners t{Place{s.x + off.x - before * along.x, s.y + off.y - before * along.y},
+                        Place{s.x + off.x + after * along.x, s.y + off.y + after * along.y},
                         Place{s.x + between(-30000, 30000), s.y + between(-30000, 30000)}};
         triangles.emplace_back().add(t);
         int count = 0;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k) count += covers(t, sample(x, y, samples, k));
+        for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k)
+          count += covers(t, sample(x, y, samples, k));
         expected.back() = 0x010101u * static_cast<std::uint32_t>(mean_level(255 * count, samples));
       }
     Frame frame(buffer);
@@ -133,7 +147,8 @@ TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
   }
 }
 
-// Each sample of each pixel gets a level of its own; what is stored is their mean, rounded to the nearest, halves up, component by component.
+// Each sample of each pixel gets a level of its own; what is stored is their mean, rounded to the nearest,
+// halves up, component by component.
 TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
   constexpr int kUsed = 40;
   Random random(10);
@@ -149,16 +164,21 @@ TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
           std::array<std::int64_t, 4> sums{};
           for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k) {
             std::array<std::uint32_t, 4> levels{};
-            for (std::size_t c = 0; c < 4; ++c) levels[c] = random.next() % static_cast<std::uint32_t>(split.levels(c) + 1);
+            for (std::size_t c = 0; c < 4; ++c)
+              levels[c] = random.next() % static_cast<std::uint32_t>(split.levels(c) + 1);
             if (split.is_luminance()) levels[1] = levels[2] = levels[0];
-            const auto component = [&](std::size_t c) { return split.bits[c] == 0 ? 1.0f : static_cast<float>(levels[c]) / static_cast<float>(split.levels(c)); };
+            const auto component = [&](std::size_t c) {
+              return split.bits[c] == 0 ? 1.0f
+                                        : static_cast<float>(levels[c]) / static_cast<float>(split.levels(c));
+            };
             triangles.add_at(sample(x, y, samples, k));
             triangles.color({component(0), component(1), component(2), component(3)});
             for (std::size_t c = 0; c < 4; ++c) sums[c] += levels[c];
           }
           std::uint32_t& word = expected[static_cast<std::size_t>(y * kUsed + x)];
           for (std::size_t c = 0; c < 4; ++c)
-            if (split.bits[c] > 0) word |= static_cast<std::uint32_t>(mean_level(sums[c], samples)) << split.shift[c];
+            if (split.bits[c] > 0)
+              word |= static_cast<std::uint32_t>(mean_level(sums[c], samples)) << split.shift[c];
         }
       for (const InstructionSet set : available_instruction_sets())
         for (const Shading shading : {Shading::flat, Shading::gouraud}) {
@@ -171,38 +191,50 @@ TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
           const auto words = color_words(buffer);
           for (int y = 0; y < kUsed; ++y)
             for (int x = 0; x < kUsed; ++x)
-              ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)], expected[static_cast<std::size_t>(y * kUsed + x)]) << color_bits << " colour bits, " << alpha_bits << " of alpha, pixel " << x << ", " << y << ", " << name(set);
+              ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)],
+                        expected[static_cast<std::size_t>(y * kUsed + x)])
+                  << color_bits << " colour bits, " << alpha_bits << " of alpha, pixel " << x << ", " << y
+                  << ", " << name(set);
         }
     }
 }
 
-// Each sample has a depth and a stencil value of its own for as long as the frame runs; what is stored are those of the first.
+// Each sample has a depth and a stencil value of its own for as long as the frame runs; what is stored are
+// those of the first.
 TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
   constexpr int kUsed = 16;
-  for (const DepthFormat depth_format : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
+  for (const DepthFormat depth_format :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
     FrameBufferFormat f = format();
     f.depth = depth_format;
     const auto count = static_cast<std::size_t>(samples);
     std::vector<Triangles> layers(count);
     for (std::size_t k = 0; k < count; ++k)
       for (int y = 0; y < kUsed; ++y)
-        for (int x = 0; x < kUsed; ++x) layers[k].add_at(sample(x, y, samples, k), static_cast<double>(k + 1) / 16);
+        for (int x = 0; x < kUsed; ++x)
+          layers[k].add_at(sample(x, y, samples, k), static_cast<double>(k + 1) / 16);
     for (std::size_t seen = 0; seen < count; ++seen) {
       FrameBuffer buffer(f);
       Frame frame(buffer);
       for (std::size_t k = 0; k < count; ++k) {
         DrawState state = unlit({});
         state.color_mask = {false, false, false, false};
-        state.stencil = StencilState{.front = {.ref = static_cast<std::uint32_t>(10 + k), .zpass = StencilOp::replace}};
+        state.stencil =
+            StencilState{.front = {.ref = static_cast<std::uint32_t>(10 + k), .zpass = StencilOp::replace}};
         frame.draw(layers[k].mesh.view(), state);
       }
-      // Red where the stencil value is that sample's; blue added where the depth is behind one between its own and the next.
+      // Red where the stencil value is that sample's; blue added where the depth is behind one between its
+      // own and the next.
       DrawState red = unlit({1, 0, 0, 1}), blue = unlit({0, 0, 1, 1});
       red.depth.enabled = false;
-      red.stencil = StencilState{.front = {.func = Compare::equal, .ref = static_cast<std::uint32_t>(10 + seen)}};
+      red.stencil =
+          StencilState{.front = {.func = Compare::equal, .ref = static_cast<std::uint32_t>(10 + seen)}};
       blue.depth.write = false;
       blue.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
-      const MeshData window = whole_window(), plane = rectangle(-1, -1, 1, 1, static_cast<float>(2 * (static_cast<double>(seen + 1) / 16 + 1 / 32.0) - 1));
+      const MeshData window = whole_window(),
+                     plane = rectangle(
+                         -1, -1, 1, 1,
+                         static_cast<float>(2 * (static_cast<double>(seen + 1) / 16 + 1 / 32.0) - 1));
       frame.draw(window.view(), red);
       frame.draw(plane.view(), blue);
       Renderer({.threads = 1}).finish(frame);
@@ -213,8 +245,10 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
       for (int y = 0; y < kUsed; ++y)
         for (int x = 0; x < kUsed; ++x) {
           const std::size_t i = static_cast<std::size_t>(y * kSide + x);
-          const int reds = mean_level(255, samples), blues = mean_level(255 * (samples - 1 - static_cast<int>(seen)), samples);
-          ASSERT_EQ(words[i], static_cast<std::uint32_t>(reds << 16 | blues)) << "sample " << seen << ", pixel " << x << ", " << y;
+          const int reds = mean_level(255, samples),
+                    blues = mean_level(255 * (samples - 1 - static_cast<int>(seen)), samples);
+          ASSERT_EQ(words[i], static_cast<std::uint32_t>(reds << 16 | blues))
+              << "sample " << seen << ", pixel " << x << ", " << y;
           ASSERT_EQ(stencil[i], 10);
           ASSERT_NEAR(depths[i], 1 / 16.0f, depth_format == DepthFormat::unorm16 ? 1 / 65535.0 : 0x1p-23);
         }
@@ -222,7 +256,8 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, SamplePositions, testing::Values(4, 8), [](const auto& count) { return "Of" + std::to_string(count.param); });
+INSTANTIATE_TEST_SUITE_P(Patterns, SamplePositions, testing::Values(4, 8),
+                         [](const auto& count) { return "Of" + std::to_string(count.param); });
 
 }  // namespace
 }  // namespace tessera::test

@@ -1,6 +1,6 @@
-// With several samples a pixel's centre may lie outside of the triangle that its samples see, of a sliver by many times its width: what is
-// shaded there stays within the range of the vertices all the same. The mean of samples that are within a range, and of a clear that is, is
-// within it too.
+// With several samples a pixel's centre may lie outside of the triangle that its samples see, of a sliver by
+// many times its width: what is shaded there stays within the range of the vertices all the same. The mean of
+// samples that are within a range, and of a clear that is, is within it too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kSide = 64, kLow = 102, kHigh = 153;  // of 255
 
-// Triangles of any shape, half of them slivers, under perspective. Colours, and texels that are their coordinates, from kLow to kHigh.
+// Triangles of any shape, half of them slivers, under perspective. Colours, and texels that are their
+// coordinates, from kLow to kHigh.
 MeshData any_triangles(Random& random) {
   MeshData mesh;
   mesh.position_components = 4;
@@ -28,7 +29,8 @@ MeshData any_triangles(Random& random) {
     for (int k = 0; k < 3; ++k) {
       const float w = i % 3 == 0 ? 1 : random.between(0.1f, 4);
       const float value = (kLow + static_cast<float>(random.next() % (kHigh - kLow + 1))) / 255;
-      for (const float c : {(x + thin * random.between(-1, 1)) * w, (y + random.between(-1, 1)) * w, 0.0f, w}) mesh.positions.push_back(c);
+      for (const float c : {(x + thin * random.between(-1, 1)) * w, (y + random.between(-1, 1)) * w, 0.0f, w})
+        mesh.positions.push_back(c);
       for (const float c : {value, value, value, 1.0f}) mesh.colors.push_back(c);
       mesh.texcoords.insert(mesh.texcoords.end(), {(value * 255 + 0.5f) / 256, 0.5f});
     }
@@ -37,14 +39,16 @@ MeshData any_triangles(Random& random) {
 }
 
 // Lit at each pixel, from cosines and distances that give levels from kLow to kHigh.
-constexpr float kLit = kHigh / 255.0f, kDepths = 30, kAttenuation = 0.0005f;  // 153 / (1 + 0.0005 (30² + 2² + 2²)) = 105
+constexpr float kLit = kHigh / 255.0f, kDepths = 30,
+                kAttenuation = 0.0005f;  // 153 / (1 + 0.0005 (30² + 2² + 2²)) = 105
 
 // Normals of any length around z, by cosines from 0.675.
 void tilt(MeshData& mesh, Random& random) {
   for (std::size_t i = 0; i < mesh.positions.size() / 4; ++i) {
-    const float z = random.between(0.675f, 1), around = random.between(0, 6.2831853f), length = random.between(0.1f, 10),
-                side = std::sqrt(1 - z * z);
-    for (const float c : {side * std::cos(around), side * std::sin(around), z}) mesh.normals.push_back(length * c);
+    const float z = random.between(0.675f, 1), around = random.between(0, 6.2831853f),
+                length = random.between(0.1f, 10), side = std::sqrt(1 - z * z);
+    for (const float c : {side * std::cos(around), side * std::sin(around), z})
+      mesh.normals.push_back(length * c);
   }
 }
 // Planes at any angle to the screen, kDepths to both sides of the light.
@@ -110,8 +114,9 @@ void of_texels(const std::string& what, const std::function<void(DrawState&)>& s
 
 TEST(SampledRange, OfColors) {
   unlit("colours", [](DrawState&) {});
-  unlit("colours that are blended",
-        [](DrawState& s) { s.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_src_alpha}; });
+  unlit("colours that are blended", [](DrawState& s) {
+    s.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_src_alpha};
+  });
   unlit("colours under an alpha test", [](DrawState& s) { s.alpha_test = kAlwaysPasses; });
 }
 TEST(SampledRange, OfTexels) {
@@ -128,10 +133,15 @@ void lit_by(const Light& light, Frame& frame, DrawState& state) {
 }
 void tilted(Frame& frame, DrawState& state) { lit_by({.position = {0, 0, 1, 0}}, frame, state); }
 void deep(Frame& frame, DrawState& state) {
-  lit_by({.ambient = {1, 1, 1, 1}, .diffuse = {0, 0, 0, 1}, .position = {0, 0, 0, 1}, .attenuation_quadratic = kAttenuation}, frame, state);
+  lit_by({.ambient = {1, 1, 1, 1},
+          .diffuse = {0, 0, 0, 1},
+          .position = {0, 0, 0, 1},
+          .attenuation_quadratic = kAttenuation},
+         frame, state);
 }
 
-// Normals within a cone whose cosines are above 0 are so in every mixture of theirs, and positions within a sphere.
+// Normals within a cone whose cosines are above 0 are so in every mixture of theirs, and positions within a
+// sphere.
 TEST(SampledRange, OfNormals) {
   expect_range("normals", {.shape = tilt, .set_up = tilted});
   expect_range("normals under an alpha test", {.shape = tilt, .set_up = [](Frame& f, DrawState& s) {

@@ -53,7 +53,9 @@ bool edges_cross(const std::vector<WindowPoint>& p) {
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = i + 2; j < p.size(); ++j) {
       const WindowPoint &a = p[i], &b = p[i + 1], &c = p[j], &d = p[(j + 1) % p.size()];
-      if (sign(doubled_area(a, b, c)) * sign(doubled_area(a, b, d)) < 0 && sign(doubled_area(c, d, a)) * sign(doubled_area(c, d, b)) < 0) return true;
+      if (sign(doubled_area(a, b, c)) * sign(doubled_area(a, b, d)) < 0 &&
+          sign(doubled_area(c, d, a)) * sign(doubled_area(c, d, b)) < 0)
+        return true;
     }
   return false;
 }
@@ -63,8 +65,11 @@ bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, cons
   for (const Point& p : clip({v.begin(), v.end()}, planes))
     if (p[3] > 0) snapped.push_back({snap(p[0], p[3], view), snap(p[1], p[3], view)});
   std::int64_t area = 0;
-  for (std::size_t i = 2; i < snapped.size(); ++i) area += doubled_area(snapped[0], snapped[i - 1], snapped[i]);
-  const mpq_class turn = v[0][0] * (v[1][1] * v[2][3] - v[1][3] * v[2][1]) + v[0][1] * (v[1][3] * v[2][0] - v[1][0] * v[2][3]) + v[0][3] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+  for (std::size_t i = 2; i < snapped.size(); ++i)
+    area += doubled_area(snapped[0], snapped[i - 1], snapped[i]);
+  const mpq_class turn = v[0][0] * (v[1][1] * v[2][3] - v[1][3] * v[2][1]) +
+                         v[0][1] * (v[1][3] * v[2][0] - v[1][0] * v[2][3]) +
+                         v[0][3] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
   return sign(area) * sgn(turn) < 0 || (sgn(turn) == 0 && area != 0) || edges_cross(snapped);
 }
 
@@ -72,16 +77,25 @@ bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, cons
 
 bool snapping_folds(const CountedMesh& mesh, const SquareView& view, bool reversed, const Matrix& transform) {
   const mpq_class guard(2 * kGuardBand, view.side);
-  const std::vector<Point> planes{reversed ? Point{0, 0, -1, 1} : Point{0, 0, 1, 1}, reversed ? Point{0, 0, 1, 0} : Point{0, 0, -1, 1}, {1, 0, 0, guard}, {-1, 0, 0, guard}, {0, 1, 0, guard}, {0, -1, 0, guard}};
+  const std::vector<Point> planes{reversed ? Point{0, 0, -1, 1} : Point{0, 0, 1, 1},
+                                  reversed ? Point{0, 0, 1, 0} : Point{0, 0, -1, 1},
+                                  {1, 0, 0, guard},
+                                  {-1, 0, 0, guard},
+                                  {0, 1, 0, guard},
+                                  {0, -1, 0, guard}};
   std::vector<Point> positions;
   for (std::size_t i = 0; i < mesh.positions.size(); i += 4) {
     Point position, carried;
     for (std::size_t c = 0; c < 4; ++c) position[c] = mesh.positions[i + c];
-    for (std::size_t r = 0; r < 4; ++r) carried[r] = value_at(position, {transform.m[4 * r], transform.m[4 * r + 1], transform.m[4 * r + 2], transform.m[4 * r + 3]});
+    for (std::size_t r = 0; r < 4; ++r)
+      carried[r] = value_at(position, {transform.m[4 * r], transform.m[4 * r + 1], transform.m[4 * r + 2],
+                                       transform.m[4 * r + 3]});
     positions.push_back(carried);
   }
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3)
-    if (folds({positions[mesh.indices[t]], positions[mesh.indices[t + 1]], positions[mesh.indices[t + 2]]}, planes, view)) return true;
+    if (folds({positions[mesh.indices[t]], positions[mesh.indices[t + 1]], positions[mesh.indices[t + 2]]},
+              planes, view))
+      return true;
   return false;
 }
 

@@ -1,5 +1,5 @@
-// Stencil buffers of 1 to 8 bits at the ends of their range: every operation on every value, saturated or wrapped, under write masks; and counts that pass the
-// ends many times over.
+// Stencil buffers of 1 to 8 bits at the ends of their range: every operation on every value, saturated or
+// wrapped, under write masks; and counts that pass the ends many times over.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,11 +10,14 @@
 namespace tessera::test {
 namespace {
 
-constexpr StencilOp kOps[] = {StencilOp::keep, StencilOp::zero, StencilOp::replace, StencilOp::incr, StencilOp::decr, StencilOp::invert, StencilOp::incr_wrap, StencilOp::decr_wrap};
-constexpr std::uint32_t kReferences[] = {0, 1, 5, 200, 0xffffffff}, kMasks[] = {0xff, 0, 0x55, 0xaa, 0x0f, 0xffffff80};
+constexpr StencilOp kOps[] = {StencilOp::keep, StencilOp::zero,   StencilOp::replace,   StencilOp::incr,
+                              StencilOp::decr, StencilOp::invert, StencilOp::incr_wrap, StencilOp::decr_wrap};
+constexpr std::uint32_t kReferences[] = {0, 1, 5, 200, 0xffffffff},
+                        kMasks[] = {0xff, 0, 0x55, 0xaa, 0x0f, 0xffffff80};
 
 // What the header says, in plain integers: a reference is cut to the largest value, a mask to the bits.
-std::uint32_t after(StencilOp op, std::uint32_t stored, std::uint32_t reference, std::uint32_t write_mask, int bits) {
+std::uint32_t after(StencilOp op, std::uint32_t stored, std::uint32_t reference, std::uint32_t write_mask,
+                    int bits) {
   const std::uint32_t most = (1u << bits) - 1;
   const auto value = [&]() -> std::uint32_t {
     switch (op) {
@@ -33,7 +36,7 @@ std::uint32_t after(StencilOp op, std::uint32_t stored, std::uint32_t reference,
 }
 
 bool passes(Compare func, std::uint32_t a, std::uint32_t b) {
-  const bool results[] = {false, a < b, a == b, a <= b, a > b, a != b, a >= b, true};
+  const bool results[] = {false, a<b, a == b, a <= b, a> b, a != b, a >= b, true};
   return results[static_cast<int>(func)];
 }
 
@@ -43,8 +46,12 @@ enum class Drawn { triangles, points, lines, bitmap };
 /// Columns hold the values 0, 1, 2, ... of the buffer, again and again. Each row has a draw of its own.
 class Rows {
  public:
-  Rows(int bits, int samples, int rows) : bits_(bits), buffer_({.width = kWidth, .height = rows, .stencil_bits = bits, .samples = samples}), frame_(buffer_) {
-    for (int x = 0; x < kWidth; ++x) frame_.clear({.depth = 0.5, .stencil = stored(x), .scissor = Rect{x, 0, 1, rows}});
+  Rows(int bits, int samples, int rows)
+      : bits_(bits),
+        buffer_({.width = kWidth, .height = rows, .stencil_bits = bits, .samples = samples}),
+        frame_(buffer_) {
+    for (int x = 0; x < kWidth; ++x)
+      frame_.clear({.depth = 0.5, .stencil = stored(x), .scissor = Rect{x, 0, 1, rows}});
     frame_.clear({.color = Color{0, 0, 0, 1}});
   }
   static constexpr int kWidth = 256;
@@ -61,11 +68,13 @@ class Rows {
     state.line_width = state.point_size = 2 * kWidth;
     if (drawn == Drawn::bitmap) {
       static const std::vector<std::uint8_t> bits(kWidth / 8, 0xff);
-      frame_.draw_bitmap({.bits = bits.data(), .width = kWidth, .height = 1, .x = 0, .y = static_cast<double>(y)},
-                         {.depth = state.depth, .stencil = state.stencil, .scissor = state.scissor});
+      frame_.draw_bitmap(
+          {.bits = bits.data(), .width = kWidth, .height = 1, .x = 0, .y = static_cast<double>(y)},
+          {.depth = state.depth, .stencil = state.stencil, .scissor = state.scissor});
       return;
     }
-    static const MeshData all = whole_window(), point = of(Primitive::points, {0, 0, 0}), line = of(Primitive::lines, {-1, 0, 0, 1, 0, 0});
+    static const MeshData all = whole_window(), point = of(Primitive::points, {0, 0, 0}),
+                          line = of(Primitive::lines, {-1, 0, 0, 1, 0, 0});
     frame_.draw((drawn == Drawn::triangles ? all : drawn == Drawn::points ? point : line).view(), state);
   }
   void finish() {
@@ -83,7 +92,9 @@ class Rows {
     mesh.positions = std::move(positions);
     return mesh;
   }
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>((buffer_.format().height - 1 - y) * kWidth + x); }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>((buffer_.format().height - 1 - y) * kWidth + x);
+  }
 
   int bits_;
   FrameBuffer buffer_;
@@ -99,29 +110,43 @@ TEST(StencilOverflow, EveryOperationOnEveryValueOfEveryWidth) {
   };
   std::vector<Row> rows;
   for (const StencilOp op : kOps)
-    for (const std::uint32_t mask : kMasks) rows.push_back({op, kReferences[rows.size() % std::size(kReferences)], mask});
+    for (const std::uint32_t mask : kMasks)
+      rows.push_back({op, kReferences[rows.size() % std::size(kReferences)], mask});
   for (const std::uint32_t reference : kReferences) rows.push_back({StencilOp::replace, reference, 0xff});
   int turn = 0;
   for (int bits = 1; bits <= 8; ++bits)
     for (const int samples : {1, 4, 8})
       for (const Outcome outcome : {Outcome::fails, Outcome::fails_depth, Outcome::passes})
         for (const bool back : {false, true}) {
-          const Drawn drawn = back ? Drawn::triangles : static_cast<Drawn>(turn++ % 4);  // what has no faces is front
+          const Drawn drawn =
+              back ? Drawn::triangles : static_cast<Drawn>(turn++ % 4);  // what has no faces is front
           Rows buffer(bits, samples, static_cast<int>(rows.size()));
           for (std::size_t y = 0; y < rows.size(); ++y) {
-            StencilFace face{.func = outcome == Outcome::fails ? Compare::never : Compare::always, .ref = rows[y].reference, .mask = 0, .write_mask = rows[y].write_mask};
+            StencilFace face{.func = outcome == Outcome::fails ? Compare::never : Compare::always,
+                             .ref = rows[y].reference,
+                             .mask = 0,
+                             .write_mask = rows[y].write_mask};
             // The other two outcomes must not happen: they would leave another value.
-            face.fail = outcome == Outcome::fails ? rows[y].op : rows[y].op == StencilOp::zero ? StencilOp::invert : StencilOp::zero;
-            face.zfail = outcome == Outcome::fails_depth ? rows[y].op : rows[y].op == StencilOp::zero ? StencilOp::invert : StencilOp::zero;
-            face.zpass = outcome == Outcome::passes ? rows[y].op : rows[y].op == StencilOp::zero ? StencilOp::invert : StencilOp::zero;
+            face.fail = outcome == Outcome::fails       ? rows[y].op
+                        : rows[y].op == StencilOp::zero ? StencilOp::invert
+                                                        : StencilOp::zero;
+            face.zfail = outcome == Outcome::fails_depth ? rows[y].op
+                         : rows[y].op == StencilOp::zero ? StencilOp::invert
+                                                         : StencilOp::zero;
+            face.zpass = outcome == Outcome::passes      ? rows[y].op
+                         : rows[y].op == StencilOp::zero ? StencilOp::invert
+                                                         : StencilOp::zero;
             buffer.draw(static_cast<int>(y), face, outcome, drawn, back);
           }
           buffer.finish();
           for (std::size_t y = 0; y < rows.size(); ++y)
             for (int x = 0; x < Rows::kWidth; ++x)
-              ASSERT_EQ(buffer.value(x, static_cast<int>(y)), after(rows[y].op, buffer.stored(x), rows[y].reference, rows[y].write_mask, bits))
-                  << bits << " bits, " << samples << " samples, operation " << static_cast<int>(rows[y].op) << " on " << buffer.stored(x) << ", outcome " << static_cast<int>(outcome)
-                  << ", write mask " << rows[y].write_mask << (back ? ", back" : ", front") << ", drawn as " << static_cast<int>(drawn);
+              ASSERT_EQ(buffer.value(x, static_cast<int>(y)),
+                        after(rows[y].op, buffer.stored(x), rows[y].reference, rows[y].write_mask, bits))
+                  << bits << " bits, " << samples << " samples, operation " << static_cast<int>(rows[y].op)
+                  << " on " << buffer.stored(x) << ", outcome " << static_cast<int>(outcome)
+                  << ", write mask " << rows[y].write_mask << (back ? ", back" : ", front") << ", drawn as "
+                  << static_cast<int>(drawn);
         }
 }
 
@@ -136,15 +161,20 @@ TEST(StencilOverflow, TestsCompareWhatTheMaskLeaves) {
     std::vector<Row> rows;
     for (int func = 0; func < 8; ++func)
       for (const std::uint32_t reference : {0u, 1u, most / 2, most, 0xffffffffu})
-        for (const std::uint32_t mask : kCompared) rows.push_back({static_cast<Compare>(func), reference, mask});
+        for (const std::uint32_t mask : kCompared)
+          rows.push_back({static_cast<Compare>(func), reference, mask});
     Rows buffer(bits, 1, static_cast<int>(rows.size()));
     for (std::size_t y = 0; y < rows.size(); ++y)
-      buffer.draw(static_cast<int>(y), {.func = rows[y].func, .ref = rows[y].reference, .mask = rows[y].mask}, Outcome::passes, Drawn::triangles, false);
+      buffer.draw(static_cast<int>(y), {.func = rows[y].func, .ref = rows[y].reference, .mask = rows[y].mask},
+                  Outcome::passes, Drawn::triangles, false);
     buffer.finish();
     for (std::size_t y = 0; y < rows.size(); ++y)
       for (int x = 0; x < Rows::kWidth; ++x)
-        ASSERT_EQ(buffer.is_drawn(x, static_cast<int>(y)), passes(rows[y].func, std::min(rows[y].reference, most) & rows[y].mask, buffer.stored(x) & rows[y].mask))
-            << bits << " bits, function " << static_cast<int>(rows[y].func) << ", reference " << rows[y].reference << ", mask " << rows[y].mask << ", stored " << buffer.stored(x);
+        ASSERT_EQ(buffer.is_drawn(x, static_cast<int>(y)),
+                  passes(rows[y].func, std::min(rows[y].reference, most) & rows[y].mask,
+                         buffer.stored(x) & rows[y].mask))
+            << bits << " bits, function " << static_cast<int>(rows[y].func) << ", reference "
+            << rows[y].reference << ", mask " << rows[y].mask << ", stored " << buffer.stored(x);
   }
 }
 
@@ -155,12 +185,14 @@ TEST(StencilOverflow, CountsStayAtTheEndsOrGoRound) {
   for (int i = 0; i < kLayers; ++i) {
     const MeshData one = whole_window();
     layers.positions.insert(layers.positions.end(), one.positions.begin(), one.positions.end());
-    for (const std::uint32_t index : one.indices) layers.indices.push_back(index + 4 * static_cast<std::uint32_t>(i));
+    for (const std::uint32_t index : one.indices)
+      layers.indices.push_back(index + 4 * static_cast<std::uint32_t>(i));
   }
   const MeshData one = whole_window();
   Renderer renderer({.threads = 1});
   for (int bits = 1; bits <= 8; ++bits)
-    for (const StencilOp op : {StencilOp::incr, StencilOp::decr, StencilOp::incr_wrap, StencilOp::decr_wrap, StencilOp::invert})
+    for (const StencilOp op :
+         {StencilOp::incr, StencilOp::decr, StencilOp::incr_wrap, StencilOp::decr_wrap, StencilOp::invert})
       for (const int count : {1, kLayers}) {
         FrameBuffer buffer({.width = 9, .height = 5, .stencil_bits = bits});
         Frame frame(buffer);
@@ -176,11 +208,14 @@ TEST(StencilOverflow, CountsStayAtTheEndsOrGoRound) {
         }
         renderer.finish(frame);
         for (int i = 0; i < kLayers; ++i) expected = after(op, expected, 0, 0xff, bits);
-        for (const std::uint8_t value : stencil_values(buffer)) ASSERT_EQ(value, expected) << bits << " bits, operation " << static_cast<int>(op) << ", " << count << " at a time";
+        for (const std::uint8_t value : stencil_values(buffer))
+          ASSERT_EQ(value, expected) << bits << " bits, operation " << static_cast<int>(op) << ", " << count
+                                     << " at a time";
       }
 }
 
-// Shadow volumes: what front faces count up, back faces count down, whichever comes first, and however often it goes round on the way.
+// Shadow volumes: what front faces count up, back faces count down, whichever comes first, and however often
+// it goes round on the way.
 TEST(StencilOverflow, FrontsAndBacksCancelOut) {
   Renderer renderer({.threads = 1});
   Random random(3);
@@ -190,7 +225,8 @@ TEST(StencilOverflow, FrontsAndBacksCancelOut) {
     frame.clear({.stencil = 1});
     DrawState state;
     state.depth.test = Compare::never;
-    state.stencil = StencilState{.front = {.zfail = StencilOp::incr_wrap}, .back = StencilFace{.zfail = StencilOp::decr_wrap}};
+    state.stencil = StencilState{.front = {.zfail = StencilOp::incr_wrap},
+                                 .back = StencilFace{.zfail = StencilOp::decr_wrap}};
     std::vector<MeshData> meshes;
     for (int i = 0; i < 600; ++i) {
       MeshData& mesh = meshes.emplace_back();

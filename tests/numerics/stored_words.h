@@ -9,7 +9,8 @@
 
 namespace tessera::test {
 
-/// Of an RGB or luminance buffer: where red, green, blue and alpha stand in a word. Of luminance the first three are the same bits; a component of no bits reads 1.
+/// Of an RGB or luminance buffer: where red, green, blue and alpha stand in a word. Of luminance the first
+/// three are the same bits; a component of no bits reads 1.
 struct Split {
   std::array<int, 4> bits{}, shift{};
 
@@ -26,10 +27,13 @@ struct Split {
   explicit Split(const FrameBufferFormat& format) : Split(format.color_bits, format.alpha_bits) {}
   bool is_luminance() const { return shift[0] == 0 && bits[0] <= 2; }
   int levels(std::size_t c) const { return (1 << bits[c]) - 1; }  ///< 1.0 as a level
-  std::int64_t level(std::uint32_t word, std::size_t c) const { return bits[c] == 0 ? 0 : word >> shift[c] & static_cast<std::uint32_t>(levels(c)); }
+  std::int64_t level(std::uint32_t word, std::size_t c) const {
+    return bits[c] == 0 ? 0 : word >> shift[c] & static_cast<std::uint32_t>(levels(c));
+  }
 };
 
-/// The levels of the accumulation buffer, from its planes: red, green, blue, alpha for each pixel, rows from the top.
+/// The levels of the accumulation buffer, from its planes: red, green, blue, alpha for each pixel, rows from
+/// the top.
 inline std::vector<std::array<std::int64_t, 4>> accumulation_levels(const FrameBuffer& buffer) {
   const int bits = buffer.format().accumulation_bits;
   std::vector<std::array<std::int64_t, 4>> levels(pixel_count(buffer));
@@ -38,7 +42,8 @@ inline std::vector<std::array<std::int64_t, 4>> accumulation_levels(const FrameB
     std::size_t at = 0;
     for (int y = 0; y < plane.height; ++y)
       for (int x = 0; x < plane.width; ++x, ++at) {
-        const std::int64_t bit = plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1, place = std::int64_t{1} << k % bits;
+        const std::int64_t bit = plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1,
+                           place = std::int64_t{1} << k % bits;
         levels[at][static_cast<std::size_t>(k / bits)] += k % bits == bits - 1 ? -bit * place : bit * place;
       }
   }

@@ -1,4 +1,5 @@
-// Triangles of any shape whose depths are tilted in any way, drawn into windows of any: the same ones in each call.
+// Triangles of any shape whose depths are tilted in any way, drawn into windows of any: the same ones in each
+// call.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,8 @@
 
 namespace tessera::test {
 
-inline constexpr int kFraction = 24;  // depths are whole multiples of 2^-24: floats, and exact in clip space, too
+inline constexpr int kFraction =
+    24;  // depths are whole multiples of 2^-24: floats, and exact in clip space, too
 
 /// Ends of the depth range, in eighths.
 struct DepthRange {
@@ -53,8 +55,11 @@ inline std::array<std::int64_t, 3> random_depths(Dice& dice) {
 inline void add(CaseDraw& draw, const Tilted& tilted, std::size_t number, int width, int height) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double z = std::ldexp(static_cast<double>(tilted.z[k]), 1 - kFraction) - 1;
-    for (const double c : {clip_x(tilted.triangle.at[k].x, width), clip_y(tilted.triangle.at[k].y, height), z, 1.0}) draw.positions.push_back(static_cast<float>(c));
-    for (const std::size_t shift : {0, 8, 16}) draw.colors.push_back(static_cast<float>((number + 1) >> shift & 255) / 255);
+    for (const double c :
+         {clip_x(tilted.triangle.at[k].x, width), clip_y(tilted.triangle.at[k].y, height), z, 1.0})
+      draw.positions.push_back(static_cast<float>(c));
+    for (const std::size_t shift : {0, 8, 16})
+      draw.colors.push_back(static_cast<float>((number + 1) >> shift & 255) / 255);
     draw.colors.push_back(1);
   }
 }
@@ -76,16 +81,24 @@ struct TiltedState {
 
 // Calls pixel(triangle, x, y, what is stored) wherever one is seen.
 template <class Pixel>
-std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, WindowShape shape, int rounds, const Pixel& pixel, const TiltedState& state = {}) {
+std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, WindowShape shape, int rounds,
+                           const Pixel& pixel, const TiltedState& state = {}) {
   std::size_t seen = 0;
   Dice dice(70 + static_cast<std::uint32_t>(shape));
   for (const Window& window : state.windows) {
     const auto renderer = make({.width = window.width, .height = window.height, .depth = depth.format});
     // Large ones hide each other, needles hardly have a pixel.
-    const std::size_t count = shape == WindowShape::any ? 8 : shape == WindowShape::needle ? 1000 : shape == WindowShape::small ? 400 : 50;
+    const std::size_t count = shape == WindowShape::any      ? 8
+                              : shape == WindowShape::needle ? 1000
+                              : shape == WindowShape::small  ? 400
+                                                             : 50;
     for (int round = 0; round < rounds * window.frames; ++round) {
       std::vector<Tilted> all;
-      CaseDraw draw{.test_depth = true, .depth_func = Compare::always, .depth_near = state.range.near / 8.0, .depth_far = state.range.far / 8.0, .offset = state.offset};
+      CaseDraw draw{.test_depth = true,
+                    .depth_func = Compare::always,
+                    .depth_near = state.range.near / 8.0,
+                    .depth_far = state.range.far / 8.0,
+                    .offset = state.offset};
       for (std::size_t n = 0; n < count; ++n) {
         all.push_back({random_triangle(dice, shape, window.width, window.height), random_depths(dice)});
         add(draw, all.back(), n, window.width, window.height);
@@ -93,7 +106,9 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
       const CasePicture& picture = renderer->draw({draw});
       for (int y = 0; y < window.height; ++y)
         for (int x = 0; x < window.width; ++x) {
-          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) + static_cast<std::size_t>(x), number = number_of(picture.colors[at]);
+          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
+                                 static_cast<std::size_t>(x),
+                            number = number_of(picture.colors[at]);
           if (number >= all.size() || !all[number].triangle.contains(WindowTriangle::center(x, y))) continue;
           pixel(all[number], x, y, picture.depth[at]);
           ++seen;
@@ -104,7 +119,9 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
 }
 
 // Of a depth in the whole range, as a part of area 2^kFraction.
-inline Whole depth_numerator(const Tilted& t, const GridPoint& p) { return t.triangle.edge(0, p) * t.z[0] + t.triangle.edge(1, p) * t.z[1] + t.triangle.edge(2, p) * t.z[2]; }
+inline Whole depth_numerator(const Tilted& t, const GridPoint& p) {
+  return t.triangle.edge(0, p) * t.z[0] + t.triangle.edge(1, p) * t.z[1] + t.triangle.edge(2, p) * t.z[2];
+}
 
 inline std::string name_of(WindowShape shape) {
   constexpr const char* kNames[] = {"small", "large", "on centres", "slivers", "needles"};

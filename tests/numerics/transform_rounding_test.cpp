@@ -1,8 +1,10 @@
-// The vertex stage's sums in double, beside what they are exactly: products of matrices, positions in clip space and in eye space, 1/w, and the codes of what
-// lies beside a clip plane. Elements of all sizes at once, and some that cancel out.
+// The vertex stage's sums in double, beside what they are exactly: products of matrices, positions in clip
+// space and in eye space, 1/w, and the codes of what lies beside a clip plane. Elements of all sizes at once,
+// and some that cancel out.
 //
-// w = 2^-53, u = 2^-24. Exact is __float128: it has 113 bits, so that a product of two doubles is exact and sums round 2^-60 times as finely as theirs. Of sums
-// that leave next to nothing of their terms, exact are fractions.
+// w = 2^-53, u = 2^-24. Exact is __float128: it has 113 bits, so that a product of two doubles is exact and
+// sums round 2^-60 times as finely as theirs. Of sums that leave next to nothing of their terms, exact are
+// fractions.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +38,10 @@ struct Sum {
     }
   }
   /// How far `found` is off, of the sum of the sizes; where all of them are 0, so must it be.
-  long double error(double found) const { return sizes == 0 ? (found == 0 ? 0 : HUGE_VALL) : std::abs(static_cast<long double>((Quad{found} - exact) / sizes)); }
+  long double error(double found) const {
+    return sizes == 0 ? (found == 0 ? 0 : HUGE_VALL)
+                      : std::abs(static_cast<long double>((Quad{found} - exact) / sizes));
+  }
 };
 
 double any_number(Dice& dice, int octaves) {
@@ -57,7 +62,8 @@ std::array<float, 4> any_point(Dice& dice, const std::array<double, 16>& m) {
   std::array<float, 4> p;
   for (float& c : p) c = static_cast<float>(any_number(dice, 10));
   const double* row = m.data() + 4 * dice.between(0, 3);
-  if (dice.maybe() && row[0] != 0) p[0] = static_cast<float>(-(row[1] * p[1] + row[2] * p[2] + row[3] * p[3]) / row[0]);
+  if (dice.maybe() && row[0] != 0)
+    p[0] = static_cast<float>(-(row[1] * p[1] + row[2] * p[2] + row[3] * p[3]) / row[0]);
   return p;
 }
 
@@ -72,11 +78,14 @@ TEST(TransformRounding, ProductsOfMatrices) {
   long double worst = 0;
   for (int n = 0; n < rounds(20000); ++n) {
     Matrix a{any_matrix(dice)}, b{any_matrix(dice)};
-    if (dice.maybe() && a.m[1] != 0) b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];  // cancels out in element 0
+    if (dice.maybe() && a.m[1] != 0)
+      b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];  // cancels out in element 0
     const Matrix product = a * b;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
-        keep_worst(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; }, [&](std::size_t j) { return b.m[4 * j + k]; }).error(product.m[4 * i + k]));
+        keep_worst(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; },
+                              [&](std::size_t j) { return b.m[4 * j + k]; })
+                              .error(product.m[4 * i + k]));
   }
   expect_within("product of matrices, of the sum of sizes", worst / kDouble, 4, "2^-53");
 }
@@ -94,11 +103,14 @@ long double relative_error(double found, const mpq_class& exact) {
   return mpq_class(abs(mpq_class(found) / exact - 1)).get_d();
 }
 
-/// Changes the matrix so that a sum of the point's leaves hardly any digit of its terms: w, the distance from the near or the far plane, or that from the guard band.
+/// Changes the matrix so that a sum of the point's leaves hardly any digit of its terms: w, the distance from
+/// the near or the far plane, or that from the guard band.
 void cancel(Dice& dice, std::array<double, 16>& m, const std::array<float, 4>& p, double guard) {
   if (p[0] == 0) return;
   const auto any_sign = [&](double size) { return dice.maybe() ? size : -size; };
-  const auto last_digit = [&](double d) { return d == 0 || dice.maybe() ? d : std::nextafter(d, any_sign(HUGE_VAL)); };
+  const auto last_digit = [&](double d) {
+    return d == 0 || dice.maybe() ? d : std::nextafter(d, any_sign(HUGE_VAL));
+  };
   const auto row = [&](std::size_t n) { return m.data() + 4 * n; };
   const std::int64_t kind = dice.between(0, 2);
   if (kind == 0) {
@@ -124,29 +136,34 @@ TEST(TransformRounding, PositionsInClipSpace) {
     if (n % 4 == 0) cancel(dice, m, p, t.guard_x);
     std::copy(m.begin(), m.end(), t.clip_from_object);
     t.set_roughness();
-    const auto coordinates = [](const ClipPosition& position) { return std::array{position.x, position.y, position.z, position.w}; };
+    const auto coordinates = [](const ClipPosition& position) {
+      return std::array{position.x, position.y, position.z, position.w};
+    };
     const std::array<double, 4> rounded = coordinates(clip_position(t, p[0], p[1], p[2], p[3]));
     for (std::size_t row = 0; row < 4; ++row) keep_worst(worst, row_times(m, row, p).error(rounded[row]));
     const TransformedVertex v = transform_vertex(t, p);
     (v.is_rough ? rough : smooth) += 1;
     const std::array<double, 4> found = coordinates(v.position);
     if (v.is_rough)
-      for (std::size_t row = 0; row < 4; ++row) keep_worst(worst_rough, relative_error(found[row], exact_row_times(m, row, p)));
-    else
-      keep_worst(worst_w, relative_error(found[3], exact_row_times(m, 3, p)));
+      for (std::size_t row = 0; row < 4; ++row)
+        keep_worst(worst_rough, relative_error(found[row], exact_row_times(m, row, p)));
+    else keep_worst(worst_w, relative_error(found[3], exact_row_times(m, 3, p)));
   }
   EXPECT_GT(rough, rounds(5000));
   EXPECT_GT(smooth, rounds(30000));
   expect_within("clip coordinates, of the sum of sizes", worst / kDouble, 4, "2^-53");
   expect_within("w of vertices that are rounded four times, relative", worst_w * 0x1p20L, 1, "2^-20");
-  expect_within("clip coordinates of those whose sums are exact, relative", worst_rough * 0x1p52L, 1, "2^-52");
+  expect_within("clip coordinates of those whose sums are exact, relative", worst_rough * 0x1p52L, 1,
+                "2^-52");
 }
 
 // w is a product of two numbers, which rounds once, by w of itself.
 TEST(TransformRounding, ReciprocalsOfW) {
   Dice dice(75);
   long double worst = 0;
-  const auto any_size = [&] { return (1 + dice.unit()) * std::exp2(static_cast<double>(dice.between(-59, 58))); };
+  const auto any_size = [&] {
+    return (1 + dice.unit()) * std::exp2(static_cast<double>(dice.between(-59, 58)));
+  };
   for (int n = 0; n < rounds(1500); ++n) {
     VertexTransform t;
     t.half_width = t.half_height = 32;
@@ -160,7 +177,8 @@ TEST(TransformRounding, ReciprocalsOfW) {
       std::uint8_t codes[kVertexBatch];
       EXPECT_EQ(transform_vertices(isa)(t, {positions[0], 4}, 4, kVertexBatch, found, codes), 0);
       for (std::size_t i = 0; i < kVertexBatch; ++i)
-        keep_worst(worst, std::abs(static_cast<long double>(Quad{found[i].rw} * Quad{t.clip_from_object[15]} * Quad{positions[i][3]} - 1)));
+        keep_worst(worst, std::abs(static_cast<long double>(
+                              Quad{found[i].rw} * Quad{t.clip_from_object[15]} * Quad{positions[i][3]} - 1)));
     }
   }
   expect_within("1/w, relative", worst / kFloat, 1 + 0x1p-20L, "2^-24");
@@ -190,7 +208,9 @@ TEST(TransformRounding, PositionsInEyeSpace) {
         divided += w.exact != 1;
         for (std::size_t row = 0; row < 3; ++row) {
           const Sum sum = row_times(m, row, points[i]);
-          const auto exact = static_cast<long double>(sum.exact / w.exact), of_sum = static_cast<long double>(sum.sizes / size), of_w = std::abs(exact) * static_cast<long double>(w.sizes / size);
+          const auto exact = static_cast<long double>(sum.exact / w.exact),
+                     of_sum = static_cast<long double>(sum.sizes / size),
+                     of_w = std::abs(exact) * static_cast<long double>(w.sizes / size);
           const long double bound = kFloat * std::abs(exact) + 5 * kDouble * (of_sum + of_w) + 0x1p-149L;
           keep_worst(worst, std::abs(found[row][i] - exact) / bound);
         }
@@ -201,36 +221,48 @@ TEST(TransformRounding, PositionsInEyeSpace) {
   expect_within("eye-space positions, of u of each and 5 w of the sums of sizes over w", worst, 1, "");
 }
 
-/// Signed distances from the clip planes, positive inside, in the order of their bits; each with the size of what it is the difference of.
+/// Signed distances from the clip planes, positive inside, in the order of their bits; each with the size of
+/// what it is the difference of.
 struct PlaneDistance {
   std::uint8_t bit;
   Quad distance, size;
 };
 std::array<PlaneDistance, 7> plane_distances(const VertexTransform& t, const ClipPosition& p) {
-  const auto of = [](std::uint8_t bit, Quad a, Quad b) { return PlaneDistance{bit, a + b, (a < 0 ? -a : a) + (b < 0 ? -b : b)}; };
+  const auto of = [](std::uint8_t bit, Quad a, Quad b) {
+    return PlaneDistance{bit, a + b, (a < 0 ? -a : a) + (b < 0 ? -b : b)};
+  };
   const Quad gx = Quad{t.guard_x} * p.w, gy = Quad{t.guard_y} * p.w, x = p.x, y = p.y, z = p.z, w = p.w;
-  return {of(kLeftOfGuardBand, gx, x),  of(kRightOfGuardBand, gx, -x), of(kBelowGuardBand, gy, y),    of(kAboveGuardBand, gy, -y),
-          t.reversed ? of(kBeforeNear, w, -z) : of(kBeforeNear, w, z), t.reversed ? of(kBehindFar, z, 0) : of(kBehindFar, w, -z), of(kNoPositiveW, w, 0)};
+  return {of(kLeftOfGuardBand, gx, x),
+          of(kRightOfGuardBand, gx, -x),
+          of(kBelowGuardBand, gy, y),
+          of(kAboveGuardBand, gy, -y),
+          t.reversed ? of(kBeforeNear, w, -z) : of(kBeforeNear, w, z),
+          t.reversed ? of(kBehindFar, z, 0) : of(kBehindFar, w, -z),
+          of(kNoPositiveW, w, 0)};
 }
 
-// Coordinates within 8 steps of the planes, which the last column of a matrix gives to the vertex 0 0 0 1: where rounding might decide, codes are exact.
+// Coordinates within 8 steps of the planes, which the last column of a matrix gives to the vertex 0 0 0 1:
+// where rounding might decide, codes are exact.
 TEST(TransformRounding, ClipCodes) {
   Dice dice(74);
   long double worst = 0;
   std::size_t right = 0, wrong = 0, on_planes = 0;
   for (int n = 0; n < rounds(40000); ++n) {
     VertexTransform t;
-    const auto width = static_cast<double>(dice.between(1, 16384)), height = static_cast<double>(dice.between(1, 16384));
+    const auto width = static_cast<double>(dice.between(1, 16384)),
+               height = static_cast<double>(dice.between(1, 16384));
     t.half_width = width / 2, t.half_height = height / 2;
     t.guard_x = kGuardBandPixels / t.half_width, t.guard_y = kGuardBandPixels / t.half_height;
     t.reversed = dice.maybe();
     const double w = any_number(dice, 20);
     const auto beside = [&](double plane) {
-      for (std::int64_t steps = dice.between(0, 8); steps > 0; --steps) plane = std::nextafter(plane, dice.maybe() ? HUGE_VAL : -HUGE_VAL);
+      for (std::int64_t steps = dice.between(0, 8); steps > 0; --steps)
+        plane = std::nextafter(plane, dice.maybe() ? HUGE_VAL : -HUGE_VAL);
       return plane;
     };
     const auto sign = [&] { return dice.maybe() ? 1.0 : -1.0; };
-    const double at[4] = {beside(sign() * t.guard_x * w), beside(sign() * t.guard_y * w), t.reversed && dice.maybe() ? 0 : beside(sign() * w), w};
+    const double at[4] = {beside(sign() * t.guard_x * w), beside(sign() * t.guard_y * w),
+                          t.reversed && dice.maybe() ? 0 : beside(sign() * w), w};
     for (std::size_t row = 0; row < 4; ++row) t.clip_from_object[4 * row + 3] = at[row];
     const ClipPosition position{at[0], at[1], at[2], at[3]};
     t.set_roughness();
@@ -251,14 +283,17 @@ TEST(TransformRounding, ClipCodes) {
           continue;
         }
         ++wrong;
-        keep_worst(worst, plane.size == 0 ? HUGE_VALL : std::abs(static_cast<long double>(plane.distance / plane.size)));
+        keep_worst(worst, plane.size == 0 ? HUGE_VALL
+                                          : std::abs(static_cast<long double>(plane.distance / plane.size)));
       }
     }
   }
   EXPECT_GT(right, 100000u);
   EXPECT_GT(on_planes, 5000u);
-  expect_within("codes of vertices within 8 steps of a clip plane, wrong", static_cast<long double>(wrong), 0, "codes");  // those on it as well, at distance 0
-  expect_within("distance from a clip plane of vertices on its wrong side, of the sum of sizes", worst / kDouble, 0, "2^-53");
+  expect_within("codes of vertices within 8 steps of a clip plane, wrong", static_cast<long double>(wrong), 0,
+                "codes");  // those on it as well, at distance 0
+  expect_within("distance from a clip plane of vertices on its wrong side, of the sum of sizes",
+                worst / kDouble, 0, "2^-53");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What is drawn under transforms that hardly are any: mirrored ones face as their windows say and are lit by the inverse transpose, singular ones leave
-// planes, lines and points, powers of two leave every bit.
+// What is drawn under transforms that hardly are any: mirrored ones face as their windows say and are lit by
+// the inverse transpose, singular ones leave planes, lines and points, powers of two leave every bit.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,9 @@ constexpr int kSide = 32;
 class Canvas {
  public:
   /// Words of 8 bits for red, green and blue, rows from the top.
-  std::vector<std::uint32_t> draw(const Mesh& mesh, const DrawState& state, const Camera& camera = {}, const std::vector<Light>& lights = {Light{}}, const LightModel& model = {}) {
+  std::vector<std::uint32_t> draw(const Mesh& mesh, const DrawState& state, const Camera& camera = {},
+                                  const std::vector<Light>& lights = {Light{}},
+                                  const LightModel& model = {}) {
     Frame frame(buffer_);
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     frame.set_camera(camera);
@@ -38,14 +40,19 @@ class Canvas {
   FrameBuffer buffer_{FrameBufferFormat{.width = kSide, .height = kSide}};
   Renderer renderer_{RendererOptions{.threads = 1}};
 };
-constexpr std::size_t kMiddle = (kSide / 2 - 1) * kSide + kSide / 2;  ///< to the upper right of the window's centre, where a point at the centre is seen
+constexpr std::size_t kMiddle =
+    (kSide / 2 - 1) * kSide +
+    kSide / 2;  ///< to the upper right of the window's centre, where a point at the centre is seen
 
 DrawState unlit() {
   DrawState state{.lighting = false};
   state.material.diffuse = {1, 1, 1, 1};
   return state;
 }
-std::size_t drawn(const std::vector<std::uint32_t>& words) { return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; })); }
+std::size_t drawn(const std::vector<std::uint32_t>& words) {
+  return static_cast<std::size_t>(
+      std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; }));
+}
 
 Matrix turn(Draws& draws) {
   const std::array<float, 3> axis = draws.direction();
@@ -57,43 +64,59 @@ Real3 transformed(const Matrix& m, const Real3& v) {
     for (std::size_t k = 0; k < 3; ++k) r[i] += m.m[4 * i + k] * v[k];
   return r;
 }
-Real3 cross(const Real3& a, const Real3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Real3 cross(const Real3& a, const Real3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
-// A large triangle about the middle, under turns and stretches, half of them mirrored. The normal of its plane is what the inverse transpose makes of the
-// object's; which side is seen is the window's matter: a mirrored triangle turns the other way round, and shows its back where its normal faces the eye.
+// A large triangle about the middle, under turns and stretches, half of them mirrored. The normal of its
+// plane is what the inverse transpose makes of the object's; which side is seen is the window's matter: a
+// mirrored triangle turns the other way round, and shows its back where its normal faces the eye.
 TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
   Draws draws{std::mt19937(61)};
   Canvas canvas;
   Real worst = 0;
   int fronts = 0, backs = 0, mirrored = 0;
   for (int n = 0; n < 2000 * (long_tests() ? 30 : 1); ++n) {
-    const double x = std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1), y = std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1);
-    const Matrix transform = scale(1, 1, 1e-3) * turn(draws) * scale(x, y, std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1)) * turn(draws);
+    const double x = std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1),
+                 y = std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1);
+    const Matrix transform = scale(1, 1, 1e-3) * turn(draws) *
+                             scale(x, y, std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1)) *
+                             turn(draws);
     const std::array<float, 9> corners{-1, -1, 0, 1, -1, 0, 0, 1.5f, 0};
     Real3 at[3];
-    for (std::size_t k = 0; k < 3; ++k) at[k] = transformed(transform, {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]});
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = transformed(transform, {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]});
     const Real area = cross(at[1] - at[0], at[2] - at[0])[2];
     const Real3 middle{1.0L / kSide, 1.0L / kSide, 0};
     Real inside = 1;  // the least of the middle's barycentric coordinates
-    for (std::size_t k = 0; k < 3; ++k) inside = std::min(inside, cross(at[(k + 1) % 3] - at[k], middle - at[k])[2] / area);
+    for (std::size_t k = 0; k < 3; ++k)
+      inside = std::min(inside, cross(at[(k + 1) % 3] - at[k], middle - at[k])[2] / area);
     if (!(inside > 0.01L) || std::abs(area) < 0.05L) continue;
-    // M^-T (0, 0, 1) is m0 x m1 over the determinant: the cross product of the window's edges, turned round by a mirror.
-    const Real3 m0 = transformed(transform, {1, 0, 0}), m1 = transformed(transform, {0, 1, 0}), m2 = transformed(transform, {0, 0, 1});
-    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, clockwise = draws.one_in(2), front = (area > 0) != clockwise;
+    // M^-T (0, 0, 1) is m0 x m1 over the determinant: the cross product of the window's edges, turned round
+    // by a mirror.
+    const Real3 m0 = transformed(transform, {1, 0, 0}), m1 = transformed(transform, {0, 1, 0}),
+                m2 = transformed(transform, {0, 0, 1});
+    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, clockwise = draws.one_in(2),
+               front = (area > 0) != clockwise;
     const Real3 normal = normalized(cross(m0, m1) * (is_mirrored ? -1 : 1));
     const std::array<float, 3> up{0, 0, 1};
     std::vector<float> normals;
     for (int k = 0; k < 3; ++k) normals.insert(normals.end(), up.begin(), up.end());
-    DrawState state{.transform = transform, .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}), .depth = {.enabled = false}};
+    DrawState state{.transform = transform,
+                    .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}),
+                    .depth = {.enabled = false}};
     state.front_face = clockwise ? FrontFace::cw : FrontFace::ccw;
     state.material = {.ambient = {0, 0, 0, 1}, .diffuse = {1, 0, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
-    state.back_material = Material{.ambient = {0, 0, 0, 1}, .diffuse = {0, 1, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
+    state.back_material =
+        Material{.ambient = {0, 0, 0, 1}, .diffuse = {0, 1, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
     const std::array<float, 3> l = draws.direction();
     const std::vector<Light> lights{Light{.position = {l[0], l[1], l[2], 0}}};
     const LightModel model{.ambient = {0, 0, 0, 1}, .two_sided = true};
     // Shallow in depth, so that it lies in the view volume; the stretch of the normals is the oracle's, too.
-    const std::uint32_t word = canvas.draw({.positions = corners, .normals = normals}, state, {}, lights, model)[kMiddle];
-    const auto exact = lit_color(front ? state.material : *state.back_material, lights, model, {normal, {}}, kCosineSlack, front);
+    const std::uint32_t word =
+        canvas.draw({.positions = corners, .normals = normals}, state, {}, lights, model)[kMiddle];
+    const auto exact = lit_color(front ? state.material : *state.back_material, lights, model, {normal, {}},
+                                 kCosineSlack, front);
     for (std::size_t c = 0; c < 3; ++c) {
       const Real level = word >> (16 - 8 * c) & 255;
       keep_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
@@ -105,7 +128,8 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
   expect_within("lit faces under mirrored transforms", worst, 1, "levels of 255");
 }
 
-// Mirrored and seen with clockwise fronts, a closed mesh shows the same pixels as the mesh that was mirrored by hand.
+// Mirrored and seen with clockwise fronts, a closed mesh shows the same pixels as the mesh that was mirrored
+// by hand.
 TEST(MirroredTransforms, ShowTheirFrontsWhereTheseAreClockwise) {
   Canvas canvas;
   const MeshData teapot = builtin_mesh("teapot", 4);
@@ -123,17 +147,21 @@ TEST(MirroredTransforms, ShowTheirFrontsWhereTheseAreClockwise) {
   EXPECT_GT(drawn(expected), 100u);
 }
 
-// A picture of an object 2^-20 as large, or 2^20 times, under the transform that undoes it: no bit is another.
+// A picture of an object 2^-20 as large, or 2^20 times, under the transform that undoes it: no bit is
+// another.
 TEST(ScaledTransforms, ByPowersOfTwoChangeNoBit) {
   Canvas canvas;
   const MeshData teapot = builtin_mesh("teapot", 4);
-  const Camera camera{.view = look_at({0, 1, 4}, {0, 0, 0}, {0, 1, 0}), .projection = perspective(30, 1, 1, 100)};
+  const Camera camera{.view = look_at({0, 1, 4}, {0, 0, 0}, {0, 1, 0}),
+                      .projection = perspective(30, 1, 1, 100)};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
     for (const bool normalize : {true, false}) {
       DrawState state{.shading = shading, .normalize = normalize};
       state.material = *named_material("gold");
       const std::vector<Light> lights{Light{.position = {5, 5, 5, 1}}};
-      const auto expected = canvas.draw({.positions = teapot.positions, .normals = teapot.normals, .indices = teapot.indices}, state, camera, lights);
+      const auto expected =
+          canvas.draw({.positions = teapot.positions, .normals = teapot.normals, .indices = teapot.indices},
+                      state, camera, lights);
       EXPECT_GT(drawn(expected), 50u);
       for (const int exponent : {-100, -20, 20, 100}) {
         std::vector<float> positions, normals;
@@ -141,11 +169,17 @@ TEST(ScaledTransforms, ByPowersOfTwoChangeNoBit) {
         for (const float n : teapot.normals) normals.push_back(std::ldexp(n, -exponent));
         const double back = std::ldexp(1.0, -exponent);
         state.transform = scale(back, back, back);
-        EXPECT_EQ(canvas.draw({.positions = positions, .normals = normals, .indices = teapot.indices}, state, camera, lights), expected) << exponent;
+        EXPECT_EQ(canvas.draw({.positions = positions, .normals = normals, .indices = teapot.indices}, state,
+                              camera, lights),
+                  expected)
+            << exponent;
         // Of an object of the usual size, too, whose normals change with it where nothing normalizes them.
         if (!normalize && shading != Shading::phong) continue;
         const Camera scaled{.view = camera.view, .projection = camera.projection * scale(1, 1, 1)};
-        EXPECT_EQ(canvas.draw({.positions = positions, .normals = teapot.normals, .indices = teapot.indices}, state, scaled, lights), expected) << exponent;
+        EXPECT_EQ(canvas.draw({.positions = positions, .normals = teapot.normals, .indices = teapot.indices},
+                              state, scaled, lights),
+                  expected)
+            << exponent;
       }
     }
 }
@@ -154,7 +188,9 @@ TEST(ScaledTransforms, ByPowersOfTwoChangeNoBit) {
 TEST(SingularTransforms, DrawWhatTheyLeave) {
   Canvas canvas;
   const std::vector<float> corners{-0.8f, -0.7f, 0.3f, 0.9f, -0.5f, 0.6f, 0.1f, 0.8f, -0.9f};
-  for (const std::array<double, 3>& axes : {std::array{1.0, 1.0, 0.0}, std::array{1.0, 0.0, 1.0}, std::array{0.0, 1.0, 1.0}, std::array{1.0, 0.0, 0.0}, std::array{0.0, 0.0, 0.0}}) {
+  for (const std::array<double, 3>& axes :
+       {std::array{1.0, 1.0, 0.0}, std::array{1.0, 0.0, 1.0}, std::array{0.0, 1.0, 1.0},
+        std::array{1.0, 0.0, 0.0}, std::array{0.0, 0.0, 0.0}}) {
     std::vector<float> flat = corners;
     for (std::size_t i = 0; i < flat.size(); ++i) flat[i] *= static_cast<float>(axes[i % 3]);
     for (const Primitive primitive : {Primitive::triangles, Primitive::line_loop, Primitive::points}) {
@@ -177,16 +213,27 @@ TEST(SingularTransforms, KeepTheAmbientPart) {
   Draws draws{std::mt19937(62)};
   Canvas canvas;
   const std::vector<float> origin{0, 0, 0};
-  const std::vector<Light> lights{Light{.ambient = {0.5f, 0.5f, 0.5f, 1}}, Light{.position = {1, 2, 3, 1}, .attenuation_linear = 1}};
+  const std::vector<Light> lights{Light{.ambient = {0.5f, 0.5f, 0.5f, 1}},
+                                  Light{.position = {1, 2, 3, 1}, .attenuation_linear = 1}};
   for (int n = 0; n < 2000 * (long_tests() ? 30 : 1); ++n) {
     Matrix transform;
     for (std::size_t i = 0; i < 12; ++i)
-      if (i % 4 != 3) transform.m[i] = draws.one_in(2) ? 0 : draws.of({1.0, -1.0, 1e-300, 1e300, 1e-160, 1e160, 1e20, draws.unit()});
-    const std::array<float, 3> normal = draws.one_in(4) ? std::array<float, 3>{0, 0, 3e38f} : draws.direction();
-    DrawState state{.transform = transform, .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}), .normalize = draws.one_in(2), .depth = {.enabled = false}};
+      if (i % 4 != 3)
+        transform.m[i] =
+            draws.one_in(2) ? 0 : draws.of({1.0, -1.0, 1e-300, 1e300, 1e-160, 1e160, 1e20, draws.unit()});
+    const std::array<float, 3> normal =
+        draws.one_in(4) ? std::array<float, 3>{0, 0, 3e38f} : draws.direction();
+    DrawState state{.transform = transform,
+                    .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}),
+                    .normalize = draws.one_in(2),
+                    .depth = {.enabled = false}};
     state.material = {.ambient = {1, 1, 1, 1}, .specular = {1, 1, 1, 1}, .shininess = 3};
-    const LightModel model{.ambient = {0, 0, 0, 1}, .local_viewer = draws.one_in(2), .specular = draws.of({Highlight::blinn, Highlight::phong})};
-    const std::uint32_t word = canvas.draw({.primitive = Primitive::points, .positions = origin, .normals = normal}, state, {}, lights, model)[kMiddle];
+    const LightModel model{.ambient = {0, 0, 0, 1},
+                           .local_viewer = draws.one_in(2),
+                           .specular = draws.of({Highlight::blinn, Highlight::phong})};
+    const std::uint32_t word =
+        canvas.draw({.primitive = Primitive::points, .positions = origin, .normals = normal}, state, {},
+                    lights, model)[kMiddle];
     ASSERT_GE(word & 255, 128u) << n;
   }
 }
@@ -199,7 +246,8 @@ TEST(SingularTransforms, OfTheCameraDrawNothing) {
   nothing.m.fill(0);
   no_w.m[15] = 0;
   for (const Matrix& projection : {nothing, no_w}) {
-    const auto words = canvas.draw({.positions = teapot.positions, .indices = teapot.indices}, unlit(), {.view = {}, .projection = projection});
+    const auto words = canvas.draw({.positions = teapot.positions, .indices = teapot.indices}, unlit(),
+                                   {.view = {}, .projection = projection});
     EXPECT_EQ(drawn(words), 0u);
   }
 }

@@ -1,5 +1,5 @@
-// A scene that its viewport moves by whole pixels keeps its bits, to the far corner of the largest buffer, wherever the borders of tiles fall; and
-// nothing leaves the viewport.
+// A scene that its viewport moves by whole pixels keeps its bits, to the far corner of the largest buffer,
+// wherever the borders of tiles fall; and nothing leaves the viewport.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,13 +16,15 @@
 namespace tessera::test {
 namespace {
 
-// The window that moves, and buffers that are as long as can be in one direction and a little longer than it in the other.
+// The window that moves, and buffers that are as long as can be in one direction and a little longer than it
+// in the other.
 constexpr int kWidth = 61, kHeight = 45, kAcross = 80;
 
 // Triangles of all sizes, many of them clipped, lines, points, in colours and with textures.
 std::vector<CaseDraw> random_scene(MeshRandom& random) {
   std::vector<CaseDraw> draws;
-  for (const Primitive primitive : {Primitive::triangles, Primitive::triangles, Primitive::lines, Primitive::points, Primitive::triangle_strip}) {
+  for (const Primitive primitive : {Primitive::triangles, Primitive::triangles, Primitive::lines,
+                                    Primitive::points, Primitive::triangle_strip}) {
     CaseDraw& draw = draws.emplace_back();
     draw.primitive = primitive;
     draw.test_depth = true;
@@ -40,11 +42,13 @@ std::vector<CaseDraw> random_scene(MeshRandom& random) {
 
 std::vector<Rect> places(MeshRandom& random, const CaseFormat& buffer) {
   const int far_x = buffer.width - kWidth, far_y = buffer.height - kHeight;
-  return {{far_x, far_y, kWidth, kHeight}, {random.between(0, far_x), random.between(0, far_y), kWidth, kHeight}};
+  return {{far_x, far_y, kWidth, kHeight},
+          {random.between(0, far_x), random.between(0, far_y), kWidth, kHeight}};
 }
 
 CaseFormat format_of(int width, int height, DepthFormat depth) {
-  CaseFormat format{.width = width, .height = height, .depth = depth, .texture_width = 16, .texture_height = 16};
+  CaseFormat format{
+      .width = width, .height = height, .depth = depth, .texture_width = 16, .texture_height = 16};
   MeshRandom random(0);
   for (int i = 0; i < 256; ++i) format.texture.push_back(static_cast<std::uint8_t>(random.random()));
   return format;
@@ -54,22 +58,31 @@ struct Changes {
   long double colors = 0, depths = 0;
   long seen = 0;  // pixels that are drawn
 };
-std::array<long, 3> levels(const std::array<float, 3>& color) { return {std::lround(color[0] * 255), std::lround(color[1] * 255), std::lround(color[2] * 255)}; }
+std::array<long, 3> levels(const std::array<float, 3>& color) {
+  return {std::lround(color[0] * 255), std::lround(color[1] * 255), std::lround(color[2] * 255)};
+}
 
-// Of all pixels of the buffer: those of the window have to be what they are in a buffer of their own, all others as they are cleared.
-void compare(const CasePicture& alone, const CasePicture& moved, const CaseFormat& buffer, const Rect& place, std::uint32_t cleared_depth, Changes& changes) {
+// Of all pixels of the buffer: those of the window have to be what they are in a buffer of their own, all
+// others as they are cleared.
+void compare(const CasePicture& alone, const CasePicture& moved, const CaseFormat& buffer, const Rect& place,
+             std::uint32_t cleared_depth, Changes& changes) {
   for (int row = 0; row < buffer.height; ++row)
     for (int column = 0; column < buffer.width; ++column) {
       const int x = column - place.x, y = row - (buffer.height - place.y - kHeight);
       const bool inside = x >= 0 && y >= 0 && x < kWidth && y < kHeight;
-      const auto there = static_cast<std::size_t>(row) * static_cast<std::size_t>(buffer.width) + static_cast<std::size_t>(column), here = inside ? static_cast<std::size_t>(y * kWidth + x) : 0;
-      changes.seen += inside && levels(alone.colors[here]) != std::array<long, 3>{} && alone.depth[here] != cleared_depth;
-      changes.colors += levels(moved.colors[there]) != levels(inside ? alone.colors[here] : std::array<float, 3>{});
+      const auto there = static_cast<std::size_t>(row) * static_cast<std::size_t>(buffer.width) +
+                         static_cast<std::size_t>(column),
+                 here = inside ? static_cast<std::size_t>(y * kWidth + x) : 0;
+      changes.seen +=
+          inside && levels(alone.colors[here]) != std::array<long, 3>{} && alone.depth[here] != cleared_depth;
+      changes.colors +=
+          levels(moved.colors[there]) != levels(inside ? alone.colors[here] : std::array<float, 3>{});
       changes.depths += moved.depth[there] != (inside ? alone.depth[here] : cleared_depth);
     }
 }
 
-Changes changes_of(const MakeRenderer& make, bool is_tessera, DepthFormat depth, std::uint32_t cleared_depth) {
+Changes changes_of(const MakeRenderer& make, bool is_tessera, DepthFormat depth,
+                   std::uint32_t cleared_depth) {
   Changes changes;
   const int scenes = is_tessera && long_tests() ? 40 : 3;
   std::vector<CasePicture> alone;  // one renderer after the other: Mesa's contexts are current one at a time
@@ -80,7 +93,8 @@ Changes changes_of(const MakeRenderer& make, bool is_tessera, DepthFormat depth,
       alone.push_back(renderer->draw(random_scene(random)));
     }
   }
-  for (const auto& [width, height] : {std::pair{kMaxFrameBufferSize, kAcross}, std::pair{kAcross, kMaxFrameBufferSize}}) {
+  for (const auto& [width, height] :
+       {std::pair{kMaxFrameBufferSize, kAcross}, std::pair{kAcross, kMaxFrameBufferSize}}) {
     const CaseFormat buffer = format_of(width, height, depth);
     const std::unique_ptr<CaseRenderer> renderer = make(buffer);
     for (int n = 0; n < scenes; ++n) {
@@ -89,9 +103,11 @@ Changes changes_of(const MakeRenderer& make, bool is_tessera, DepthFormat depth,
       for (const Rect& place : places(random, buffer)) {
         for (CaseDraw& draw : scene) draw.viewport = place;
         const Changes before = changes;
-        compare(alone[static_cast<std::size_t>(n)], renderer->draw(scene), buffer, place, cleared_depth, changes);
+        compare(alone[static_cast<std::size_t>(n)], renderer->draw(scene), buffer, place, cleared_depth,
+                changes);
         if (is_tessera && (changes.colors != before.colors || changes.depths != before.depths))
-          ADD_FAILURE() << "scene " << n << " at " << place.x << ", " << place.y << " of " << width << " x " << height << ": " << changes.colors - before.colors << " colours, "
+          ADD_FAILURE() << "scene " << n << " at " << place.x << ", " << place.y << " of " << width << " x "
+                        << height << ": " << changes.colors - before.colors << " colours, "
                         << changes.depths - before.depths << " depths change";
       }
     }
@@ -105,23 +121,27 @@ TEST(Translation, ChangesNeitherColorsNorDepths) {
     std::string name;
     std::uint32_t cleared;
   };
-  for (const Depth& depth : {Depth{DepthFormat::unorm16, "unorm16", 0xffffu}, Depth{DepthFormat::unorm24, "unorm24", 0xffffffu}, Depth{DepthFormat::unorm32, "unorm32", 0xffffffffu},
-                             Depth{DepthFormat::float32, "float32", 0x3f800000u}}) {
+  for (const Depth& depth :
+       {Depth{DepthFormat::unorm16, "unorm16", 0xffffu}, Depth{DepthFormat::unorm24, "unorm24", 0xffffffu},
+        Depth{DepthFormat::unorm32, "unorm32", 0xffffffffu},
+        Depth{DepthFormat::float32, "float32", 0x3f800000u}}) {
     Changes ours, mesas;
     bool has_mesa = false;
-    expect_figure("moved by whole pixels: colours change, " + depth.name, 0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
-      has_mesa |= !is_tessera;
-      Changes& changes = is_tessera ? ours : mesas;
-      changes = changes_of(make, is_tessera, depth.format, depth.cleared);
-      EXPECT_GT(changes.seen, 10000);
-      return changes.colors;
-    });
+    expect_figure("moved by whole pixels: colours change, " + depth.name, 0, "pixels",
+                  [&](const MakeRenderer& make, bool is_tessera) {
+                    has_mesa |= !is_tessera;
+                    Changes& changes = is_tessera ? ours : mesas;
+                    changes = changes_of(make, is_tessera, depth.format, depth.cleared);
+                    EXPECT_GT(changes.seen, 10000);
+                    return changes.colors;
+                  });
     expect_within("moved by whole pixels: depths change, " + depth.name, ours.depths, 0, "pixels");
     if (has_mesa) set_beside("moved by whole pixels: depths change, " + depth.name, mesas.depths);
   }
 }
 
-// With lights, mipmaps, wide lines, large points, offsets and stencil: what only Tessera draws. All of it in the window alone.
+// With lights, mipmaps, wide lines, large points, offsets and stencil: what only Tessera draws. All of it in
+// the window alone.
 class RichScene {
  public:
   RichScene() {
@@ -137,15 +157,25 @@ class RichScene {
   }
   void record(Frame& frame, const Rect& place) const {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .stencil = 0});
-    frame.set_camera({.view = look_at({0, 0, 2.5}, {0, 0, 0}, {0, 1, 0}), .projection = perspective(60, 4.0 / 3, 0.5, 20)});
+    frame.set_camera({.view = look_at({0, 0, 2.5}, {0, 0, 0}, {0, 1, 0}),
+                      .projection = perspective(60, 4.0 / 3, 0.5, 20)});
     frame.set_lights({Light{.position = {1, 2, 3, 1}, .spot_cutoff = 60}, Light{}});
-    for (const Primitive primitive : {Primitive::triangles, Primitive::line_strip, Primitive::points, Primitive::polygon}) {
-      DrawState state{.material = *named_material("gold"), .shading = primitive == Primitive::points ? Shading::gouraud : Shading::phong, .texture = &*texture_, .point_size = 5, .line_width = 3};
+    for (const Primitive primitive :
+         {Primitive::triangles, Primitive::line_strip, Primitive::points, Primitive::polygon}) {
+      DrawState state{.material = *named_material("gold"),
+                      .shading = primitive == Primitive::points ? Shading::gouraud : Shading::phong,
+                      .texture = &*texture_,
+                      .point_size = 5,
+                      .line_width = 3};
       state.viewport = place;
       state.polygon_offset = {1, 1};
       state.stencil = StencilState{.front = {.zfail = StencilOp::incr, .zpass = StencilOp::invert}};
       const std::size_t used = primitive == Primitive::triangles ? 300 : 40;
-      frame.draw({.primitive = primitive, .positions = FloatArray(positions_.data(), used, 12), .normals = FloatArray(normals_.data(), used, 12), .texcoords = FloatArray(texcoords_.data(), used, 8)}, state);
+      frame.draw({.primitive = primitive,
+                  .positions = FloatArray(positions_.data(), used, 12),
+                  .normals = FloatArray(normals_.data(), used, 12),
+                  .texcoords = FloatArray(texcoords_.data(), used, 8)},
+                 state);
     }
   }
 
@@ -165,7 +195,8 @@ std::vector<std::uint32_t> stored(const FrameBuffer& buffer, const Rect& place) 
   buffer.read_stencil(stencil);
   for (int y = format.height - place.y - kHeight; y < format.height - place.y; ++y)
     for (int x = place.x; x < place.x + kWidth; ++x) {
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(format.width) + static_cast<std::size_t>(x);
+      const auto i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(format.width) + static_cast<std::size_t>(x);
       all.insert(all.end(), {colors[i], depths[i], stencil[i]});
     }
   return all;
@@ -176,7 +207,8 @@ TEST(Translation, OfLightTexturesStencilAndSamplesChangesNothing) {
   Renderer renderer({.threads = 1});
   for (const int samples : {1, 4, 8}) {
     long double changes = 0;
-    for (const DepthFormat depth : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
+    for (const DepthFormat depth :
+         {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
       const auto drawn = [&](int width, int height, const Rect& place) {
         FrameBuffer buffer({.width = width, .height = height, .depth = depth, .samples = samples});
         Frame frame(buffer);
@@ -185,17 +217,23 @@ TEST(Translation, OfLightTexturesStencilAndSamplesChangesNothing) {
         return stored(buffer, place);
       };
       const std::vector<std::uint32_t> alone = drawn(kWidth, kHeight, {0, 0, kWidth, kHeight});
-      EXPECT_GT(std::count_if(alone.begin(), alone.end(), [](std::uint32_t word) { return word != 0; }), kWidth * kHeight);
-      for (const auto& [width, height] : {std::pair{kMaxFrameBufferSize, kAcross}, std::pair{kAcross, kMaxFrameBufferSize}}) {
-        const std::vector<std::uint32_t> moved = drawn(width, height, {width - kWidth, height - kHeight, kWidth, kHeight});
+      EXPECT_GT(std::count_if(alone.begin(), alone.end(), [](std::uint32_t word) { return word != 0; }),
+                kWidth * kHeight);
+      for (const auto& [width, height] :
+           {std::pair{kMaxFrameBufferSize, kAcross}, std::pair{kAcross, kMaxFrameBufferSize}}) {
+        const std::vector<std::uint32_t> moved =
+            drawn(width, height, {width - kWidth, height - kHeight, kWidth, kHeight});
         for (std::size_t i = 0; i < alone.size(); ++i) changes += alone[i] != moved[i];
       }
     }
-    expect_within("moved by whole pixels, lit, textured and stencilled, samples " + std::to_string(samples) + ": words change", changes, 0, "");
+    expect_within("moved by whole pixels, lit, textured and stencilled, samples " + std::to_string(samples) +
+                      ": words change",
+                  changes, 0, "");
   }
 }
 
-// Both sides 16,384: of an image that is written in part, no plane is kept, and only the window's tiles are drawn.
+// Both sides 16,384: of an image that is written in part, no plane is kept, and only the window's tiles are
+// drawn.
 TEST(Translation, ReachesTheFarCornerOfTheLargestBuffer) {
   const RichScene scene;
   Renderer renderer({.threads = 1});
@@ -205,20 +243,33 @@ TEST(Translation, ReachesTheFarCornerOfTheLargestBuffer) {
     Frame frame(buffer);
     scene.record(frame, place);
     // Addresses of all of the image; memory is touched in the window alone.
-    const auto image = std::make_unique_for_overwrite<std::uint32_t[]>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    renderer.finish(frame, {.pixels = image.get(), .width = width, .height = height, .stride_bytes = std::ptrdiff_t{4} * width, .part = place});
-    EXPECT_EQ(buffer.allocated_bytes(Buffer::color) + buffer.allocated_bytes(Buffer::depth) + buffer.allocated_bytes(Buffer::stencil), 0u);
+    const auto image = std::make_unique_for_overwrite<std::uint32_t[]>(static_cast<std::size_t>(width) *
+                                                                       static_cast<std::size_t>(height));
+    renderer.finish(frame, {.pixels = image.get(),
+                            .width = width,
+                            .height = height,
+                            .stride_bytes = std::ptrdiff_t{4} * width,
+                            .part = place});
+    EXPECT_EQ(buffer.allocated_bytes(Buffer::color) + buffer.allocated_bytes(Buffer::depth) +
+                  buffer.allocated_bytes(Buffer::stencil),
+              0u);
     std::vector<std::uint32_t> window;
     for (int y = height - place.y - kHeight; y < height - place.y; ++y) {
-      const std::uint32_t* const row = image.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(place.x);
+      const std::uint32_t* const row = image.get() +
+                                       static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                       static_cast<std::size_t>(place.x);
       window.insert(window.end(), row, row + kWidth);
     }
     return window;
   };
   const std::vector<std::uint32_t> alone = shown(kWidth, kHeight, {0, 0, kWidth, kHeight});
-  EXPECT_GT(std::count_if(alone.begin(), alone.end(), [](std::uint32_t word) { return (word & 0xffffff) != 0; }), kWidth * kHeight / 2);
+  EXPECT_GT(
+      std::count_if(alone.begin(), alone.end(), [](std::uint32_t word) { return (word & 0xffffff) != 0; }),
+      kWidth * kHeight / 2);
   long double changes = 0;
-  for (const Rect& place : {Rect{kFar - kWidth, kFar - kHeight, kWidth, kHeight}, Rect{kFar - kWidth, 0, kWidth, kHeight}, Rect{0, kFar - kHeight, kWidth, kHeight}, Rect{8189, 8161, kWidth, kHeight}}) {
+  for (const Rect& place :
+       {Rect{kFar - kWidth, kFar - kHeight, kWidth, kHeight}, Rect{kFar - kWidth, 0, kWidth, kHeight},
+        Rect{0, kFar - kHeight, kWidth, kHeight}, Rect{8189, 8161, kWidth, kHeight}}) {
     const std::vector<std::uint32_t> moved = shown(kFar, kFar, place);
     for (std::size_t i = 0; i < alone.size(); ++i) changes += alone[i] != moved[i];
   }

@@ -1,5 +1,6 @@
-// Which pixels a single triangle covers, against the fill rule in 128-bit integers. The oracle starts from the floats that are drawn: it snaps them
-// by exact division and knows nothing of the engine's own arithmetic. No tolerance.
+// Which pixels a single triangle covers, against the fill rule in 128-bit integers. The oracle starts from
+// the floats that are drawn: it snaps them by exact division and knows nothing of the engine's own
+// arithmetic. No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 namespace tessera::test {
 namespace {
 
-// Each triangle has a viewport of its own in a buffer of many, so that the borders of tiles run through each of them elsewhere.
+// Each triangle has a viewport of its own in a buffer of many, so that the borders of tiles run through each
+// of them elsewhere.
 constexpr int kView = 32, kPitch = 37, kRow = 27, kBuffer = kRow * kPitch, kBatch = kRow * kRow;
 
 __extension__ using Wide = __int128;
@@ -25,21 +27,26 @@ constexpr double kUnit = 0x1p-30;
 float drawn(double value) { return static_cast<float>(std::nearbyint(value / kUnit) * kUnit); }
 Wide units(float value) { return static_cast<Wide>(double{value} / kUnit); }
 
-Wide floor_of(Wide numerator, Wide denominator) { return numerator / denominator - (numerator % denominator != 0 && (numerator < 0) != (denominator < 0)); }
+Wide floor_of(Wide numerator, Wide denominator) {
+  return numerator / denominator - (numerator % denominator != 0 && (numerator < 0) != (denominator < 0));
+}
 
 /// A corner as it is drawn; z is 0.
 struct Corner {
   float x, y, w;
-  /// The nearest 1/256 pixel from the viewport's centre; halves go up and to the right. No quotient of floats comes nearer to a half than 2^-26 without
-  /// being one, its denominator has 24 bits; and doubles below 2^22 are off by at most 2^-30 after their two roundings. So there is no excuse for another.
+  /// The nearest 1/256 pixel from the viewport's centre; halves go up and to the right. No quotient of floats
+  /// comes nearer to a half than 2^-26 without being one, its denominator has 24 bits; and doubles below 2^22
+  /// are off by at most 2^-30 after their two roundings. So there is no excuse for another.
   std::array<Wide, 2> snapped() const {
-    const auto snap = [this](float c) { return floor_of(2 * 256 * (kView / 2) * units(c) + units(w), 2 * units(w)); };
+    const auto snap = [this](float c) {
+      return floor_of(2 * 256 * (kView / 2) * units(c) + units(w), 2 * units(w));
+    };
     return {snap(x), snap(y)};
   }
 };
 
-/// Calls pixel(i, j, covered, on_edge), rows from the bottom. The rule: a centre on an edge counts as if it lay a hair to the right, and a hair of that
-/// down.
+/// Calls pixel(i, j, covered, on_edge), rows from the bottom. The rule: a centre on an edge counts as if it
+/// lay a hair to the right, and a hair of that down.
 template <class Pixel>
 void for_each_pixel(const std::array<Corner, 3>& corners, const Pixel& pixel) {
   const std::array<Wide, 2> v[3] = {corners[0].snapped(), corners[1].snapped(), corners[2].snapped()};
@@ -67,13 +74,18 @@ void for_each_pixel(const std::array<Corner, 3>& corners, const Pixel& pixel) {
   }
 }
 
-// All shapes, up to the guard band: on the places that vertices snap to, halfway between them if asked for, and, with distances from the eye, anywhere.
+// All shapes, up to the guard band: on the places that vertices snap to, halfway between them if asked for,
+// and, with distances from the eye, anywhere.
 std::array<Corner, 3> random_corners(RandomTriangles& source, bool with_halves) {
   const Triangle shape = source.next();
   const bool perspective = source.between(0, 1) != 0, halves = source.between(0, 1) != 0 && with_halves;
   std::array<Corner, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto centred = [&](std::int32_t c) { return (std::clamp(c - 128 * kView, -16382 * 256, 16382 * 256) + (halves ? 0.5 * source.between(0, 1) : 0)) / (128.0 * kView); };
+    const auto centred = [&](std::int32_t c) {
+      return (std::clamp(c - 128 * kView, -16382 * 256, 16382 * 256) +
+              (halves ? 0.5 * source.between(0, 1) : 0)) /
+             (128.0 * kView);
+    };
     const double w = perspective ? drawn(std::exp2(12 * source.unit() - 6)) : 1;
     corners[k] = {drawn(centred(shape[k].x) * w), drawn(centred(shape[k].y) * w), static_cast<float>(w)};
   }
@@ -81,7 +93,9 @@ std::array<Corner, 3> random_corners(RandomTriangles& source, bool with_halves) 
 }
 
 CaseDraw draw_of(const std::array<Corner, 3>& corners, int place) {
-  CaseDraw draw{.color = {0, 0, 1 / 255.0f, 1}, .add = true, .viewport = Rect{place % kRow * kPitch, place / kRow * kPitch, kView, kView}};
+  CaseDraw draw{.color = {0, 0, 1 / 255.0f, 1},
+                .add = true,
+                .viewport = Rect{place % kRow * kPitch, place / kRow * kPitch, kView, kView}};
   draw.positions.reserve(4 * corners.size());
   for (const Corner& c : corners) draw.positions.insert(draw.positions.end(), {c.x, c.y, 0, c.w});
   return draw;
@@ -94,37 +108,42 @@ std::string text(const std::array<Corner, 3>& corners) {
   return out.str();
 }
 
-// OpenGL leaves open which way halves snap and to whom a centre on an edge belongs: Mesa gets no halves, and counts as wrong off the edges alone.
+// OpenGL leaves open which way halves snap and to whom a centre on an edge belongs: Mesa gets no halves, and
+// counts as wrong off the edges alone.
 TEST(TrianglePixels, AreThoseOfTheExactRule) {
-  expect_figure("random triangles by the exact rule: wrong", 0, "pixels", [](const MakeRenderer& make, bool is_tessera) {
-    const std::unique_ptr<CaseRenderer> renderer = make({.width = kBuffer, .height = kBuffer});
-    RandomTriangles source(1, kView);
-    const int batches = is_tessera && long_tests() ? (1000000 + kBatch - 1) / kBatch : 20;
-    long double wrong = 0, covered_pixels = 0;
-    for (int batch = 0; batch < batches; ++batch) {
-      std::vector<std::array<Corner, 3>> triangles;
-      std::vector<CaseDraw> draws;
-      for (int k = 0; k < kBatch; ++k) {
-        triangles.push_back(random_corners(source, is_tessera));
-        draws.push_back(draw_of(triangles.back(), k));
-      }
-      const std::vector<int> counts = renderer->count(draws);
-      for (int k = 0; k < kBatch; ++k) {
-        const std::array<Corner, 3>& corners = triangles[static_cast<std::size_t>(k)];
-        long double wrong_here = 0;
-        for_each_pixel(corners, [&](int i, int j, bool covered, bool on_edge) {
-          const int x = k % kRow * kPitch + i, y = kBuffer - 1 - (k / kRow * kPitch + j), count = counts[static_cast<std::size_t>(y * kBuffer + x)];
-          covered_pixels += covered;
-          if (count == (covered ? 1 : 0) || (!is_tessera && on_edge)) return;
-          if (is_tessera && wrong_here++ == 0)
-            ADD_FAILURE() << "batch " << batch << ", triangle " << k << " " << text(corners) << ": pixel (" << i << ", " << j << ") of its viewport is covered " << count << " times";
-          ++wrong;
-        });
-      }
-    }
-    EXPECT_GT(covered_pixels, 100.0L * kBatch * batches);
-    return wrong;
-  });
+  expect_figure("random triangles by the exact rule: wrong", 0, "pixels",
+                [](const MakeRenderer& make, bool is_tessera) {
+                  const std::unique_ptr<CaseRenderer> renderer = make({.width = kBuffer, .height = kBuffer});
+                  RandomTriangles source(1, kView);
+                  const int batches = is_tessera && long_tests() ? (1000000 + kBatch - 1) / kBatch : 20;
+                  long double wrong = 0, covered_pixels = 0;
+                  for (int batch = 0; batch < batches; ++batch) {
+                    std::vector<std::array<Corner, 3>> triangles;
+                    std::vector<CaseDraw> draws;
+                    for (int k = 0; k < kBatch; ++k) {
+                      triangles.push_back(random_corners(source, is_tessera));
+                      draws.push_back(draw_of(triangles.back(), k));
+                    }
+                    const std::vector<int> counts = renderer->count(draws);
+                    for (int k = 0; k < kBatch; ++k) {
+                      const std::array<Corner, 3>& corners = triangles[static_cast<std::size_t>(k)];
+                      long double wrong_here = 0;
+                      for_each_pixel(corners, [&](int i, int j, bool covered, bool on_edge) {
+                        const int x = k % kRow * kPitch + i, y = kBuffer - 1 - (k / kRow * kPitch + j),
+                                  count = counts[static_cast<std::size_t>(y * kBuffer + x)];
+                        covered_pixels += covered;
+                        if (count == (covered ? 1 : 0) || (!is_tessera && on_edge)) return;
+                        if (is_tessera && wrong_here++ == 0)
+                          ADD_FAILURE() << "batch " << batch << ", triangle " << k << " " << text(corners)
+                                        << ": pixel (" << i << ", " << j << ") of its viewport is covered "
+                                        << count << " times";
+                        ++wrong;
+                      });
+                    }
+                  }
+                  EXPECT_GT(covered_pixels, 100.0L * kBatch * batches);
+                  return wrong;
+                });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Neither coverage nor depth depends on which vertex of a triangle comes first, or on the way round: whole and clipped triangles in all six orders.
+// Neither coverage nor depth depends on which vertex of a triangle comes first, or on the way round: whole
+// and clipped triangles in all six orders.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace tessera::test {
 namespace {
 
-// Each triangle has a viewport of its own in a buffer of many, so that the borders of tiles run through each of them elsewhere.
+// Each triangle has a viewport of its own in a buffer of many, so that the borders of tiles run through each
+// of them elsewhere.
 constexpr int kView = 32, kPitch = 37, kRow = 13, kBuffer = kRow * kPitch, kBatch = kRow * kRow;
 
 using Corners = std::array<std::array<float, 4>, 3>;
@@ -23,19 +25,24 @@ Corners random_corners(RandomTriangles& source, bool clipped) {
   const Triangle shape = source.next();
   for (std::size_t k = 0; k < 3; ++k) {
     const auto any = [&] { return static_cast<float>(source.between(-63, 63)); };
-    const auto centred = [](std::int32_t c) { return static_cast<float>(std::clamp(c - 128 * kView, -16382 * 256, 16382 * 256) / (128.0 * kView)); };
+    const auto centred = [](std::int32_t c) {
+      return static_cast<float>(std::clamp(c - 128 * kView, -16382 * 256, 16382 * 256) / (128.0 * kView));
+    };
     if (clipped) corners[k] = {any(), any(), any(), any()};
-    else corners[k] = {centred(shape[k].x), centred(shape[k].y), static_cast<float>(2 * source.unit() - 1), 1};
+    else
+      corners[k] = {centred(shape[k].x), centred(shape[k].y), static_cast<float>(2 * source.unit() - 1), 1};
   }
   return corners;
 }
 
-std::vector<CaseDraw> draws_of(const std::vector<Corners>& triangles, const std::array<std::uint32_t, 3>& order) {
+std::vector<CaseDraw> draws_of(const std::vector<Corners>& triangles,
+                               const std::array<std::uint32_t, 3>& order) {
   std::vector<CaseDraw> draws;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const int place = static_cast<int>(i);
     CaseDraw& draw = draws.emplace_back();
-    for (const std::array<float, 4>& corner : triangles[i]) draw.positions.insert(draw.positions.end(), corner.begin(), corner.end());
+    for (const std::array<float, 4>& corner : triangles[i])
+      draw.positions.insert(draw.positions.end(), corner.begin(), corner.end());
     draw.indices.assign(order.begin(), order.end());
     draw.test_depth = true;
     draw.depth_func = Compare::always;
@@ -45,7 +52,8 @@ std::vector<CaseDraw> draws_of(const std::vector<Corners>& triangles, const std:
 }
 
 // Pixels whose `bits` under any other order are others than under the first.
-long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthFormat depth, bool clipped, bool coverage) {
+long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthFormat depth, bool clipped,
+                           bool coverage) {
   const std::unique_ptr<CaseRenderer> renderer = make({.width = kBuffer, .height = kBuffer, .depth = depth});
   RandomTriangles source(clipped ? 2 : 1, kView);
   long double changed = 0;
@@ -61,7 +69,9 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
       for (std::size_t i = 0; i < first.colors.size(); ++i) {
         const bool differs = coverage ? first.colors[i] != other.colors[i] : first.depth[i] != other.depth[i];
         if (differs && is_tessera && changed == 0)
-          ADD_FAILURE() << "batch " << batch << ", pixel " << i % kBuffer << ", " << i / kBuffer << ", order " << order[0] << order[1] << order[2] << ": depth " << other.depth[i] << ", not " << first.depth[i];
+          ADD_FAILURE() << "batch " << batch << ", pixel " << i % kBuffer << ", " << i / kBuffer << ", order "
+                        << order[0] << order[1] << order[2] << ": depth " << other.depth[i] << ", not "
+                        << first.depth[i];
         changed += differs;
       }
     }
@@ -71,11 +81,16 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
 }
 
 TEST(VertexOrder, ChangesNeitherCoverageNorDepth) {
-  const std::pair<DepthFormat, std::string> formats[] = {{DepthFormat::unorm16, "unorm16"}, {DepthFormat::unorm24, "unorm24"}, {DepthFormat::unorm32, "unorm32"}, {DepthFormat::float32, "float32"}};
+  const std::pair<DepthFormat, std::string> formats[] = {{DepthFormat::unorm16, "unorm16"},
+                                                         {DepthFormat::unorm24, "unorm24"},
+                                                         {DepthFormat::unorm32, "unorm32"},
+                                                         {DepthFormat::float32, "float32"}};
   for (const bool clipped : {false, true}) {
     const auto expect_none = [clipped](const std::string& what, DepthFormat format, bool coverage) {
-      expect_figure((clipped ? "order of vertices, clipped: " : "order of vertices: ") + what + " changes", 0, "pixels",
-                    [&](const MakeRenderer& make, bool is_tessera) { return changed_pixels(make, is_tessera, format, clipped, coverage); });
+      expect_figure((clipped ? "order of vertices, clipped: " : "order of vertices: ") + what + " changes", 0,
+                    "pixels", [&](const MakeRenderer& make, bool is_tessera) {
+                      return changed_pixels(make, is_tessera, format, clipped, coverage);
+                    });
     };
     expect_none("coverage", DepthFormat::unorm24, true);
     for (const auto& [format, name] : formats) expect_none(name, format, false);

@@ -1,4 +1,5 @@
-// Triangles whose vertices stand on the grid that vertices are snapped to, and what is exact about them: edges in 128-bit integers.
+// Triangles whose vertices stand on the grid that vertices are snapped to, and what is exact about them:
+// edges in 128-bit integers.
 #pragma once
 
 #include <algorithm>
@@ -32,19 +33,29 @@ struct WindowTriangle {
   Whole area() const { return signed_area() < 0 ? -signed_area() : signed_area(); }
   /// The vertex with the least y, of several the one with the least x.
   std::size_t topmost() const {
-    const auto above = [](const GridPoint& a, const GridPoint& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
+    const auto above = [](const GridPoint& a, const GridPoint& b) {
+      return a.y < b.y || (a.y == b.y && a.x < b.x);
+    };
     return static_cast<std::size_t>(std::min_element(at.begin(), at.end(), above) - at.begin());
   }
-  static GridPoint center(int x, int y) { return {std::int64_t{x} * kGrid + kGrid / 2, std::int64_t{y} * kGrid + kGrid / 2}; }
-  bool contains(const GridPoint& p) const { return area() > 0 && edge(0, p) >= 0 && edge(1, p) >= 0 && edge(2, p) >= 0; }
+  static GridPoint center(int x, int y) {
+    return {std::int64_t{x} * kGrid + kGrid / 2, std::int64_t{y} * kGrid + kGrid / 2};
+  }
+  bool contains(const GridPoint& p) const {
+    return area() > 0 && edge(0, p) >= 0 && edge(1, p) >= 0 && edge(2, p) >= 0;
+  }
 
  private:
-  Whole signed_area() const { return Whole{at[1].x - at[0].x} * (at[2].y - at[0].y) - Whole{at[1].y - at[0].y} * (at[2].x - at[0].x); }
+  Whole signed_area() const {
+    return Whole{at[1].x - at[0].x} * (at[2].y - at[0].y) - Whole{at[1].y - at[0].y} * (at[2].x - at[0].x);
+  }
 };
 
 /// Clip coordinates of a grid point, exact in floats if the sides are powers of two.
 inline double clip_x(std::int64_t x, int width) { return static_cast<double>(x) / (kGrid / 2.0 * width) - 1; }
-inline double clip_y(std::int64_t y, int height) { return 1 - static_cast<double>(y) / (kGrid / 2.0 * height); }
+inline double clip_y(std::int64_t y, int height) {
+  return 1 - static_cast<double>(y) / (kGrid / 2.0 * height);
+}
 
 /// The same numbers on every machine and library.
 struct Dice {
@@ -52,48 +63,58 @@ struct Dice {
   explicit Dice(std::uint32_t seed) : random(seed) {}
   double unit() { return static_cast<double>(random()) * 0x1p-32; }
   std::int64_t between(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>((std::uint64_t{random()} << 32 | random()) % static_cast<std::uint64_t>(high - low + 1));
+    return low + static_cast<std::int64_t>((std::uint64_t{random()} << 32 | random()) %
+                                           static_cast<std::uint64_t>(high - low + 1));
   }
   bool maybe() { return random() % 2 != 0; }
   template <class Range>
-  const auto& one_of(const Range& range) { return range[random() % std::size(range)]; }
+  const auto& one_of(const Range& range) {
+    return range[random() % std::size(range)];
+  }
 };
 
 enum class WindowShape {
-  small,     ///< within a few pixels
-  any,       ///< corners anywhere in the window
-  centers,   ///< on pixel centres
-  sliver,    ///< from end to end of the window, up to four grid steps thick
-  needle     ///< long, and as thin as the grid allows: an area of half a grid square, or little more
+  small,    ///< within a few pixels
+  any,      ///< corners anywhere in the window
+  centers,  ///< on pixel centres
+  sliver,   ///< from end to end of the window, up to four grid steps thick
+  needle    ///< long, and as thin as the grid allows: an area of half a grid square, or little more
 };
-inline constexpr WindowShape kWindowShapes[] = {WindowShape::small, WindowShape::any, WindowShape::centers, WindowShape::sliver, WindowShape::needle};
+inline constexpr WindowShape kWindowShapes[] = {WindowShape::small, WindowShape::any, WindowShape::centers,
+                                                WindowShape::sliver, WindowShape::needle};
 
 /// Of some area; near enough to the window to be drawn without a cut.
 inline WindowTriangle random_triangle(Dice& dice, WindowShape shape, int width, int height) {
   const std::int64_t w = std::int64_t{width} * kGrid, h = std::int64_t{height} * kGrid;
-  const auto anywhere = [&] { return GridPoint{dice.between(-kGrid, w + kGrid), dice.between(-kGrid, h + kGrid)}; };
+  const auto anywhere = [&] {
+    return GridPoint{dice.between(-kGrid, w + kGrid), dice.between(-kGrid, h + kGrid)};
+  };
   for (;;) {
     WindowTriangle t{{anywhere(), anywhere(), anywhere()}};
     GridPoint &a = t.at[0], &b = t.at[1], &c = t.at[2];
     switch (shape) {
       case WindowShape::any: break;
       case WindowShape::small:
-        for (GridPoint* p : {&b, &c}) *p = {a.x + dice.between(-4 * kGrid, 4 * kGrid), a.y + dice.between(-4 * kGrid, 4 * kGrid)};
+        for (GridPoint* p : {&b, &c})
+          *p = {a.x + dice.between(-4 * kGrid, 4 * kGrid), a.y + dice.between(-4 * kGrid, 4 * kGrid)};
         break;
       case WindowShape::centers:
         if (dice.maybe())
-          for (GridPoint* p : {&b, &c}) *p = {a.x + dice.between(-8 * kGrid, 8 * kGrid), a.y + dice.between(-8 * kGrid, 8 * kGrid)};
+          for (GridPoint* p : {&b, &c})
+            *p = {a.x + dice.between(-8 * kGrid, 8 * kGrid), a.y + dice.between(-8 * kGrid, 8 * kGrid)};
         for (GridPoint& p : t.at) p = {(p.x & -kGrid) + kGrid / 2, (p.y & -kGrid) + kGrid / 2};
         break;
       case WindowShape::sliver: {
         if (width > height) a.x = dice.between(-kGrid, kGrid), b.x = w - dice.between(-kGrid, kGrid);
         else a.y = dice.between(-kGrid, kGrid), b.y = h - dice.between(-kGrid, kGrid);
         const double along = dice.unit();
-        c = {a.x + std::llround(along * static_cast<double>(b.x - a.x)) + dice.between(-4, 4), a.y + std::llround(along * static_cast<double>(b.y - a.y)) + dice.between(-4, 4)};
+        c = {a.x + std::llround(along * static_cast<double>(b.x - a.x)) + dice.between(-4, 4),
+             a.y + std::llround(along * static_cast<double>(b.y - a.y)) + dice.between(-4, 4)};
         break;
       }
       case WindowShape::needle: {
-        // From a pixel's centre through other centres; Euclid's algorithm finds the third vertex, nearest to the line.
+        // From a pixel's centre through other centres; Euclid's algorithm finds the third vertex, nearest to
+        // the line.
         a = {(a.x & -kGrid) + kGrid / 2, (a.y & -kGrid) + kGrid / 2};
         const std::int64_t turns = dice.between(1, 4);
         const std::int64_t dx = (b.x - a.x) / kGrid * kGrid, dy = (b.y - a.y) / kGrid * kGrid;
@@ -110,7 +131,10 @@ inline WindowTriangle random_triangle(Dice& dice, WindowShape shape, int width, 
         break;
       }
     }
-    const bool drawn_whole = std::all_of(t.at.begin(), t.at.end(), [&](const GridPoint& p) { return p.x >= -w && p.x <= 2 * w && p.y >= -h && p.y <= 2 * h && std::abs(p.x - w / 2) < 16000 * kGrid && std::abs(p.y - h / 2) < 16000 * kGrid; });
+    const bool drawn_whole = std::all_of(t.at.begin(), t.at.end(), [&](const GridPoint& p) {
+      return p.x >= -w && p.x <= 2 * w && p.y >= -h && p.y <= 2 * h &&
+             std::abs(p.x - w / 2) < 16000 * kGrid && std::abs(p.y - h / 2) < 16000 * kGrid;
+    });
     if (drawn_whole && t.area() > 0) {
       std::rotate(t.at.begin(), t.at.begin() + dice.between(0, 2), t.at.end());
       if (dice.maybe()) std::swap(t.at[1], t.at[2]);

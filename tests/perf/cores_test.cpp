@@ -21,7 +21,8 @@ TEST(Cores, KeepAThreadWhereItIsPut) {
   EXPECT_EQ(allowed_cores(), before) << "of other threads";
 }
 
-// No cache answers another core within a nanosecond, and the slowest machines stay below a tenth of a millisecond.
+// No cache answers another core within a nanosecond, and the slowest machines stay below a tenth of a
+// millisecond.
 TEST(Cores, TellHowFarApartTheyAre) {
   if (!keep_on(allowed_cores())) GTEST_SKIP() << "the system lets no thread choose its cores";
   const double ns = core_to_core_ns();

@@ -17,17 +17,20 @@ Drawing depth_alone(bool is_drawn) {
   drawing.meshes.back().colors.clear();
   drawing.record = [is_drawn](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-    if (is_drawn) frame.draw(d.meshes.front().view(), {.lighting = false, .color_mask = {false, false, false, false}});
+    if (is_drawn)
+      frame.draw(d.meshes.front().view(), {.lighting = false, .color_mask = {false, false, false, false}});
   };
   drawing.reveal = [](const Drawing& d, Frame& frame) {
-    frame.draw(d.meshes.front().view(), {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
+    frame.draw(d.meshes.front().view(),
+               {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
   };
   drawing.fragments = kSide * kSide;
   return drawing;
 }
 
 std::unique_ptr<Workload> workload_of(const std::function<Drawing()>& make) {
-  return drawn("drawn", "", [make](int, int, std::uint32_t) { return make(); }).make({.width = kSide, .height = kSide, .options = {.threads = 1}});
+  return drawn("drawn", "", [make](int, int, std::uint32_t) { return make(); })
+      .make({.width = kSide, .height = kSide, .options = {.threads = 1}});
 }
 
 TEST(BenchDrawing, RevealsWhatHasNoColorToItsJudgeAlone) {
@@ -38,7 +41,9 @@ TEST(BenchDrawing, RevealsWhatHasNoColorToItsJudgeAlone) {
   EXPECT_EQ(workload->picture().rgba[0], 0);
 }
 
-TEST(BenchDrawing, OfNothingIsNotTimed) { EXPECT_EQ(workload_of([] { return depth_alone(false); })->fault(), "shaded 0 pixels, expected 256"); }
+TEST(BenchDrawing, OfNothingIsNotTimed) {
+  EXPECT_EQ(workload_of([] { return depth_alone(false); })->fault(), "shaded 0 pixels, expected 256");
+}
 
 TEST(BenchDrawing, KnowsTheWordsOfItsTiles) {
   for (const int tile_size : {32, 64}) {

@@ -29,7 +29,11 @@ WorkloadEntry grid_of(int columns, int draws = 1) {
   });
 }
 
-TracedFrame cost_of(const WorkloadEntry& entry, int workers) { return costs_of_frames(entry, {.width = 256, .height = 256, .options = {.tile_size = 32}}, std::array{workers}, 0).front(); }
+TracedFrame cost_of(const WorkloadEntry& entry, int workers) {
+  return costs_of_frames(entry, {.width = 256, .height = 256, .options = {.tile_size = 32}},
+                         std::array{workers}, 0)
+      .front();
+}
 
 // What one worker does between its tasks is neither theirs nor the frame's own.
 TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
@@ -39,22 +43,27 @@ TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
     EXPECT_GT(frame.tasks.size(), 64u) << workers;
     EXPECT_GT(frame.seconds_taking, 0) << workers;
     EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
-    const TracedFrame tasks = cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
+    const TracedFrame tasks =
+        cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
     EXPECT_DOUBLE_EQ(tasks.seconds, tasks.seconds_taking + tasks.seconds_in_tasks()) << workers;
   }
 }
 
 TEST(FrameCosts, CountCallsForWorkersThatNoTaskTellsOf) {
   EXPECT_EQ(cost_of(grid_of(64), 2).calls_without_tasks, 0);
-  EXPECT_EQ(cost_of(grid_of(256), 2).calls_without_tasks, 1) << "so many indices that recording asks for help";
+  EXPECT_EQ(cost_of(grid_of(256), 2).calls_without_tasks, 1)
+      << "so many indices that recording asks for help";
   EXPECT_EQ(cost_of(grid_of(4, 17), 2).calls_without_tasks, 1) << "so many draws that planning does";
   const WorkloadEntry onto_planes = drawn("onto", "", [](int, int, std::uint32_t) {
     Drawing drawing{.format = {.width = 256, .height = 256}};
-    drawing.before = [](const Drawing&, Frame& frame) { frame.clear({.color = Color{1, 0, 0, 1}, .depth = 1.0}); };
+    drawing.before = [](const Drawing&, Frame& frame) {
+      frame.clear({.color = Color{1, 0, 0, 1}, .depth = 1.0});
+    };
     drawing.record = [](const Drawing&, Frame&) {};
     return drawing;
   });
-  EXPECT_EQ(cost_of(onto_planes, 2).calls_without_tasks, 0) << "what is drawn before the first frame is none of it";
+  EXPECT_EQ(cost_of(onto_planes, 2).calls_without_tasks, 0)
+      << "what is drawn before the first frame is none of it";
 }
 
 /// What is seen of workloads from outside: for how many threads each frame is drawn, and by which of them.
@@ -81,7 +90,9 @@ class Noted : public Workload {
 // A clock that changes meanwhile changes for all of them.
 TEST(FrameCosts, AreMeasuredInTurns) {
   Log log;
-  const WorkloadEntry entry{.name = "noted", .what = "", .make = [&log](const WorkloadSetup& setup) { return std::make_unique<Noted>(log, setup.options.threads); }};
+  const WorkloadEntry entry{.name = "noted", .what = "", .make = [&log](const WorkloadSetup& setup) {
+                              return std::make_unique<Noted>(log, setup.options.threads);
+                            }};
   const std::vector<TracedFrame> costs = costs_of_frames(entry, {}, std::array{1, 64}, 0);
   ASSERT_EQ(costs.size(), 2u);
   for (const TracedFrame& cost : costs) EXPECT_GE(cost.seconds, 0);
@@ -97,13 +108,15 @@ TEST(FrameCosts, AreMeasuredInTurns) {
   EXPECT_NE(log.frames[7].second, log.frames[0].second);
   const auto start = std::chrono::steady_clock::now();
   costs_of_frames(entry, {}, std::array{1, 64}, 0.1);
-  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100)) << "they go on for their time";
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100))
+      << "they go on for their time";
 }
 
 /// Each frame has as many tasks as `tasks` says of it; those beyond the list as the last.
 class Traced : public Workload {
  public:
-  Traced(const WorkloadSetup& setup, std::vector<std::size_t> tasks) : trace_(setup.options.trace), tasks_(std::move(tasks)) {}
+  Traced(const WorkloadSetup& setup, std::vector<std::size_t> tasks)
+      : trace_(setup.options.trace), tasks_(std::move(tasks)) {}
   FrameStats draw() override {
     trace_(std::vector<FrameTask>(tasks_[std::min(drawn_++, tasks_.size() - 1)], {.begin = 0, .end = 1e-9}));
     return {};
@@ -119,7 +132,12 @@ class Traced : public Workload {
   Picture picture_{1, 1};
 };
 std::size_t tasks_of(const std::vector<std::size_t>& tasks) {
-  return cost_of_tasks({.name = "traced", .what = "", .make = [&](const WorkloadSetup& setup) { return std::make_unique<Traced>(setup, tasks); }}, {}, 2).tasks.size();
+  return cost_of_tasks(
+             {.name = "traced",
+              .what = "",
+              .make = [&](const WorkloadSetup& setup) { return std::make_unique<Traced>(setup, tasks); }},
+             {}, 2)
+      .tasks.size();
 }
 
 TEST(FrameCosts, AreOfTheTasksOfLaterFrames) {

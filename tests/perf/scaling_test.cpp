@@ -17,7 +17,8 @@ constexpr CoreModel kFastMemory{.core_bytes = 1e9};
 TracedFrame frame_of(const std::vector<std::pair<int, double>>& tasks, double between) {
   TracedFrame frame{.workload = "made up"};
   for (const auto& [pass, seconds] : tasks) {
-    frame.tasks.push_back({.stage = FrameStage::tiles, .begin = frame.seconds, .end = frame.seconds + seconds, .pass = pass});
+    frame.tasks.push_back(
+        {.stage = FrameStage::tiles, .begin = frame.seconds, .end = frame.seconds + seconds, .pass = pass});
     frame.seconds += seconds;
   }
   frame.seconds += between;
@@ -31,7 +32,9 @@ TracedFrame tiles_of(const std::vector<double>& seconds, double between = 0) {
 
 TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 2}, 0.5), 1, kFastMemory).sum(), 6.5);
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 2}, 0.5), 1, {.core_bytes = 1e9, .barrier_seconds = 0.25}).sum(), 6.5) << "it waits for nobody";
+  EXPECT_DOUBLE_EQ(
+      seconds_on(tiles_of({3, 1, 2}, 0.5), 1, {.core_bytes = 1e9, .barrier_seconds = 0.25}).sum(), 6.5)
+      << "it waits for nobody";
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({}, 0.5), 64, kFastMemory).sum(), 0.5);
   TracedFrame untold{.workload = "made up", .seconds = 3, .seconds_taking = 2};  // of workers without tasks
   EXPECT_DOUBLE_EQ(seconds_on(untold, 1, kFastMemory).sum(), 3);
@@ -46,9 +49,12 @@ TEST(BenchScaling, CoresBeginWithTheirSharesAndGoOnToOthers) {
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 1, 1, 1}), 2, kFastMemory).sum(), 3);
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2, 2, 1}), 3, kFastMemory).sum(), 4);
   EXPECT_DOUBLE_EQ(seconds_on(tiles_of({2, 3, 2}), 64, kFastMemory).sum(), 3) << "the longest";
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 4, 1}), 2, kFastMemory).sum(), 4) << "the second core begins with the third task";
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 3, 1, 1}), 2, kFastMemory).sum(), 5) << "and comes back to the second";
-  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 2, 3, 5, 1, 1}), 3, kFastMemory).sum(), 2 + 5) << "the third is free before the second, and so the fourth task is its";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 1, 4, 1}), 2, kFastMemory).sum(), 4)
+      << "the second core begins with the third task";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({3, 3, 1, 1}), 2, kFastMemory).sum(), 5)
+      << "and comes back to the second";
+  EXPECT_DOUBLE_EQ(seconds_on(tiles_of({1, 2, 3, 5, 1, 1}), 3, kFastMemory).sum(), 2 + 5)
+      << "the third is free before the second, and so the fourth task is its";
 }
 
 TEST(BenchScaling, MeasuresEachOfFewThreadsAndDoublesBeyond) {
@@ -61,7 +67,10 @@ TEST(BenchScaling, MeasuresEachOfFewThreadsAndDoublesBeyond) {
 }
 
 TEST(BenchScaling, WhatStopsAWorkloadIsItsFault) {
-  WorkloadEntry entry{.name = "unmade", .what = "", .make = [](const WorkloadSetup&) -> std::unique_ptr<Workload> { throw Error("no such mesh"); }};
+  WorkloadEntry entry{
+      .name = "unmade", .what = "", .make = [](const WorkloadSetup&) -> std::unique_ptr<Workload> {
+        throw Error("no such mesh");
+      }};
   for (const int threads : {1, 2}) {
     const Scaling scaling = scaling_of(entry, {}, threads, kFastMemory, {.repeats = 1}, HardwareCounters());
     EXPECT_EQ(scaling.fault, "no such mesh") << threads;
@@ -70,10 +79,14 @@ TEST(BenchScaling, WhatStopsAWorkloadIsItsFault) {
   }
 }
 
-/// Of which there is memory for no more than `most` at once; the engine says so in its own words. Who asks for more is the first of them, or those beyond.
+/// Of which there is memory for no more than `most` at once; the engine says so in its own words. Who asks
+/// for more is the first of them, or those beyond.
 class Large : public Workload {
  public:
-  Large(int& alive, int most, bool first_asks) : alive_(alive), most_(most), asks_(first_asks ? alive == 0 : alive >= most) { ++alive_; }
+  Large(int& alive, int most, bool first_asks)
+      : alive_(alive), most_(most), asks_(first_asks ? alive == 0 : alive >= most) {
+    ++alive_;
+  }
   ~Large() override { --alive_; }
   FrameStats draw() override {
     if (asks_ && alive_ > most_) throw Error("Renderer: not enough memory");
@@ -91,9 +104,12 @@ class Large : public Workload {
 };
 Scaling scaling_of_large(int most, bool first_asks = false) {
   int alive = 0;
-  const WorkloadEntry entry{.name = "large", .what = "", .make = [&](const WorkloadSetup&) { return std::make_unique<Large>(alive, most, first_asks); }};
+  const WorkloadEntry entry{.name = "large", .what = "", .make = [&](const WorkloadSetup&) {
+                              return std::make_unique<Large>(alive, most, first_asks);
+                            }};
   const ThreadLimit limit(2);
-  const Scaling scaling = scaling_of(entry, {}, 2, kFastMemory, {.repeats = 1, .seconds = 0.001, .warm_up_seconds = 0}, HardwareCounters());
+  const Scaling scaling = scaling_of(
+      entry, {}, 2, kFastMemory, {.repeats = 1, .seconds = 0.001, .warm_up_seconds = 0}, HardwareCounters());
   EXPECT_EQ(alive, 0);
   return scaling;
 }
@@ -111,7 +127,9 @@ TEST(BenchScaling, WhatWasMeasuredStandsWithoutMemoryForTheRest) {
     EXPECT_EQ(scaling.measured.size(), 1u);
     EXPECT_EQ(scaling.not_computed, "Renderer: not enough memory");
     const std::string line = scaling_line(scaling);
-    EXPECT_TRUE(line.ends_with(")          (no memory)             not computed: Renderer: not enough memory\n")) << line;
+    EXPECT_TRUE(
+        line.ends_with(")          (no memory)             not computed: Renderer: not enough memory\n"))
+        << line;
     const nlohmann::ordered_json json = scaling_json({scaling})[0];
     EXPECT_TRUE(json.contains("measured")) << json;
     EXPECT_EQ(json["not_computed"], "Renderer: not enough memory");
@@ -121,8 +139,10 @@ TEST(BenchScaling, WhatWasMeasuredStandsWithoutMemoryForTheRest) {
 }
 
 TEST(BenchScaling, TellsWhatWasComputedBeforeTheMemoryEnded) {
-  const Scaling scaling{.workload = "made up", .one_ms = 1, .predicted = {{2, 1.5}}, .not_computed = "out of memory"};
-  EXPECT_TRUE(scaling_line(scaling).ends_with("    1.50  not computed: out of memory\n")) << scaling_line(scaling);
+  const Scaling scaling{
+      .workload = "made up", .one_ms = 1, .predicted = {{2, 1.5}}, .not_computed = "out of memory"};
+  EXPECT_TRUE(scaling_line(scaling).ends_with("    1.50  not computed: out of memory\n"))
+      << scaling_line(scaling);
   const nlohmann::ordered_json json = scaling_json({scaling})[0];
   EXPECT_EQ(json["computed"], (nlohmann::ordered_json{{"2", 1.5}}));
   EXPECT_FALSE(json.contains("ms_of_64"));
@@ -148,7 +168,8 @@ TEST(BenchScaling, PassesWaitForEachOther) {
   slow_to_begin.barrier_seconds = 0.25;
   EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin).sum(), 2 + 1 + 4 + 3 * 0.25);
   frame.calls_without_tasks = 2;
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin).sum(), 2 + 1 + 4 + 5 * 0.25) << "workers wait there, too";
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, slow_to_begin).sum(), 2 + 1 + 4 + 5 * 0.25)
+      << "workers wait there, too";
 }
 
 TEST(BenchScaling, SecondsGoToWorkWaitsOneCoreAndMemory) {
@@ -157,17 +178,25 @@ TEST(BenchScaling, SecondsGoToWorkWaitsOneCoreAndMemory) {
   const CoreModel slow_to_begin{.core_bytes = 1e9, .barrier_seconds = 0.25};
   const CoreSeconds seconds = seconds_on(frame, 2, slow_to_begin);
   EXPECT_DOUBLE_EQ(seconds.working, (9 + 2.5) / 2);
-  EXPECT_DOUBLE_EQ(seconds.waiting, (2.5 + 1.5 + 4.5) - seconds.working + 3 * 0.25) << "one idles while the other does the last of a pass";
+  EXPECT_DOUBLE_EQ(seconds.waiting, (2.5 + 1.5 + 4.5) - seconds.working + 3 * 0.25)
+      << "one idles while the other does the last of a pass";
   EXPECT_DOUBLE_EQ(seconds.alone, 2);
   EXPECT_DOUBLE_EQ(seconds.memory, 0);
   frame.work.bytes = 40'000'000'000;
-  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, {.core_bytes = 1, .barrier_seconds = 0.25}).memory, 20 - seconds.sum());
+  EXPECT_DOUBLE_EQ(seconds_on(frame, 2, {.core_bytes = 1, .barrier_seconds = 0.25}).memory,
+                   20 - seconds.sum());
 }
 
 TEST(BenchScaling, TellsWhatTheTimeOf64CoresGoesTo) {
-  const Scaling scaling{.workload = "made up", .one_ms = 1, .predicted = {{32, 20}, {64, 32}}, .of_64 = {.working = 1, .waiting = 2, .alone = 3, .memory = 4}};
-  EXPECT_TRUE(scaling_line(scaling).ends_with("    50 %     10 %     20 %     30 %     40 %\n")) << scaling_line(scaling);
-  EXPECT_EQ(scaling_json({scaling})[0]["ms_of_64"], (nlohmann::ordered_json{{"working", 1000.0}, {"waiting", 2000.0}, {"alone", 3000.0}, {"memory", 4000.0}}));
+  const Scaling scaling{.workload = "made up",
+                        .one_ms = 1,
+                        .predicted = {{32, 20}, {64, 32}},
+                        .of_64 = {.working = 1, .waiting = 2, .alone = 3, .memory = 4}};
+  EXPECT_TRUE(scaling_line(scaling).ends_with("    50 %     10 %     20 %     30 %     40 %\n"))
+      << scaling_line(scaling);
+  EXPECT_EQ(scaling_json({scaling})[0]["ms_of_64"],
+            (nlohmann::ordered_json{
+                {"working", 1000.0}, {"waiting", 2000.0}, {"alone", 3000.0}, {"memory", 4000.0}}));
 }
 
 TEST(BenchScaling, MemoryGivesTheBytesNoFaster) {

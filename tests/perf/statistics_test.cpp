@@ -11,7 +11,9 @@ namespace {
 
 TEST(BenchStatistics, OfOneValueAreThatValue) {
   const Statistics s = statistics_of({3});
-  for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99, s.least, s.low_median, s.high_median}) EXPECT_EQ(value, 3);
+  for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99,
+                             s.least, s.low_median, s.high_median})
+    EXPECT_EQ(value, 3);
 }
 
 TEST(BenchStatistics, AreMeasuredValuesInWhateverOrderTheyCome) {
@@ -26,7 +28,8 @@ TEST(BenchStatistics, AreMeasuredValuesInWhateverOrderTheyCome) {
 
 TEST(BenchStatistics, HavePercentilesOfAHundred) {
   std::vector<double> values;
-  for (int i = 0; i < 200; ++i) values.push_back((i * 73 + 5) % 200 + 1);  // each of 1 .. 200 once: 73 and 200 have no common factor
+  for (int i = 0; i < 200; ++i)
+    values.push_back((i * 73 + 5) % 200 + 1);  // each of 1 .. 200 once: 73 and 200 have no common factor
   const Statistics s = statistics_of(values);
   EXPECT_EQ(s.least, 1);
   EXPECT_EQ(s.low_quartile, 50);
@@ -57,7 +60,8 @@ TEST(BenchStatistics, BoundsHoldTheMedianNineteenTimesOfTwenty) {
 }
 
 TEST(BenchStatistics, RatiosAreAsWideAsBothMedians) {
-  const Statistics a{.median = 6, .low_median = 5, .high_median = 8}, b{.median = 3, .low_median = 2, .high_median = 4};
+  const Statistics a{.median = 6, .low_median = 5, .high_median = 8},
+      b{.median = 3, .low_median = 2, .high_median = 4};
   const Ratio ratio = ratio_of(a, b);
   EXPECT_EQ(ratio.value, 2);
   EXPECT_EQ(ratio.low, 1.25);

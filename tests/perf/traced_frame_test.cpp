@@ -14,9 +14,24 @@ using Json = nlohmann::json;
 TracedFrame three_tiles() {
   TracedFrame frame{.workload = "made up", .seconds = 1e-6};
   frame.tasks = {{.stage = FrameStage::vertices, .worker = 1, .begin = 0, .end = 1e-4},
-                 {.stage = FrameStage::tiles, .worker = 0, .begin = 2e-4, .end = 2e-4 + 8e-9, .pixels = {0, 0, 4, 2}, .pass = 1},
-                 {.stage = FrameStage::tiles, .worker = 1, .begin = 3e-4, .end = 3e-4 + 12e-9, .pixels = {0, 2, 2, 2}, .pass = 1},
-                 {.stage = FrameStage::tiles, .worker = 0, .begin = 4e-4, .end = 4e-4 + 8e-9, .pixels = {2, 2, 2, 2}, .pass = 1}};
+                 {.stage = FrameStage::tiles,
+                  .worker = 0,
+                  .begin = 2e-4,
+                  .end = 2e-4 + 8e-9,
+                  .pixels = {0, 0, 4, 2},
+                  .pass = 1},
+                 {.stage = FrameStage::tiles,
+                  .worker = 1,
+                  .begin = 3e-4,
+                  .end = 3e-4 + 12e-9,
+                  .pixels = {0, 2, 2, 2},
+                  .pass = 1},
+                 {.stage = FrameStage::tiles,
+                  .worker = 0,
+                  .begin = 4e-4,
+                  .end = 4e-4 + 8e-9,
+                  .pixels = {2, 2, 2, 2},
+                  .pass = 1}};
   return frame;
 }
 
@@ -61,7 +76,8 @@ TEST(TracedFrame, IsAPictureOfWhatItsTilesCost) {
     EXPECT_EQ(pixel(0, y), (std::vector{255, 255, 255, 255})) << "the dearest is white";
     EXPECT_EQ(pixel(2, y), (std::vector{255, 255, 0, 255})) << "two thirds of it: yellow";
   }
-  for (const int x : {0, 1, 2, 3}) EXPECT_EQ(pixel(x, 3), (std::vector{255, 0, 0, 255})) << "a third of it: red";
+  for (const int x : {0, 1, 2, 3})
+    EXPECT_EQ(pixel(x, 3), (std::vector{255, 0, 0, 255})) << "a third of it: red";
 }
 
 TEST(TracedFrame, WithoutTilesIsNoPicture) {

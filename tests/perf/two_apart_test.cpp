@@ -21,7 +21,8 @@ struct Meeting {
 /// The second one that is made may fail.
 class Meets : public Workload {
  public:
-  Meets(Meeting& meeting, const WorkloadSetup& setup, bool fails) : meeting_(meeting), fails_(fails && meeting.made == 1), picture_(1 + meeting.made, 1) {
+  Meets(Meeting& meeting, const WorkloadSetup& setup, bool fails)
+      : meeting_(meeting), fails_(fails && meeting.made == 1), picture_(1 + meeting.made, 1) {
     ++meeting_.made;
     EXPECT_EQ(setup.options.threads, 1);
   }
@@ -45,7 +46,9 @@ class Meets : public Workload {
   Picture picture_;
 };
 WorkloadEntry meets(Meeting& meeting, bool fails) {
-  return {.name = "meets", .what = "", .make = [&meeting, fails](const WorkloadSetup& setup) { return std::make_unique<Meets>(meeting, setup, fails); }};
+  return {.name = "meets", .what = "", .make = [&meeting, fails](const WorkloadSetup& setup) {
+            return std::make_unique<Meets>(meeting, setup, fails);
+          }};
 }
 
 TEST(TwoApart, DrawAtOnce) {
@@ -70,7 +73,8 @@ TEST(TwoApart, FailIfOneDoes) {
 
 // Six frames in the time of two.
 TEST(TwoApart, AreThreeTimesAsFastIfTheirFramesTakeTheTimeOfTwo) {
-  const Ratio speed = TwoApart::speed_up({.median = 2, .low_median = 1, .high_median = 4}, {.median = 4, .low_median = 2, .high_median = 4});
+  const Ratio speed = TwoApart::speed_up({.median = 2, .low_median = 1, .high_median = 4},
+                                         {.median = 4, .low_median = 2, .high_median = 4});
   EXPECT_DOUBLE_EQ(speed.value, 3);
   EXPECT_DOUBLE_EQ(speed.low, 1.5);
   EXPECT_DOUBLE_EQ(speed.high, 12);

@@ -21,7 +21,8 @@ std::vector<std::uint32_t> triangles_of(const Bins& bins, int tile) {
   std::vector<std::uint32_t> triangles;
   for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next)
     for (std::uint32_t e = 0; e < bins.block(index).count; ++e)
-      if (const std::uint32_t entry = bins.block(index).entries[e]; (entry & kDrawMarker) == 0) triangles.push_back(entry);
+      if (const std::uint32_t entry = bins.block(index).entries[e]; (entry & kDrawMarker) == 0)
+        triangles.push_back(entry);
   return triangles;
 }
 
@@ -35,7 +36,9 @@ TEST(Binning, LosesNoTileOfATriangle) {
       if (reference.area == 0) continue;
       const TileGrid grid{256, 256, tile_size};
       std::vector<std::uint8_t> touched(static_cast<std::size_t>(grid.count()));
-      reference.for_each_covered(0, 0, 256, 256, [&](int x, int y) { touched[static_cast<std::size_t>(y / tile_size * grid.columns() + x / tile_size)] = 1; });
+      reference.for_each_covered(0, 0, 256, 256, [&](int x, int y) {
+        touched[static_cast<std::size_t>(y / tile_size * grid.columns() + x / tile_size)] = 1;
+      });
       BinDraw draw;
       draw.vertices = t.data();
       draw.rect = {0, 0, 256, 256};
@@ -45,7 +48,8 @@ TEST(Binning, LosesNoTileOfATriangle) {
         bin_triangles(bins, grid, draw, 0, 1, isa);
         for (int tile = 0; tile < grid.count(); ++tile) {
           const bool binned = bins.first(tile) != Bins::kNone;
-          ASSERT_TRUE(binned || touched[static_cast<std::size_t>(tile)] == 0) << name_of(isa) << " tile " << tile << " of " << tile_size << ": " << Describe{t};
+          ASSERT_TRUE(binned || touched[static_cast<std::size_t>(tile)] == 0)
+              << name_of(isa) << " tile " << tile << " of " << tile_size << ": " << Describe{t};
         }
       }
     }
@@ -57,21 +61,26 @@ std::vector<WindowVertex> triangles_along_borders(int count, int size, int tile_
   RandomTriangles source(static_cast<std::uint32_t>(tile_size) + 1, size);
   std::vector<WindowVertex> vertices;
   for (int t = 0, start = 0, border = 0; t < count; ++t) {
-    if (t % 20 == 0) start = source.between(0, size) * 256, border = source.between(1, size / tile_size) * tile_size * 256;
-    const int extent = (t % 11 == 0 ? source.between(20, 90) : source.between(2, 6)) * 256, along = start + t % 20 * 700;
+    if (t % 20 == 0)
+      start = source.between(0, size) * 256, border = source.between(1, size / tile_size) * tile_size * 256;
+    const int extent = (t % 11 == 0 ? source.between(20, 90) : source.between(2, 6)) * 256,
+              along = start + t % 20 * 700;
     const bool downwards = t % 40 < 20;
     const auto around = [&](int center) { return center + source.between(-extent / 2, extent / 2); };
-    for (int k = 0; k < 3; ++k) vertices.push_back({around(downwards ? along : border), around(downwards ? border : along), 0, 1});
+    for (int k = 0; k < 3; ++k)
+      vertices.push_back({around(downwards ? along : border), around(downwards ? border : along), 0, 1});
   }
   return vertices;
 }
 
-// Each tile has them in their order, once, and none that is elsewhere; also where a rectangle cuts them, and where tiles stand in one column.
+// Each tile has them in their order, once, and none that is elsewhere; also where a rectangle cuts them, and
+// where tiles stand in one column.
 TEST(Binning, KeepsTheirOrderInEachTile) {
   constexpr int kSize = 256, kCount = 16 * 40 + 7;
   for (const int tile_size : kTileSizes) {
     const std::vector<WindowVertex> vertices = triangles_along_borders(kCount, kSize, tile_size);
-    for (const PixelRect& rect : {PixelRect{0, 0, kSize, kSize}, PixelRect{30, 20, 200, 231}, PixelRect{0, 0, tile_size, kSize}})
+    for (const PixelRect& rect :
+         {PixelRect{0, 0, kSize, kSize}, PixelRect{30, 20, 200, 231}, PixelRect{0, 0, tile_size, kSize}})
       for (const std::int32_t reach : {0, 128})
         for (const Isa isa : available_isas()) {
           const TileGrid grid{rect.x1 == tile_size ? tile_size : kSize, kSize, tile_size};
@@ -83,18 +92,25 @@ TEST(Binning, KeepsTheirOrderInEachTile) {
           bins.reset(grid.count());
           bin_triangles(bins, grid, draw, 0, kCount, isa);
           for (int tile = 0; tile < grid.count(); ++tile) {
-            SCOPED_TRACE(name_of(isa) + " tile " + std::to_string(tile) + " of " + std::to_string(tile_size) + " reach " + std::to_string(reach));
+            SCOPED_TRACE(name_of(isa) + " tile " + std::to_string(tile) + " of " + std::to_string(tile_size) +
+                         " reach " + std::to_string(reach));
             const int tile_x = tile % grid.columns() * tile_size, tile_y = tile / grid.columns() * tile_size;
             const PixelRect part = intersect(rect, {tile_x, tile_y, tile_x + tile_size, tile_y + tile_size});
             const std::vector<std::uint32_t> found = triangles_of(bins, tile);
-            ASSERT_TRUE(std::is_sorted(found.begin(), found.end()) && std::adjacent_find(found.begin(), found.end()) == found.end());
+            ASSERT_TRUE(std::is_sorted(found.begin(), found.end()) &&
+                        std::adjacent_find(found.begin(), found.end()) == found.end());
             for (std::uint32_t t = 0; t < kCount; ++t) {
-              const WindowVertex *const v = vertices.data() + std::size_t{3} * t;
+              const WindowVertex* const v = vertices.data() + std::size_t{3} * t;
               const auto [low_x, high_x] = std::minmax({v[0].x, v[1].x, v[2].x});
               const auto [low_y, high_y] = std::minmax({v[0].y, v[1].y, v[2].y});
-              const PixelRect bounds = intersect(part, {first_pixel(low_x - reach), first_pixel(low_y - reach), last_pixel(high_x + reach) + 1, last_pixel(high_y + reach) + 1});
+              const PixelRect bounds =
+                  intersect(part, {first_pixel(low_x - reach), first_pixel(low_y - reach),
+                                   last_pixel(high_x + reach) + 1, last_pixel(high_y + reach) + 1});
               bool seen = false;
-              if (!bounds.empty()) reference_of({v[0], v[1], v[2]}).for_each_covered(bounds.x0, bounds.y0, bounds.x1, bounds.y1, [&](int, int) { seen = true; });
+              if (!bounds.empty())
+                reference_of({v[0], v[1], v[2]})
+                    .for_each_covered(bounds.x0, bounds.y0, bounds.x1, bounds.y1,
+                                      [&](int, int) { seen = true; });
               const bool is_there = std::binary_search(found.begin(), found.end(), t);
               ASSERT_TRUE(is_there ? !bounds.empty() : !seen) << "triangle " << t;
             }
@@ -103,7 +119,8 @@ TEST(Binning, KeepsTheirOrderInEachTile) {
   }
 }
 
-// Up to three pixels wide, on centres and edges of pixels or anywhere, in rectangles that cut them: sixteen at a time and one by one.
+// Up to three pixels wide, on centres and edges of pixels or anywhere, in rectangles that cut them: sixteen
+// at a time and one by one.
 TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
   constexpr std::uint32_t kCount = 16 * 200 + 5;
   constexpr int kSize = 128;
@@ -111,8 +128,11 @@ TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
   std::vector<WindowVertex> vertices;
   std::vector<std::uint32_t> backwards;
   for (std::uint32_t t = 0; t < kCount; ++t) {
-    const int x = source.between(-2, kSize) * 256, y = source.between(-2, kSize) * 256, extent = source.between(1, 3) * 256, step = 1 << source.between(0, 7);
-    for (int k = 0; k < 3; ++k) vertices.push_back({x + source.between(0, extent / step) * step, y + source.between(0, extent / step) * step, 0, 1});
+    const int x = source.between(-2, kSize) * 256, y = source.between(-2, kSize) * 256,
+              extent = source.between(1, 3) * 256, step = 1 << source.between(0, 7);
+    for (int k = 0; k < 3; ++k)
+      vertices.push_back(
+          {x + source.between(0, extent / step) * step, y + source.between(0, extent / step) * step, 0, 1});
   }
   for (std::uint32_t i = 3 * kCount; i-- > 0;) backwards.push_back(i);
   std::size_t left_out = 0, kept = 0;
@@ -136,12 +156,17 @@ TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
             const TriangleReference reference = reference_of(triangle);
             const auto [low_x, high_x] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
             const auto [low_y, high_y] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
-            const int x0 = std::max(first_pixel(low_x - reach), rect.x0), x1 = std::min(last_pixel(high_x + reach), rect.x1 - 1);
-            const int y0 = std::max(first_pixel(low_y - reach), rect.y0), y1 = std::min(last_pixel(high_y + reach), rect.y1 - 1);
+            const int x0 = std::max(first_pixel(low_x - reach), rect.x0),
+                      x1 = std::min(last_pixel(high_x + reach), rect.x1 - 1);
+            const int y0 = std::max(first_pixel(low_y - reach), rect.y0),
+                      y1 = std::min(last_pixel(high_y + reach), rect.y1 - 1);
             bool expected = reference.area != 0 && x0 <= x1 && y0 <= y1;
-            const bool is_small = high_x - low_x < 768 && high_y - low_y < 768;  // larger ones may have been cut by the rectangle: they are kept
+            const bool is_small =
+                high_x - low_x < 768 &&
+                high_y - low_y < 768;  // larger ones may have been cut by the rectangle: they are kept
             if (expected && reach == 0 && x1 - x0 <= 1 && y1 - y0 <= 1 && is_small) {
-              // Of the 2x2 pixels, those that the rectangle cuts off included: it may keep one of the others for nothing.
+              // Of the 2x2 pixels, those that the rectangle cuts off included: it may keep one of the others
+              // for nothing.
               bool covers = false, covers_any = false;
               reference.for_each_covered(x0, y0, x0 + 2, y0 + 2, [&](int x, int y) {
                 covers |= x <= x1 && y <= y1;
@@ -151,7 +176,8 @@ TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
               expected = covers_any;
               ++(expected ? kept : left_out);
             }
-            ASSERT_EQ(binned[t], expected) << name_of(isa) << " reach " << reach << ": " << Describe{triangle};
+            ASSERT_EQ(binned[t], expected)
+                << name_of(isa) << " reach " << reach << ": " << Describe{triangle};
           }
         }
   EXPECT_GT(left_out, 1000u);
@@ -184,7 +210,8 @@ TEST(Binning, LosesNoTriangleInARectangleOfFewPixels) {
 }
 
 TEST(Binning, CullsTheFacesThatItIsAskedToAndCountsThem) {
-  const Triangle counter_clockwise{WindowVertex{0, 2560, 0, 1}, WindowVertex{2560, 2560, 0, 1}, WindowVertex{0, 0, 0, 1}};  // seen in the window
+  const Triangle counter_clockwise{WindowVertex{0, 2560, 0, 1}, WindowVertex{2560, 2560, 0, 1},
+                                   WindowVertex{0, 0, 0, 1}};  // seen in the window
   for (const bool clockwise_fronts : {false, true}) {
     for (const bool keep_front : {false, true}) {
       for (const bool keep_back : {false, true}) {

@@ -15,7 +15,9 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
   for (const std::size_t limit : {std::size_t{20000}, std::size_t{100000}, std::size_t{4} << 20}) {
     BinBudget budget(limit);
     std::vector<Bins> bins(3), unlimited(3);
-    for (int b = 0; b < 3; ++b) bins[static_cast<std::size_t>(b)].reset(50, 100, &budget), unlimited[static_cast<std::size_t>(b)].reset(50, 100);
+    for (int b = 0; b < 3; ++b)
+      bins[static_cast<std::size_t>(b)].reset(50, 100, &budget),
+          unlimited[static_cast<std::size_t>(b)].reset(50, 100);
     bool any_overflow = false;
     for (int i = 0; i < 60000; ++i) {
       const std::size_t b = random() % 3;
@@ -33,11 +35,13 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
       }
       std::size_t bytes = 0;
       for (const Bins& each : bins) bytes += each.bytes();
-      ASSERT_LE(bytes, limit + 3 * (sizeof(Bins::Block) + 256)) << "but for the block and the padding that are left after an overflow";
+      ASSERT_LE(bytes, limit + 3 * (sizeof(Bins::Block) + 256))
+          << "but for the block and the padding that are left after an overflow";
     }
     std::size_t bytes = 0;
     for (const Bins& each : bins) bytes += each.bytes();
-    EXPECT_TRUE(bytes >= limit || budget.take(limit - bytes)) << "memory that was grown out of was not given back";
+    EXPECT_TRUE(bytes >= limit || budget.take(limit - bytes))
+        << "memory that was grown out of was not given back";
     for (std::size_t b = 0; b < 3; ++b) {
       any_overflow |= bins[b].overflowed();
       EXPECT_EQ(bins[b].counts.entries, unlimited[b].counts.entries);
@@ -45,8 +49,10 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
       for (int tile = 100; tile < 150; ++tile) {
         ASSERT_EQ(bins[b].triangles(tile), unlimited[b].triangles(tile));
         std::uint32_t i = bins[b].first(tile), j = unlimited[b].first(tile);
-        for (; i != Bins::kNone && j != Bins::kNone; i = bins[b].block(i).next, j = unlimited[b].block(j).next)
-          ASSERT_TRUE(std::equal(bins[b].block(i).entries, bins[b].block(i).entries + bins[b].block(i).count, unlimited[b].block(j).entries));
+        for (; i != Bins::kNone && j != Bins::kNone;
+             i = bins[b].block(i).next, j = unlimited[b].block(j).next)
+          ASSERT_TRUE(std::equal(bins[b].block(i).entries, bins[b].block(i).entries + bins[b].block(i).count,
+                                 unlimited[b].block(j).entries));
         ASSERT_EQ(i, j);
       }
     }
@@ -66,12 +72,17 @@ TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
     BinBudget budget;
     budget.start(limit, bins.bytes());
     bins.reset(tiles, round, &budget);
-    for (int tile = round; tile < round + tiles; ++tile) ASSERT_TRUE(bins.first(tile) == Bins::kNone && bins.triangles(tile) == 0) << round;
+    for (int tile = round; tile < round + tiles; ++tile)
+      ASSERT_TRUE(bins.first(tile) == Bins::kNone && bins.triangles(tile) == 0) << round;
     std::vector<std::uint32_t> expected(static_cast<std::size_t>(tiles));
     for (int i = 0; i < pushes; ++i) {
       const int span = 1 + round % tiles;
-      const auto tile = static_cast<std::size_t>(overflows ? i * span / pushes : static_cast<int>(random() % 1000) * span / 1000);  // then some are first met after the overflow
-      bins.push(round + static_cast<int>(tile), 1, static_cast<std::uint32_t>(i));  // the same draw in every round
+      const auto tile =
+          static_cast<std::size_t>(overflows ? i * span / pushes
+                                             : static_cast<int>(random() % 1000) * span /
+                                                   1000);  // then some are first met after the overflow
+      bins.push(round + static_cast<int>(tile), 1,
+                static_cast<std::uint32_t>(i));  // the same draw in every round
       ++expected[tile];
     }
     ASSERT_EQ(bins.overflowed(), budget.refused());
@@ -81,7 +92,9 @@ TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
     for (int t = 0; t < tiles; ++t) {
       const std::uint32_t first = bins.first(round + t);
       ASSERT_EQ(first == Bins::kNone, expected[static_cast<std::size_t>(t)] == 0);
-      if (first != Bins::kNone) { ASSERT_EQ(bins.block(first).entries[0], kDrawMarker | 1); }
+      if (first != Bins::kNone) {
+        ASSERT_EQ(bins.block(first).entries[0], kDrawMarker | 1);
+      }
     }
     EXPECT_TRUE(budget.take(limit - bins.bytes())) << "more was taken than there is";
     EXPECT_FALSE(budget.take(1)) << "less";
@@ -92,7 +105,8 @@ TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
 /// The batches that a tile reads.
 std::vector<std::uint32_t> read_by(const BinBatches& batches, int tile) {
   std::vector<std::uint32_t> read;
-  for (std::uint32_t b = batches.next(tile, 0); b < batches.count(); b = batches.next(tile, b + 1)) read.push_back(b);
+  for (std::uint32_t b = batches.next(tile, 0); b < batches.count(); b = batches.next(tile, b + 1))
+    read.push_back(b);
   return read;
 }
 

@@ -1,4 +1,5 @@
-// Clipping in homogeneous space: what is left lies inside, neighbours stay neighbours, attributes stay linear.
+// Clipping in homogeneous space: what is left lies inside, neighbours stay neighbours, attributes stay
+// linear.
 #include "raster/clip.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +44,8 @@ std::uint8_t codes_of(const VertexTransform& t, const ClipVertex (&v)[3]) {
 double magnitude(const ClipVertex (&v)[3]) {
   double most = 0;
   for (const ClipVertex& c : v)
-    for (const double x : {c.position.x, c.position.y, c.position.z, c.position.w}) most = std::max(most, std::abs(x));
+    for (const double x : {c.position.x, c.position.y, c.position.z, c.position.w})
+      most = std::max(most, std::abs(x));
   return most;
 }
 
@@ -87,7 +89,8 @@ TEST(Clip, LeavesWhatLiesInsideAndKeepsAttributesLinear) {
   }
 }
 
-// Two triangles with a common edge, drawn in opposite directions: the points where planes cut the edge are the same numbers.
+// Two triangles with a common edge, drawn in opposite directions: the points where planes cut the edge are
+// the same numbers.
 TEST(Clip, CutsASharedEdgeAtTheVerySamePoints) {
   RandomClip random{std::mt19937(8)};
   const VertexTransform t = identity(8191.5);
@@ -104,34 +107,39 @@ TEST(Clip, CutsASharedEdgeAtTheVerySamePoints) {
         if (polygon.vertices[i].attributes[0] == 0) points.emplace_back(p.x, p.y, p.z, p.w);
       }
       std::sort(points.begin(), points.end());
-      points.erase(std::unique(points.begin(), points.end()), points.end());  // a vertex on a plane is also where its other edge is cut
+      points.erase(std::unique(points.begin(), points.end()),
+                   points.end());  // a vertex on a plane is also where its other edge is cut
       return std::pair(points, polygon.count);
     };
     const auto [one, one_count] = on_edge(a, b, c);
     const auto [other, other_count] = on_edge(b, a, d);
     if (one_count == 0 || other_count == 0) continue;  // nothing of one is seen
-    if (one.size() < 2 || other.size() < 2) continue;   // touches in a point
+    if (one.size() < 2 || other.size() < 2) continue;  // touches in a point
     ASSERT_EQ(one, other) << "round " << round;
     cuts += one.size();
   }
   EXPECT_GT(cuts, 1000u);
 }
 
-// A plane through all six sides of the clip volume leaves a hexagon, a triangle cuts off three of its corners: nine vertices.
+// A plane through all six sides of the clip volume leaves a hexagon, a triangle cuts off three of its
+// corners: nine vertices.
 TEST(Clip, KeepsAllNineVertices) {
   const VertexTransform t = identity(8191.5);  // the guard band is 2 w
-  // In the plane X + Y + Z = 0 of the cube [-1, 1]^3, with x = 2 X, y = 2 Y, z = Z: u points at a corner of the hexagon.
-  const double u[3] = {std::sqrt(0.5), -std::sqrt(0.5), 0}, v[3] = {std::sqrt(1 / 6.0), std::sqrt(1 / 6.0), -2 * std::sqrt(1 / 6.0)};
+  // In the plane X + Y + Z = 0 of the cube [-1, 1]^3, with x = 2 X, y = 2 Y, z = Z: u points at a corner of
+  // the hexagon.
+  const double u[3] = {std::sqrt(0.5), -std::sqrt(0.5), 0},
+               v[3] = {std::sqrt(1 / 6.0), std::sqrt(1 / 6.0), -2 * std::sqrt(1 / 6.0)};
   constexpr double kInradius = 1.35;  // between the hexagon's sides, 1.2247 away, and its corners, 1.4142
   ClipVertex corners[3];
   for (int k = 0; k < 3; ++k) {
-    const double angle = 3.14159265358979 / 3 + k * 2 * 3.14159265358979 / 3, x = 2 * kInradius * std::cos(angle), y = 2 * kInradius * std::sin(angle);
+    const double angle = 3.14159265358979 / 3 + k * 2 * 3.14159265358979 / 3,
+                 x = 2 * kInradius * std::cos(angle), y = 2 * kInradius * std::sin(angle);
     corners[k].position = {2 * (x * u[0] + y * v[0]), 2 * (x * u[1] + y * v[1]), x * u[2] + y * v[2], 1};
   }
   const ClippedPolygon polygon = clip_triangle(t, corners, codes_of(t, corners), 0);
   EXPECT_EQ(polygon.count, 9);
   double area = 0;
-  const auto at = [&](int i, const double (&axis)[3]) {
+  const auto at = [&](int i, const double(&axis)[3]) {
     const ClipPosition& p = polygon.vertices[i % polygon.count].position;
     return p.x / 2 * axis[0] + p.y / 2 * axis[1] + p.z * axis[2];
   };
@@ -150,8 +158,8 @@ TEST(Clip, OfTrianglesBehindTheEyeLeavesNothing) {
   EXPECT_EQ(clip_triangle(t, touching, codes_of(t, touching), 0).count, 0);
 }
 
-// Sizes from 2^-1000 to 2^1023 in one triangle, where a cut has no digit left of w: what is drawn of it, if anything, is a triangle in
-// the guard band all the same.
+// Sizes from 2^-1000 to 2^1023 in one triangle, where a cut has no digit left of w: what is drawn of it, if
+// anything, is a triangle in the guard band all the same.
 TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
   constexpr std::int64_t kFarthest = std::int64_t{kGuardBandPixels} * kSubpixelScale;
   RandomClip random{std::mt19937(11)};
@@ -166,7 +174,10 @@ TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
   };
   for (int round = 0; round < (long_tests() ? 1000000 : 50000); ++round) {
     t.depth_far = round % 3 == 0 ? 0 : 1;
-    const auto size = [&] { return std::ldexp(random.in(-1, 1), round % 2 == 0 ? static_cast<int>(random.in(-1000, 1024)) : static_cast<int>(random.in(1000, 1025))); };
+    const auto size = [&] {
+      return std::ldexp(random.in(-1, 1), round % 2 == 0 ? static_cast<int>(random.in(-1000, 1024))
+                                                         : static_cast<int>(random.in(1000, 1025)));
+    };
     ClipVertex v[3];
     for (ClipVertex& c : v) {
       c.position = {size(), size(), size(), size()};
@@ -188,8 +199,8 @@ TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
   EXPECT_GT(kept, 10000u);
 }
 
-// From vertices to pixels: a pixel is painted where a ray through its centre hits the triangle between the planes; or where one
-// within 1/64 pixel does or does not: cut points are snapped.
+// From vertices to pixels: a pixel is painted where a ray through its centre hits the triangle between the
+// planes; or where one within 1/64 pixel does or does not: cut points are snapped.
 TEST(Clip, PaintsWhatARayHits) {
   constexpr int kSize = 64;
   RandomClip random{std::mt19937(9)};
@@ -206,18 +217,24 @@ TEST(Clip, PaintsWhatARayHits) {
       for (int j = 0; j < 4; ++j) positions[4 * k + j] = static_cast<float>(values[j]);
       v[k].position = {positions[4 * k], positions[4 * k + 1], positions[4 * k + 2], positions[4 * k + 3]};
     }
-    // Weights of the corners at a point of the window: the solution of [x y w] weights = (window x, window y, 1).
+    // Weights of the corners at a point of the window: the solution of [x y w] weights = (window x, window y,
+    // 1).
     const auto inside = [&](double px, double py) {
       const double x = (px - kSize / 2.0) / (kSize / 2.0), y = -(py - kSize / 2.0) / (kSize / 2.0);
       const auto det = [](const double* a, const double* b, const double* c) {
-        return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) + c[0] * (a[1] * b[2] - a[2] * b[1]);
+        return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
+               c[0] * (a[1] * b[2] - a[2] * b[1]);
       };
       double m[3][3];
-      for (int k = 0; k < 3; ++k) m[k][0] = v[k].position.x / scale, m[k][1] = v[k].position.y / scale, m[k][2] = v[k].position.w / scale;
+      for (int k = 0; k < 3; ++k)
+        m[k][0] = v[k].position.x / scale, m[k][1] = v[k].position.y / scale,
+        m[k][2] = v[k].position.w / scale;
       const double p[3] = {x, y, 1}, whole = det(m[0], m[1], m[2]);
-      const double l[3] = {det(p, m[1], m[2]) / whole, det(m[0], p, m[2]) / whole, det(m[0], m[1], p) / whole};
+      const double l[3] = {det(p, m[1], m[2]) / whole, det(m[0], p, m[2]) / whole,
+                           det(m[0], m[1], p) / whole};
       if (!(l[0] >= 0 && l[1] >= 0 && l[2] >= 0)) return false;
-      const double depth = (l[0] * v[0].position.z + l[1] * v[1].position.z + l[2] * v[2].position.z) / scale;  // w is 1 there
+      const double depth =
+          (l[0] * v[0].position.z + l[1] * v[1].position.z + l[2] * v[2].position.z) / scale;  // w is 1 there
       return depth >= -1 && depth <= 1;
     };
     TileStage stage(kSize, kSize, kSize);

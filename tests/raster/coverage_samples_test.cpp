@@ -1,5 +1,6 @@
-// Coverage of every sample is exact, by the same integers as that of pixel centres: a sample sees what a centre sees of the
-// triangle moved the other way. The positions are written down here once more, in 1/16 pixel as the standard has them.
+// Coverage of every sample is exact, by the same integers as that of pixel centres: a sample sees what a
+// centre sees of the triangle moved the other way. The positions are written down here once more, in 1/16
+// pixel as the standard has them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,8 +41,10 @@ void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds,
     stage.forget_draws();
     std::vector<std::uint32_t> expected[kMaxSamples];
     for (auto& sample : expected) sample.assign(static_cast<std::size_t>(tile_size * tile_size), 0);
-    const PixelRect rect = round % 3 == 2 ? PixelRect{source.between(0, 9), source.between(0, 9), source.between(20, tile_size), source.between(20, tile_size)}
-                                          : PixelRect{0, 0, tile_size, tile_size};
+    const PixelRect rect = round % 3 == 2
+                               ? PixelRect{source.between(0, 9), source.between(0, 9),
+                                           source.between(20, tile_size), source.between(20, tile_size)}
+                               : PixelRect{0, 0, tile_size, tile_size};
     for (std::uint32_t bit = 0; bit < kBits; ++bit) {
       triangles[bit] = source.next();
       std::copy(triangles[bit].begin(), triangles[bit].end(), vertices.begin() + 3 * bit);
@@ -56,18 +59,21 @@ void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds,
       if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
       stage.push(0, bit, 0);
       for (int s = 0; s < samples; ++s)
-        reference_of(moved(triangles[bit], (samples == 4 ? kFour : kEight)[s])).for_each_covered(rect.x0, rect.y0, rect.x1, rect.y1, [&](int x, int y) {
-          expected[s][static_cast<std::size_t>(y * tile_size + x)] |= 1u << bit;
-        });
+        reference_of(moved(triangles[bit], (samples == 4 ? kFour : kEight)[s]))
+            .for_each_covered(rect.x0, rect.y0, rect.x1, rect.y1, [&](int x, int y) {
+              expected[s][static_cast<std::size_t>(y * tile_size + x)] |= 1u << bit;
+            });
     }
     for (const Isa isa : available_isas()) {
       stage.render(isa, 0);
       for (int s = 0; s < samples; ++s)
         for (int y = 0; y < tile_size; ++y)
           for (int x = 0; x < tile_size; ++x) {
-            const std::uint32_t wrong = stage.sample_color(s, x, y) ^ expected[s][static_cast<std::size_t>(y * tile_size + x)];
-            ASSERT_EQ(wrong, 0u) << name_of(isa) << ", tile of " << tile_size << ", round " << round << ", sample " << s << " of pixel " << x << " " << y
-                                 << ", triangle " << Describe{triangles[static_cast<std::size_t>(std::countr_zero(wrong))]};
+            const std::uint32_t wrong =
+                stage.sample_color(s, x, y) ^ expected[s][static_cast<std::size_t>(y * tile_size + x)];
+            ASSERT_EQ(wrong, 0u) << name_of(isa) << ", tile of " << tile_size << ", round " << round
+                                 << ", sample " << s << " of pixel " << x << " " << y << ", triangle "
+                                 << Describe{triangles[static_cast<std::size_t>(std::countr_zero(wrong))]};
           }
     }
   }
@@ -77,8 +83,12 @@ int rounds_of_24(int normal) { return long_tests() ? normal * 33 : normal; }
 
 TEST(CoverageOfSamples, EqualsExactIntegersWithFour) { compare_by_bits(11, 4, 64, rounds_of_24(60), false); }
 TEST(CoverageOfSamples, EqualsExactIntegersWithEight) { compare_by_bits(12, 8, 64, rounds_of_24(40), false); }
-TEST(CoverageOfSamples, EqualsExactIntegersInTilesOf32) { compare_by_bits(13, 8, 32, rounds_of_24(60), false); }
-TEST(CoverageOfSamples, EqualsExactIntegersInTilesOf128) { compare_by_bits(14, 4, 128, rounds_of_24(15), false); }
+TEST(CoverageOfSamples, EqualsExactIntegersInTilesOf32) {
+  compare_by_bits(13, 8, 32, rounds_of_24(60), false);
+}
+TEST(CoverageOfSamples, EqualsExactIntegersInTilesOf128) {
+  compare_by_bits(14, 4, 128, rounds_of_24(15), false);
+}
 TEST(CoverageOfSamples, EqualsExactIntegersInDrawsWithOperations) {
   compare_by_bits(15, 4, 64, rounds_of_24(50), true);
   compare_by_bits(16, 8, 32, rounds_of_24(50), true);

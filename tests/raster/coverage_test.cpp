@@ -1,5 +1,5 @@
-// Coverage is exact: on every pixel of a tile, by every path and on every instruction set, what a tile covers is what 128-bit
-// integers say.
+// Coverage is exact: on every pixel of a tile, by every path and on every instruction set, what a tile covers
+// is what 128-bit integers say.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,14 +15,16 @@
 namespace tessera::test {
 namespace {
 
-// Depth words of triangles that each are nearer than those before: the depth test, which has ways of its own to draw them, stops none. At most 120.
+// Depth words of triangles that each are nearer than those before: the depth test, which has ways of its own
+// to draw them, stops none. At most 120.
 void bring_nearer(DepthKind kind, Triangle& triangle, std::uint32_t i) {
   for (WindowVertex& vertex : triangle) vertex.z = (120 - i) << (kind == DepthKind::float32 ? 23 : 25);
 }
 constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
 
 // Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
-void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect, DepthKind depth = DepthKind::none) {
+void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect,
+                     DepthKind depth = DepthKind::none) {
   RandomTriangles source(seed, tile_size);
   TileStage stage(tile_size, tile_size, tile_size, depth);
   std::vector<WindowVertex> vertices(3 * 32);
@@ -56,8 +58,10 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
       stage.render(isa, 0, 0, kFarthest);
       for (int y = 0; y < tile_size; ++y) {
         for (int x = 0; x < tile_size; ++x) {
-          const std::uint32_t wrong = stage.color(x, y) ^ expected[static_cast<std::size_t>(y * tile_size + x)];
-          ASSERT_EQ(wrong, 0u) << name_of(isa) << ", tile of " << tile_size << ", round " << round << ", pixel " << x << " " << y << ", triangle "
+          const std::uint32_t wrong =
+              stage.color(x, y) ^ expected[static_cast<std::size_t>(y * tile_size + x)];
+          ASSERT_EQ(wrong, 0u) << name_of(isa) << ", tile of " << tile_size << ", round " << round
+                               << ", pixel " << x << " " << y << ", triangle "
                                << Describe{triangles[static_cast<std::size_t>(std::countr_zero(wrong))]};
         }
       }
@@ -72,10 +76,15 @@ int rounds_of_32(int normal) { return long_tests() ? normal * 33 : normal; }
 
 TEST(Coverage, EqualsExactIntegersInTilesOf32) { compare_by_bits(1, 32, rounds_of_32(320), {0, 0, 32, 32}); }
 TEST(Coverage, EqualsExactIntegersInTilesOf64) { compare_by_bits(2, 64, rounds_of_32(320), {0, 0, 64, 64}); }
-TEST(Coverage, EqualsExactIntegersInTilesOf128) { compare_by_bits(3, 128, rounds_of_32(160), {0, 0, 128, 128}); }
+TEST(Coverage, EqualsExactIntegersInTilesOf128) {
+  compare_by_bits(3, 128, rounds_of_32(160), {0, 0, 128, 128});
+}
 TEST(Coverage, EqualsExactIntegersThroughTheDepthTest) {
-  for (const DepthKind depth : {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
-    for (const int size : {32, 64, 128}) compare_by_bits(30 + static_cast<std::uint32_t>(size), size, rounds_of_32(size == 128 ? 20 : 40), {0, 0, size, size}, depth);
+  for (const DepthKind depth :
+       {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
+    for (const int size : {32, 64, 128})
+      compare_by_bits(30 + static_cast<std::uint32_t>(size), size, rounds_of_32(size == 128 ? 20 : 40),
+                      {0, 0, size, size}, depth);
 }
 TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
   RandomTriangles source(4, 64);
@@ -83,7 +92,8 @@ TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
     PixelRect rect{source.between(0, 40), source.between(0, 40), 0, 0};
     rect.x1 = source.between(rect.x0 + 1, 64);
     rect.y1 = source.between(rect.y0 + 1, 64);
-    compare_by_bits(100 + static_cast<std::uint32_t>(i), 64, rounds_of_32(4), rect, i % 2 == 0 ? DepthKind::none : DepthKind::unorm24);
+    compare_by_bits(100 + static_cast<std::uint32_t>(i), 64, rounds_of_32(4), rect,
+                    i % 2 == 0 ? DepthKind::none : DepthKind::unorm24);
   }
 }
 
@@ -109,21 +119,27 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
       words[i] = i + 1;
       if (reference_of(t).area == 0) continue;
       stage.push(0, 0, i);
-      reference_of(t).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) { expected[static_cast<std::size_t>(y * kTile + x)] = i + 1; });
+      reference_of(t).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
+        expected[static_cast<std::size_t>(y * kTile + x)] = i + 1;
+      });
     }
     for (const Isa isa : available_isas()) {
       stage.render(isa, 0, 0, kFarthest);
       for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)
-          ASSERT_EQ(stage.color(x, y), expected[static_cast<std::size_t>(y * kTile + x)]) << name_of(isa) << " round " << round << ", pixel " << x << " " << y;
+          ASSERT_EQ(stage.color(x, y), expected[static_cast<std::size_t>(y * kTile + x)])
+              << name_of(isa) << " round " << round << ", pixel " << x << " " << y;
     }
   }
 }
 
-// The twin's own two forms agree, and it knows the fill rule: left and top borders belong, right and bottom ones do not.
+// The twin's own two forms agree, and it knows the fill rule: left and top borders belong, right and bottom
+// ones do not.
 TEST(CoverageReference, OwnsLeftAndTopBorders) {
-  const Triangle upper{WindowVertex{128, 128, 0, 1}, WindowVertex{1152, 128, 0, 1}, WindowVertex{128, 1152, 0, 1}};
-  const Triangle lower{WindowVertex{1152, 1152, 0, 1}, WindowVertex{1152, 128, 0, 1}, WindowVertex{128, 1152, 0, 1}};
+  const Triangle upper{WindowVertex{128, 128, 0, 1}, WindowVertex{1152, 128, 0, 1},
+                       WindowVertex{128, 1152, 0, 1}};
+  const Triangle lower{WindowVertex{1152, 1152, 0, 1}, WindowVertex{1152, 128, 0, 1},
+                       WindowVertex{128, 1152, 0, 1}};
   EXPECT_TRUE(reference_of(upper).covers(0, 0));
   EXPECT_TRUE(reference_of(upper).covers(3, 0)) << "top border";
   EXPECT_TRUE(reference_of(upper).covers(0, 3)) << "left border";

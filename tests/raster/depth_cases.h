@@ -18,14 +18,17 @@ inline constexpr int kDepthFraction = 40;
 struct DepthTriangle {
   Triangle corners;
   std::array<std::int64_t, 3> z{};  ///< times 2^40
-  double depth(int k) const { return std::ldexp(static_cast<double>(z[static_cast<std::size_t>(k)]), -kDepthFraction); }
+  double depth(int k) const {
+    return std::ldexp(static_cast<double>(z[static_cast<std::size_t>(k)]), -kDepthFraction);
+  }
 };
 
 /// A vertex's depth word as raster/fixed_point.h defines it.
 inline std::uint32_t vertex_depth_word(DepthKind kind, double z) {
   if (kind == DepthKind::float32) return depth_word(kind, z);
   const int bits = depth_bits(kind);
-  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::floor((z * (std::ldexp(1.0, bits) - 1) + 0.5) * std::ldexp(1.0, 32 - bits))));
+  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(
+      std::floor((z * (std::ldexp(1.0, bits) - 1) + 0.5) * std::ldexp(1.0, 32 - bits))));
 }
 
 inline void set_words(DepthTriangle& t, DepthKind kind) {
@@ -44,7 +47,8 @@ inline DepthTriangle with_random_depths(RandomTriangles& source, const Triangle&
     }
   }
   if (source.between(0, 3) == 0)  // nearly parallel to the screen
-    for (std::size_t k = 1; k < 3; ++k) t.z[k] = std::clamp<std::int64_t>(t.z[0] + source.between(-100000, 100000), 0, kOne);
+    for (std::size_t k = 1; k < 3; ++k)
+      t.z[k] = std::clamp<std::int64_t>(t.z[0] + source.between(-100000, 100000), 0, kOne);
   return t;
 }
 
@@ -55,18 +59,25 @@ inline Exact depth_numerator(const TriangleReference& reference, const DepthTria
   return sum;
 }
 /// floor(z (2^b - 1) + 1/2), exactly.
-inline std::int64_t exact_level(const TriangleReference& reference, const DepthTriangle& t, DepthKind kind, int x, int y) {
+inline std::int64_t exact_level(const TriangleReference& reference, const DepthTriangle& t, DepthKind kind,
+                                int x, int y) {
   const Exact levels = (Exact{1} << depth_bits(kind)) - 1, denominator = reference.area << kDepthFraction;
-  return static_cast<std::int64_t>((2 * depth_numerator(reference, t, x, y) * levels + denominator) / (2 * denominator));
+  return static_cast<std::int64_t>((2 * depth_numerator(reference, t, x, y) * levels + denominator) /
+                                   (2 * denominator));
 }
 inline long double exact_depth(const TriangleReference& reference, const DepthTriangle& t, int x, int y) {
-  return static_cast<long double>(depth_numerator(reference, t, x, y)) / static_cast<long double>(reference.area) * 0x1p-40L;
+  return static_cast<long double>(depth_numerator(reference, t, x, y)) /
+         static_cast<long double>(reference.area) * 0x1p-40L;
 }
 
 inline const char* name_of(DepthKind kind) {
-  return kind == DepthKind::unorm16 ? "unorm16" : kind == DepthKind::unorm24 ? "unorm24" : kind == DepthKind::unorm32 ? "unorm32" : "float32";
+  return kind == DepthKind::unorm16   ? "unorm16"
+         : kind == DepthKind::unorm24 ? "unorm24"
+         : kind == DepthKind::unorm32 ? "unorm32"
+                                      : "float32";
 }
 inline constexpr DepthKind kUnormKinds[] = {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32};
-inline constexpr DepthKind kDepthKinds[] = {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32};
+inline constexpr DepthKind kDepthKinds[] = {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32,
+                                            DepthKind::float32};
 
 }  // namespace tessera::test

@@ -37,8 +37,8 @@ float float_of(std::int32_t key) {
   return f;
 }
 
-// The promise of the specification, for every shape, steep or not: 1 level at 16 and 24 bits, 4 at 32; and never a level
-// outside of the vertices' own, give or take what rounding may do.
+// The promise of the specification, for every shape, steep or not: 1 level at 16 and 24 bits, 4 at 32; and
+// never a level outside of the vertices' own, give or take what rounding may do.
 void expect_levels(DepthKind kind, Shape shape, std::uint32_t seed, int count) {
   const std::int64_t tolerance = kind == DepthKind::unorm32 ? 4 : 1;
   RandomTriangles source(seed, kTile);
@@ -53,10 +53,13 @@ void expect_levels(DepthKind kind, Shape shape, std::uint32_t seed, int count) {
     for (const Isa isa : available_isas()) {
       stage.render(isa, 0);
       reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-        const std::int64_t level = depth_word_from_key(kind, stage.depth(x, y)), exact = exact_level(reference, t, kind, x, y);
+        const std::int64_t level = depth_word_from_key(kind, stage.depth(x, y)),
+                           exact = exact_level(reference, t, kind, x, y);
         worst = std::max(worst, std::abs(level - exact));
-        ASSERT_LE(std::abs(level - exact), tolerance) << name_of(kind) << " " << name_of(isa) << ": level " << level << " for " << exact << " at " << x << " " << y
-                                                      << ", depths " << t.depth(0) << " " << t.depth(1) << " " << t.depth(2) << ": " << Describe{t.corners};
+        ASSERT_LE(std::abs(level - exact), tolerance)
+            << name_of(kind) << " " << name_of(isa) << ": level " << level << " for " << exact << " at " << x
+            << " " << y << ", depths " << t.depth(0) << " " << t.depth(1) << " " << t.depth(2) << ": "
+            << Describe{t.corners};
       });
       if (::testing::Test::HasFatalFailure()) return;
     }
@@ -66,7 +69,9 @@ void expect_levels(DepthKind kind, Shape shape, std::uint32_t seed, int count) {
 
 TEST(Depth, OfOrdinaryTrianglesIsWithinItsLevels) {
   for (const DepthKind kind : kUnormKinds)
-    for (const Shape shape : {Shape::tiny, Shape::medium, Shape::large, Shape::on_centers, Shape::on_borders, Shape::axis_aligned}) expect_levels(kind, shape, 11, rounds(300));
+    for (const Shape shape : {Shape::tiny, Shape::medium, Shape::large, Shape::on_centers, Shape::on_borders,
+                              Shape::axis_aligned})
+      expect_levels(kind, shape, 11, rounds(300));
 }
 TEST(Depth, OfVeryLargeTrianglesIsWithinItsLevels) {
   for (const DepthKind kind : kUnormKinds)
@@ -79,10 +84,11 @@ TEST(Depth, OfNeedlesIsWithinItsLevels) {
   for (const DepthKind kind : kUnormKinds) expect_levels(kind, Shape::needle, 14, rounds(20000));
 }
 
-// float32. The gradients are floats, each off by at most 2^-24 of itself (2^-52 of their terms come on top, which only
-// needles feel); the inner multiply-add rounds to 2^-24 of |z0 + gy Y|, the outer to 2^-24 of the sum. So the error is at most
-// 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never more than the vertices' range, to which it is cut. X and Y count from
-// the topmost vertex, the leftmost of those, whose depth is z0.
+// float32. The gradients are floats, each off by at most 2^-24 of itself (2^-52 of their terms come on top,
+// which only needles feel); the inner multiply-add rounds to 2^-24 of |z0 + gy Y|, the outer to 2^-24 of the
+// sum. So the error is at most 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never more than the
+// vertices' range, to which it is cut. X and Y count from the topmost vertex, the leftmost of those, whose
+// depth is z0.
 TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
   for (int s = 0; s < static_cast<int>(Shape::kCount); ++s) {
     RandomTriangles source(static_cast<std::uint32_t>(100 + s), kTile);
@@ -94,22 +100,36 @@ TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
       const TriangleReference reference = reference_of(t.corners);
       if (reference.area == 0) continue;
       stage.set(t);
-      const double area = static_cast<double>(reference.area), dz1 = t.depth(1) - t.depth(0), dz2 = t.depth(2) - t.depth(0);
-      const auto gradient = [&](Exact e1, Exact e2) { return (static_cast<double>(e1) * dz1 + static_cast<double>(e2) * dz2) / area; };
-      const auto terms = [&](Exact e1, Exact e2) { return (std::abs(static_cast<double>(e1) * dz1) + std::abs(static_cast<double>(e2) * dz2)) / area; };
-      const double gx = gradient(reference.edge[1].dx, reference.edge[2].dx), gy = gradient(reference.edge[1].dy, reference.edge[2].dy);
-      const double tx = terms(reference.edge[1].dx, reference.edge[2].dx), ty = terms(reference.edge[1].dy, reference.edge[2].dy);
+      const double area = static_cast<double>(reference.area), dz1 = t.depth(1) - t.depth(0),
+                   dz2 = t.depth(2) - t.depth(0);
+      const auto gradient = [&](Exact e1, Exact e2) {
+        return (static_cast<double>(e1) * dz1 + static_cast<double>(e2) * dz2) / area;
+      };
+      const auto terms = [&](Exact e1, Exact e2) {
+        return (std::abs(static_cast<double>(e1) * dz1) + std::abs(static_cast<double>(e2) * dz2)) / area;
+      };
+      const double gx = gradient(reference.edge[1].dx, reference.edge[2].dx),
+                   gy = gradient(reference.edge[1].dy, reference.edge[2].dy);
+      const double tx = terms(reference.edge[1].dx, reference.edge[2].dx),
+                   ty = terms(reference.edge[1].dy, reference.edge[2].dy);
       const auto [low, high] = std::minmax({t.depth(0), t.depth(1), t.depth(2)});
-      const auto is_before = [](const WindowVertex& a, const WindowVertex& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
-      const auto anchor = static_cast<int>(std::min_element(t.corners.begin(), t.corners.end(), is_before) - t.corners.begin());
+      const auto is_before = [](const WindowVertex& a, const WindowVertex& b) {
+        return a.y < b.y || (a.y == b.y && a.x < b.x);
+      };
+      const auto anchor = static_cast<int>(std::min_element(t.corners.begin(), t.corners.end(), is_before) -
+                                           t.corners.begin());
       const WindowVertex& at = t.corners[static_cast<std::size_t>(anchor)];
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
         reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-          const double stored = float_of(stage.depth(x, y)), exact = static_cast<double>(exact_depth(reference, t, x, y));
+          const double stored = float_of(stage.depth(x, y)),
+                       exact = static_cast<double>(exact_depth(reference, t, x, y));
           const double across = std::abs(x + 0.5 - at.x / 256.0), down = std::abs(y + 0.5 - at.y / 256.0);
-          const double bound = 1.01 * 0x1p-24 * (2 * t.depth(anchor) + 2 * std::abs(gx) * across + 3 * std::abs(gy) * down) + 0x1p-50 * (tx * across + ty * down);
-          ASSERT_LE(std::abs(stored - exact), std::min(bound, high - low)) << name_of(isa) << ": " << stored << " for " << exact << ": " << Describe{t.corners};
+          const double bound =
+              1.01 * 0x1p-24 * (2 * t.depth(anchor) + 2 * std::abs(gx) * across + 3 * std::abs(gy) * down) +
+              0x1p-50 * (tx * across + ty * down);
+          ASSERT_LE(std::abs(stored - exact), std::min(bound, high - low))
+              << name_of(isa) << ": " << stored << " for " << exact << ": " << Describe{t.corners};
           ASSERT_GE(stored, low);
           ASSERT_LE(stored, high);
         });
@@ -132,15 +152,16 @@ TEST(Depth, OfScreenParallelTrianglesIsExact) {
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
         reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-          ASSERT_EQ(depth_word_from_key(kind, stage.depth(x, y)), depth_word(kind, t.depth(0))) << name_of(kind) << " " << name_of(isa) << " " << Describe{t.corners};
+          ASSERT_EQ(depth_word_from_key(kind, stage.depth(x, y)), depth_word(kind, t.depth(0)))
+              << name_of(kind) << " " << name_of(isa) << " " << Describe{t.corners};
         });
       }
     }
   }
 }
 
-// The same triangle again: equal passes on each of its pixels and less on none, although the second is cut into other
-// rectangles and so may go by other paths.
+// The same triangle again: equal passes on each of its pixels and less on none, although the second is cut
+// into other rectangles and so may go by other paths.
 TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
   for (const DepthKind kind : kDepthKinds) {
     RandomTriangles source(16, kTile);
@@ -163,14 +184,17 @@ TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
       // Windows of 1 to 7 pixels: up to 4 the triangle is a small one.
       const int step = source.between(1, 7);
       for (int y = 0; y < kTile; y += step)
-        for (int x = 0; x < kTile; x += step) add({x, y, std::min(x + step, kTile), std::min(y + step, kTile)}, CompareOp::equal, 2);
+        for (int x = 0; x < kTile; x += step)
+          add({x, y, std::min(x + step, kTile), std::min(y + step, kTile)}, CompareOp::equal, 2);
       add({0, 0, kTile, kTile}, CompareOp::less, 3);
       add({0, 0, kTile, kTile}, CompareOp::greater, 4);
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
         for (int y = 0; y < kTile; ++y)
           for (int x = 0; x < kTile; ++x)
-            ASSERT_EQ(stage.color(x, y), reference.covers(x, y) ? 2u : 0u) << name_of(kind) << " " << name_of(isa) << ", windows of " << step << ": " << Describe{t.corners};
+            ASSERT_EQ(stage.color(x, y), reference.covers(x, y) ? 2u : 0u)
+                << name_of(kind) << " " << name_of(isa) << ", windows of " << step << ": "
+                << Describe{t.corners};
       }
     }
   }
@@ -189,7 +213,8 @@ TEST(Depth, KeysAreTheSameOnEveryInstructionSet) {
       const std::vector<std::int32_t> scalar = stage.depths();
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
-        ASSERT_EQ(stage.depths(), scalar) << name_of(kind) << " " << name_of(isa) << " " << Describe{t.corners};
+        ASSERT_EQ(stage.depths(), scalar)
+            << name_of(kind) << " " << name_of(isa) << " " << Describe{t.corners};
       }
     }
   }
@@ -204,7 +229,9 @@ TEST(Depth, FunctionsPassWhatTheyName) {
         const std::int32_t stored = depth_key_from_word(kind, depth_word(kind, stored_16 / 65535.0));
         const double incoming = incoming_16 / 65535.0;
         for (int test = 0; test < 8; ++test) {
-          const int order = incoming_16 < stored_16 ? 1 : incoming_16 == stored_16 ? 2 : 4;  // bits of less, equal, greater
+          const int order = incoming_16 < stored_16    ? 1
+                            : incoming_16 == stored_16 ? 2
+                                                       : 4;  // bits of less, equal, greater
           const bool passes = (test & order) != 0;
           // A triangle over half of the tile, and one of 2x2 pixels, which goes by the other path.
           for (const std::int32_t size : {80 * 256, 3 * 256}) {
@@ -220,8 +247,10 @@ TEST(Depth, FunctionsPassWhatTheyName) {
                 draw.word = 7;
                 stage.push(0, 0, 0);
                 stage.render(isa, 0, 1, stored);
-                EXPECT_EQ(stage.color(0, 0), passes ? 7u : 1u) << "function " << test << " " << name_of(kind) << " " << name_of(isa);
-                EXPECT_EQ(depth_word_from_key(kind, stage.depth(0, 0)), depth_word(kind, passes && write ? incoming : stored_16 / 65535.0));
+                EXPECT_EQ(stage.color(0, 0), passes ? 7u : 1u)
+                    << "function " << test << " " << name_of(kind) << " " << name_of(isa);
+                EXPECT_EQ(depth_word_from_key(kind, stage.depth(0, 0)),
+                          depth_word(kind, passes && write ? incoming : stored_16 / 65535.0));
                 EXPECT_EQ(stage.color(63, 63), 1u);
                 EXPECT_EQ(stage.depth(63, 63), stored);
               }

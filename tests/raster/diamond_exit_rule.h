@@ -1,5 +1,6 @@
-// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the moved segment meets its open diamond and its end
-// lies outside of it, in exact fractions whose numerators carry the move's e and e^2.
+// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the moved segment meets its
+// open diamond and its end lies outside of it, in exact fractions whose numerators carry the move's e and
+// e^2.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What is added is there: taken away again in another order nothing is left, whatever was rounded off in between.
+// What is added is there: taken away again in another order nothing is left, whatever was rounded off in
+// between.
 #include "raster/exact_sum.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,10 @@ struct Terms {
   explicit Terms(unsigned seed) : random(seed) {}
   // Few bits leave the parts of a sum far apart, so that it has many of them.
   double term(int lowest, int highest, int bits) {
-    const double mantissa = static_cast<double>(random() >> (32 - std::min(bits, 32))) + (bits > 32 ? static_cast<double>(random() >> 12) * 0x1p-20 : 0);
-    const double value = std::ldexp(mantissa + 1, lowest + static_cast<int>(random() % static_cast<unsigned>(highest - lowest + 1)));
+    const double mantissa = static_cast<double>(random() >> (32 - std::min(bits, 32))) +
+                            (bits > 32 ? static_cast<double>(random() >> 12) * 0x1p-20 : 0);
+    const double value = std::ldexp(
+        mantissa + 1, lowest + static_cast<int>(random() % static_cast<unsigned>(highest - lowest + 1)));
     return random() % 2 != 0 ? value : -value;
   }
 };
@@ -91,7 +94,8 @@ TEST(ExactSum, OfProductsTimesPowersOfTwo) {
 
 // Whatever overflows, and however much is added to it.
 TEST(ExactSum, IsNoNumberOnceItOverflows) {
-  for (const double large : {0x1p1023, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double large :
+       {0x1p1023, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     ExactSum sum, product;
     for (int i = 0; i < 300; ++i) {
       sum.add(std::ldexp(1, i % 2 == 0 ? -3 * i : 3 * i));

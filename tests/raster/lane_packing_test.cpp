@@ -1,4 +1,5 @@
-// Numbers of packed lanes, for every set of lanes of every width: kernels of each instruction set look lanes up by them.
+// Numbers of packed lanes, for every set of lanes of every width: kernels of each instruction set look lanes
+// up by them.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -9,7 +9,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-void pixels_of_lines_lanes(const TriangleGroup& lines, int width, const PixelRect& window, std::vector<std::pair<int, int>> (&pixels)[kGroupSize]) {
+void pixels_of_lines_lanes(const TriangleGroup& lines, int width, const PixelRect& window,
+                           std::vector<std::pair<int, int>> (&pixels)[kGroupSize]) {
   LineSteps steps;
   steps.set_up(lines, width);
   for (int i = 0; i < kGroupSize; ++i)

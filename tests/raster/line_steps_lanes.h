@@ -11,7 +11,8 @@
 namespace tessera::test {
 
 /// Appends to pixels[i] those of line i in `window`, in any order.
-using PixelsOfLines = void(const TriangleGroup& lines, int width, const PixelRect& window, std::vector<std::pair<int, int>> (&pixels)[kGroupSize]);
+using PixelsOfLines = void(const TriangleGroup& lines, int width, const PixelRect& window,
+                           std::vector<std::pair<int, int>> (&pixels)[kGroupSize]);
 PixelsOfLines* pixels_of_lines(Isa isa);
 
 }  // namespace tessera::test

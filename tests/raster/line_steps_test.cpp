@@ -35,16 +35,21 @@ constexpr Cases kCases[] = {{"short", 20000, 3000, 1, 1, kTile},
                             {"as wide as can be", kFarthest, 2 * kFarthest, 1, 65536, kFarTile}};
 
 void fill_lines(TriangleGroup& lines, const Cases& of, std::mt19937& bits) {
-  const auto between = [&](int low, int high) { return low + static_cast<int>(bits() % (static_cast<unsigned>(high - low) + 1)); };
+  const auto between = [&](int low, int high) {
+    return low + static_cast<int>(bits() % (static_cast<unsigned>(high - low) + 1));
+  };
   const auto within = [&](int v) { return std::clamp(v / of.grid * of.grid, -kFarthest, kFarthest); };
   for (int i = 0; i < kGroupSize; ++i) {
     // Every fourth crosses the window: where it ends is mirrored there.
-    const int middle_x = between(of.window.x0, of.window.x1) * kSubpixelScale, middle_y = between(of.window.y0, of.window.y1) * kSubpixelScale;
+    const int middle_x = between(of.window.x0, of.window.x1) * kSubpixelScale,
+              middle_y = between(of.window.y0, of.window.y1) * kSubpixelScale;
     lines.x[0][i] = within(between(-of.origin, of.origin));
     lines.y[0][i] = within(between(-of.origin, of.origin));
     const bool through = i % 4 == 0;
-    lines.x[1][i] = within(through ? 2 * middle_x - lines.x[0][i] + between(-300, 300) : lines.x[0][i] + between(-of.reach, of.reach));
-    lines.y[1][i] = within(through ? 2 * middle_y - lines.y[0][i] + between(-300, 300) : lines.y[0][i] + between(-of.reach, of.reach));
+    lines.x[1][i] = within(through ? 2 * middle_x - lines.x[0][i] + between(-300, 300)
+                                   : lines.x[0][i] + between(-of.reach, of.reach));
+    lines.y[1][i] = within(through ? 2 * middle_y - lines.y[0][i] + between(-300, 300)
+                                   : lines.y[0][i] + between(-of.reach, of.reach));
     if (i == 5) lines.x[1][i] = lines.x[0][i];
     if (i == 6) lines.y[1][i] = lines.y[0][i];
     if (i == 7) lines.x[1][i] = lines.x[0][i], lines.y[1][i] = lines.y[0][i];
@@ -61,7 +66,8 @@ void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, Isa
     LineWalk(a, b, width).for_each(of.window, [&](int x, int y) { expected.push_back({x, y}); });
     std::sort(expected.begin(), expected.end());
     std::sort(found[i].begin(), found[i].end());
-    ASSERT_EQ(found[i], expected) << of.name << ", width " << width << ", " << name_of(isa) << ": " << a.x << " " << a.y << " to " << b.x << " " << b.y;
+    ASSERT_EQ(found[i], expected) << of.name << ", width " << width << ", " << name_of(isa) << ": " << a.x
+                                  << " " << a.y << " to " << b.x << " " << b.y;
     seen += expected.size();
   }
 }
@@ -69,14 +75,16 @@ void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, Isa
 TEST(LineSteps, AreThoseOfTheWalk) {
   for (const Cases& of : kCases)
     for (const Isa isa : available_isas()) {
-      const int groups = (long_tests() ? 60000 : 600) / (of.most_wide > 1 ? 20 : 1);  // those have more pixels
+      const int groups =
+          (long_tests() ? 60000 : 600) / (of.most_wide > 1 ? 20 : 1);  // those have more pixels
       std::mt19937 bits(11);
       std::size_t seen = 0;
       for (int n = 0; n < groups; ++n) {
         TriangleGroup lines;
         lines.count = kGroupSize;
         fill_lines(lines, of, bits);
-        expect_the_walk(of, 1 + static_cast<int>(bits() % static_cast<unsigned>(of.most_wide)), lines, isa, seen);
+        expect_the_walk(of, 1 + static_cast<int>(bits() % static_cast<unsigned>(of.most_wide)), lines, isa,
+                        seen);
         if (HasFatalFailure()) return;
       }
       EXPECT_GT(seen, static_cast<std::size_t>(groups)) << of.name << ": hardly a line meets the window";

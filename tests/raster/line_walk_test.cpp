@@ -16,7 +16,9 @@ namespace {
 struct Random {
   std::mt19937 bits;
   explicit Random(unsigned seed) : bits(seed) {}
-  int between(int low, int high) { return low + static_cast<int>(bits() % static_cast<unsigned>(high - low + 1)); }
+  int between(int low, int high) {
+    return low + static_cast<int>(bits() % static_cast<unsigned>(high - low + 1));
+  }
 };
 
 using Pixels = std::vector<std::pair<int, int>>;
@@ -27,7 +29,8 @@ Pixels walked(const LinePoint& a, const LinePoint& b, int width = 1, const Pixel
   return pixels;
 }
 std::string text(const LinePoint& a, const LinePoint& b) {
-  return std::to_string(a.x) + " " + std::to_string(a.y) + " to " + std::to_string(b.x) + " " + std::to_string(b.y);
+  return std::to_string(a.x) + " " + std::to_string(a.y) + " to " + std::to_string(b.x) + " " +
+         std::to_string(b.y);
 }
 void expect_the_rule(const LinePoint& a, const LinePoint& b) {
   const Pixels found = walked(a, b);
@@ -47,7 +50,8 @@ TEST(LineWalk, FollowsTheDiamondExitRuleAnywhere) {
   }
 }
 
-// Where borders meet: ends on multiples of an eighth of a pixel, so that corners, sides and centres of diamonds are hit all the time.
+// Where borders meet: ends on multiples of an eighth of a pixel, so that corners, sides and centres of
+// diamonds are hit all the time.
 TEST(LineWalk, FollowsTheDiamondExitRuleOnBorders) {
   for (const int grid : {32, 64, 128}) {
     const int n = 256 / grid;
@@ -69,12 +73,15 @@ TEST(LineWalk, OfNoLengthIsEmpty) {
 TEST(LineWalk, GoesFromStartToEnd) {
   Random random(2);
   for (int i = 0; i < 3000; ++i) {
-    const LinePoint a{random.between(-5000, 5000), random.between(-5000, 5000)}, b{random.between(-5000, 5000), random.between(-5000, 5000)};
+    const LinePoint a{random.between(-5000, 5000), random.between(-5000, 5000)},
+        b{random.between(-5000, 5000), random.between(-5000, 5000)};
     const Pixels pixels = walked(a, b);
     for (std::size_t k = 1; k < pixels.size(); ++k) {  // connected, each closer to the end
       ASSERT_LE(std::abs(pixels[k].first - pixels[k - 1].first), 1) << text(a, b);
       ASSERT_LE(std::abs(pixels[k].second - pixels[k - 1].second), 1) << text(a, b);
-      const auto along = [&](const std::pair<int, int>& p) { return std::int64_t{p.first} * (b.x - a.x) + std::int64_t{p.second} * (b.y - a.y); };
+      const auto along = [&](const std::pair<int, int>& p) {
+        return std::int64_t{p.first} * (b.x - a.x) + std::int64_t{p.second} * (b.y - a.y);
+      };
       ASSERT_GT(along(pixels[k]), along(pixels[k - 1])) << text(a, b);
     }
   }
@@ -83,7 +90,8 @@ TEST(LineWalk, GoesFromStartToEnd) {
 TEST(LineWalk, IsTheSameInParts) {
   Random random(3);
   for (int i = 0; i < 3000; ++i) {
-    const LinePoint a{random.between(-20000, 20000), random.between(-20000, 20000)}, b{random.between(-20000, 20000), random.between(-20000, 20000)};
+    const LinePoint a{random.between(-20000, 20000), random.between(-20000, 20000)},
+        b{random.between(-20000, 20000), random.between(-20000, 20000)};
     const int width = i % 4 == 0 ? random.between(2, 9) : 1;
     std::set<std::pair<int, int>> whole_line, in_parts;
     for (const auto& p : walked(a, b, width)) whole_line.insert(p);
@@ -112,8 +120,11 @@ TEST(LineWalk, JoinsWithoutGapsAndDoubles) {
       at = next;
     }
     for (std::size_t k = 1; k < pixels.size(); ++k) {
-      const int dx = std::abs(pixels[k].first - pixels[k - 1].first), dy = std::abs(pixels[k].second - pixels[k - 1].second);
-      ASSERT_EQ(std::max(dx, dy), 1) << "octant " << octant << ", strip " << i << ": " << pixels[k - 1].first << " " << pixels[k - 1].second << " then " << pixels[k].first << " " << pixels[k].second;
+      const int dx = std::abs(pixels[k].first - pixels[k - 1].first),
+                dy = std::abs(pixels[k].second - pixels[k - 1].second);
+      ASSERT_EQ(std::max(dx, dy), 1) << "octant " << octant << ", strip " << i << ": " << pixels[k - 1].first
+                                     << " " << pixels[k - 1].second << " then " << pixels[k].first << " "
+                                     << pixels[k].second;
     }
   }
 }
@@ -121,12 +132,15 @@ TEST(LineWalk, JoinsWithoutGapsAndDoubles) {
 TEST(LineWalk, WideLinesRepeatTheirPixelsAcross) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
-    const LinePoint a{random.between(-4000, 4000), random.between(-4000, 4000)}, b{random.between(-4000, 4000), random.between(-4000, 4000)};
+    const LinePoint a{random.between(-4000, 4000), random.between(-4000, 4000)},
+        b{random.between(-4000, 4000), random.between(-4000, 4000)};
     const int width = random.between(2, 8);
     const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
-    // y up: the line is moved by -(w - 1) / 2 along its minor axis, and each fragment repeated w times from there on.
+    // y up: the line is moved by -(w - 1) / 2 along its minor axis, and each fragment repeated w times from
+    // there on.
     const int aside = 128 * (width - 1);
-    const LinePoint from{a.x - (x_major ? 0 : aside), a.y + (x_major ? aside : 0)}, to{b.x - (x_major ? 0 : aside), b.y + (x_major ? aside : 0)};
+    const LinePoint from{a.x - (x_major ? 0 : aside), a.y + (x_major ? aside : 0)},
+        to{b.x - (x_major ? 0 : aside), b.y + (x_major ? aside : 0)};
     std::set<std::pair<int, int>> expected;
     for (const auto& [x, y] : by_the_rule(from, to))
       for (int k = 0; k < width; ++k) expected.insert({x_major ? x : x + k, x_major ? y - k : y});

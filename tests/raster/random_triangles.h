@@ -21,16 +21,16 @@ inline TriangleReference reference_of(const Triangle& t) {
 }
 
 enum class Shape {
-  tiny,           // within 4x4 pixels
-  medium,         // up to 30 pixels
-  large,          // up to 300
-  nearly_wide,    // as wide as the 32-bit path allows
-  wide,           // up to the widest there is
-  sliver,         // long, and a few 1/256 pixel thick
-  needle,         // long, and thinner than 1/256 pixel
-  on_centers,     // vertices on pixel centres
-  on_borders,     // vertices on and beside the tile's borders
-  axis_aligned,   // horizontal and vertical edges
+  tiny,          // within 4x4 pixels
+  medium,        // up to 30 pixels
+  large,         // up to 300
+  nearly_wide,   // as wide as the 32-bit path allows
+  wide,          // up to the widest there is
+  sliver,        // long, and a few 1/256 pixel thick
+  needle,        // long, and thinner than 1/256 pixel
+  on_centers,    // vertices on pixel centres
+  on_borders,    // vertices on and beside the tile's borders
+  axis_aligned,  // horizontal and vertical edges
   kCount
 };
 
@@ -38,7 +38,9 @@ class RandomTriangles {
  public:
   RandomTriangles(std::uint32_t seed, int tile_size) : random_(seed), tile_size_(tile_size) {}
 
-  std::int32_t between(std::int32_t low, std::int32_t high) { return std::uniform_int_distribution<std::int32_t>(low, high)(random_); }
+  std::int32_t between(std::int32_t low, std::int32_t high) {
+    return std::uniform_int_distribution<std::int32_t>(low, high)(random_);
+  }
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   std::mt19937& random() { return random_; }
   Shape any_shape() { return static_cast<Shape>(between(0, static_cast<int>(Shape::kCount) - 1)); }
@@ -52,9 +54,12 @@ class RandomTriangles {
   }
 
  private:
-  WindowVertex in_tile() { return {between(-512, tile_size_ * 256 + 512), between(-512, tile_size_ * 256 + 512), 0, 1}; }
+  WindowVertex in_tile() {
+    return {between(-512, tile_size_ * 256 + 512), between(-512, tile_size_ * 256 + 512), 0, 1};
+  }
   static WindowVertex moved(const WindowVertex& v, double dx, double dy) {
-    return {v.x + static_cast<std::int32_t>(std::lround(dx)), v.y + static_cast<std::int32_t>(std::lround(dy)), 0, 1};
+    return {v.x + static_cast<std::int32_t>(std::lround(dx)),
+            v.y + static_cast<std::int32_t>(std::lround(dy)), 0, 1};
   }
   Triangle around(double low_px, double high_px) {
     // Corners in three directions from a point of the tile, so that most triangles touch the tile.
@@ -62,22 +67,25 @@ class RandomTriangles {
     const double start = unit() * 6.283185307;
     Triangle t;
     for (int k = 0; k < 3; ++k) {
-      const double angle = start + (k + 0.9 * unit()) * 2.0943951, radius = 256 * (low_px + (high_px - low_px) * unit());
+      const double angle = start + (k + 0.9 * unit()) * 2.0943951,
+                   radius = 256 * (low_px + (high_px - low_px) * unit());
       t[static_cast<std::size_t>(k)] = moved(c, radius * std::cos(angle), radius * std::sin(angle));
     }
     return t;
   }
   Triangle thin(double thickness) {
     const WindowVertex c = in_tile();
-    const double angle = unit() * 6.283185307, before = 256 * std::exp2(unit() * 13.9), after = 256 * std::exp2(unit() * 13.9);
+    const double angle = unit() * 6.283185307, before = 256 * std::exp2(unit() * 13.9),
+                 after = 256 * std::exp2(unit() * 13.9);
     const double x = std::cos(angle), y = std::sin(angle), off = thickness * (2 * unit() - 1), at = unit();
     const WindowVertex a = moved(c, -before * x, -before * y), b = moved(c, after * x, after * y);
     return {a, b, moved(a, at * (b.x - a.x) - off * y, at * (b.y - a.y) + off * x)};
   }
-  // From a pixel's centre along a lattice vector b to the lattice points nearest to its line: the doubled area is a small
-  // number times gcd(b).
+  // From a pixel's centre along a lattice vector b to the lattice points nearest to its line: the doubled
+  // area is a small number times gcd(b).
   Triangle needle() {
-    const WindowVertex c{between(0, tile_size_ - 1) * 256 + 128, between(0, tile_size_ - 1) * 256 + 128, 0, 1};
+    const WindowVertex c{between(0, tile_size_ - 1) * 256 + 128, between(0, tile_size_ - 1) * 256 + 128, 0,
+                         1};
     const int reach = 1 << between(4, 22);
     std::int64_t bx = between(-reach, reach), by = between(-reach, reach);
     if (between(0, 2) == 0) bx = bx / 256 * 256, by = by / 256 * 256;  // through other centres
@@ -91,9 +99,12 @@ class RandomTriangles {
     }
     const std::int64_t u = -t0, v = s0, times = between(0, 1) != 0 ? 1 : between(1, 4096);
     const std::int64_t longest = std::max<std::int64_t>({std::abs(bx), std::abs(by), 1});
-    const std::int64_t ux = times * u, uy = times * v, turns = std::abs(bx) > std::abs(by) ? ux / longest * (bx < 0 ? -1 : 1) : uy / longest * (by < 0 ? -1 : 1);
+    const std::int64_t ux = times * u, uy = times * v,
+                       turns = std::abs(bx) > std::abs(by) ? ux / longest * (bx < 0 ? -1 : 1)
+                                                           : uy / longest * (by < 0 ? -1 : 1);
     const WindowVertex far{c.x + static_cast<std::int32_t>(bx), c.y + static_cast<std::int32_t>(by), 0, 1};
-    const WindowVertex beside{c.x + static_cast<std::int32_t>(ux - turns * bx), c.y + static_cast<std::int32_t>(uy - turns * by), 0, 1};
+    const WindowVertex beside{c.x + static_cast<std::int32_t>(ux - turns * bx),
+                              c.y + static_cast<std::int32_t>(uy - turns * by), 0, 1};
     return {c, far, beside};
   }
   Triangle make(Shape shape) {
@@ -109,7 +120,8 @@ class RandomTriangles {
       case Shape::wide: {
         if (between(0, 1) != 0) return around(1000, 16383);
         const std::int32_t far = 16383 * 256;
-        Triangle t{WindowVertex{-far, between(-far, far), 0, 1}, WindowVertex{far, between(-far, far), 0, 1}, in_tile()};
+        Triangle t{WindowVertex{-far, between(-far, far), 0, 1}, WindowVertex{far, between(-far, far), 0, 1},
+                   in_tile()};
         if (between(0, 1) != 0)
           for (WindowVertex& v : t) std::swap(v.x, v.y);
         return t;
@@ -126,7 +138,8 @@ class RandomTriangles {
         for (WindowVertex& v : t) {
           const auto place = [&] {
             const std::int32_t border = between(0, 1) * tile_size_ * 256;
-            return between(0, 3) == 0 ? between(0, tile_size_ * 256) : border + between(-1, 1) * (between(0, 1) != 0 ? 128 : 1);
+            return between(0, 3) == 0 ? between(0, tile_size_ * 256)
+                                      : border + between(-1, 1) * (between(0, 1) != 0 ? 128 : 1);
           };
           v = {place(), place(), 0, 1};
         }
@@ -154,7 +167,8 @@ inline bool long_tests() {
 struct Describe {
   const Triangle& triangle;
   friend std::ostream& operator<<(std::ostream& out, const Describe& d) {
-    for (const WindowVertex& v : d.triangle) out << "{" << v.x << ", " << v.y << ", z " << v.z << ", rw " << v.rw << "} ";
+    for (const WindowVertex& v : d.triangle)
+      out << "{" << v.x << ", " << v.y << ", z " << v.z << ", rw " << v.rw << "} ";
     return out;
   }
 };

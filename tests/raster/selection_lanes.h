@@ -1,4 +1,5 @@
-// greater_of() and lesser_of(), which only translation units for many targets can see, as plain functions over arrays.
+// greater_of() and lesser_of(), which only translation units for many targets can see, as plain functions
+// over arrays.
 #pragma once
 
 #include <cstddef>

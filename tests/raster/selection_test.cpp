@@ -1,4 +1,5 @@
-// The greater and the lesser of two floats, with numbers that compare in no order: bit for bit what the comparisons say.
+// The greater and the lesser of two floats, with numbers that compare in no order: bit for bit what the
+// comparisons say.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -12,8 +13,11 @@ namespace tessera::test {
 namespace {
 
 TEST(Selection, IsTheComparisonsOnEveryInstructionSet) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
-  const float values[] = {0.0f, -0.0f, 1.0f, -1.0f, 0x1p-149f, -0x1p-149f, 0x1p-126f, 0x1.fffffep127f, -0x1.fffffep127f, kInfinity, -kInfinity, kNan, -kNan, 2.5f, 0.5f, 1e30f};
+  constexpr float kInfinity = std::numeric_limits<float>::infinity(),
+                  kNan = std::numeric_limits<float>::quiet_NaN();
+  const float values[] = {
+      0.0f,      -0.0f,      1.0f, -1.0f, 0x1p-149f, -0x1p-149f, 0x1p-126f, 0x1.fffffep127f, -0x1.fffffep127f,
+      kInfinity, -kInfinity, kNan, -kNan, 2.5f,      0.5f,       1e30f};
   std::vector<float> a, b;
   for (const float x : values)
     for (const float y : values) a.push_back(x), b.push_back(y);
@@ -21,8 +25,12 @@ TEST(Selection, IsTheComparisonsOnEveryInstructionSet) {
   for (const Isa isa : available_isas()) {
     select(isa)(a.data(), b.data(), greater.data(), lesser.data(), a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-      EXPECT_EQ(std::bit_cast<std::uint32_t>(greater[i]), std::bit_cast<std::uint32_t>(a[i] > b[i] ? a[i] : b[i])) << static_cast<int>(isa) << ": " << a[i] << ", " << b[i];
-      EXPECT_EQ(std::bit_cast<std::uint32_t>(lesser[i]), std::bit_cast<std::uint32_t>(a[i] < b[i] ? a[i] : b[i])) << static_cast<int>(isa) << ": " << a[i] << ", " << b[i];
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(greater[i]),
+                std::bit_cast<std::uint32_t>(a[i] > b[i] ? a[i] : b[i]))
+          << static_cast<int>(isa) << ": " << a[i] << ", " << b[i];
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(lesser[i]),
+                std::bit_cast<std::uint32_t>(a[i] < b[i] ? a[i] : b[i]))
+          << static_cast<int>(isa) << ": " << a[i] << ", " << b[i];
     }
   }
 }

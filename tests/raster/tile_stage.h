@@ -10,7 +10,9 @@
 
 namespace tessera::test {
 
-inline std::string name_of(Isa isa) { return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "scalar"; }
+inline std::string name_of(Isa isa) {
+  return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "scalar";
+}
 
 class TileStage {
  public:
@@ -34,7 +36,9 @@ class TileStage {
     bins_.reset(frame_.grid.count());
   }
   /// Bins by hand: triangle `id` of a draw in a tile.
-  void push(int tile, std::size_t draw, std::uint32_t id) { bins_.push(tile, static_cast<std::uint32_t>(draw), id); }
+  void push(int tile, std::size_t draw, std::uint32_t id) {
+    bins_.push(tile, static_cast<std::uint32_t>(draw), id);
+  }
   Bins& bins() { return bins_; }
   TileFrame& frame() { return frame_; }
   std::size_t draw_count() const { return draws_.size(); }
@@ -58,10 +62,16 @@ class TileStage {
   /// Pixels of the tile rendered last.
   std::uint32_t color(int x, int y) { return workspace_.color()[tile_index(x, y, frame_.grid.tile_size)]; }
   /// Of one sample. @pre several samples, and a triangle in the tile
-  std::uint32_t sample_color(int sample, int x, int y) const { return workspace_.sample_color(sample)[tile_index(x, y, frame_.grid.tile_size)]; }
+  std::uint32_t sample_color(int sample, int x, int y) const {
+    return workspace_.sample_color(sample)[tile_index(x, y, frame_.grid.tile_size)];
+  }
   std::int32_t depth(int x, int y) { return workspace_.depth()[tile_index(x, y, frame_.grid.tile_size)]; }
-  std::vector<std::uint32_t> colors() { return {workspace_.color(), workspace_.color() + frame_.grid.tile_size * frame_.grid.tile_size}; }
-  std::vector<std::int32_t> depths() { return {workspace_.depth(), workspace_.depth() + frame_.grid.tile_size * frame_.grid.tile_size}; }
+  std::vector<std::uint32_t> colors() {
+    return {workspace_.color(), workspace_.color() + frame_.grid.tile_size * frame_.grid.tile_size};
+  }
+  std::vector<std::int32_t> depths() {
+    return {workspace_.depth(), workspace_.depth() + frame_.grid.tile_size * frame_.grid.tile_size};
+  }
 
  private:
   TileFrame frame_;

@@ -1,5 +1,5 @@
-// A picture that moves by whole pixels moves, and changes in nothing else: coverage, depths and colours, however far from the
-// origin and wherever the tiles' borders fall.
+// A picture that moves by whole pixels moves, and changes in nothing else: coverage, depths and colours,
+// however far from the origin and wherever the tiles' borders fall.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct Seen {
 };
 
 // The window of kWindow^2 pixels whose first is (shift_x, shift_y), of a triangle moved along.
-Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthKind kind, Isa isa, int tile_size, int shift_x, int shift_y) {
+Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthKind kind, Isa isa,
+                int tile_size, int shift_x, int shift_y) {
   TileStage stage(shift_x + kWindow + 1, shift_y + kWindow + 1, tile_size, kind);
   Triangle moved = t.corners;
   for (WindowVertex& v : moved) v.x += shift_x * 256, v.y += shift_y * 256;
@@ -67,11 +68,15 @@ TEST(Translation, ByWholePixelsChangesNothing) {
       const Seen here = draw_moved(t, colors, kind, isa, 64, 0, 0);
       for (const int tile_size : {32, 64, 128}) {
         const int shift_x = source.between(0, 300), shift_y = source.between(0, 300);
-        ASSERT_EQ(draw_moved(t, colors, kind, isa, tile_size, shift_x, shift_y), here) << name_of(kind) << " " << name_of(isa) << " " << shift_x << " " << shift_y << ": " << Describe{t.corners};
+        ASSERT_EQ(draw_moved(t, colors, kind, isa, tile_size, shift_x, shift_y), here)
+            << name_of(kind) << " " << name_of(isa) << " " << shift_x << " " << shift_y << ": "
+            << Describe{t.corners};
       }
       // To the far corner of the largest frame buffer.
-      ASSERT_EQ(draw_moved(t, colors, kind, isa, 128, 16384 - kWindow - 1, source.between(0, 500)), here) << name_of(kind) << " " << name_of(isa) << ": " << Describe{t.corners};
-      ASSERT_EQ(draw_moved(t, colors, kind, isa, 128, source.between(0, 500), 16384 - kWindow - 1), here) << name_of(kind) << " " << name_of(isa) << ": " << Describe{t.corners};
+      ASSERT_EQ(draw_moved(t, colors, kind, isa, 128, 16384 - kWindow - 1, source.between(0, 500)), here)
+          << name_of(kind) << " " << name_of(isa) << ": " << Describe{t.corners};
+      ASSERT_EQ(draw_moved(t, colors, kind, isa, 128, source.between(0, 500), 16384 - kWindow - 1), here)
+          << name_of(kind) << " " << name_of(isa) << ": " << Describe{t.corners};
     }
   }
 }

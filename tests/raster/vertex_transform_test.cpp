@@ -1,4 +1,5 @@
-// The vertex stage: the kernel against its scalar twins bit for bit, both against long double, and the edges of the clip codes.
+// The vertex stage: the kernel against its scalar twins bit for bit, both against long double, and the edges
+// of the clip codes.
 #include "raster/vertex_transform.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,8 @@ class RandomTransforms {
     for (int c = 0; c < 4; ++c) {
       t.clip_from_object[c] = 1.5 * affine[c];
       t.clip_from_object[4 + c] = 2 * affine[4 + c];
-      t.clip_from_object[8 + c] = -(far + near) / (far - near) * (affine[8 + c] - (c == 3 ? 3 : 0)) - (c == 3 ? 2 * far * near / (far - near) : 0);
+      t.clip_from_object[8 + c] = -(far + near) / (far - near) * (affine[8 + c] - (c == 3 ? 3 : 0)) -
+                                  (c == 3 ? 2 * far * near / (far - near) : 0);
       t.clip_from_object[12 + c] = -(affine[8 + c] - (c == 3 ? 3 : 0));
     }
     if (round % 3 == 0)
@@ -53,10 +55,14 @@ class RandomTransforms {
   }
   /// Of such rounds sums of large numbers are small ones, and 0.
   static bool is_cancelling(int round) { return round % 7 == 0; }
-  float large_coordinate() { return std::ldexp(std::round(static_cast<float>(in(-3, 3))), one_in(2) ? 60 : 0); }
+  float large_coordinate() {
+    return std::ldexp(std::round(static_cast<float>(in(-3, 3))), one_in(2) ? 60 : 0);
+  }
   float coordinate() {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    constexpr float kOdd[] = {0.0f, -0.0f, 1e-40f, 1e30f, -1e30f, 3e38f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
+    constexpr float kOdd[] = {0.0f,      -0.0f,      1e-40f,
+                              1e30f,     -1e30f,     3e38f,
+                              kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
     if (one_in(60)) return kOdd[std::uniform_int_distribution<std::size_t>(0, std::size(kOdd) - 1)(random_)];
     return static_cast<float>(in(-2, 2));
   }
@@ -74,15 +80,19 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
     const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
     packed += components == 3 && count == kVertexBatch ? 1 : 0;  // rows that are read in lanes
     std::vector<float> positions(count * static_cast<std::size_t>(components));
-    for (float& p : positions) p = random.is_cancelling(round) ? random.large_coordinate() : random.coordinate();
+    for (float& p : positions)
+      p = random.is_cancelling(round) ? random.large_coordinate() : random.coordinate();
     for (const Isa isa : available_isas()) {
       std::vector<WindowVertex> vertices(count);
       std::vector<std::uint8_t> codes(count);
-      const std::uint8_t all = transform_vertices(isa)(t, {positions.data(), static_cast<std::size_t>(components)}, components, count, vertices.data(), codes.data());
+      const std::uint8_t all =
+          transform_vertices(isa)(t, {positions.data(), static_cast<std::size_t>(components)}, components,
+                                  count, vertices.data(), codes.data());
       std::uint8_t seen = 0;
       for (std::size_t i = 0; i < count; ++i) {
         const float* p = positions.data() + i * static_cast<std::size_t>(components);
-        const auto [clip, code, is_rough] = transform_vertex(t, {p[0], p[1], p[2], components == 4 ? p[3] : 1.0f});
+        const auto [clip, code, is_rough] =
+            transform_vertex(t, {p[0], p[1], p[2], components == 4 ? p[3] : 1.0f});
         rough += is_rough ? 1 : 0;
         seen |= codes[i];
         if ((code & kNonFinite) != 0) {
@@ -102,7 +112,8 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
         ASSERT_EQ(vertices[i].x, v.x) << name_of(isa);
         ASSERT_EQ(vertices[i].y, v.y) << name_of(isa);
         ASSERT_EQ(vertices[i].z, v.z) << name_of(isa) << " " << name_of(t.depth);
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(vertices[i].rw), std::bit_cast<std::uint32_t>(v.rw)) << name_of(isa);
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(vertices[i].rw), std::bit_cast<std::uint32_t>(v.rw))
+            << name_of(isa);
       }
       ASSERT_EQ(all, seen);
     }
@@ -133,19 +144,32 @@ TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
     float at, spread, z;  // z: 1 for `at` as x and y have it
   };
   constexpr double kFar = 4e6;
-  const Case cases[] = {{"on the far plane", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, 0, 1, 1},
-                        {"on the near plane", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, 0, 1, -1},
-                        {"on the far plane, reversed", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true, 0, 1, 0},
-                        {"a sky, as far as its w", {1, 0, 0.3, 0, 0, 1, 0.1, 0, 0.6, 0.8, 0.7, 3, 0.6, 0.8, 0.7, 3}, false, 0, 1, 1},
-                        // Turned by 0.6 and 0.8, away from 4 10^6 by as much again: sums of 10^7, of which some 1,000 are left.
-                        {"a world far from its origin", {0.6, 0.8, 0, -1.4 * kFar, -0.48, 0.36, 0.8, -0.68 * kFar, 0, 0, 0, 0.1, -0.64, 0.48, -0.6, 0.76 * kFar + 2000}, true, static_cast<float>(kFar), 1000, static_cast<float>(kFar)}};
+  const Case cases[] = {
+      {"on the far plane", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, 0, 1, 1},
+      {"on the near plane", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, 0, 1, -1},
+      {"on the far plane, reversed", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true, 0, 1, 0},
+      {"a sky, as far as its w",
+       {1, 0, 0.3, 0, 0, 1, 0.1, 0, 0.6, 0.8, 0.7, 3, 0.6, 0.8, 0.7, 3},
+       false,
+       0,
+       1,
+       1},
+      // Turned by 0.6 and 0.8, away from 4 10^6 by as much again: sums of 10^7, of which some 1,000 are left.
+      {"a world far from its origin",
+       {0.6, 0.8, 0, -1.4 * kFar, -0.48, 0.36, 0.8, -0.68 * kFar, 0, 0, 0, 0.1, -0.64, 0.48, -0.6,
+        0.76 * kFar + 2000},
+       true,
+       static_cast<float>(kFar),
+       1000,
+       static_cast<float>(kFar)}};
   std::mt19937 random(3);
   const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-23f - 1; };
   for (const Case& c : cases) {
     const VertexTransform t = transform_of(c.rows, c.reversed);
     for (int n = 0; n < 1000; ++n) {
       const float z = c.at == 0 ? c.z : c.z + c.spread * unit();
-      ASSERT_FALSE(transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).is_rough) << c.what << ", vertex " << n;
+      ASSERT_FALSE(transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).is_rough)
+          << c.what << ", vertex " << n;
     }
   }
 }
@@ -157,10 +181,12 @@ TEST(VertexTransform, RoundsWhereDoublesEnd) {
     std::array<double, 16> rows;
     std::array<float, 4> object;
   };
-  const Case cases[] = {{{kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny}, {0x1p-74f, 0, 0, 0.3f * 0x1p-74f}},
-                        {{kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny}, {0x1p-74f, 0, 0, 1.4f * 0x1p-74f}},
-                        {{kLargest, -0x1p1023, 0x1p970, 0x1p1023, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x1p1023}, {1, 1, 1, 1}},
-                        {{0, 0x1p-400, kBig, -kBig, 0, 0, kBig, -kBig, 0, 0, kBig, -kBig, 0x1p-400, 0, kBig, -kBig}, {1, 0.5f, 1, 1}}};
+  const Case cases[] = {
+      {{kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny}, {0x1p-74f, 0, 0, 0.3f * 0x1p-74f}},
+      {{kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny, 0, 0, 0, 0, kTiny}, {0x1p-74f, 0, 0, 1.4f * 0x1p-74f}},
+      {{kLargest, -0x1p1023, 0x1p970, 0x1p1023, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x1p1023}, {1, 1, 1, 1}},
+      {{0, 0x1p-400, kBig, -kBig, 0, 0, kBig, -kBig, 0, 0, kBig, -kBig, 0x1p-400, 0, kBig, -kBig},
+       {1, 0.5f, 1, 1}}};
   for (const Case& c : cases) {
     const VertexTransform t = transform_of(c.rows, false);
     const ClipPosition rounded = clip_position(t, c.object[0], c.object[1], c.object[2], c.object[3]);
@@ -185,7 +211,9 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
   __extension__ using Whole = __int128;
   std::mt19937 random(5);
   const auto small = [&] { return static_cast<std::int64_t>(random() % 7) - 3; };
-  const auto sum = [](const std::int64_t (&m)[4], const std::int64_t (&p)[4]) { return Whole{m[0]} * p[0] + Whole{m[1]} * p[1] + Whole{m[2]} * p[2] + Whole{m[3]} * p[3]; };
+  const auto sum = [](const std::int64_t(&m)[4], const std::int64_t(&p)[4]) {
+    return Whole{m[0]} * p[0] + Whole{m[1]} * p[1] + Whole{m[2]} * p[2] + Whole{m[3]} * p[3];
+  };
   std::size_t misjudged = 0;
   for (int n = 0; n < 100000; ++n) {
     VertexTransform t;
@@ -195,13 +223,18 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
     std::int64_t matrix[4][4], point[4];
     for (std::int64_t& p : point) p = small() * (random() % 2 == 0 ? std::int64_t{1} << 58 : 1);
     for (std::size_t row = 0; row < 4; ++row)
-      for (std::size_t column = 0; column < 4; ++column) t.clip_from_object[4 * row + column] = static_cast<double>(matrix[row][column] = small());
+      for (std::size_t column = 0; column < 4; ++column)
+        t.clip_from_object[4 * row + column] = static_cast<double>(matrix[row][column] = small());
     t.set_roughness();
-    const Whole x = sum(matrix[0], point), y = sum(matrix[1], point), z = sum(matrix[2], point), w = sum(matrix[3], point);
+    const Whole x = sum(matrix[0], point), y = sum(matrix[1], point), z = sum(matrix[2], point),
+                w = sum(matrix[3], point);
     const auto bit = [](bool is_outside, ClipCode code) { return is_outside ? int{code} : 0; };
-    const int expected = bit(x + 512 * w < 0, kLeftOfGuardBand) | bit(512 * w - x < 0, kRightOfGuardBand) | bit(y + 512 * w < 0, kBelowGuardBand) | bit(512 * w - y < 0, kAboveGuardBand) |
-                         bit((t.reversed ? w - z : z + w) < 0, kBeforeNear) | bit((t.reversed ? z : w - z) < 0, kBehindFar) | bit(w <= 0, kNoPositiveW);
-    const float p[4] = {static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]), static_cast<float>(point[3])};
+    const int expected = bit(x + 512 * w < 0, kLeftOfGuardBand) | bit(512 * w - x < 0, kRightOfGuardBand) |
+                         bit(y + 512 * w < 0, kBelowGuardBand) | bit(512 * w - y < 0, kAboveGuardBand) |
+                         bit((t.reversed ? w - z : z + w) < 0, kBeforeNear) |
+                         bit((t.reversed ? z : w - z) < 0, kBehindFar) | bit(w <= 0, kNoPositiveW);
+    const float p[4] = {static_cast<float>(point[0]), static_cast<float>(point[1]),
+                        static_cast<float>(point[2]), static_cast<float>(point[3])};
     for (const Isa isa : available_isas()) {
       WindowVertex vertex;
       std::uint8_t code = 0;
@@ -213,29 +246,34 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
   EXPECT_GT(misjudged, 100u);  // by roundings alone
 }
 
-// Snapping is floor(256 x + 1/2) of the true position except where rounding in double crosses the border between two steps;
-// depth is then within one word at 32 bits.
+// Snapping is floor(256 x + 1/2) of the true position except where rounding in double crosses the border
+// between two steps; depth is then within one word at 32 bits.
 TEST(VertexTransform, IsWithinOneStepOfTheTruth) {
   RandomTransforms random(2);
   std::size_t all = 0, moved = 0;
   for (int round = 0; round < 30000; ++round) {
     VertexTransform t = random.next(round);
     t.depth = DepthKind::unorm32;
-    const float p[3] = {static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1))};
+    const float p[3] = {static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1)),
+                        static_cast<float>(random.in(-1, 1))};
     const ClipPosition clip = clip_position(t, p[0], p[1], p[2], 1);
     if (clip_code(t, clip) != 0 || clip.w < 1e-3) continue;
     long double c[4];
     for (int r = 0; r < 4; ++r) {
       const double* m = t.clip_from_object + 4 * r;
-      c[r] = static_cast<long double>(m[0]) * p[0] + static_cast<long double>(m[1]) * p[1] + static_cast<long double>(m[2]) * p[2] + m[3];
+      c[r] = static_cast<long double>(m[0]) * p[0] + static_cast<long double>(m[1]) * p[1] +
+             static_cast<long double>(m[2]) * p[2] + m[3];
     }
     const WindowVertex v = project(t, clip);
-    const auto x = t.center_x + static_cast<std::int64_t>(std::floor(c[0] / c[3] * t.half_width * 256 + 0.5L));
-    const auto y = t.center_y - static_cast<std::int64_t>(std::floor(c[1] / c[3] * t.half_height * 256 + 0.5L));
+    const auto x =
+        t.center_x + static_cast<std::int64_t>(std::floor(c[0] / c[3] * t.half_width * 256 + 0.5L));
+    const auto y =
+        t.center_y - static_cast<std::int64_t>(std::floor(c[1] / c[3] * t.half_height * 256 + 0.5L));
     ASSERT_LE(std::abs(v.x - x), 1);
     ASSERT_LE(std::abs(v.y - y), 1);
     const long double unit = t.reversed ? c[2] / c[3] : (c[2] / c[3] + 1) / 2;
-    const long double z = std::min(1.0L, std::max(0.0L, t.depth_near + unit * (static_cast<long double>(t.depth_far) - t.depth_near)));
+    const long double z = std::min(
+        1.0L, std::max(0.0L, t.depth_near + unit * (static_cast<long double>(t.depth_far) - t.depth_near)));
     const auto word = static_cast<std::int64_t>(std::floor(z * 4294967295.0L + 0.5L));
     ASSERT_LE(std::abs(static_cast<std::int64_t>(v.z) - word), 1);
     ASSERT_NEAR(v.rw * static_cast<double>(c[3]), 1, 1e-7);
@@ -262,9 +300,11 @@ TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
     bool reversed = false;
   };
   const float w = 1.25f;
-  for (const Edge& edge : {Edge{{2 * w, 0, 0, w}, 0, 9, kRightOfGuardBand}, Edge{{-2 * w, 0, 0, w}, 0, -9, kLeftOfGuardBand}, Edge{{0, 2 * w, 0, w}, 1, 9, kAboveGuardBand},
-                           Edge{{0, -2 * w, 0, w}, 1, -9, kBelowGuardBand}, Edge{{0, 0, w, w}, 2, 9, kBehindFar}, Edge{{0, 0, -w, w}, 2, -9, kBeforeNear},
-                           Edge{{0, 0, w, w}, 2, 9, kBeforeNear, true}, Edge{{0, 0, 0, w}, 2, -9, kBehindFar, true}}) {
+  for (const Edge& edge :
+       {Edge{{2 * w, 0, 0, w}, 0, 9, kRightOfGuardBand}, Edge{{-2 * w, 0, 0, w}, 0, -9, kLeftOfGuardBand},
+        Edge{{0, 2 * w, 0, w}, 1, 9, kAboveGuardBand}, Edge{{0, -2 * w, 0, w}, 1, -9, kBelowGuardBand},
+        Edge{{0, 0, w, w}, 2, 9, kBehindFar}, Edge{{0, 0, -w, w}, 2, -9, kBeforeNear},
+        Edge{{0, 0, w, w}, 2, 9, kBeforeNear, true}, Edge{{0, 0, 0, w}, 2, -9, kBehindFar, true}}) {
     t.reversed = edge.reversed;
     std::array<float, 8> positions{};
     std::copy(edge.position.begin(), edge.position.end(), positions.begin());
@@ -307,30 +347,38 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
     const bool keeps_w = round % 4 < 2;
     for (std::size_t k = 0; k < 4 && keeps_w; ++k) t.eye_from_object[12 + k] = k == 3;
     for (double& m : t.normal_matrix) m = random.in(-3, 3);
-    t.normal_lengths = std::array{kUnitNormals, kNormalsAsTheyAre, NormalLengths{0.5, 2}}[static_cast<std::size_t>(round % 3)];
+    t.normal_lengths = std::array{kUnitNormals, kNormalsAsTheyAre,
+                                  NormalLengths{0.5, 2}}[static_cast<std::size_t>(round % 3)];
     std::vector<float> in(4 * kVertexBatch);
     for (float& p : in) p = static_cast<float>(random.in(-2, 2));
     if (round % 5 == 0) in[0] = in[1] = in[2] = 0;
     using Out = std::array<std::array<float, kVertexBatch>, 3>;
     const std::vector<Isa> isas = available_isas();  // the last one is scalar
     std::vector<Out> normals(isas.size()), points(isas.size());
-    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch), components = static_cast<std::size_t>(3 + round / kVertexBatch % 2);
+    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch),
+               components = static_cast<std::size_t>(3 + round / kVertexBatch % 2);
     for (std::size_t set = 0; set < isas.size(); ++set) {
       const Isa isa = isas[set];
       Out &n = normals[set], &p = points[set];
       eye_normals(isa)(t, {in.data(), 3}, count, n[0].data(), n[1].data(), n[2].data());
-      eye_positions(isa)(t, {in.data(), components}, static_cast<int>(components), count, p[0].data(), p[1].data(), p[2].data());
+      eye_positions(isa)(t, {in.data(), components}, static_cast<int>(components), count, p[0].data(),
+                         p[1].data(), p[2].data());
       for (std::size_t i = 0; i < count; ++i) {
         double exact[3], at[4], squared = 0;
         for (int r = 0; r < 3; ++r) {
-          exact[r] = t.normal_matrix[3 * r] * in[3 * i] + t.normal_matrix[3 * r + 1] * in[3 * i + 1] + t.normal_matrix[3 * r + 2] * in[3 * i + 2];
+          exact[r] = t.normal_matrix[3 * r] * in[3 * i] + t.normal_matrix[3 * r + 1] * in[3 * i + 1] +
+                     t.normal_matrix[3 * r + 2] * in[3 * i + 2];
           squared += exact[r] * exact[r];
         }
         for (std::size_t r = 0; r < 4; ++r) {
           at[r] = 0;
-          for (std::size_t k = 0; k < 4; ++k) at[r] += t.eye_from_object[4 * r + k] * (k < components ? in[components * i + k] : 1.0f);
+          for (std::size_t k = 0; k < 4; ++k)
+            at[r] += t.eye_from_object[4 * r + k] * (k < components ? in[components * i + k] : 1.0f);
         }
-        const double w = at[3], whole = std::sqrt(squared), length = whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest, t.normal_lengths.longest) : 1;
+        const double w = at[3], whole = std::sqrt(squared),
+                     length = whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest,
+                                                             t.normal_lengths.longest)
+                                        : 1;
         for (std::size_t r = 0; r < 3; ++r) {
           ASSERT_NEAR(n[r][i], exact[r] / length, 1e-6 * std::max(1.0, whole / length));
           ASSERT_NEAR(p[r][i], at[r] / w, 1e-6 * (std::abs(at[r] / w) + 1e-3));
@@ -340,8 +388,12 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
     for (std::size_t set = 0; set < isas.size(); ++set)
       for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t i = 0; i < count; ++i) {
-          ASSERT_EQ(std::bit_cast<std::uint32_t>(normals[set][r][i]), std::bit_cast<std::uint32_t>(normals.back()[r][i])) << name_of(isas[set]);
-          ASSERT_EQ(std::bit_cast<std::uint32_t>(points[set][r][i]), std::bit_cast<std::uint32_t>(points.back()[r][i])) << name_of(isas[set]);
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(normals[set][r][i]),
+                    std::bit_cast<std::uint32_t>(normals.back()[r][i]))
+              << name_of(isas[set]);
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(points[set][r][i]),
+                    std::bit_cast<std::uint32_t>(points.back()[r][i]))
+              << name_of(isas[set]);
         }
   }
 }
@@ -354,7 +406,8 @@ TEST(EyeTransform, TakesNoWForOne) {
       t.eye_from_object[15] = projects ? 0 : 1;
       float x[kVertexBatch], y[kVertexBatch], z[kVertexBatch];
       eye_positions(isa)(t, {position, 4}, projects ? 3 : 4, 1, x, y, z);
-      EXPECT_TRUE(x[0] == 1 && y[0] == -2 && z[0] == 3) << name_of(isa) << ": " << x[0] << " " << y[0] << " " << z[0];
+      EXPECT_TRUE(x[0] == 1 && y[0] == -2 && z[0] == 3)
+          << name_of(isa) << ": " << x[0] << " " << y[0] << " " << z[0];
     }
 }
 

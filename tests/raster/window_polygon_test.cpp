@@ -1,4 +1,5 @@
-// Polygons that snapping has dented are cut into triangles that cover them exactly: compared with the even-odd rule, and so without any triangles.
+// Polygons that snapping has dented are cut into triangles that cover them exactly: compared with the
+// even-odd rule, and so without any triangles.
 #include "raster/window_polygon.h"
 
 #include <gtest/gtest.h>
@@ -28,11 +29,13 @@ struct Corner {
 };
 ClippedPolygon clipped(const std::vector<Corner>& corners) {
   ClippedPolygon polygon;
-  for (const Corner& c : corners) polygon.vertices[polygon.count++].position = {c.x / (128.0 * kSide), -c.y / (128.0 * kSide), 0, 1};
+  for (const Corner& c : corners)
+    polygon.vertices[polygon.count++].position = {c.x / (128.0 * kSide), -c.y / (128.0 * kSide), 0, 1};
   return polygon;
 }
 
-// A centre on an edge counts as if it lay a hair to the right, and a hair of that down: crossings are those of a ray from there to the right.
+// A centre on an edge counts as if it lay a hair to the right, and a hair of that down: crossings are those
+// of a ray from there to the right.
 bool is_inside(const WindowPolygon& polygon, int x, int y) {
   const std::int64_t px = 256 * x + 128, py = 256 * y + 128;
   bool inside = false;
@@ -49,19 +52,25 @@ void expect_covered_once(const WindowPolygon& polygon, int round) {
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
       int covered = 0;
-      for (const WindowPolygon::Corners& c : polygon.triangles()) covered += reference_of({polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]}).covers(x, y);
-      ASSERT_EQ(covered, is_inside(polygon, x, y) ? 1 : 0) << "round " << round << ", pixel " << x << " " << y;
+      for (const WindowPolygon::Corners& c : polygon.triangles())
+        covered +=
+            reference_of({polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]}).covers(x, y);
+      ASSERT_EQ(covered, is_inside(polygon, x, y) ? 1 : 0)
+          << "round " << round << ", pixel " << x << " " << y;
     }
 }
 
-// Around a point, in order of their directions: edges never cross, dents are anywhere. Clipping makes dents of 1/256 pixel; here they are as deep as they like.
+// Around a point, in order of their directions: edges never cross, dents are anywhere. Clipping makes dents
+// of 1/256 pixel; here they are as deep as they like.
 std::vector<Corner> random_corners(RandomTriangles& source) {
   const int count = source.between(3, kMaxClippedVertices);
   const double start = 6.3 * source.unit();
   std::vector<Corner> corners;
   for (int i = 0; i < count; ++i) {
-    const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count, radius = 128 * kSide * (0.2 + source.unit());
-    corners.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))), static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))});
+    const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count,
+                 radius = 128 * kSide * (0.2 + source.unit());
+    corners.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
+                       static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))});
   }
   if (source.between(0, 1) != 0) std::reverse(corners.begin(), corners.end());
   return corners;
@@ -69,7 +78,10 @@ std::vector<Corner> random_corners(RandomTriangles& source) {
 bool is_dented(const WindowPolygon& polygon) {
   const int n = polygon.clipped.count;
   for (int i = 0; i < n; ++i)
-    if (doubled_area(polygon.window[i], polygon.window[(i + 1) % n], polygon.window[(i + 2) % n]) * polygon.area < 0) return true;
+    if (doubled_area(polygon.window[i], polygon.window[(i + 1) % n], polygon.window[(i + 2) % n]) *
+            polygon.area <
+        0)
+      return true;
   return false;
 }
 
@@ -78,7 +90,9 @@ TEST(WindowPolygon, IsCoveredOnceByItsTriangles) {
   int dented = 0;
   for (int round = 0; round < (long_tests() ? 100000 : 5000); ++round) {
     const WindowPolygon polygon(window_transform(), clipped(random_corners(source)));
-    for (const WindowPolygon::Corners& c : polygon.triangles()) ASSERT_GT(doubled_area(polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]) * polygon.area, 0);
+    for (const WindowPolygon::Corners& c : polygon.triangles())
+      ASSERT_GT(doubled_area(polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]) * polygon.area,
+                0);
     dented += is_dented(polygon);
     expect_covered_once(polygon, round);
     if (HasFatalFailure()) return;
@@ -111,25 +125,31 @@ TEST(WindowPolygon, HasTheSameTrianglesWhereverItBegins) {
   }
 }
 
-// Two corners in one place, corners on a straight line, and a line there and back: none of it covers anything.
+// Two corners in one place, corners on a straight line, and a line there and back: none of it covers
+// anything.
 TEST(WindowPolygon, HasNoTrianglesWithoutArea) {
   const WindowPolygon line(window_transform(), clipped({{0, 0}, {256, 256}, {512, 512}, {256, 256}}));
   EXPECT_TRUE(line.triangles().empty());
-  const WindowPolygon square(window_transform(), clipped({{0, 0}, {512, 0}, {1024, 0}, {1024, 0}, {1024, 1024}, {0, 1024}, {0, 512}}));
+  const WindowPolygon square(
+      window_transform(),
+      clipped({{0, 0}, {512, 0}, {1024, 0}, {1024, 0}, {1024, 1024}, {0, 1024}, {0, 512}}));
   EXPECT_EQ(square.area, 2 * 1024.0 * 1024.0);
   expect_covered_once(square, 0);
 }
 
-// Thinner than a step of the grid, it may come out with edges that cross, and no area as a whole: it is drawn nevertheless, or its neighbours would show
-// a hole.
+// Thinner than a step of the grid, it may come out with edges that cross, and no area as a whole: it is drawn
+// nevertheless, or its neighbours would show a hole.
 TEST(WindowPolygon, WhoseEdgesCrossLeavesNoHole) {
-  const WindowPolygon crossed(window_transform(), clipped({{-1024, -1024}, {1024, 1024}, {1024, -1024}, {-1024, 1024}}));
+  const WindowPolygon crossed(window_transform(),
+                              clipped({{-1024, -1024}, {1024, 1024}, {1024, -1024}, {-1024, 1024}}));
   EXPECT_EQ(crossed.area, 0);
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
       if (!is_inside(crossed, x, y)) continue;
       bool covered = false;
-      for (const WindowPolygon::Corners& c : crossed.triangles()) covered |= reference_of({crossed.window[c[0]], crossed.window[c[1]], crossed.window[c[2]]}).covers(x, y);
+      for (const WindowPolygon::Corners& c : crossed.triangles())
+        covered |=
+            reference_of({crossed.window[c[0]], crossed.window[c[1]], crossed.window[c[2]]}).covers(x, y);
       EXPECT_TRUE(covered) << x << " " << y;
     }
 }

@@ -1,5 +1,5 @@
-// The arithmetic of the accumulation buffer: signed components, 1.0 is 32767 or 2^31 - 1. What leaves the range of the signed
-// integer stays at its end.
+// The arithmetic of the accumulation buffer: signed components, 1.0 is 32767 or 2^31 - 1. What leaves the
+// range of the signed integer stays at its end.
 #pragma once
 
 #include <array>

@@ -6,7 +6,8 @@
 namespace tessera::reference {
 namespace {
 
-// Cosine and sine of the fraction `turn` of a full turn, exact at the four quarters so that seams and poles close.
+// Cosine and sine of the fraction `turn` of a full turn, exact at the four quarters so that seams and poles
+// close.
 struct Circle {
   double cosine, sine;
 };
@@ -75,18 +76,23 @@ Mesh grid(int n) {
 
 // A disc of 2n triangles around its centre, at height y, facing `up` (+1 or -1).
 void append_cap(Mesh& mesh, int n, double y, double up) {
-  append_quads(mesh, 2 * n, 1, [&](double s, double t) { return SurfacePoint{around_y(up * s, 1 - t, y), {0, up, 0}}; });
+  append_quads(mesh, 2 * n, 1, [&](double s, double t) {
+    return SurfacePoint{around_y(up * s, 1 - t, y), {0, up, 0}};
+  });
 }
 
 Mesh cylinder(int n) {
   Mesh mesh;
-  append_quads(mesh, 2 * n, 1, [](double s, double t) { return SurfacePoint{around_y(s, 1, 2 * t - 1), around_y(s, 1, 0)}; });
+  append_quads(mesh, 2 * n, 1, [](double s, double t) {
+    return SurfacePoint{around_y(s, 1, 2 * t - 1), around_y(s, 1, 0)};
+  });
   append_cap(mesh, n, 1, 1);
   append_cap(mesh, n, -1, -1);
   return mesh;
 }
 
-// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps its own normals.
+// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps its
+// own normals.
 Mesh cone(int n) {
   Mesh mesh;
   append_quads(mesh, 2 * n, 1, [](double s, double t) {

@@ -1,4 +1,5 @@
-// The built-in meshes by their definitions: y up, wound counter-clockwise seen from outside, with outward unit normals.
+// The built-in meshes by their definitions: y up, wound counter-clockwise seen from outside, with outward
+// unit normals.
 #pragma once
 
 #include <string>
@@ -24,10 +25,11 @@ struct SurfacePoint {
   Vec3 normal;
 };
 
-/// Appends a patch of columns x rows quads, each split along the diagonal from its corner with the lowest s and t.
-/// Triangles without area (at a collapsed row) are left out.
+/// Appends a patch of columns x rows quads, each split along the diagonal from its corner with the lowest s
+/// and t. Triangles without area (at a collapsed row) are left out.
 ///
-/// @param surface  called with (s, t), s = i / columns, t = j / rows; counter-clockwise where s grows to the right, t upwards.
+/// @param surface  called with (s, t), s = i / columns, t = j / rows; counter-clockwise where s grows to the
+/// right, t upwards.
 template <class Surface>
 void append_quads(Mesh& mesh, int columns, int rows, const Surface& surface) {
   const auto base = static_cast<std::uint32_t>(mesh.positions.size());

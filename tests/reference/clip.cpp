@@ -9,7 +9,9 @@ struct Plane {
   Vec4 normal;
   double offset = 0;
 
-  double distance(Vec4 p) const { return normal.x * p.x + normal.y * p.y + normal.z * p.z + normal.w * p.w + offset; }
+  double distance(Vec4 p) const {
+    return normal.x * p.x + normal.y * p.y + normal.z * p.z + normal.w * p.w + offset;
+  }
 };
 
 std::vector<Plane> planes_of(const ClipVolume& volume) {
@@ -25,13 +27,14 @@ std::vector<Plane> planes_of(const ClipVolume& volume) {
   return planes;
 }
 
-// Always from the inside to the outside: the two triangles that share an edge then get the very same point. Written so
-// that a component equal at both ends stays exactly what it is.
+// Always from the inside to the outside: the two triangles that share an edge then get the very same point.
+// Written so that a component equal at both ends stays exactly what it is.
 ClipVertex crossing(const ClipVertex& inside, const ClipVertex& outside, double t) {
   const auto mix = [t](double a, double b) { return a + t * (b - a); };
   const Vec4 p = inside.position, q = outside.position;
   ClipVertex vertex{{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, inside.share};
-  for (std::size_t i = 0; i < vertex.share.size(); ++i) vertex.share[i] = mix(inside.share[i], outside.share[i]);
+  for (std::size_t i = 0; i < vertex.share.size(); ++i)
+    vertex.share[i] = mix(inside.share[i], outside.share[i]);
   return vertex;
 }
 

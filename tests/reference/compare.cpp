@@ -10,7 +10,8 @@ namespace tessera::reference {
 namespace {
 
 std::size_t byte_at(int x, int y, int channel, int width_px) {
-  return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)) * 3 +
+  return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)) *
+             3 +
          static_cast<std::size_t>(channel);
 }
 
@@ -36,12 +37,14 @@ void count(Counts& counts, int apart) {
 
 void require_size(std::span<const std::uint8_t> rgb, int width_px, int height_px) {
   if (rgb.size() != byte_at(0, height_px, 0, width_px))
-    throw std::runtime_error("a picture has " + std::to_string(rgb.size()) + " bytes, not width * height * 3");
+    throw std::runtime_error("a picture has " + std::to_string(rgb.size()) +
+                             " bytes, not width * height * 3");
 }
 
 }  // namespace
 
-Comparison compare(std::span<const std::uint8_t> reference, std::span<const std::uint8_t> other, int width_px, int height_px) {
+Comparison compare(std::span<const std::uint8_t> reference, std::span<const std::uint8_t> other, int width_px,
+                   int height_px) {
   require_size(reference, width_px, height_px);
   require_size(other, width_px, height_px);
   Comparison result;
@@ -61,16 +64,18 @@ Comparison compare(std::span<const std::uint8_t> reference, std::span<const std:
 std::string to_string(const Comparison& comparison) {
   std::ostringstream line;
   const auto append = [&](const char* name, const Counts& counts) {
-    line << name << ": " << counts.differing << " of " << counts.pixels << " pixels differ (" << 100 * counts.share()
-         << " %), by at most " << counts.largest;
+    line << name << ": " << counts.differing << " of " << counts.pixels << " pixels differ ("
+         << 100 * counts.share() << " %), by at most " << counts.largest;
   };
   append("interior", comparison.interior);
   append("; all", comparison.all);
   return line.str();
 }
 
-std::vector<std::uint8_t> difference(std::span<const std::uint8_t> reference, std::span<const std::uint8_t> other, int gain) {
-  if (reference.size() != other.size()) throw std::runtime_error("pictures of different sizes have no difference");
+std::vector<std::uint8_t> difference(std::span<const std::uint8_t> reference,
+                                     std::span<const std::uint8_t> other, int gain) {
+  if (reference.size() != other.size())
+    throw std::runtime_error("pictures of different sizes have no difference");
   std::vector<std::uint8_t> result(reference.size());
   for (std::size_t i = 0; i < result.size(); ++i)
     result[i] = static_cast<std::uint8_t>(std::min(255, gain * std::abs(int{reference[i]} - int{other[i]})));
@@ -85,8 +90,8 @@ void write_ppm(const std::string& path, std::span<const std::uint8_t> rgb, int w
   if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-void write_pictures(const std::string& stem, std::span<const std::uint8_t> reference, std::span<const std::uint8_t> other,
-                    int width_px, int height_px) {
+void write_pictures(const std::string& stem, std::span<const std::uint8_t> reference,
+                    std::span<const std::uint8_t> other, int width_px, int height_px) {
   write_ppm(stem + "_reference.ppm", reference, width_px, height_px);
   write_ppm(stem + "_other.ppm", other, width_px, height_px);
   write_ppm(stem + "_difference.ppm", difference(reference, other), width_px, height_px);

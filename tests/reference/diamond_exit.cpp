@@ -1,6 +1,6 @@
-// The segment is p(t) = a + t (b - a), 0 <= t <= 1. The diamond is the set where four linear functions f, plus or minus x plus
-// or minus y from its centre, are below half a pixel. Each bounds t from one side by a fraction with an infinitesimal part; the
-// segment meets the diamond if some t is within all bounds.
+// The segment is p(t) = a + t (b - a), 0 <= t <= 1. The diamond is the set where four linear functions f,
+// plus or minus x plus or minus y from its centre, are below half a pixel. Each bounds t from one side by a
+// fraction with an infinitesimal part; the segment meets the diamond if some t is within all bounds.
 #include "diamond_exit.h"
 
 #include <array>
@@ -18,7 +18,8 @@ struct Nearly {
 
 Nearly operator*(std::int64_t factor, Nearly x) { return {factor * x.n, factor * x.e1, factor * x.e2}; }
 
-// Of a fraction below. A linear function of a vertex is at most 2 kMaxDifference, and so is its change along the segment.
+// Of a fraction below. A linear function of a vertex is at most 2 kMaxDifference, and so is its change along
+// the segment.
 static_assert(2 * kMaxDifference <= INT64_MAX / (2 * kMaxDifference + kSubpixels));
 
 /// over / under, under > 0
@@ -30,7 +31,8 @@ struct Fraction {
 bool less(const Fraction& a, const Fraction& b) { return b.under * a.over < a.under * b.over; }
 
 constexpr std::int64_t kRadius = kSubpixels / 2;
-constexpr std::array<Point, 4> kSides{{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};  // the signs of x and y in each f
+constexpr std::array<Point, 4> kSides{
+    {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};  // the signs of x and y in each f
 
 /// How far f is below half a pixel at a vertex, shifted by (-e, -e^2).
 Nearly room(Point side, Point vertex, Point centre) {
@@ -66,6 +68,8 @@ bool meets_diamond(Point a, Point b, Point centre) {
 
 }  // namespace
 
-bool exits_diamond(Point a, Point b, Point centre) { return meets_diamond(a, b, centre) && !is_in_diamond(b, centre); }
+bool exits_diamond(Point a, Point b, Point centre) {
+  return meets_diamond(a, b, centre) && !is_in_diamond(b, centre);
+}
 
 }  // namespace tessera::reference

@@ -16,7 +16,8 @@ namespace {
 bool is_finite(const Corners& corners) {
   for (const Corner& corner : corners.all) {
     const Vec4 p = corner.position_clip;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w)) return false;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w))
+      return false;
   }
   return true;
 }
@@ -52,8 +53,12 @@ class MeshDrawing {
         buffers_(buffers),
         volume_(clip_volume(state.camera, viewport)),
         texture_(sampler(draw, state.scene)),
-        window_{viewport, intersection(intersection(viewport, buffers.rect()), draw.scissor.value_or(buffers.rect())),
-                draw.depth_range, state.camera.reversed, buffers.format().samples, draw.texture.has_value()},
+        window_{viewport,
+                intersection(intersection(viewport, buffers.rect()), draw.scissor.value_or(buffers.rect())),
+                draw.depth_range,
+                state.camera.reversed,
+                buffers.format().samples,
+                draw.texture.has_value()},
         colors_{draw,
                 state.scene.light_model,
                 lights_in_eye_space(state.lights, state.camera.view_from_world),
@@ -74,7 +79,10 @@ class MeshDrawing {
 
  private:
   FragmentPipeline pipeline(const PrimitiveShader& shader, bool is_back) const {
-    return {draw_, [&shader](const Fragment& fragment) { return shader.shade(fragment); }, {command_, number_, is_back}, buffers_};
+    return {draw_,
+            [&shader](const Fragment& fragment) { return shader.shade(fragment); },
+            {command_, number_, is_back},
+            buffers_};
   }
 
   void draw_point(const Corners& corners) {
@@ -87,12 +95,13 @@ class MeshDrawing {
   }
 
   void draw_line(const Corners& corners) {
-    const std::vector<ClipVertex> vertices = clip_vertices(corners), line = clip_line(vertices[0], vertices[1], volume_);
+    const std::vector<ClipVertex> vertices = clip_vertices(corners),
+                                  line = clip_line(vertices[0], vertices[1], volume_);
     if (line.empty()) return;
     const PrimitiveShader shader(corners, kIsBack, colors_);
     FragmentPipeline pipeline = this->pipeline(shader, kIsBack);
-    rasterize_line(window_vertex(line[0], window_), window_vertex(line[1], window_), draw_.line_width, kNoOffset, window_,
-                   [&](const Fragment& fragment) { pipeline.take(fragment); });
+    rasterize_line(window_vertex(line[0], window_), window_vertex(line[1], window_), draw_.line_width,
+                   kNoOffset, window_, [&](const Fragment& fragment) { pipeline.take(fragment); });
   }
 
   // Facing, culling and offset are those of the whole polygon, whatever it splits into.
@@ -119,16 +128,19 @@ class MeshDrawing {
     }
   }
 
-  // Edges that clipping has made are part of the boundary [GL 2.1, 2.12]; those along the guard band are out of sight.
+  // Edges that clipping has made are part of the boundary [GL 2.1, 2.12]; those along the guard band are out
+  // of sight.
   void draw_outline(const std::vector<ClipVertex>& polygon, double offset, const TakeFragment& take) const {
     for (std::size_t i = 0; i < polygon.size(); ++i)
-      rasterize_line(window_vertex(polygon[i], window_), window_vertex(polygon[(i + 1) % polygon.size()], window_), draw_.line_width,
-                     offset, window_, take);
+      rasterize_line(window_vertex(polygon[i], window_),
+                     window_vertex(polygon[(i + 1) % polygon.size()], window_), draw_.line_width, offset,
+                     window_, take);
   }
 
   void draw_corners(const std::vector<ClipVertex>& polygon, double offset, const TakeFragment& take) const {
     for (const ClipVertex& vertex : polygon)
-      if (is_between_sides(vertex.position)) rasterize_point(window_vertex(vertex, window_), draw_.point_size, offset, window_, take);
+      if (is_between_sides(vertex.position))
+        rasterize_point(window_vertex(vertex, window_), draw_.point_size, offset, window_, take);
   }
 
   // Points and lines are front and have no slope.

@@ -24,10 +24,12 @@ Region between(double x0, double x1, double y0, double y1) {
 }
 
 /// Gives the pipeline a fragment of each visible pixel with a sample in the region.
-void fill(const Region& region, double depth, const FragmentState& state, SampleBuffers& buffers, FragmentPipeline& pipeline) {
+void fill(const Region& region, double depth, const FragmentState& state, SampleBuffers& buffers,
+          FragmentPipeline& pipeline) {
   const Rect visible = intersection(buffers.rect(), state.scissor.value_or(buffers.rect()));
   const auto pixel = [](double coordinate, int least, int count) {
-    return static_cast<int>(std::clamp(std::floor(coordinate), static_cast<double>(least), static_cast<double>(least + count)));
+    return static_cast<int>(
+        std::clamp(std::floor(coordinate), static_cast<double>(least), static_cast<double>(least + count)));
   };
   const std::span<const Point> offsets = sample_offsets(buffers.format().samples);
   const auto position = [](int pixel_number, std::int64_t offset) {
@@ -35,14 +37,16 @@ void fill(const Region& region, double depth, const FragmentState& state, Sample
   };
   Fragment fragment;
   fragment.depth.fill(depth);
-  const int end_x = pixel(region.right + 1, visible.x, visible.width), end_y = pixel(region.top + 1, visible.y, visible.height);
+  const int end_x = pixel(region.right + 1, visible.x, visible.width),
+            end_y = pixel(region.top + 1, visible.y, visible.height);
   for (int y = pixel(region.bottom, visible.y, visible.height); y < end_y; ++y)
     for (int x = pixel(region.left, visible.x, visible.width); x < end_x; ++x) {
       fragment.x = x;
       fragment.y = y;
       fragment.coverage = 0;
       for (std::size_t i = 0; i < offsets.size(); ++i)
-        if (region.contains(position(x, offsets[i].x), position(y, offsets[i].y))) fragment.coverage |= 1u << i;
+        if (region.contains(position(x, offsets[i].x), position(y, offsets[i].y)))
+          fragment.coverage |= 1u << i;
       if (fragment.coverage != 0) pipeline.take(fragment);
     }
 }
@@ -51,25 +55,37 @@ void fill(const Region& region, double depth, const FragmentState& state, Sample
 
 void draw_bitmap(const Bitmap& bitmap, std::int32_t command, SampleBuffers& buffers) {
   const Vec4 color = clamp01(bitmap.color);
-  FragmentPipeline pipeline(bitmap, [&](const Fragment&) { return Shade{color, {}}; }, {command, 0, kIsBack}, buffers);
+  FragmentPipeline pipeline(
+      bitmap,
+      [&](const Fragment&) {
+        return Shade{color, {}};
+      },
+      {command, 0, kIsBack}, buffers);
   const double left = std::floor(bitmap.at[0]), bottom = std::floor(bitmap.at[1]);
   std::size_t bit = 0;
   for (int y = 0; y < bitmap.height; ++y)
     for (int x = 0; x < bitmap.width; ++x)
       if (bitmap.bits[bit++])
-        fill({left + x, left + x + 1, bottom + y, bottom + y + 1}, bitmap.raster_depth, bitmap, buffers, pipeline);
+        fill({left + x, left + x + 1, bottom + y, bottom + y + 1}, bitmap.raster_depth, bitmap, buffers,
+             pipeline);
 }
 
 void draw_image(const ImageDrawing& drawing, std::int32_t command, SampleBuffers& buffers) {
   const Image& image = drawing.image;
   Vec4 color;
-  FragmentPipeline pipeline(drawing, [&](const Fragment&) { return Shade{color, {}}; }, {command, 0, kIsBack}, buffers);
+  FragmentPipeline pipeline(
+      drawing,
+      [&](const Fragment&) {
+        return Shade{color, {}};
+      },
+      {command, 0, kIsBack}, buffers);
   const auto x_of = [&](int n) { return drawing.at[0] + drawing.zoom[0] * n; };
   const auto y_of = [&](int m) { return drawing.at[1] + drawing.zoom[1] * m; };
   for (int m = 0; m < image.height; ++m)
     for (int n = 0; n < image.width; ++n) {
       color = pixel_color(image, n, m);
-      fill(between(x_of(n), x_of(n + 1), y_of(m), y_of(m + 1)), drawing.raster_depth, drawing, buffers, pipeline);
+      fill(between(x_of(n), x_of(n + 1), y_of(m), y_of(m + 1)), drawing.raster_depth, drawing, buffers,
+           pipeline);
     }
 }
 

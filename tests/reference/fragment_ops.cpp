@@ -74,8 +74,11 @@ std::uint32_t stencil_after(StencilOp op, const StencilFace& face, std::uint32_t
 
 Vec4 blended(const Blend& blend, Vec4 source, Vec4 destination) {
   if (blend.equation == BlendEquation::kMin || blend.equation == BlendEquation::kMax) {
-    const auto pick = [&](double s, double d) { return blend.equation == BlendEquation::kMin ? std::min(s, d) : std::max(s, d); };
-    return {pick(source.x, destination.x), pick(source.y, destination.y), pick(source.z, destination.z), pick(source.w, destination.w)};
+    const auto pick = [&](double s, double d) {
+      return blend.equation == BlendEquation::kMin ? std::min(s, d) : std::max(s, d);
+    };
+    return {pick(source.x, destination.x), pick(source.y, destination.y), pick(source.z, destination.z),
+            pick(source.w, destination.w)};
   }
   const auto of = [&](BlendFactor name) { return factor(name, source, destination, blend.color); };
   const Vec4 s = times(source, with_alpha(of(blend.src), of(blend.src_alpha).w));
@@ -110,7 +113,10 @@ std::uint32_t combined(LogicOp op, std::uint32_t s, std::uint32_t d) {
 }
 
 double dither_threshold(Dither dither, int x, int y) {
-  const int n = dither == Dither::kBayer2 ? 2 : dither == Dither::kBayer4 ? 4 : dither == Dither::kBayer8 ? 8 : 1;
+  const int n = dither == Dither::kBayer2   ? 2
+                : dither == Dither::kBayer4 ? 4
+                : dither == Dither::kBayer8 ? 8
+                                            : 1;
   return (bayer(n, y % n, x % n) + 0.5) / (n * n);
 }
 

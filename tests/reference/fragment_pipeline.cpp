@@ -6,7 +6,8 @@
 
 namespace tessera::reference {
 
-FragmentPipeline::FragmentPipeline(const FragmentState& state, Shader shader, Source source, SampleBuffers& buffers)
+FragmentPipeline::FragmentPipeline(const FragmentState& state, Shader shader, Source source,
+                                   SampleBuffers& buffers)
     : state_(state),
       shader_(std::move(shader)),
       source_(source),
@@ -24,7 +25,9 @@ void FragmentPipeline::take(const Fragment& fragment) {
   const double dither = dither_threshold(buffers_.format().dither, fragment.x, fragment.y);
   for (int s = 0; s < buffers_.format().samples; ++s) {
     if ((fragment.coverage >> s & 1) == 0) continue;
-    if (!passes_stencil_and_depth(buffers_.sample(fragment.x, fragment.y, s), fragment.depth[static_cast<std::size_t>(s)])) continue;
+    if (!passes_stencil_and_depth(buffers_.sample(fragment.x, fragment.y, s),
+                                  fragment.depth[static_cast<std::size_t>(s)]))
+      continue;
     if (planes_ == 0) continue;
     std::uint32_t& word = buffers_.word(fragment.x, fragment.y, s);
     word = (word & ~planes_) | (new_word(shaded(), word, dither) & planes_);
@@ -49,9 +52,10 @@ bool FragmentPipeline::passes_depth(SampleBuffers::Sample& stored, double depth)
   if (!state_.depth) return true;
   const DepthFormat format = buffers_.format().depth;
   const std::uint32_t level = depth_level(format, depth);
-  const bool passed = format == DepthFormat::kFloat32
-                          ? passes(state_.depth->test, std::bit_cast<float>(level), std::bit_cast<float>(stored.depth_level))
-                          : passes(state_.depth->test, level, stored.depth_level);
+  const bool passed =
+      format == DepthFormat::kFloat32
+          ? passes(state_.depth->test, std::bit_cast<float>(level), std::bit_cast<float>(stored.depth_level))
+          : passes(state_.depth->test, level, stored.depth_level);
   if (passed && state_.depth->write) {
     stored.depth_level = level;
     stored.depth = depth;
@@ -61,9 +65,10 @@ bool FragmentPipeline::passes_depth(SampleBuffers::Sample& stored, double depth)
 
 std::uint32_t FragmentPipeline::new_word(const Shade& shade, std::uint32_t stored, double dither) const {
   const ColorFormat& colors = buffers_.colors();
-  const std::uint32_t word = shade.index   ? colors.index_word(*shade.index)
-                             : state_.blend ? colors.word(blended(*state_.blend, shade.color, colors.color(stored)), dither)
-                                           : colors.word(shade.color, dither);
+  const std::uint32_t word =
+      shade.index    ? colors.index_word(*shade.index)
+      : state_.blend ? colors.word(blended(*state_.blend, shade.color, colors.color(stored)), dither)
+                     : colors.word(shade.color, dither);
   return combined(state_.logic_op, word, stored);
 }
 

@@ -1,5 +1,5 @@
-// The way of a fragment into the buffers: alpha test, stencil, depth, blend, dither, logic operation, masks, in this order.
-// The scissor is done before, by what is rasterized.
+// The way of a fragment into the buffers: alpha test, stencil, depth, blend, dither, logic operation, masks,
+// in this order. The scissor is done before, by what is rasterized.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ class FragmentPipeline {
  public:
   /// What stays the same over the primitive.
   struct Source {
-    std::int32_t command = 0;   ///< index in Scene::frame
+    std::int32_t command = 0;    ///< index in Scene::frame
     std::int32_t primitive = 0;  ///< index in the mesh; 0 for what is none
     bool is_back = false;
   };

@@ -1,4 +1,5 @@
-// What a draw does to its fragments after they are shaded, in the order in which it happens; see the specification, section 2.
+// What a draw does to its fragments after they are shaded, in the order in which it happens; see the
+// specification, section 2.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ enum class StencilOp { kKeep, kZero, kReplace, kIncr, kDecr, kInvert, kIncrWrap,
 
 struct StencilFace {
   Compare func = Compare::kAlways;
-  std::uint32_t ref = 0;            ///< as written; clamped to the buffer's largest value when used, as in OpenGL
+  std::uint32_t ref = 0;  ///< as written; clamped to the buffer's largest value when used, as in OpenGL
   std::uint32_t mask = 255;
   StencilOp fail = StencilOp::kKeep;
   StencilOp zfail = StencilOp::kKeep;
@@ -30,7 +31,7 @@ struct StencilFace {
 
 struct StencilState {
   StencilFace front;
-  StencilFace back;                 ///< the same as `front` unless the scene says otherwise
+  StencilFace back;  ///< the same as `front` unless the scene says otherwise
 };
 
 struct DepthState {
@@ -69,8 +70,8 @@ struct Blend {
   BlendFactor dst = BlendFactor::kOneMinusSrcAlpha;
   BlendFactor src_alpha = BlendFactor::kSrcAlpha;  ///< the same as `src` unless the scene says otherwise
   BlendFactor dst_alpha = BlendFactor::kOneMinusSrcAlpha;
-  BlendEquation equation = BlendEquation::kAdd;    ///< of colour and alpha
-  Vec4 color{0, 0, 0, 0};                          ///< the constant, 0..1
+  BlendEquation equation = BlendEquation::kAdd;  ///< of colour and alpha
+  Vec4 color{0, 0, 0, 0};                        ///< the constant, 0..1
 };
 
 enum class Dither { kNone, kBayer2, kBayer4, kBayer8 };

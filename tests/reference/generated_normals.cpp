@@ -13,7 +13,9 @@ using Key = std::tuple<double, double, double, double>;
 
 Key key_of(Vec4 p) { return {p.x, p.y, p.z, p.w}; }
 
-Primitive any_primitive(const Mesh& mesh, std::size_t index) { return primitive(mesh, index, ProvokingVertex::kLast); }
+Primitive any_primitive(const Mesh& mesh, std::size_t index) {
+  return primitive(mesh, index, ProvokingVertex::kLast);
+}
 
 // Twice the area long.
 Vec3 area_normal(const Mesh& mesh, const Primitive& polygon) {
@@ -29,7 +31,9 @@ Vec3 area_normal(const Mesh& mesh, const Primitive& polygon) {
 
 }  // namespace
 
-Vec3 face_normal(const Mesh& mesh, std::size_t primitive) { return normalize(area_normal(mesh, any_primitive(mesh, primitive))); }
+Vec3 face_normal(const Mesh& mesh, std::size_t primitive) {
+  return normalize(area_normal(mesh, any_primitive(mesh, primitive)));
+}
 
 std::vector<Vec3> mean_face_normals(const Mesh& mesh) {
   std::map<Key, Vec3> sums;

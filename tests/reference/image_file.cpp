@@ -47,7 +47,8 @@ class PortableMap {
       else ++at_;
     }
     int value = 0;
-    while (at_ < bytes_.size() && std::isdigit(bytes_[at_]) != 0 && value <= most) value = 10 * value + (bytes_[at_++] - '0');
+    while (at_ < bytes_.size() && std::isdigit(bytes_[at_]) != 0 && value <= most)
+      value = 10 * value + (bytes_[at_++] - '0');
     if (value < 1 || value > most) throw std::runtime_error("a size that is not 1.." + std::to_string(most));
     return value;
   }
@@ -59,7 +60,8 @@ class PortableMap {
 Image with_bottom_row_first(Image image) {
   const auto row = static_cast<std::ptrdiff_t>(image.width) * image.channels;
   for (std::ptrdiff_t low = 0, high = image.height - 1; low < high; ++low, --high)
-    std::swap_ranges(image.levels.begin() + low * row, image.levels.begin() + (low + 1) * row, image.levels.begin() + high * row);
+    std::swap_ranges(image.levels.begin() + low * row, image.levels.begin() + (low + 1) * row,
+                     image.levels.begin() + high * row);
   return image;
 }
 
@@ -71,10 +73,12 @@ std::uint8_t level_in_8_bits(unsigned value, unsigned largest) {
 
 Image read_image(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
+                                        std::istreambuf_iterator<char>()};
   if (!file || bytes.size() < 2) throw std::runtime_error("no file, or an empty one: " + path);
   try {
-    if (bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6')) return with_bottom_row_first(PortableMap(bytes).read());
+    if (bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6'))
+      return with_bottom_row_first(PortableMap(bytes).read());
     if (bytes[0] == 0x89 && bytes[1] == 'P') return with_bottom_row_first(read_png(bytes));
   } catch (const std::exception& e) {
     throw std::runtime_error(e.what() + (": " + path));

@@ -9,7 +9,8 @@
 namespace tessera::reference {
 
 /// By what the file holds, not by its name.
-/// @throws std::runtime_error for a file that is missing, broken or of another kind, in words that follow "found".
+/// @throws std::runtime_error for a file that is missing, broken or of another kind, in words that follow
+/// "found".
 Image read_image(const std::string& path);
 
 /// One channel of a pixel in 8 bits: the nearest level, without transfer curve.

@@ -37,7 +37,8 @@ class Huffman {
  public:
   explicit Huffman(std::span<const int> lengths) {
     for (std::size_t symbol = 0; symbol < lengths.size(); ++symbol)
-      if (lengths[symbol] > 0) symbols_[static_cast<std::size_t>(lengths[symbol])].push_back(static_cast<unsigned>(symbol));
+      if (lengths[symbol] > 0)
+        symbols_[static_cast<std::size_t>(lengths[symbol])].push_back(static_cast<unsigned>(symbol));
   }
 
   unsigned symbol(Bits& bits) const {
@@ -60,9 +61,11 @@ constexpr unsigned kEnd = 256;
 
 constexpr std::array<unsigned, 29> kLengths{3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
                                             31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
-constexpr std::array<int, 29> kLengthBits{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
-constexpr std::array<unsigned, 30> kDistances{1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
-                                              193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
+constexpr std::array<int, 29> kLengthBits{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
+                                          2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
+constexpr std::array<unsigned, 30> kDistances{1,    2,    3,    4,    5,    7,    9,    13,    17,    25,
+                                              33,   49,   65,   97,   129,  193,  257,  385,   513,   769,
+                                              1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
 
 int distance_bits(std::size_t symbol) { return symbol < 4 ? 0 : static_cast<int>(symbol / 2 - 1); }
 
@@ -80,8 +83,10 @@ Codes fixed_codes() {
 }
 
 Codes read_codes(Bits& bits) {
-  constexpr std::array<std::size_t, 19> kOrder{16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
-  const std::size_t literals = bits.number(5) + 257, distances = bits.number(5) + 1, code_lengths = bits.number(4) + 4;
+  constexpr std::array<std::size_t, 19> kOrder{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                               11, 4,  12, 3, 13, 2, 14, 1, 15};
+  const std::size_t literals = bits.number(5) + 257, distances = bits.number(5) + 1,
+                    code_lengths = bits.number(4) + 4;
   std::array<int, 19> length_lengths{};
   for (std::size_t i = 0; i < code_lengths; ++i) length_lengths[kOrder[i]] = static_cast<int>(bits.number(3));
   const Huffman length_code(length_lengths);
@@ -89,7 +94,8 @@ Codes read_codes(Bits& bits) {
   while (lengths.size() < literals + distances) {
     const unsigned symbol = length_code.symbol(bits);
     if (symbol < 16) lengths.push_back(static_cast<int>(symbol));
-    else if (symbol == 16 && lengths.empty()) throw std::runtime_error("compressed data that repeats nothing");
+    else if (symbol == 16 && lengths.empty())
+      throw std::runtime_error("compressed data that repeats nothing");
     else if (symbol == 16) lengths.insert(lengths.end(), bits.number(2) + 3, int{lengths.back()});
     else if (symbol == 17) lengths.insert(lengths.end(), bits.number(3) + 3, 0);
     else lengths.insert(lengths.end(), bits.number(7) + 11, 0);

@@ -1,4 +1,5 @@
-// Strict reading of JSON: every key must be known, every value of its type and size; what is wrong is named by its pointer.
+// Strict reading of JSON: every key must be known, every value of its type and size; what is wrong is named
+// by its pointer.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,8 @@ using Json = nlohmann::ordered_json;
   throw std::runtime_error("scene" + pointer + ": expected " + expected);
 }
 
-[[noreturn]] inline void fail(const std::string& pointer, const std::string& expected, const std::string& found) {
+[[noreturn]] inline void fail(const std::string& pointer, const std::string& expected,
+                              const std::string& found) {
   throw std::runtime_error("scene" + pointer + ": expected " + expected + ", found " + found);
 }
 
@@ -38,7 +40,8 @@ inline double number(const Value& v) {
 
 inline double number(const Value& v, double least, double most) {
   const double x = number(v);
-  if (!(x >= least && x <= most)) fail(v.pointer, "a number in " + std::to_string(least) + ".." + std::to_string(most));
+  if (!(x >= least && x <= most))
+    fail(v.pointer, "a number in " + std::to_string(least) + ".." + std::to_string(most));
   return x;
 }
 
@@ -91,7 +94,9 @@ inline Mat4 mat4(const Value& v) {
 inline Rect rect(const Value& v) {
   constexpr std::int64_t kLimit = 1 << 20;
   if (array_size(v) != 4) fail(v.pointer, "x, y, width, height");
-  const auto at = [&](std::size_t i, std::int64_t least) { return static_cast<int>(integer(v[i], least, kLimit)); };
+  const auto at = [&](std::size_t i, std::int64_t least) {
+    return static_cast<int>(integer(v[i], least, kLimit));
+  };
   return {at(0, -kLimit), at(1, -kLimit), at(2, 0), at(3, 0)};
 }
 

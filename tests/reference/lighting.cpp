@@ -30,8 +30,9 @@ double highlight(const Surface& surface, const LightModel& model, Vec3 to_light)
   const double facing = dot(to_light, surface.normal);
   if (facing <= 0) return 0;
   const Vec3 to_eye = model.local_viewer ? normalize(-surface.position) : Vec3{0, 0, 1};
-  const double cosine = model.specular == SpecularModel::kBlinn ? dot(normalize(to_light + to_eye), surface.normal)
-                                                                : dot(2 * facing * surface.normal - to_light, to_eye);
+  const double cosine = model.specular == SpecularModel::kBlinn
+                            ? dot(normalize(to_light + to_eye), surface.normal)
+                            : dot(2 * facing * surface.normal - to_light, to_eye);
   return std::pow(std::max(cosine, 0.0), surface.material.shininess);  // pow(0, 0) is 1
 }
 

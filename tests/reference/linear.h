@@ -1,5 +1,5 @@
-// Small double-precision vectors and matrices of the reference renderer. Column vectors; matrices hold rows as on paper,
-// so `multiply(a, b)` is the product a b and the rightmost factor is applied first.
+// Small double-precision vectors and matrices of the reference renderer. Column vectors; matrices hold rows
+// as on paper, so `multiply(a, b)` is the product a b and the rightmost factor is applied first.
 #pragma once
 
 #include <array>
@@ -21,7 +21,9 @@ inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
 inline Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
 inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline double length(Vec3 a) { return std::hypot(a.x, a.y, a.z); }
 
 /// The unit vector along `a`; the null vector for the null vector.
@@ -51,7 +53,9 @@ inline Mat4 multiply(const Mat4& a, const Mat4& b) {
 }
 
 inline Vec4 transform(const Mat4& m, Vec4 v) {
-  const auto row = [&](int r) { return m.rows[r][0] * v.x + m.rows[r][1] * v.y + m.rows[r][2] * v.z + m.rows[r][3] * v.w; };
+  const auto row = [&](int r) {
+    return m.rows[r][0] * v.x + m.rows[r][1] * v.y + m.rows[r][2] * v.z + m.rows[r][3] * v.w;
+  };
   return {row(0), row(1), row(2), row(3)};
 }
 

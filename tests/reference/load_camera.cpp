@@ -14,7 +14,8 @@ struct Frustum {
 };
 
 Mat4 look_at(Vec3 eye, Vec3 target, Vec3 up, const std::string& pointer) {
-  const Vec3 forward = normalize(target - eye), side = normalize(cross(forward, up)), upward = cross(side, forward);
+  const Vec3 forward = normalize(target - eye), side = normalize(cross(forward, up)),
+             upward = cross(side, forward);
   if (length(side) == 0) fail(pointer, "an eye away from the target and an up that is not along the view");
   return {{{{side.x, side.y, side.z, -dot(side, eye)},
             {upward.x, upward.y, upward.z, -dot(upward, eye)},
@@ -82,7 +83,8 @@ void parse_projection(const Value& v, double aspect, Camera& camera) {
     f.top = number(reader.require("top"));
   }
   reader.finish();
-  if (f.left == f.right || f.bottom == f.top || f.near == f.far) fail(v.pointer, "a volume that is not empty");
+  if (f.left == f.right || f.bottom == f.top || f.near == f.far)
+    fail(v.pointer, "a volume that is not empty");
   if (type == Type::kOrthographic) {
     if (camera.infinite_far) fail(v.pointer + "/far", "a finite far plane");
     camera.clip_from_view = orthographic_matrix(f, camera.reversed);
@@ -105,8 +107,8 @@ Camera parse_camera(const Value& v, double aspect) {
     camera.reversed = reversed && boolean(reversed);
   } else {
     const Value eye = reader.find("eye"), target = reader.find("target"), up = reader.find("up");
-    camera.view_from_world =
-        look_at(eye ? vec3(eye) : Vec3{0, 0, 4}, target ? vec3(target) : Vec3{}, up ? vec3(up) : Vec3{0, 1, 0}, v.pointer);
+    camera.view_from_world = look_at(eye ? vec3(eye) : Vec3{0, 0, 4}, target ? vec3(target) : Vec3{},
+                                     up ? vec3(up) : Vec3{0, 1, 0}, v.pointer);
     const Json standard = Json::object();
     parse_projection(projection ? projection : Value{&standard, v.pointer + "/projection"}, aspect, camera);
   }

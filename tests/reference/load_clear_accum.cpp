@@ -44,7 +44,8 @@ Clear parse_clear(const Value& v, const Scene& scene) {
 }
 
 Accum parse_accum(const Value& v, const Scene& scene) {
-  if (scene.framebuffer.color_mode == ColorMode::kIndex) fail(v.pointer, "an RGB buffer for accumulation, not an index buffer");
+  if (scene.framebuffer.color_mode == ColorMode::kIndex)
+    fail(v.pointer, "an RGB buffer for accumulation, not an index buffer");
   if (scene.framebuffer.accumulation_bits == 0) fail(v.pointer, "an accumulation buffer");
   ObjectReader reader(v);
   Accum accum;
@@ -55,7 +56,8 @@ Accum parse_accum(const Value& v, const Scene& scene) {
                                                     {"return", AccumOp::kReturn}});
   accum.value = number(reader.require("value"));
   if (const Value scissor = reader.find("scissor")) accum.scissor = rect(scissor);
-  if (const Value mask = reader.find("color_mask")) accum.color_mask = parse_color_mask(mask, scene.framebuffer);
+  if (const Value mask = reader.find("color_mask"))
+    accum.color_mask = parse_color_mask(mask, scene.framebuffer);
   reader.finish();
   return accum;
 }

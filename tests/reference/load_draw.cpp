@@ -45,9 +45,7 @@ Material find_material(const Value& v, const Scene& scene) {
 }
 
 // Keys of the format whose features the reference renderers do not have.
-void refuse_other_features(ObjectReader& reader) {
-  reader.only_default("stages", Json::array());
-}
+void refuse_other_features(ObjectReader& reader) { reader.only_default("stages", Json::array()); }
 
 void parse_texturing(ObjectReader& reader, const Scene& scene, Draw& draw) {
   if (const Value name = reader.find("texture")) {
@@ -67,7 +65,8 @@ void parse_texturing(ObjectReader& reader, const Scene& scene, Draw& draw) {
 
 std::array<PolygonMode, 2> parse_polygon_mode(const Value& v) {
   const auto mode = [](const Value& name) {
-    return choice<PolygonMode>(name, {{"fill", PolygonMode::kFill}, {"line", PolygonMode::kLine}, {"point", PolygonMode::kPoint}});
+    return choice<PolygonMode>(
+        name, {{"fill", PolygonMode::kFill}, {"line", PolygonMode::kLine}, {"point", PolygonMode::kPoint}});
   };
   if (!v.json->is_array()) return {mode(v), mode(v)};
   if (array_size(v) != 2) fail(v.pointer, "a mode or [front, back]");
@@ -82,23 +81,24 @@ double parse_size(const Value& v) {
 
 void parse_shading(ObjectReader& reader, Draw& draw) {
   if (const Value shading = reader.find("shading"))
-    draw.shading =
-        choice<Shading>(shading, {{"flat", Shading::kFlat}, {"gouraud", Shading::kGouraud}, {"phong", Shading::kPhong}});
+    draw.shading = choice<Shading>(
+        shading, {{"flat", Shading::kFlat}, {"gouraud", Shading::kGouraud}, {"phong", Shading::kPhong}});
   if (const Value lighting = reader.find("lighting")) draw.lighting = boolean(lighting);
   if (const Value mode = reader.find("color_material"))
-    draw.color_material = choice<ColorMaterial>(mode, {{"none", ColorMaterial::kNone},
-                                                       {"ambient_and_diffuse", ColorMaterial::kAmbientAndDiffuse},
-                                                       {"diffuse", ColorMaterial::kDiffuse},
-                                                       {"ambient", ColorMaterial::kAmbient},
-                                                       {"emission", ColorMaterial::kEmission},
-                                                       {"specular", ColorMaterial::kSpecular}});
+    draw.color_material =
+        choice<ColorMaterial>(mode, {{"none", ColorMaterial::kNone},
+                                     {"ambient_and_diffuse", ColorMaterial::kAmbientAndDiffuse},
+                                     {"diffuse", ColorMaterial::kDiffuse},
+                                     {"ambient", ColorMaterial::kAmbient},
+                                     {"emission", ColorMaterial::kEmission},
+                                     {"specular", ColorMaterial::kSpecular}});
   if (const Value normalize = reader.find("normalize")) draw.normalize = boolean(normalize);
 }
 
 void parse_primitives(ObjectReader& reader, Draw& draw) {
   if (const Value vertex = reader.find("provoking_vertex"))
-    draw.provoking_vertex =
-        choice<ProvokingVertex>(vertex, {{"last", ProvokingVertex::kLast}, {"first", ProvokingVertex::kFirst}});
+    draw.provoking_vertex = choice<ProvokingVertex>(
+        vertex, {{"last", ProvokingVertex::kLast}, {"first", ProvokingVertex::kFirst}});
   if (const Value cull = reader.find("cull"))
     draw.cull = choice<Cull>(cull, {{"none", Cull::kNone}, {"back", Cull::kBack}, {"front", Cull::kFront}});
   if (const Value front = reader.find("front_face"))
@@ -117,9 +117,11 @@ ShadowOn parse_shadow_on(const Value& v, const std::vector<Light>& lights) {
   if (light) shadow.light = static_cast<std::size_t>(integer(light, 0, 1 << 30));
   const std::string& pointer = light ? light.pointer : v.pointer;
   if (shadow.light >= lights.size())
-    fail(pointer, "the number of a light, of which there are " + std::to_string(lights.size()), std::to_string(shadow.light));
+    fail(pointer, "the number of a light, of which there are " + std::to_string(lights.size()),
+         std::to_string(shadow.light));
   if (!shadow_matrix(shadow.plane, lights[shadow.light]))
-    fail(plane.pointer, "a plane that neither holds the light nor is parallel to its direction", plane.json->dump());
+    fail(plane.pointer, "a plane that neither holds the light nor is parallel to its direction",
+         plane.json->dump());
   if (const Value color = reader.find("color")) shadow.color = vec4(color);
   reader.finish();
   return shadow;
@@ -144,7 +146,8 @@ Draw parse_draw(const Value& v, const Scene& scene, const std::vector<Light>& li
   if (const Value viewport = reader.find("viewport")) draw.viewport = rect(viewport);
   parse_texturing(reader, scene, draw);
   parse_fragment_state(reader, scene.framebuffer, draw);
-  if (const Value depth = reader.find("depth"); depth && depth.json->is_number()) fail(depth.pointer, "a depth test or false");
+  if (const Value depth = reader.find("depth"); depth && depth.json->is_number())
+    fail(depth.pointer, "a depth test or false");
   parse_window_depths(reader, scene.framebuffer, draw);
   refuse_other_features(reader);
   reader.finish();

@@ -6,46 +6,60 @@
 namespace tessera::reference {
 namespace {
 
-const std::vector<std::pair<const char*, Compare>> kCompares{{"never", Compare::kNever},     {"less", Compare::kLess},
-                                                             {"equal", Compare::kEqual},     {"lequal", Compare::kLequal},
-                                                             {"greater", Compare::kGreater}, {"notequal", Compare::kNotequal},
-                                                             {"gequal", Compare::kGequal},   {"always", Compare::kAlways}};
+const std::vector<std::pair<const char*, Compare>> kCompares{
+    {"never", Compare::kNever},   {"less", Compare::kLess},       {"equal", Compare::kEqual},
+    {"lequal", Compare::kLequal}, {"greater", Compare::kGreater}, {"notequal", Compare::kNotequal},
+    {"gequal", Compare::kGequal}, {"always", Compare::kAlways}};
 
-const std::vector<std::pair<const char*, StencilOp>> kStencilOps{{"keep", StencilOp::kKeep},          {"zero", StencilOp::kZero},
-                                                                 {"replace", StencilOp::kReplace},    {"incr", StencilOp::kIncr},
-                                                                 {"decr", StencilOp::kDecr},          {"invert", StencilOp::kInvert},
-                                                                 {"incr_wrap", StencilOp::kIncrWrap}, {"decr_wrap", StencilOp::kDecrWrap}};
+const std::vector<std::pair<const char*, StencilOp>> kStencilOps{
+    {"keep", StencilOp::kKeep},          {"zero", StencilOp::kZero},         {"replace", StencilOp::kReplace},
+    {"incr", StencilOp::kIncr},          {"decr", StencilOp::kDecr},         {"invert", StencilOp::kInvert},
+    {"incr_wrap", StencilOp::kIncrWrap}, {"decr_wrap", StencilOp::kDecrWrap}};
 
-const std::vector<std::pair<const char*, BlendFactor>> kFactors{{"zero", BlendFactor::kZero},
-                                                                {"one", BlendFactor::kOne},
-                                                                {"src_color", BlendFactor::kSrcColor},
-                                                                {"one_minus_src_color", BlendFactor::kOneMinusSrcColor},
-                                                                {"dst_color", BlendFactor::kDstColor},
-                                                                {"one_minus_dst_color", BlendFactor::kOneMinusDstColor},
-                                                                {"src_alpha", BlendFactor::kSrcAlpha},
-                                                                {"one_minus_src_alpha", BlendFactor::kOneMinusSrcAlpha},
-                                                                {"dst_alpha", BlendFactor::kDstAlpha},
-                                                                {"one_minus_dst_alpha", BlendFactor::kOneMinusDstAlpha},
-                                                                {"constant_color", BlendFactor::kConstantColor},
-                                                                {"one_minus_constant_color", BlendFactor::kOneMinusConstantColor},
-                                                                {"constant_alpha", BlendFactor::kConstantAlpha},
-                                                                {"one_minus_constant_alpha", BlendFactor::kOneMinusConstantAlpha},
-                                                                {"src_alpha_saturate", BlendFactor::kSrcAlphaSaturate}};
+const std::vector<std::pair<const char*, BlendFactor>> kFactors{
+    {"zero", BlendFactor::kZero},
+    {"one", BlendFactor::kOne},
+    {"src_color", BlendFactor::kSrcColor},
+    {"one_minus_src_color", BlendFactor::kOneMinusSrcColor},
+    {"dst_color", BlendFactor::kDstColor},
+    {"one_minus_dst_color", BlendFactor::kOneMinusDstColor},
+    {"src_alpha", BlendFactor::kSrcAlpha},
+    {"one_minus_src_alpha", BlendFactor::kOneMinusSrcAlpha},
+    {"dst_alpha", BlendFactor::kDstAlpha},
+    {"one_minus_dst_alpha", BlendFactor::kOneMinusDstAlpha},
+    {"constant_color", BlendFactor::kConstantColor},
+    {"one_minus_constant_color", BlendFactor::kOneMinusConstantColor},
+    {"constant_alpha", BlendFactor::kConstantAlpha},
+    {"one_minus_constant_alpha", BlendFactor::kOneMinusConstantAlpha},
+    {"src_alpha_saturate", BlendFactor::kSrcAlphaSaturate}};
 
-const std::vector<std::pair<const char*, BlendEquation>> kEquations{{"add", BlendEquation::kAdd},
-                                                                    {"subtract", BlendEquation::kSubtract},
-                                                                    {"reverse_subtract", BlendEquation::kReverseSubtract},
-                                                                    {"min", BlendEquation::kMin},
-                                                                    {"max", BlendEquation::kMax}};
+const std::vector<std::pair<const char*, BlendEquation>> kEquations{
+    {"add", BlendEquation::kAdd},
+    {"subtract", BlendEquation::kSubtract},
+    {"reverse_subtract", BlendEquation::kReverseSubtract},
+    {"min", BlendEquation::kMin},
+    {"max", BlendEquation::kMax}};
 
-const std::vector<std::pair<const char*, LogicOp>> kLogicOps{
-    {"clear", LogicOp::kClear},   {"and", LogicOp::kAnd},     {"and_reverse", LogicOp::kAndReverse}, {"copy", LogicOp::kCopy},
-    {"and_inverted", LogicOp::kAndInverted}, {"noop", LogicOp::kNoop},   {"xor", LogicOp::kXor},     {"or", LogicOp::kOr},
-    {"nor", LogicOp::kNor},       {"equiv", LogicOp::kEquiv}, {"invert", LogicOp::kInvert},          {"or_reverse", LogicOp::kOrReverse},
-    {"copy_inverted", LogicOp::kCopyInverted}, {"or_inverted", LogicOp::kOrInverted}, {"nand", LogicOp::kNand}, {"set", LogicOp::kSet}};
+const std::vector<std::pair<const char*, LogicOp>> kLogicOps{{"clear", LogicOp::kClear},
+                                                             {"and", LogicOp::kAnd},
+                                                             {"and_reverse", LogicOp::kAndReverse},
+                                                             {"copy", LogicOp::kCopy},
+                                                             {"and_inverted", LogicOp::kAndInverted},
+                                                             {"noop", LogicOp::kNoop},
+                                                             {"xor", LogicOp::kXor},
+                                                             {"or", LogicOp::kOr},
+                                                             {"nor", LogicOp::kNor},
+                                                             {"equiv", LogicOp::kEquiv},
+                                                             {"invert", LogicOp::kInvert},
+                                                             {"or_reverse", LogicOp::kOrReverse},
+                                                             {"copy_inverted", LogicOp::kCopyInverted},
+                                                             {"or_inverted", LogicOp::kOrInverted},
+                                                             {"nand", LogicOp::kNand},
+                                                             {"set", LogicOp::kSet}};
 
 AlphaTest parse_alpha_test(const Value& v, const FrameBufferFormat& format) {
-  if (format.color_mode == ColorMode::kIndex) fail(v.pointer, "an RGB buffer for an alpha test, not an index buffer");
+  if (format.color_mode == ColorMode::kIndex)
+    fail(v.pointer, "an RGB buffer for an alpha test, not an index buffer");
   ObjectReader reader(v);
   AlphaTest test;
   if (const Value func = reader.find("func")) test.func = choice(func, kCompares);
@@ -98,15 +112,18 @@ std::optional<DepthState> parse_depth(const Value& v, const FrameBufferFormat& f
 }
 
 Blend parse_blend(const Value& v, const FrameBufferFormat& format) {
-  if (format.color_mode == ColorMode::kIndex) fail(v.pointer, "an RGB buffer to blend in, not an index buffer");
+  if (format.color_mode == ColorMode::kIndex)
+    fail(v.pointer, "an RGB buffer to blend in, not an index buffer");
   ObjectReader reader(v);
   Blend blend;
   if (const Value src = reader.find("src")) blend.src = choice(src, kFactors);
   if (const Value dst = reader.find("dst")) blend.dst = choice(dst, kFactors);
   blend.src_alpha = blend.src;
   blend.dst_alpha = blend.dst;
-  if (const Value src = reader.find("src_alpha"); src && !src.json->is_null()) blend.src_alpha = choice(src, kFactors);
-  if (const Value dst = reader.find("dst_alpha"); dst && !dst.json->is_null()) blend.dst_alpha = choice(dst, kFactors);
+  if (const Value src = reader.find("src_alpha"); src && !src.json->is_null())
+    blend.src_alpha = choice(src, kFactors);
+  if (const Value dst = reader.find("dst_alpha"); dst && !dst.json->is_null())
+    blend.dst_alpha = choice(dst, kFactors);
   if (const Value equation = reader.find("equation")) blend.equation = choice(equation, kEquations);
   if (const Value color = reader.find("color")) {
     for (std::size_t i = 0; i < array_size(color); ++i) number(color[i], 0, 1);
@@ -125,7 +142,8 @@ void parse_window_depths(ObjectReader& reader, const FrameBufferFormat& format, 
   }
   if (const Value offset = reader.find("polygon_offset")) {
     const auto [factor, units] = numbers<2>(offset);
-    if ((factor != 0 || units != 0) && format.depth == DepthFormat::kNone) fail(offset.pointer, "a depth buffer to offset depths in");
+    if ((factor != 0 || units != 0) && format.depth == DepthFormat::kNone)
+      fail(offset.pointer, "a depth buffer to offset depths in");
     draw.polygon_offset = {factor, units};
   }
 }
@@ -135,7 +153,8 @@ std::array<bool, 4> parse_color_mask(const Value& v, const FrameBufferFormat& fo
   std::array<bool, 4> mask;
   for (std::size_t i = 0; i < 4; ++i) mask[i] = boolean(v[i]);
   const bool one_value = format.color_mode == ColorMode::kIndex || format.color_bits < 3;
-  if (one_value && (mask[0] != mask[1] || mask[1] != mask[2])) fail(v.pointer, "all or none for a luminance or index buffer");
+  if (one_value && (mask[0] != mask[1] || mask[1] != mask[2]))
+    fail(v.pointer, "all or none for a luminance or index buffer");
   return mask;
 }
 
@@ -144,7 +163,8 @@ void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format,
   if (const Value test = reader.find("alpha_test")) state.alpha_test = parse_alpha_test(test, format);
   if (const Value stencil = reader.find("stencil")) state.stencil = parse_stencil(stencil, format);
   if (format.depth == DepthFormat::kNone) state.depth = std::nullopt;
-  if (const Value depth = reader.find("depth"); depth && !depth.json->is_number()) state.depth = parse_depth(depth, format);
+  if (const Value depth = reader.find("depth"); depth && !depth.json->is_number())
+    state.depth = parse_depth(depth, format);
   if (const Value blend = reader.find("blend")) state.blend = parse_blend(blend, format);
   if (const Value op = reader.find("logic_op")) {
     state.logic_op = choice(op, kLogicOps);
@@ -153,7 +173,8 @@ void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format,
   }
   if (const Value mask = reader.find("color_mask")) state.color_mask = parse_color_mask(mask, format);
   if (const Value planes = reader.find("plane_mask"))
-    state.plane_mask = static_cast<std::uint32_t>(integer(planes, 0, std::numeric_limits<std::uint32_t>::max()));
+    state.plane_mask =
+        static_cast<std::uint32_t>(integer(planes, 0, std::numeric_limits<std::uint32_t>::max()));
 }
 
 }  // namespace tessera::reference

@@ -6,14 +6,16 @@ namespace tessera::reference {
 namespace {
 
 std::vector<Rgb8> parse_palette(const Value& v, int bits) {
-  if (v.json->is_string() && text(v) == "adaptive") fail(v.pointer, "a fixed or custom palette: adaptive ones come later");
+  if (v.json->is_string() && text(v) == "adaptive")
+    fail(v.pointer, "a fixed or custom palette: adaptive ones come later");
   if (v.json->is_string()) return named_palette(text(v), bits);
   std::vector<Rgb8> palette;
   if (array_size(v) == 0 || array_size(v) > (std::size_t{1} << bits)) fail(v.pointer, "1 to 2^bits entries");
   for (std::size_t i = 0; i < array_size(v); ++i) {
     Rgb8 entry;
     if (array_size(v[i]) != 3) fail(v[i].pointer, "r, g, b");
-    for (std::size_t c = 0; c < 3; ++c) entry[c] = static_cast<std::uint8_t>(std::floor(255 * number(v[i][c], 0, 1) + 0.5));
+    for (std::size_t c = 0; c < 3; ++c)
+      entry[c] = static_cast<std::uint8_t>(std::floor(255 * number(v[i][c], 0, 1) + 0.5));
     palette.push_back(entry);
   }
   return palette;
@@ -30,12 +32,15 @@ void parse_color(const Value& v, FrameBufferFormat& format) {
 Dither parse_dither(const Value& v) {
   for (const char* later : {"blue_noise", "floyd_steinberg", "jarvis", "pattern"})
     if (text(v) == later) fail(v.pointer, "none | bayer2 | bayer4 | bayer8: " + text(v) + " comes later");
-  return choice<Dither>(
-      v, {{"none", Dither::kNone}, {"bayer2", Dither::kBayer2}, {"bayer4", Dither::kBayer4}, {"bayer8", Dither::kBayer8}});
+  return choice<Dither>(v, {{"none", Dither::kNone},
+                            {"bayer2", Dither::kBayer2},
+                            {"bayer4", Dither::kBayer4},
+                            {"bayer8", Dither::kBayer8}});
 }
 
 /// An integer out of a list; what an index buffer cannot have may only be the first.
-int parse_size(const Value& v, const std::vector<int>& sizes, const FrameBufferFormat& format, const std::string& what) {
+int parse_size(const Value& v, const std::vector<int>& sizes, const FrameBufferFormat& format,
+               const std::string& what) {
   std::string all;
   bool known = false;
   const std::int64_t size = integer(v, 0, 1024);
@@ -55,7 +60,8 @@ FrameBufferFormat parse_framebuffer(const Value& v) {
   ObjectReader reader(v);
   FrameBufferFormat format;
   if (const Value width = reader.find("width")) format.width_px = static_cast<int>(integer(width, 1, 16384));
-  if (const Value height = reader.find("height")) format.height_px = static_cast<int>(integer(height, 1, 16384));
+  if (const Value height = reader.find("height"))
+    format.height_px = static_cast<int>(integer(height, 1, 16384));
   if (const Value color = reader.find("color")) parse_color(color, format);
   const Value palette = reader.find("palette");
   if (format.color_mode == ColorMode::kIndex)
@@ -68,11 +74,14 @@ FrameBufferFormat parse_framebuffer(const Value& v) {
                                                {"unorm24", DepthFormat::kUnorm24},
                                                {"unorm32", DepthFormat::kUnorm32},
                                                {"float32", DepthFormat::kFloat32}});
-  if (const Value stencil = reader.find("stencil")) format.stencil_bits = static_cast<int>(integer(stencil, 0, 8));
-  if (const Value alpha = reader.find("alpha")) format.alpha_bits = parse_size(alpha, {0, 8}, format, "alpha planes");
+  if (const Value stencil = reader.find("stencil"))
+    format.stencil_bits = static_cast<int>(integer(stencil, 0, 8));
+  if (const Value alpha = reader.find("alpha"))
+    format.alpha_bits = parse_size(alpha, {0, 8}, format, "alpha planes");
   if (const Value accumulation = reader.find("accumulation"))
     format.accumulation_bits = parse_size(accumulation, {0, 16, 32}, format, "accumulation");
-  if (const Value samples = reader.find("samples")) format.samples = parse_size(samples, {1, 4, 8}, format, "multisampling");
+  if (const Value samples = reader.find("samples"))
+    format.samples = parse_size(samples, {1, 4, 8}, format, "multisampling");
   reader.finish();
   return format;
 }

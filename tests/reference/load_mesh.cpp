@@ -1,5 +1,6 @@
-// Meshes: built in, written in the scene, or from an OBJ file. The header-only OBJ loader is compiled here, with doubles and
-// under a name of its own, so that it cannot meet another copy of itself in the same program.
+// Meshes: built in, written in the scene, or from an OBJ file. The header-only OBJ loader is compiled here,
+// with doubles and under a name of its own, so that it cannot meet another copy of itself in the same
+// program.
 #define tinyobj tessera_reference_tinyobj
 #define TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -12,16 +13,17 @@
 namespace tessera::reference {
 namespace {
 
-const std::vector<std::pair<const char*, PrimitiveType>> kPrimitives{{"points", PrimitiveType::kPoints},
-                                                                     {"lines", PrimitiveType::kLines},
-                                                                     {"line_strip", PrimitiveType::kLineStrip},
-                                                                     {"line_loop", PrimitiveType::kLineLoop},
-                                                                     {"triangles", PrimitiveType::kTriangles},
-                                                                     {"triangle_strip", PrimitiveType::kTriangleStrip},
-                                                                     {"triangle_fan", PrimitiveType::kTriangleFan},
-                                                                     {"quads", PrimitiveType::kQuads},
-                                                                     {"quad_strip", PrimitiveType::kQuadStrip},
-                                                                     {"polygon", PrimitiveType::kPolygon}};
+const std::vector<std::pair<const char*, PrimitiveType>> kPrimitives{
+    {"points", PrimitiveType::kPoints},
+    {"lines", PrimitiveType::kLines},
+    {"line_strip", PrimitiveType::kLineStrip},
+    {"line_loop", PrimitiveType::kLineLoop},
+    {"triangles", PrimitiveType::kTriangles},
+    {"triangle_strip", PrimitiveType::kTriangleStrip},
+    {"triangle_fan", PrimitiveType::kTriangleFan},
+    {"quads", PrimitiveType::kQuads},
+    {"quad_strip", PrimitiveType::kQuadStrip},
+    {"polygon", PrimitiveType::kPolygon}};
 
 Mesh parse_inline(ObjectReader& reader) {
   Mesh mesh;
@@ -49,8 +51,8 @@ Mesh parse_inline(ObjectReader& reader) {
   const Value indices = reader.find("indices");
   if (indices) {
     for (std::size_t i = 0; i < array_size(indices); ++i)
-      mesh.indices.push_back(
-          static_cast<std::uint32_t>(integer(indices[i], 0, static_cast<std::int64_t>(mesh.positions.size()) - 1)));
+      mesh.indices.push_back(static_cast<std::uint32_t>(
+          integer(indices[i], 0, static_cast<std::int64_t>(mesh.positions.size()) - 1)));
   } else {
     for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
   }
@@ -59,8 +61,9 @@ Mesh parse_inline(ObjectReader& reader) {
   return mesh;
 }
 
-// Every corner becomes a vertex of its own; polygons fan from their first corner. Normals, colours and texture coordinates count only
-// if the file has them at every corner. The file's own materials play no part: a draw names its material.
+// Every corner becomes a vertex of its own; polygons fan from their first corner. Normals, colours and
+// texture coordinates count only if the file has them at every corner. The file's own materials play no part:
+// a draw names its material.
 Mesh load_obj(const std::string& path) {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
@@ -68,8 +71,8 @@ Mesh load_obj(const std::string& path) {
   std::string warning, error;
   const std::string directory = path.substr(0, path.find_last_of('/') + 1);
   constexpr bool kTriangulate = false, kWhiteIfUncolored = false;
-  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, path.c_str(), directory.c_str(), kTriangulate,
-                        kWhiteIfUncolored))
+  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, path.c_str(), directory.c_str(),
+                        kTriangulate, kWhiteIfUncolored))
     throw std::runtime_error("cannot read " + path + ": " + error);
 
   Mesh mesh;
@@ -84,11 +87,13 @@ Mesh load_obj(const std::string& path) {
     mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     mesh.positions.push_back({p.x, p.y, p.z, 1});
     if (corner.normal_index < 0) has_normals = false;
-    mesh.normals.push_back(corner.normal_index < 0 ? Vec3{} : triple(attributes.normals, corner.normal_index));
+    mesh.normals.push_back(corner.normal_index < 0 ? Vec3{}
+                                                   : triple(attributes.normals, corner.normal_index));
     if (corner.texcoord_index < 0) has_texcoords = false;
     const auto texcoord = 2 * static_cast<std::size_t>(std::max(corner.texcoord_index, 0));
     mesh.texcoords.push_back({});
-    if (has_texcoords) mesh.texcoords.back() = {attributes.texcoords[texcoord], attributes.texcoords[texcoord + 1]};
+    if (has_texcoords)
+      mesh.texcoords.back() = {attributes.texcoords[texcoord], attributes.texcoords[texcoord + 1]};
     if (has_colors) {
       const Vec3 c = triple(attributes.colors, corner.vertex_index);
       mesh.colors.push_back({c.x, c.y, c.z, 1});
@@ -98,7 +103,8 @@ Mesh load_obj(const std::string& path) {
     std::size_t first = 0;
     for (const std::size_t corners : shape.mesh.num_face_vertices) {
       for (std::size_t i = 2; i < corners; ++i)
-        for (const std::size_t corner : {std::size_t{0}, i - 1, i}) append_corner(shape.mesh.indices[first + corner]);
+        for (const std::size_t corner : {std::size_t{0}, i - 1, i})
+          append_corner(shape.mesh.indices[first + corner]);
       first += corners;
     }
   }

@@ -25,14 +25,17 @@ unsigned hexadecimal_digit(char c, const Value& v) {
 
 /// Rows from the top, whole bytes, the most significant bit left.
 std::vector<bool> parse_rows(const Value& v, int width, int height) {
-  const auto columns = static_cast<std::size_t>(width), count = static_cast<std::size_t>(height), digits = (columns + 7) / 8 * 2;
+  const auto columns = static_cast<std::size_t>(width), count = static_cast<std::size_t>(height),
+             digits = (columns + 7) / 8 * 2;
   if (array_size(v) != count) fail(v.pointer, std::to_string(count) + " rows", std::to_string(array_size(v)));
   std::vector<bool> bits;
   for (std::size_t row = count; row-- > 0;) {
     const std::string line = text(v[row]);
-    if (line.size() != digits) fail(v[row].pointer, std::to_string(digits) + " hexadecimal digits", v[row].json->dump());
+    if (line.size() != digits)
+      fail(v[row].pointer, std::to_string(digits) + " hexadecimal digits", v[row].json->dump());
     for (const char c : line) hexadecimal_digit(c, v[row]);
-    for (std::size_t x = 0; x < columns; ++x) bits.push_back((hexadecimal_digit(line[x / 4], v[row]) >> (3 - x % 4) & 1) != 0);
+    for (std::size_t x = 0; x < columns; ++x)
+      bits.push_back((hexadecimal_digit(line[x / 4], v[row]) >> (3 - x % 4) & 1) != 0);
   }
   return bits;
 }

@@ -10,14 +10,16 @@ namespace {
 
 // {"keys": [[t, value], ...]} stands for any number; a still has t = 0.
 void resolve_keys(Json& json) {
-  if (json.is_object() && json.size() == 1 && json.contains("keys") && json["keys"].is_array() && !json["keys"].empty()) {
+  if (json.is_object() && json.size() == 1 && json.contains("keys") && json["keys"].is_array() &&
+      !json["keys"].empty()) {
     const Json keys = json["keys"];
     std::size_t after = 0;
     while (after < keys.size() && keys[after].at(0).get<double>() < 0) ++after;
     if (after == 0 || after == keys.size()) {
       json = keys[after == 0 ? 0 : after - 1].at(1);
     } else {
-      const double t0 = keys[after - 1].at(0), t1 = keys[after].at(0), v0 = keys[after - 1].at(1), v1 = keys[after].at(1);
+      const double t0 = keys[after - 1].at(0), t1 = keys[after].at(0), v0 = keys[after - 1].at(1),
+                   v1 = keys[after].at(1);
       json = v0 + (v1 - v0) * (0 - t0) / (t1 - t0);
     }
     return;
@@ -33,7 +35,8 @@ LightModel parse_light_model(const Value& v) {
   if (const Value local = reader.find("local_viewer")) model.local_viewer = boolean(local);
   if (const Value two_sided = reader.find("two_sided")) model.two_sided = boolean(two_sided);
   if (const Value specular = reader.find("specular"))
-    model.specular = choice<SpecularModel>(specular, {{"blinn", SpecularModel::kBlinn}, {"phong", SpecularModel::kPhong}});
+    model.specular =
+        choice<SpecularModel>(specular, {{"blinn", SpecularModel::kBlinn}, {"phong", SpecularModel::kPhong}});
   reader.finish();
   return model;
 }
@@ -93,7 +96,8 @@ Scene parse_scene(const std::string& json_text, const std::string& directory) {
 
   Scene scene;
   if (const Value title = reader.find("title")) scene.title = text(title);
-  if (const Value framebuffer = reader.find("framebuffer")) scene.framebuffer = parse_framebuffer(framebuffer);
+  if (const Value framebuffer = reader.find("framebuffer"))
+    scene.framebuffer = parse_framebuffer(framebuffer);
   const double aspect = static_cast<double>(scene.framebuffer.width_px) / scene.framebuffer.height_px;
   const Value camera = reader.find("camera");
   scene.camera = camera ? parse_camera(camera, aspect) : default_camera(aspect);
@@ -101,13 +105,17 @@ Scene parse_scene(const std::string& json_text, const std::string& directory) {
   const Value lights = reader.find("lights");
   scene.lights = lights ? parse_lights(lights) : std::vector<Light>(1);
   if (const Value materials = reader.find("materials"))
-    for_each_member(materials, [&](const std::string& name, const Value& v) { scene.materials[name] = parse_material(v); });
+    for_each_member(materials, [&](const std::string& name, const Value& v) {
+      scene.materials[name] = parse_material(v);
+    });
   if (const Value meshes = reader.find("meshes"))
-    for_each_member(meshes,
-                    [&](const std::string& name, const Value& v) { scene.meshes.push_back(parse_mesh(v, name, directory)); });
+    for_each_member(meshes, [&](const std::string& name, const Value& v) {
+      scene.meshes.push_back(parse_mesh(v, name, directory));
+    });
   if (const Value textures = reader.find("textures"))
-    for_each_member(textures,
-                    [&](const std::string& name, const Value& v) { scene.textures.push_back(parse_texture(v, name, directory)); });
+    for_each_member(textures, [&](const std::string& name, const Value& v) {
+      scene.textures.push_back(parse_texture(v, name, directory));
+    });
   const Value frame = reader.find("frame");
   reader.finish();
   scene.frame = frame ? parse_frame(frame, scene, directory) : default_frame(scene);

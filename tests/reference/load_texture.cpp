@@ -28,10 +28,13 @@ Image parse_texels(const Value& rows, int channels) {
   for (std::size_t y = array_size(rows); y-- > 0;) {
     const std::string row = text(rows[y]);
     image.width = static_cast<int>(row.size() / digits);
-    if (row.empty() || row.size() % digits != 0 || row.size() != text(rows[0]).size()) fail(rows[y].pointer, "whole texels, as many as in the first row");
+    if (row.empty() || row.size() % digits != 0 || row.size() != text(rows[0]).size())
+      fail(rows[y].pointer, "whole texels, as many as in the first row");
     for (std::size_t i = 0; i < row.size(); i += 2) {
       std::size_t used = 0;
-      const unsigned long level = std::isxdigit(static_cast<unsigned char>(row[i])) != 0 ? std::stoul(row.substr(i, 2), &used, 16) : 0;
+      const unsigned long level = std::isxdigit(static_cast<unsigned char>(row[i])) != 0
+                                      ? std::stoul(row.substr(i, 2), &used, 16)
+                                      : 0;
       if (used != 2) fail(rows[y].pointer, "hexadecimal digits");
       image.levels.push_back(static_cast<std::uint8_t>(level));
     }
@@ -41,15 +44,15 @@ Image parse_texels(const Value& rows, int channels) {
 }
 
 Texture parse_texture(const Value& v, const std::string& name, const std::string& directory) {
-  const std::vector<std::pair<const char*, Wrap>> wraps{
-      {"repeat", Wrap::kRepeat}, {"clamp_to_edge", Wrap::kClampToEdge}, {"mirrored_repeat", Wrap::kMirroredRepeat}};
+  const std::vector<std::pair<const char*, Wrap>> wraps{{"repeat", Wrap::kRepeat},
+                                                        {"clamp_to_edge", Wrap::kClampToEdge},
+                                                        {"mirrored_repeat", Wrap::kMirroredRepeat}};
   ObjectReader reader(v);
   Texture texture;
   texture.name = name;
   if (const Value rows = reader.find("rows"))
     texture.image = parse_texels(rows, static_cast<int>(integer(reader.require("channels"), 1, 4)));
-  else
-    texture.image = parse_image_file(reader.require("file"), directory);
+  else texture.image = parse_image_file(reader.require("file"), directory);
   if (const Value mag = reader.find("mag"))
     texture.mag = choice<MagFilter>(mag, {{"nearest", MagFilter::kNearest}, {"linear", MagFilter::kLinear}});
   if (const Value min = reader.find("min"))

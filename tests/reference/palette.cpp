@@ -9,13 +9,25 @@ namespace tessera::reference {
 namespace {
 
 // The 16 colours of the IBM CGA and EGA.
-constexpr std::array<Rgb8, 16> kEga16{{{0, 0, 0},     {0, 0, 170},    {0, 170, 0},    {0, 170, 170},
-                                       {170, 0, 0},   {170, 0, 170},  {170, 85, 0},   {170, 170, 170},
-                                       {85, 85, 85},  {85, 85, 255},  {85, 255, 85},  {85, 255, 255},
-                                       {255, 85, 85}, {255, 85, 255}, {255, 255, 85}, {255, 255, 255}}};
+constexpr std::array<Rgb8, 16> kEga16{{{0, 0, 0},
+                                       {0, 0, 170},
+                                       {0, 170, 0},
+                                       {0, 170, 170},
+                                       {170, 0, 0},
+                                       {170, 0, 170},
+                                       {170, 85, 0},
+                                       {170, 170, 170},
+                                       {85, 85, 85},
+                                       {85, 85, 255},
+                                       {85, 255, 85},
+                                       {85, 255, 255},
+                                       {255, 85, 85},
+                                       {255, 85, 255},
+                                       {255, 255, 85},
+                                       {255, 255, 255}}};
 
-// The default palette of IBM VGA mode 13h: EGA's colours, 16 greys, 3 intensities x 3 saturations x 24 hues, 8 black entries.
-// The values are 6-bit DAC levels.
+// The default palette of IBM VGA mode 13h: EGA's colours, 16 greys, 3 intensities x 3 saturations x 24 hues,
+// 8 black entries. The values are 6-bit DAC levels.
 constexpr std::array<int, 16> kVgaGreys{0, 5, 8, 11, 14, 17, 20, 24, 28, 32, 36, 40, 45, 50, 56, 63};
 constexpr std::array<std::array<int, 5>, 9> kVgaRamps{{{0, 16, 31, 47, 63},
                                                        {31, 39, 47, 55, 63},
@@ -39,7 +51,8 @@ void append_hues(std::vector<Rgb8>& palette, const std::array<int, 5>& ramp) {
   for (const Step step : kSteps)
     for (int i = 0; i < 4; ++i) {
       Rgb8 entry;
-      for (std::size_t c = 0; c < 3; ++c) entry[c] = dac_to_8_bits(ramp[static_cast<std::size_t>(position[c])]);
+      for (std::size_t c = 0; c < 3; ++c)
+        entry[c] = dac_to_8_bits(ramp[static_cast<std::size_t>(position[c])]);
       palette.push_back(entry);
       position[static_cast<std::size_t>(step.component)] += step.sign;
     }
@@ -47,7 +60,8 @@ void append_hues(std::vector<Rgb8>& palette, const std::array<int, 5>& ramp) {
 
 std::vector<Rgb8> vga256() {
   std::vector<Rgb8> palette(kEga16.begin(), kEga16.end());
-  for (const int grey : kVgaGreys) palette.push_back({dac_to_8_bits(grey), dac_to_8_bits(grey), dac_to_8_bits(grey)});
+  for (const int grey : kVgaGreys)
+    palette.push_back({dac_to_8_bits(grey), dac_to_8_bits(grey), dac_to_8_bits(grey)});
   for (const auto& ramp : kVgaRamps) append_hues(palette, ramp);
   palette.resize(256, Rgb8{0, 0, 0});
   return palette;
@@ -58,8 +72,7 @@ std::vector<Rgb8> web216() {
   std::vector<Rgb8> palette;
   for (int r = 0; r < 6; ++r)
     for (int g = 0; g < 6; ++g)
-      for (int b = 0; b < 6; ++b)
-        palette.push_back({level(r), level(g), level(b)});
+      for (int b = 0; b < 6; ++b) palette.push_back({level(r), level(g), level(b)});
   return palette;
 }
 
@@ -95,7 +108,8 @@ NearestEntry::NearestEntry(const std::vector<Rgb8>& palette) {
   std::set<Rgb8> seen;
   for (std::size_t i = 0; i < palette.size(); ++i)
     if (seen.insert(palette[i]).second)
-      distinct_.push_back({{palette[i][0] / 255.0, palette[i][1] / 255.0, palette[i][2] / 255.0}, static_cast<std::uint32_t>(i)});
+      distinct_.push_back({{palette[i][0] / 255.0, palette[i][1] / 255.0, palette[i][2] / 255.0},
+                           static_cast<std::uint32_t>(i)});
 }
 
 std::uint32_t NearestEntry::operator()(Vec3 color) const {

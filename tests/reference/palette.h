@@ -16,8 +16,8 @@ std::vector<Rgb8> named_palette(const std::string& name, int bits);
 /// bw at 1 bit, greys at 2 and 3, ega16 at 4 to 7, vga256 at 8 and more.
 std::vector<Rgb8> default_palette(int bits);
 
-/// Finds nearest entries: least squared distance of the stored values / 255, ties to the lowest index. Only entries that are
-/// set take part.
+/// Finds nearest entries: least squared distance of the stored values / 255, ties to the lowest index. Only
+/// entries that are set take part.
 class NearestEntry {
  public:
   explicit NearestEntry(const std::vector<Rgb8>& palette);

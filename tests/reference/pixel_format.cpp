@@ -18,11 +18,14 @@ std::uint8_t shown_level(std::uint32_t v, int bits) {
   return static_cast<std::uint8_t>(std::lround(255.0 * v / max_level(bits)));
 }
 
-bool is_luminance(const FrameBufferFormat& format) { return format.color_mode == ColorMode::kRgb && format.color_bits < 3; }
+bool is_luminance(const FrameBufferFormat& format) {
+  return format.color_mode == ColorMode::kRgb && format.color_bits < 3;
+}
 
 std::uint32_t low_bits(int bits) { return (std::uint32_t{1} << bits) - 1; }
 
-// A palette of N colours counts as a cube of cbrt(N) levels a side: the shift is at most half of what lies between two of them.
+// A palette of N colours counts as a cube of cbrt(N) levels a side: the shift is at most half of what lies
+// between two of them.
 Vec3 dithered_for_palette(Vec3 color, double threshold, std::size_t colors) {
   const double shift = (threshold - 0.5) / std::max(1.0, std::cbrt(static_cast<double>(colors)) - 1);
   return color + Vec3{shift, shift, shift};
@@ -46,15 +49,19 @@ ColorFormat::ColorFormat(const FrameBufferFormat& format) : format_(format), nea
   if (format.alpha_bits > 0) fields_.push_back({format.color_bits, format.alpha_bits});
 }
 
-std::uint32_t ColorFormat::level(std::uint32_t word, Field field) const { return word >> field.lowest & low_bits(field.bits); }
+std::uint32_t ColorFormat::level(std::uint32_t word, Field field) const {
+  return word >> field.lowest & low_bits(field.bits);
+}
 
 std::uint32_t ColorFormat::word(Vec4 color, double threshold) const {
   const Vec4 c = clamp01(color);
-  if (format_.color_mode == ColorMode::kIndex) return nearest_(dithered_for_palette(xyz(c), threshold, format_.palette.size()));
+  if (format_.color_mode == ColorMode::kIndex)
+    return nearest_(dithered_for_palette(xyz(c), threshold, format_.palette.size()));
   std::array<double, 4> components{c.x, c.y, c.z, c.w};
   if (is_luminance(format_)) components = {0.30 * c.x + 0.59 * c.y + 0.11 * c.z, c.w};
   std::uint32_t word = 0;
-  for (std::size_t i = 0; i < fields_.size(); ++i) word |= to_level(components[i], fields_[i].bits, threshold) << fields_[i].lowest;
+  for (std::size_t i = 0; i < fields_.size(); ++i)
+    word |= to_level(components[i], fields_[i].bits, threshold) << fields_[i].lowest;
   return word;
 }
 
@@ -81,13 +88,15 @@ std::uint32_t ColorFormat::mean(std::span<const std::uint32_t> words) const {
 }
 
 Rgb8 ColorFormat::shown(std::uint32_t word) const {
-  if (format_.color_mode == ColorMode::kIndex) return word < format_.palette.size() ? format_.palette[word] : Rgb8{0, 0, 0};
+  if (format_.color_mode == ColorMode::kIndex)
+    return word < format_.palette.size() ? format_.palette[word] : Rgb8{0, 0, 0};
   const auto component = [&](std::size_t i) { return shown_level(level(word, fields_[i]), fields_[i].bits); };
   if (is_luminance(format_)) return {component(0), component(0), component(0)};
   return {component(0), component(1), component(2)};
 }
 
-std::uint32_t ColorFormat::writable_planes(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask) const {
+std::uint32_t ColorFormat::writable_planes(const std::array<bool, 4>& color_mask,
+                                           std::uint32_t plane_mask) const {
   std::uint32_t planes = 0;
   for (std::size_t i = 0; i < fields_.size(); ++i)
     if (color_mask[i < color_fields_ ? i : 3]) planes |= low_bits(fields_[i].bits) << fields_[i].lowest;
@@ -105,7 +114,8 @@ std::uint32_t depth_level(DepthFormat format, double depth) {
     case DepthFormat::kUnorm16: return to_level(depth, 16);
     case DepthFormat::kUnorm24: return to_level(depth, 24);
     case DepthFormat::kUnorm32: return to_level(depth, 32);
-    case DepthFormat::kFloat32: return std::bit_cast<std::uint32_t>(static_cast<float>(depth) + 0.0f);  // never -0
+    case DepthFormat::kFloat32:
+      return std::bit_cast<std::uint32_t>(static_cast<float>(depth) + 0.0f);  // never -0
   }
   return 0;
 }

@@ -1,5 +1,5 @@
-// PNG files (W3C Portable Network Graphics, second edition) that are not interlaced. Gamma and colour profiles are not looked at:
-// no transfer curve lies between a file and a texel.
+// PNG files (W3C Portable Network Graphics, second edition) that are not interlaced. Gamma and colour
+// profiles are not looked at: no transfer curve lies between a file and a texel.
 #include <array>
 #include <cstdlib>
 #include <span>
@@ -24,7 +24,9 @@ struct Header {
   bool has_palette = false, has_color = false, has_alpha = false;
 
   int samples() const { return has_palette ? 1 : (has_color ? 3 : 1) + (has_alpha ? 1 : 0); }
-  std::size_t row_bytes() const { return (static_cast<std::size_t>(width) * static_cast<std::size_t>(samples() * bit_depth) + 7) / 8; }
+  std::size_t row_bytes() const {
+    return (static_cast<std::size_t>(width) * static_cast<std::size_t>(samples() * bit_depth) + 7) / 8;
+  }
   std::size_t pixel_bytes() const { return static_cast<std::size_t>((samples() * bit_depth + 7) / 8); }
 };
 
@@ -37,12 +39,15 @@ Header read_header(std::span<const std::uint8_t> chunk) {
   constexpr unsigned kMaxSide = 16384;
   if (chunk.size() != 13) throw std::runtime_error("a PNG file without a header");
   const unsigned width = big_endian(chunk, 4), height = big_endian(chunk.subspan(4), 4), type = chunk[9];
-  if (width < 1 || width > kMaxSide || height < 1 || height > kMaxSide) throw std::runtime_error("a size that is not 1..16384");
+  if (width < 1 || width > kMaxSide || height < 1 || height > kMaxSide)
+    throw std::runtime_error("a size that is not 1..16384");
   if (type > 6 || type == 1 || type == 5) throw std::runtime_error("a PNG file of an unknown type");
   const int depth = chunk[8];
-  if (depth != 1 && depth != 2 && depth != 4 && depth != 8 && depth != 16) throw std::runtime_error("a PNG file of an unknown depth");
+  if (depth != 1 && depth != 2 && depth != 4 && depth != 8 && depth != 16)
+    throw std::runtime_error("a PNG file of an unknown depth");
   if (chunk[12] != 0) throw std::runtime_error("an interlaced PNG file");
-  return {static_cast<int>(width), static_cast<int>(height), depth, (type & 1) != 0, (type & 2) != 0, (type & 4) != 0};
+  return {static_cast<int>(width), static_cast<int>(height), depth,
+          (type & 1) != 0,         (type & 2) != 0,          (type & 4) != 0};
 }
 
 Chunks read_chunks(const Bytes& bytes) {
@@ -67,14 +72,16 @@ Chunks read_chunks(const Bytes& bytes) {
 }
 
 int paeth(int left, int up, int corner) {
-  const int p = left + up - corner, to_left = std::abs(p - left), to_up = std::abs(p - up), to_corner = std::abs(p - corner);
+  const int p = left + up - corner, to_left = std::abs(p - left), to_up = std::abs(p - up),
+            to_corner = std::abs(p - corner);
   if (to_left <= to_up && to_left <= to_corner) return left;
   return to_up <= to_corner ? up : corner;
 }
 
 /// Undoes the filters: rows of bytes, one after the other.
 Bytes unfiltered(const Bytes& filtered, const Header& header) {
-  const std::size_t row = header.row_bytes(), pixel = header.pixel_bytes(), height = static_cast<std::size_t>(header.height);
+  const std::size_t row = header.row_bytes(), pixel = header.pixel_bytes(),
+                    height = static_cast<std::size_t>(header.height);
   if (filtered.size() < height * (row + 1)) throw std::runtime_error("a PNG file with too little data");
   Bytes out(height * row);
   for (std::size_t y = 0; y < height; ++y)
@@ -100,7 +107,8 @@ Bytes unfiltered(const Bytes& filtered, const Header& header) {
 /// The samples of one pixel as they are in the file.
 std::array<unsigned, 4> samples_at(const Bytes& rows, const Header& header, std::size_t x, std::size_t y) {
   std::array<unsigned, 4> samples{};
-  const auto depth = static_cast<std::size_t>(header.bit_depth), count = static_cast<std::size_t>(header.samples());
+  const auto depth = static_cast<std::size_t>(header.bit_depth),
+             count = static_cast<std::size_t>(header.samples());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t bit = (x * count + i) * depth;
     const std::span<const std::uint8_t> at = std::span(rows).subspan(y * header.row_bytes() + bit / 8);
@@ -110,9 +118,11 @@ std::array<unsigned, 4> samples_at(const Bytes& rows, const Header& header, std:
 }
 
 void append_entry(const Chunks& chunks, std::size_t entry, Image& image) {
-  if (3 * entry + 3 > chunks.palette.size()) throw std::runtime_error("a PNG file with an index beyond its palette");
+  if (3 * entry + 3 > chunks.palette.size())
+    throw std::runtime_error("a PNG file with an index beyond its palette");
   for (std::size_t i = 0; i < 3; ++i) image.levels.push_back(chunks.palette[3 * entry + i]);
-  if (image.channels == 4) image.levels.push_back(entry < chunks.transparent.size() ? chunks.transparent[entry] : 255);
+  if (image.channels == 4)
+    image.levels.push_back(entry < chunks.transparent.size() ? chunks.transparent[entry] : 255);
 }
 
 }  // namespace
@@ -121,13 +131,15 @@ Image read_png(const Bytes& bytes) {
   const Chunks chunks = read_chunks(bytes);
   const Header& header = chunks.header;
   const auto count = static_cast<std::size_t>(header.samples());
-  const bool has_key = !header.has_palette && chunks.transparent.size() >= 2 * count;  // one colour stands for no colour
+  const bool has_key =
+      !header.has_palette && chunks.transparent.size() >= 2 * count;  // one colour stands for no colour
   const Bytes rows = unfiltered(inflate(chunks.data), header);
 
   Image image;
   image.width = header.width;
   image.height = header.height;
-  image.channels = header.has_palette ? (chunks.transparent.empty() ? 3 : 4) : header.samples() + (has_key ? 1 : 0);
+  image.channels =
+      header.has_palette ? (chunks.transparent.empty() ? 3 : 4) : header.samples() + (has_key ? 1 : 0);
   const unsigned largest = (1u << header.bit_depth) - 1;
   for (std::size_t y = 0; y < static_cast<std::size_t>(header.height); ++y)
     for (std::size_t x = 0; x < static_cast<std::size_t>(header.width); ++x) {
@@ -139,7 +151,8 @@ Image read_png(const Bytes& bytes) {
       bool is_key = has_key;
       for (std::size_t i = 0; i < count; ++i) {
         image.levels.push_back(level_in_8_bits(samples[i], largest));
-        if (has_key && samples[i] != big_endian(std::span(chunks.transparent).subspan(2 * i), 2)) is_key = false;
+        if (has_key && samples[i] != big_endian(std::span(chunks.transparent).subspan(2 * i), 2))
+          is_key = false;
       }
       if (has_key) image.levels.push_back(is_key ? 0 : 255);
     }

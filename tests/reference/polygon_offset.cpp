@@ -6,7 +6,8 @@
 namespace tessera::reference {
 
 double smallest_difference(DepthFormat format, double largest_depth) {
-  constexpr int kLeastExponent = -126, kFractionBits = 23;  // of float; 0 and what is denormalized have the least
+  constexpr int kLeastExponent = -126,
+                kFractionBits = 23;  // of float; 0 and what is denormalized have the least
   switch (format) {
     case DepthFormat::kNone: return 0;
     case DepthFormat::kUnorm16: return 1 / (std::ldexp(1.0, 16) - 1);
@@ -14,14 +15,17 @@ double smallest_difference(DepthFormat format, double largest_depth) {
     case DepthFormat::kUnorm32: return 1 / (std::ldexp(1.0, 32) - 1);
     case DepthFormat::kFloat32: break;
   }
-  const int exponent = largest_depth > 0 ? std::max(std::ilogb(largest_depth), kLeastExponent) : kLeastExponent;
+  const int exponent =
+      largest_depth > 0 ? std::max(std::ilogb(largest_depth), kLeastExponent) : kLeastExponent;
   return std::ldexp(1.0, exponent - kFractionBits);
 }
 
-double depth_offset(const PolygonOffset& offset, std::span<const WindowPolygon> triangles, DepthFormat format) {
+double depth_offset(const PolygonOffset& offset, std::span<const WindowPolygon> triangles,
+                    DepthFormat format) {
   if (triangles.empty()) return 0;
   double largest_depth = 0;
-  for (const WindowPolygon& triangle : triangles) largest_depth = std::max(largest_depth, triangle.largest_depth());
+  for (const WindowPolygon& triangle : triangles)
+    largest_depth = std::max(largest_depth, triangle.largest_depth());
   const auto area = [](const WindowPolygon& triangle) { return std::abs(triangle.signed_area()); };
   const WindowPolygon& largest = *std::ranges::max_element(triangles, {}, area);
   const double slope = offset.factor != 0 ? offset.factor * largest.depth_slope() : 0;

@@ -22,10 +22,15 @@ TexCoord lower(TexCoord a, TexCoord b) { return {std::min(a.s, b.s), std::min(a.
 TexCoord higher(TexCoord a, TexCoord b) { return {std::max(a.s, b.s), std::max(a.t, b.t)}; }
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 higher(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-Vec4 lower(Vec4 a, Vec4 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z), std::min(a.w, b.w)}; }
-Vec4 higher(Vec4 a, Vec4 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)}; }
+Vec4 lower(Vec4 a, Vec4 b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z), std::min(a.w, b.w)};
+}
+Vec4 higher(Vec4 a, Vec4 b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)};
+}
 
-/// The same, of a polygon within the range of its corners: a pixel's centre may lie outside where only samples are covered.
+/// The same, of a polygon within the range of its corners: a pixel's centre may lie outside where only
+/// samples are covered.
 template <class Of>
 auto mix_within(const Share& share, const Of& of) {
   const auto mixed = mix(share, of);
@@ -77,8 +82,11 @@ PrimitiveShader::PrimitiveShader(const Corners& corners, bool is_back, const Dra
 Shade PrimitiveShader::shade(const Fragment& fragment) const {
   const Share& share = fragment.share;
   if (is_lit_at_pixels(colors_.draw)) {
-    const auto mixed = [&](auto member) { return mix_within(share, [&](std::size_t i) { return corners_.all[i].*member; }); };
-    const SurfacePoint point{mixed(&Corner::position_eye), normalize(mixed(&Corner::normal_eye)), mixed(&Corner::color)};
+    const auto mixed = [&](auto member) {
+      return mix_within(share, [&](std::size_t i) { return corners_.all[i].*member; });
+    };
+    const SurfacePoint point{mixed(&Corner::position_eye), normalize(mixed(&Corner::normal_eye)),
+                             mixed(&Corner::color)};
     if (has_index_) return {{}, index(point)};
     return {textured(clamp01(color(point)), fragment), {}};
   }
@@ -93,22 +101,29 @@ Vec4 PrimitiveShader::textured(Vec4 color, const Fragment& fragment) const {
   if (colors_.texture == nullptr) return color;
   const TextureSampler& texture = *colors_.texture;
   const auto texcoord = [&](std::size_t i) { return corners_.all[i].texcoord; };
-  const double level = texture.level_of_detail(mix(fragment.share_dx, texcoord), mix(fragment.share_dy, texcoord));
-  return reference::textured(colors_.draw.texture_env, color, texture.sample(mix_within(fragment.share, texcoord), level), texture.channels(),
+  const double level =
+      texture.level_of_detail(mix(fragment.share_dx, texcoord), mix(fragment.share_dy, texcoord));
+  return reference::textured(colors_.draw.texture_env, color,
+                             texture.sample(mix_within(fragment.share, texcoord), level), texture.channels(),
                              colors_.draw.texture_env_color);
 }
 
 Vec4 PrimitiveShader::color(const SurfacePoint& point) const {
-  if (!colors_.draw.lighting) return clamp01(colors_.mesh_has_colors ? point.vertex_color : colors_.draw.material.diffuse);
-  const Material used = colors_.mesh_has_colors ? with_vertex_color(material_, colors_.draw.color_material, point.vertex_color) : material_;
-  return lit_color({point.position, lights_back_ ? -point.normal : point.normal, used}, colors_.model, colors_.lights);
+  if (!colors_.draw.lighting)
+    return clamp01(colors_.mesh_has_colors ? point.vertex_color : colors_.draw.material.diffuse);
+  const Material used = colors_.mesh_has_colors
+                            ? with_vertex_color(material_, colors_.draw.color_material, point.vertex_color)
+                            : material_;
+  return lit_color({point.position, lights_back_ ? -point.normal : point.normal, used}, colors_.model,
+                   colors_.lights);
 }
 
 // Masked right after lighting, or in its place.
 double PrimitiveShader::index(const SurfacePoint& point) const {
   const Vec3 normal = lights_back_ ? -point.normal : point.normal;
   const double index = colors_.draw.lighting
-                           ? lit_index({point.position, normal, material_}, *material_.color_indexes, colors_.model, colors_.lights)
+                           ? lit_index({point.position, normal, material_}, *material_.color_indexes,
+                                       colors_.model, colors_.lights)
                            : point.vertex_index;
   return masked_index(index, colors_.format.color_bits);
 }

@@ -27,7 +27,8 @@ class PrimitiveShader {
   /// The arguments must outlive this.
   PrimitiveShader(const Corners& corners, bool is_back, const DrawColors& colors);
 
-  /// The shares may lie outside 0..1 at a centre that is not covered: colours that are interpolated beyond 0..1 are clamped.
+  /// The shares may lie outside 0..1 at a centre that is not covered: colours that are interpolated beyond
+  /// 0..1 are clamped.
   Shade shade(const Fragment& fragment) const;
 
  private:
@@ -45,7 +46,7 @@ class PrimitiveShader {
   const Corners& corners_;
   const DrawColors& colors_;
   bool lights_back_;
-  Material material_;       // of the side that is seen
+  Material material_;  // of the side that is seen
   bool has_index_;
   // One for each corner, or if flat the provoking one's alone; lit Phong uses none.
   std::vector<Vec4> corner_colors_;

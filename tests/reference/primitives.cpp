@@ -14,7 +14,8 @@ Pattern pattern(PrimitiveType type, std::size_t i, std::size_t count) {
     case PrimitiveType::kPoints: return {{i}, 0, 0};
     case PrimitiveType::kLines: return {{2 * i, 2 * i + 1}, 1, 0};
     case PrimitiveType::kLineStrip: return {{i, i + 1}, 1, 0};
-    case PrimitiveType::kLineLoop: return {{i, (i + 1) % count}, 1, 0};  // the closing segment ends at the loop's first vertex
+    case PrimitiveType::kLineLoop:
+      return {{i, (i + 1) % count}, 1, 0};  // the closing segment ends at the loop's first vertex
     case PrimitiveType::kTriangles: return {{3 * i, 3 * i + 1, 3 * i + 2}, 2, 0};
     case PrimitiveType::kTriangleStrip:  // every other one turned over, so that all wind as the first does
       if (i % 2 == 0) return {{i, i + 1, i + 2}, 2, 0};
@@ -48,7 +49,8 @@ std::string wrong_vertex_count(PrimitiveType type, std::size_t vertices) {
     case PrimitiveType::kTriangleFan:
     case PrimitiveType::kPolygon: return at_least(3);
     case PrimitiveType::kQuads: return multiple_of(4);
-    case PrimitiveType::kQuadStrip: return vertices % 2 != 0 || vertices == 2 ? "an even number of vertices, at least 4" : "";
+    case PrimitiveType::kQuadStrip:
+      return vertices % 2 != 0 || vertices == 2 ? "an even number of vertices, at least 4" : "";
   }
   return {};
 }

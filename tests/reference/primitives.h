@@ -1,4 +1,5 @@
-// Primitive assembly: which vertices make up each point, line or polygon of a mesh, and which of them decides flat colours.
+// Primitive assembly: which vertices make up each point, line or polygon of a mesh, and which of them decides
+// flat colours.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,8 @@
 
 namespace tessera::reference {
 
-/// One vertex: a point; two: a line; more: a polygon in winding order, which splits into the fan around its first vertex.
+/// One vertex: a point; two: a line; more: a polygon in winding order, which splits into the fan around its
+/// first vertex.
 struct Primitive {
   std::vector<std::uint32_t> vertices;  ///< numbers of Mesh::positions
   std::size_t provoking = 0;            ///< place in `vertices`

@@ -10,7 +10,8 @@ namespace {
 
 class Line {
  public:
-  Line(const WindowVertex& a, const WindowVertex& b, double depth_offset, const Window& window, const TakeFragment& take)
+  Line(const WindowVertex& a, const WindowVertex& b, double depth_offset, const Window& window,
+       const TakeFragment& take)
       : a_(a), b_(b), along_(b.at - a.at), depth_offset_(depth_offset), window_(window), take_(take) {
     fragment_.share.resize(a.share.size());
     fragment_.share_dx = fragment_.share_dy = Share(a.share.size(), 0.0);
@@ -20,11 +21,14 @@ class Line {
     const bool x_major = std::abs(along_.x) >= std::abs(along_.y);
     const std::int64_t down = (width - 1) * kSubpixels / 2;
     const Point shift = x_major ? Point{0, down} : Point{down, 0};
-    const Point a = a_.at - shift, b = b_.at - shift, replicated = x_major ? Point{0, width - 1} : Point{width - 1, 0};
-    const Pixels all = visible_pixels({std::min(a.x, b.x) - kSubpixels, std::min(a.y, b.y) - kSubpixels},
-                                      {std::max(a.x, b.x) + kSubpixels, std::max(a.y, b.y) + kSubpixels}, window_);
-    // Column by column, or row by row. There the line stays within half a pixel of where it passes the middle, and so do the
-    // diamonds that it meets, with their centres another half away: two pixels up and down are more than enough.
+    const Point a = a_.at - shift, b = b_.at - shift,
+                replicated = x_major ? Point{0, width - 1} : Point{width - 1, 0};
+    const Pixels all =
+        visible_pixels({std::min(a.x, b.x) - kSubpixels, std::min(a.y, b.y) - kSubpixels},
+                       {std::max(a.x, b.x) + kSubpixels, std::max(a.y, b.y) + kSubpixels}, window_);
+    // Column by column, or row by row. There the line stays within half a pixel of where it passes the
+    // middle, and so do the diamonds that it meets, with their centres another half away: two pixels up and
+    // down are more than enough.
     const std::int64_t first = x_major ? all.first_x : all.first_y, last = x_major ? all.last_x : all.last_y;
     for (std::int64_t major = first; major <= last; ++major) {
       const std::int64_t near = pixel_at(a, pixel_centre(major, major), x_major);
@@ -37,7 +41,8 @@ class Line {
 
   void rasterize_samples(double width) {
     const auto reach = static_cast<std::int64_t>(std::ceil(width)) * kSubpixels;
-    const Point low{std::min(a_.at.x, b_.at.x), std::min(a_.at.y, b_.at.y)}, high{std::max(a_.at.x, b_.at.x), std::max(a_.at.y, b_.at.y)};
+    const Point low{std::min(a_.at.x, b_.at.x), std::min(a_.at.y, b_.at.y)},
+        high{std::max(a_.at.x, b_.at.x), std::max(a_.at.y, b_.at.y)};
     const Pixels pixels = visible_pixels(low - Point{reach, reach}, high + Point{reach, reach}, window_);
     const std::span<const Point> offsets = sample_offsets(window_.samples);
     for (std::int64_t y = pixels.first_y; y <= pixels.last_y; ++y)
@@ -60,13 +65,15 @@ class Line {
   }
 
   void take_pixels(Point first, Point last) {
-    const Pixels pixels = visible_pixels(pixel_centre(first.x, first.y), pixel_centre(last.x, last.y), window_);
+    const Pixels pixels =
+        visible_pixels(pixel_centre(first.x, first.y), pixel_centre(last.x, last.y), window_);
     fragment_.coverage = 1;
     for (std::int64_t y = pixels.first_y; y <= pixels.last_y; ++y)
       for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) take_fragment({x, y});
   }
 
-  // What is on the border belongs to the rectangle by the rule of polygons: its left side, and its upper side if that is level.
+  // What is on the border belongs to the rectangle by the rule of polygons: its left side, and its upper side
+  // if that is level.
   bool is_in_rectangle(Point p, double width) const {
     const auto owns = [](Point way) { return way.y < 0 || (way.y == 0 && way.x < 0); };
     const auto dot = [](Point u, Point v) { return u.x * v.x + u.y * v.y; };
@@ -76,7 +83,8 @@ class Line {
     if (after_a < 0 || (after_a == 0 && !owns(Point{} - left))) return false;
     if (before_b < 0 || (before_b == 0 && !owns(left))) return false;
     const long double length = std::hypot(static_cast<long double>(d.x), static_cast<long double>(d.y));
-    const long double across = static_cast<long double>(dot(left, from_a)) / length, half = 0.5L * width * kSubpixels;
+    const long double across = static_cast<long double>(dot(left, from_a)) / length,
+                      half = 0.5L * width * kSubpixels;
     if (across == -half) return owns(d);
     if (across == half) return owns(Point{} - d);
     return -half < across && across < half;
@@ -95,7 +103,8 @@ class Line {
     fragment_.y = static_cast<int>(pixel.y + window_.viewport.y);
     const Point centre = pixel_centre(pixel.x, pixel.y);
     for (std::size_t i = 0; i < offsets.size(); ++i)
-      fragment_.depth[i] = std::clamp(a_.depth + t_at(centre + offsets[i]) * (b_.depth - a_.depth) + depth_offset_, 0.0, 1.0);
+      fragment_.depth[i] =
+          std::clamp(a_.depth + t_at(centre + offsets[i]) * (b_.depth - a_.depth) + depth_offset_, 0.0, 1.0);
     const double t = t_at(centre), wa = (1 - t) * a_.inverse_w, wb = t * b_.inverse_w;
     for (std::size_t i = 0; i < fragment_.share.size(); ++i)
       fragment_.share[i] = wa / (wa + wb) * a_.share[i] + wb / (wa + wb) * b_.share[i];
@@ -105,10 +114,12 @@ class Line {
 
   // The quotient rule on equation 3.6; t grows by 1 along the length of the line.
   void set_derivatives(double sum) {
-    const double length = std::hypot(static_cast<double>(along_.x), static_cast<double>(along_.y)) / kSubpixels;
+    const double length =
+        std::hypot(static_cast<double>(along_.x), static_cast<double>(along_.y)) / kSubpixels;
     for (std::size_t i = 0; i < fragment_.share.size(); ++i)
       fragment_.share_dx[i] = (b_.inverse_w * b_.share[i] - a_.inverse_w * a_.share[i] -
-                               fragment_.share[i] * (b_.inverse_w - a_.inverse_w)) / sum / length;
+                               fragment_.share[i] * (b_.inverse_w - a_.inverse_w)) /
+                              sum / length;
   }
 
   const WindowVertex& a_;
@@ -122,8 +133,8 @@ class Line {
 
 }  // namespace
 
-void rasterize_line(const WindowVertex& a, const WindowVertex& b, double width, double depth_offset, const Window& window,
-                    const TakeFragment& take) {
+void rasterize_line(const WindowVertex& a, const WindowVertex& b, double width, double depth_offset,
+                    const Window& window, const TakeFragment& take) {
   const double used = std::min(width, kMaxSize);
   Line line(a, b, depth_offset, window, take);
   if (window.samples > 1) line.rasterize_samples(used);

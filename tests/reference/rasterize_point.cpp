@@ -6,8 +6,8 @@
 namespace tessera::reference {
 namespace {
 
-// The first of n pixels in a row around `at`: an odd number lies around the pixel that holds it, an even number around the
-// nearest border between pixels.
+// The first of n pixels in a row around `at`: an odd number lies around the pixel that holds it, an even
+// number around the nearest border between pixels.
 std::int64_t first_pixel(std::int64_t at, std::int64_t n) {
   const std::int64_t middle = n % 2 == 1 ? at : at + kSubpixels / 2;
   return (middle >> 8) - n / 2;
@@ -15,14 +15,16 @@ std::int64_t first_pixel(std::int64_t at, std::int64_t n) {
 static_assert(kSubpixels == 1 << 8);
 
 bool is_in_disc(Point p, double diameter) {
-  const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);  // exact, so are the squares: near the disc
+  const auto x = static_cast<double>(p.x),
+             y = static_cast<double>(p.y);  // exact, so are the squares: near the disc
   const double radius = diameter * kSubpixels / 2;
   return x * x + y * y <= radius * radius;
 }
 
 }  // namespace
 
-void rasterize_point(const WindowVertex& vertex, double size, double depth_offset, const Window& window, const TakeFragment& take) {
+void rasterize_point(const WindowVertex& vertex, double size, double depth_offset, const Window& window,
+                     const TakeFragment& take) {
   Fragment fragment;
   fragment.depth.fill(std::clamp(vertex.depth + depth_offset, 0.0, 1.0));
   fragment.share = vertex.share;
@@ -34,7 +36,8 @@ void rasterize_point(const WindowVertex& vertex, double size, double depth_offse
   const bool is_disc = window.samples > 1;
   const Pixels pixels =
       is_disc ? visible_pixels(vertex.at - Point{reach, reach}, vertex.at + Point{reach, reach}, window)
-              : visible_pixels(pixel_centre(square.x, square.y), pixel_centre(square.x + whole - 1, square.y + whole - 1), window);
+              : visible_pixels(pixel_centre(square.x, square.y),
+                               pixel_centre(square.x + whole - 1, square.y + whole - 1), window);
   const std::span<const Point> offsets = sample_offsets(window.samples);
   for (std::int64_t y = pixels.first_y; y <= pixels.last_y; ++y)
     for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) {

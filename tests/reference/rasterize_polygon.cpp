@@ -1,4 +1,5 @@
-// Based on: J. Pineda, A Parallel Algorithm for Polygon Rasterization, SIGGRAPH 1988; one pixel at a time, in 64-bit integers.
+// Based on: J. Pineda, A Parallel Algorithm for Polygon Rasterization, SIGGRAPH 1988; one pixel at a time, in
+// 64-bit integers.
 #include "rasterize_polygon.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 /// Above 0 to the left of the way from a to b.
 std::int64_t edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-// In a counter-clockwise triangle with y up, left edges go down and top edges go left: they own the points on them.
+// In a counter-clockwise triangle with y up, left edges go down and top edges go left: they own the points on
+// them.
 bool owns_its_points(Point a, Point b) { return b.y < a.y || (b.y == a.y && b.x < a.x); }
 
 bool is_inside(std::int64_t e, Point a, Point b) { return e > 0 || (e == 0 && owns_its_points(a, b)); }
@@ -32,13 +34,16 @@ bool covers(const Part& part, Point p) {
   return is_inside(e.a, b, c) && is_inside(e.b, c, a) && is_inside(e.c, a, b);
 }
 
-double ratio(std::int64_t part, std::int64_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
+double ratio(std::int64_t part, std::int64_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
 
 // Depth is linear in the window; written so that equal depths stay exactly equal.
 template <class Part>
 double depth_at(const Part& part, Point p) {
   const Edges e = edges(part, p);
-  return part.a.depth + ratio(e.b, part.area) * (part.b.depth - part.a.depth) + ratio(e.c, part.area) * (part.c.depth - part.a.depth);
+  return part.a.depth + ratio(e.b, part.area) * (part.b.depth - part.a.depth) +
+         ratio(e.c, part.area) * (part.c.depth - part.a.depth);
 }
 
 template <class Part>
@@ -59,14 +64,16 @@ struct EdgeSteps {
 template <class Part>
 EdgeSteps edge_steps(const Part& part) {
   const Point a = part.c.at - part.b.at, b = part.a.at - part.c.at, c = part.b.at - part.a.at;
-  return {{-a.y * kSubpixels, -b.y * kSubpixels, -c.y * kSubpixels}, {a.x * kSubpixels, b.x * kSubpixels, c.x * kSubpixels}};
+  return {{-a.y * kSubpixels, -b.y * kSubpixels, -c.y * kSubpixels},
+          {a.x * kSubpixels, b.x * kSubpixels, c.x * kSubpixels}};
 }
 
 // A share is a quotient of two linear functions of the window: the quotient rule.
 template <class Part>
 void set_derivatives(Fragment& fragment, const Part& part, Point p) {
   const auto weights = [&](const Edges& e) {
-    return Vec3{ratio(e.a, part.area) * part.a.inverse_w, ratio(e.b, part.area) * part.b.inverse_w, ratio(e.c, part.area) * part.c.inverse_w};
+    return Vec3{ratio(e.a, part.area) * part.a.inverse_w, ratio(e.b, part.area) * part.b.inverse_w,
+                ratio(e.c, part.area) * part.c.inverse_w};
   };
   const auto derivative = [&](Vec3 step, double sum, std::size_t i) {
     const double numerator = step.x * part.a.share[i] + step.y * part.b.share[i] + step.z * part.c.share[i];
@@ -87,7 +94,9 @@ void set_derivatives(Fragment& fragment, const Part& part, Point p) {
 
 WindowPolygon::WindowPolygon(const std::vector<ClipVertex>& polygon, const Window& window) : window_(window) {
   for (const ClipVertex& vertex : polygon) vertices_.push_back(window_vertex(vertex, window));
-  const auto fan_area = [&](std::size_t i, std::size_t j) { return edge(vertices_[0].at, vertices_[i].at, vertices_[j].at); };
+  const auto fan_area = [&](std::size_t i, std::size_t j) {
+    return edge(vertices_[0].at, vertices_[i].at, vertices_[j].at);
+  };
   for (std::size_t i = 2; i < vertices_.size(); ++i) signed_area_ += fan_area(i - 1, i);
   for (std::size_t i = 2; i < vertices_.size(); ++i) {
     const auto [second, third] = signed_area_ > 0 ? std::pair{i - 1, i} : std::pair{i, i - 1};
@@ -98,7 +107,8 @@ WindowPolygon::WindowPolygon(const std::vector<ClipVertex>& polygon, const Windo
 }
 
 const WindowPolygon::Part& WindowPolygon::largest_part() const {
-  return *std::max_element(parts_.begin(), parts_.end(), [](const Part& p, const Part& q) { return p.area < q.area; });
+  return *std::max_element(parts_.begin(), parts_.end(),
+                           [](const Part& p, const Part& q) { return p.area < q.area; });
 }
 
 double WindowPolygon::depth_slope() const {
@@ -107,8 +117,9 @@ double WindowPolygon::depth_slope() const {
   const auto difference = [](std::int64_t p, std::int64_t q) { return static_cast<double>(p - q); };
   const double b_depth = b.depth - a.depth, c_depth = c.depth - a.depth;
   const double per_pixel = static_cast<double>(kSubpixels) / static_cast<double>(area);
-  return per_pixel * std::max(std::abs(b_depth * difference(c.at.y, a.at.y) - c_depth * difference(b.at.y, a.at.y)),
-                              std::abs(b_depth * difference(c.at.x, a.at.x) - c_depth * difference(b.at.x, a.at.x)));
+  return per_pixel *
+         std::max(std::abs(b_depth * difference(c.at.y, a.at.y) - c_depth * difference(b.at.y, a.at.y)),
+                  std::abs(b_depth * difference(c.at.x, a.at.x) - c_depth * difference(b.at.x, a.at.x)));
 }
 
 double WindowPolygon::largest_depth() const {
@@ -144,7 +155,8 @@ void WindowPolygon::for_each_fragment(double depth_offset, const TakeFragment& t
         fragment.depth[i] = std::clamp(depth_at(*part, sample) + depth_offset, 0.0, 1.0);
       }
       if (fragment.coverage == 0) continue;
-      const Part* covering = part_at(centre);  // none: beyond the edge, where a sliver of the fan would say nonsense
+      const Part* covering =
+          part_at(centre);  // none: beyond the edge, where a sliver of the fan would say nonsense
       const Part& part = covering != nullptr ? *covering : largest_part();
       set_share(fragment, part, centre);
       if (window_.derivatives) set_derivatives(fragment, part, centre);

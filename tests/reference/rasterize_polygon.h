@@ -1,5 +1,5 @@
-// Which samples a triangle covers, and where in the triangle each pixel lies: snapped vertices, exact edge functions, the
-// top-left rule, at each sample's own position. Nothing here knows of colours.
+// Which samples a triangle covers, and where in the triangle each pixel lies: snapped vertices, exact edge
+// functions, the top-left rule, at each sample's own position. Nothing here knows of colours.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,11 @@ namespace {
 class Renderer {
  public:
   explicit Renderer(const Scene& scene)
-      : scene_(scene), format_(scene.framebuffer), buffers_(format_), camera_(scene.camera), lights_(scene.lights) {}
+      : scene_(scene),
+        format_(scene.framebuffer),
+        buffers_(format_),
+        camera_(scene.camera),
+        lights_(scene.lights) {}
 
   Picture run() {
     for (command_ = 0; command_ < scene_.frame.size(); ++command_)
@@ -37,7 +41,8 @@ class Renderer {
     for_each_pixel(clear.scissor, [&](int x, int y) {
       if (clear.color || clear.index) {
         const double dither = dither_threshold(format_.dither, x, y);
-        buffers_.write_word(x, y, clear.index ? *clear.index : buffers_.colors().word(*clear.color, dither), kAllPlanes);
+        buffers_.write_word(x, y, clear.index ? *clear.index : buffers_.colors().word(*clear.color, dither),
+                            kAllPlanes);
         buffers_.sign(x, y, -1, -1);
       }
       for (int s = 0; s < format_.samples; ++s) {
@@ -48,7 +53,8 @@ class Renderer {
         }
         if (clear.stencil) sample.stencil = *clear.stencil;
       }
-      if (clear.accumulation) buffers_.accumulation(x, y) = accum_levels(*clear.accumulation, format_.accumulation_bits);
+      if (clear.accumulation)
+        buffers_.accumulation(x, y) = accum_levels(*clear.accumulation, format_.accumulation_bits);
     });
   }
 
@@ -59,16 +65,21 @@ class Renderer {
     for_each_pixel(accum.scissor, [&](int x, int y) {
       AccumPixel& stored = buffers_.accumulation(x, y);
       if (accum.op == AccumOp::kReturn)
-        buffers_.write_word(x, y, colors.word(returned(accum.value, stored, bits), dither_threshold(format_.dither, x, y)), planes);
-      else
-        stored = accumulated(accum.op, accum.value, stored, colors.color(buffers_.resolved(x, y)), bits);
+        buffers_.write_word(
+            x, y, colors.word(returned(accum.value, stored, bits), dither_threshold(format_.dither, x, y)),
+            planes);
+      else stored = accumulated(accum.op, accum.value, stored, colors.color(buffers_.resolved(x, y)), bits);
     });
   }
 
   void execute(const Bitmap& bitmap) { draw_bitmap(bitmap, static_cast<std::int32_t>(command_), buffers_); }
-  void execute(const ImageDrawing& drawing) { draw_image(drawing, static_cast<std::int32_t>(command_), buffers_); }
+  void execute(const ImageDrawing& drawing) {
+    draw_image(drawing, static_cast<std::int32_t>(command_), buffers_);
+  }
 
-  void execute(const Draw& draw) { draw_mesh(draw, {scene_, camera_, lights_, static_cast<std::int32_t>(command_)}, buffers_); }
+  void execute(const Draw& draw) {
+    draw_mesh(draw, {scene_, camera_, lights_, static_cast<std::int32_t>(command_)}, buffers_);
+  }
 
   const Scene& scene_;
   const FrameBufferFormat& format_;

@@ -38,7 +38,8 @@ Picture SampleBuffers::picture() const {
     for (int x = 0; x < format_.width_px; ++x) {
       const Sample& first = samples_[first_sample(x, y)];
       picture.words.push_back(resolved(x, y));
-      for (const std::uint8_t component : colors_.shown(picture.words.back())) picture.rgb.push_back(component);
+      for (const std::uint8_t component : colors_.shown(picture.words.back()))
+        picture.rgb.push_back(component);
       picture.depth.push_back(first.depth);
       picture.depth_levels.push_back(first.depth_level);
       picture.stencil.push_back(static_cast<std::uint8_t>(first.stencil));

@@ -28,8 +28,12 @@ class SampleBuffers {
   Rect rect() const { return {0, 0, format_.width_px, format_.height_px}; }
 
   /// @param x, y  window coordinates, y up, in the buffer; so in the others.
-  std::uint32_t& word(int x, int y, int sample) { return words_[first_sample(x, y) + static_cast<std::size_t>(sample)]; }
-  Sample& sample(int x, int y, int index) { return samples_[first_sample(x, y) + static_cast<std::size_t>(index)]; }
+  std::uint32_t& word(int x, int y, int sample) {
+    return words_[first_sample(x, y) + static_cast<std::size_t>(sample)];
+  }
+  Sample& sample(int x, int y, int index) {
+    return samples_[first_sample(x, y) + static_cast<std::size_t>(index)];
+  }
   AccumPixel& accumulation(int x, int y) { return accumulation_[pixel(x, y)]; }
 
   /// What is read back of a pixel: the mean of its samples.
@@ -46,9 +50,12 @@ class SampleBuffers {
 
  private:
   std::size_t pixel(int x, int y) const {
-    return static_cast<std::size_t>(format_.height_px - 1 - y) * static_cast<std::size_t>(format_.width_px) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(format_.height_px - 1 - y) * static_cast<std::size_t>(format_.width_px) +
+           static_cast<std::size_t>(x);
   }
-  std::size_t first_sample(int x, int y) const { return pixel(x, y) * static_cast<std::size_t>(format_.samples); }
+  std::size_t first_sample(int x, int y) const {
+    return pixel(x, y) * static_cast<std::size_t>(format_.samples);
+  }
 
   FrameBufferFormat format_;
   ColorFormat colors_;

@@ -26,8 +26,8 @@ Texture parse_texture(const Value& v, const std::string& name, const std::string
 /// @param directory  what file paths are relative to.
 Mesh parse_mesh(const Value& v, const std::string& name, const std::string& directory);
 
-/// Reads the keys of a draw, bitmap or image that its fragments obey. A `depth` that is a number is left alone: it is where a
-/// bitmap or an image lies.
+/// Reads the keys of a draw, bitmap or image that its fragments obey. A `depth` that is a number is left
+/// alone: it is where a bitmap or an image lies.
 /// @throws std::runtime_error for what the frame buffer has no buffer for and for what it refuses.
 void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format, FragmentState& state);
 

@@ -8,8 +8,9 @@
 namespace tessera::reference {
 
 struct Shade {
-  Vec4 color;                   ///< 0..1
-  std::optional<double> index;  ///< a palette index, continuous; if there is one it stands instead of the colour
+  Vec4 color;  ///< 0..1
+  std::optional<double>
+      index;  ///< a palette index, continuous; if there is one it stands instead of the colour
 };
 
 }  // namespace tessera::reference

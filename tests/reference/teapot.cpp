@@ -1,4 +1,5 @@
-// Martin Newell's teapot from its 32 bicubic Bezier patches: positions and normals analytically, at each parameter.
+// Martin Newell's teapot from its 32 bicubic Bezier patches: positions and normals analytically, at each
+// parameter.
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -18,7 +19,8 @@ std::string teapot_patches_path;
 using Weights = std::array<double, 4>;
 using Patch = std::array<std::array<Vec3, 4>, 4>;  // [row][column], z up
 
-// The file is comment lines (#), the number of patches, 16 indices for each, the number of points, three numbers for each.
+// The file is comment lines (#), the number of patches, 16 indices for each, the number of points, three
+// numbers for each.
 std::vector<Patch> read_patches() {
   std::ifstream file(teapot_patches_path);
   if (!file) throw std::runtime_error("cannot read the teapot's patches: '" + teapot_patches_path + "'");
@@ -59,11 +61,13 @@ Vec3 combine(const Patch& patch, const Weights& row, const Weights& column) {
   return sum;
 }
 
-// u runs down the rows, v along the columns; dP/dv x dP/du points out of the teapot. Where a row collapses into a point
-// (u fixed), dP/dv vanishes; just beside it dP/dv = du d2P/dudv with du pointing into the patch, so that dP/dv has the
-// direction of d2P/dudv at u = 0 and the opposite one at u = 1. The same holds for a collapsed column.
+// u runs down the rows, v along the columns; dP/dv x dP/du points out of the teapot. Where a row collapses
+// into a point (u fixed), dP/dv vanishes; just beside it dP/dv = du d2P/dudv with du pointing into the patch,
+// so that dP/dv has the direction of d2P/dudv at u = 0 and the opposite one at u = 1. The same holds for a
+// collapsed column.
 Vec3 unit_normal(const Patch& patch, double u, double v) {
-  const Weights bu = bernstein(u), bv = bernstein(v), du = bernstein_derivative(u), dv = bernstein_derivative(v);
+  const Weights bu = bernstein(u), bv = bernstein(v), du = bernstein_derivative(u),
+                dv = bernstein_derivative(v);
   const Vec3 pu = combine(patch, du, bv), pv = combine(patch, bu, dv), puv = combine(patch, du, dv);
   constexpr double kNull = 1e-9;
   if (const Vec3 n = cross(pv, pu); length(n) > kNull) return normalize(n);
@@ -86,9 +90,11 @@ void set_teapot_patches(const std::string& path) { teapot_patches_path = path; }
 Mesh teapot_mesh(int detail) {
   Mesh mesh;
   for (const Patch& patch : read_patches())
-    append_quads(mesh, detail, detail, [&](double s, double t) {  // s along the columns, t down the rows: wound ccw
-      return SurfacePoint{z_up_to_y_up(combine(patch, bernstein(t), bernstein(s))), z_up_to_y_up(unit_normal(patch, t, s))};
-    });
+    append_quads(mesh, detail, detail,
+                 [&](double s, double t) {  // s along the columns, t down the rows: wound ccw
+                   return SurfacePoint{z_up_to_y_up(combine(patch, bernstein(t), bernstein(s))),
+                                       z_up_to_y_up(unit_normal(patch, t, s))};
+                 });
 
   Vec3 low = xyz(mesh.positions[0]), high = low;
   for (const Vec4 p : mesh.positions) {
@@ -97,7 +103,8 @@ Mesh teapot_mesh(int detail) {
   }
   const Vec3 centre = 0.5 * (low + high), size = high - low;
   const double scale = 2 / std::max({size.x, size.y, size.z});
-  for (Vec4& p : mesh.positions) p = {scale * (p.x - centre.x), scale * (p.y - centre.y), scale * (p.z - centre.z), 1};
+  for (Vec4& p : mesh.positions)
+    p = {scale * (p.x - centre.x), scale * (p.y - centre.y), scale * (p.z - centre.z), 1};
   return mesh;
 }
 

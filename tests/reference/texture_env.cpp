@@ -9,7 +9,8 @@ Vec4 with_alpha(Vec3 color, double alpha) { return {color.x, color.y, color.z, a
 
 }  // namespace
 
-// The alpha of a texel without alpha is 1: where the tables multiply by it, they need no columns of their own.
+// The alpha of a texel without alpha is 1: where the tables multiply by it, they need no columns of their
+// own.
 Vec4 textured(TextureEnv env, Vec4 fragment, Vec4 texel, int channels, Vec4 constant) {
   const bool has_alpha = channels == 2 || channels == 4;
   const Vec3 f = xyz(fragment), t = xyz(texel), c = xyz(clamp01(constant)), one{1, 1, 1};

@@ -16,7 +16,8 @@ std::size_t level_at(const Image& image, std::int64_t i, std::int64_t j, std::in
 }
 
 bool is_linear_in_level(MinFilter filter) {
-  return filter == MinFilter::kLinear || filter == MinFilter::kLinearMipmapNearest || filter == MinFilter::kLinearMipmapLinear;
+  return filter == MinFilter::kLinear || filter == MinFilter::kLinearMipmapNearest ||
+         filter == MinFilter::kLinearMipmapLinear;
 }
 
 double mirrored(double f) {
@@ -59,28 +60,39 @@ Image next_mipmap(const Image& image) {
         for (std::int64_t y = j * h / next.height; y * next.height < (j + 1) * h; ++y)
           for (std::int64_t x = i * w / next.width; x * next.width < (i + 1) * w; ++x)
             sum += overlap(i * w, (i + 1) * w, x * next.width, (x + 1) * next.width) *
-                   overlap(j * h, (j + 1) * h, y * next.height, (y + 1) * next.height) * image.levels[level_at(image, x, y, channel)];
+                   overlap(j * h, (j + 1) * h, y * next.height, (y + 1) * next.height) *
+                   image.levels[level_at(image, x, y, channel)];
         next.levels.push_back(static_cast<std::uint8_t>((2 * sum + area) / (2 * area)));
       }
   return next;
 }
 
 TextureSampler::TextureSampler(const Texture& texture)
-    : mipmaps_{texture.image}, mag_(texture.mag), min_(texture.min), wrap_s_(texture.wrap_s), wrap_t_(texture.wrap_t) {
+    : mipmaps_{texture.image},
+      mag_(texture.mag),
+      min_(texture.min),
+      wrap_s_(texture.wrap_s),
+      wrap_t_(texture.wrap_t) {
   if (min_ == MinFilter::kNearest || min_ == MinFilter::kLinear) return;
-  while (mipmaps_.back().width > 1 || mipmaps_.back().height > 1) mipmaps_.push_back(next_mipmap(mipmaps_.back()));
+  while (mipmaps_.back().width > 1 || mipmaps_.back().height > 1)
+    mipmaps_.push_back(next_mipmap(mipmaps_.back()));
 }
 
 double TextureSampler::level_of_detail(TexCoord d_dx, TexCoord d_dy) const {
   const double w = mipmaps_[0].width, h = mipmaps_[0].height;
-  const auto texels = [&](TexCoord d) { return std::hypot(w * d.s, h > 1 ? h * d.t : 0.0); };  // one row: no t
+  const auto texels = [&](TexCoord d) {
+    return std::hypot(w * d.s, h > 1 ? h * d.t : 0.0);
+  };  // one row: no t
   return std::log2(std::max(texels(d_dx), texels(d_dy)));
 }
 
 Vec4 TextureSampler::nearest(std::size_t level, TexCoord at) const {
   const auto [w, h] = std::pair{mipmaps_[level].width, mipmaps_[level].height};
-  const auto index = [](double f, int size) { return std::min(static_cast<std::int64_t>(std::floor(f * size)), std::int64_t{size - 1}); };
-  return pixel_color(mipmaps_[level], index(wrapped(at.s, wrap_s_, w), w), index(wrapped(at.t, wrap_t_, h), h));
+  const auto index = [](double f, int size) {
+    return std::min(static_cast<std::int64_t>(std::floor(f * size)), std::int64_t{size - 1});
+  };
+  return pixel_color(mipmaps_[level], index(wrapped(at.s, wrap_s_, w), w),
+                     index(wrapped(at.t, wrap_t_, h), h));
 }
 
 Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
@@ -91,17 +103,22 @@ Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
   const auto at_texel = [&, width = w, height = h](std::int64_t x, std::int64_t y) {
     return pixel_color(mipmaps_[level], wrapped_texel(x, wrap_s_, width), wrapped_texel(y, wrap_t_, height));
   };
-  return (1 - b) * ((1 - a) * at_texel(i, j) + a * at_texel(i + 1, j)) + b * ((1 - a) * at_texel(i, j + 1) + a * at_texel(i + 1, j + 1));
+  return (1 - b) * ((1 - a) * at_texel(i, j) + a * at_texel(i + 1, j)) +
+         b * ((1 - a) * at_texel(i, j + 1) + a * at_texel(i + 1, j + 1));
 }
 
 Vec4 TextureSampler::sample(TexCoord at, double lambda) const {
   if (mipmaps_[0].height == 1) at.t = 0.5;  // a 1-D texture
-  if (!std::isfinite(at.s) || !std::isfinite(at.t)) at = {};  // beyond the horizon of a plane, at a centre that is not covered
+  if (!std::isfinite(at.s) || !std::isfinite(at.t))
+    at = {};  // beyond the horizon of a plane, at a centre that is not covered
   // Where magnification is the sharper filter, it gives way half a level later.
-  const bool is_late = mag_ == MagFilter::kLinear && (min_ == MinFilter::kNearestMipmapNearest || min_ == MinFilter::kNearestMipmapLinear);
+  const bool is_late = mag_ == MagFilter::kLinear &&
+                       (min_ == MinFilter::kNearestMipmapNearest || min_ == MinFilter::kNearestMipmapLinear);
   if (!(lambda > (is_late ? 0.5 : 0.0))) return mag_ == MagFilter::kLinear ? linear(0, at) : nearest(0, at);
 
-  const auto in_level = [&](std::size_t level) { return is_linear_in_level(min_) ? linear(level, at) : nearest(level, at); };
+  const auto in_level = [&](std::size_t level) {
+    return is_linear_in_level(min_) ? linear(level, at) : nearest(level, at);
+  };
   const std::size_t last = mipmaps_.size() - 1;
   switch (min_) {
     case MinFilter::kNearest:
@@ -109,7 +126,8 @@ Vec4 TextureSampler::sample(TexCoord at, double lambda) const {
     case MinFilter::kNearestMipmapNearest:
     case MinFilter::kLinearMipmapNearest:
       if (lambda <= 0.5) return in_level(0);
-      return in_level(lambda >= static_cast<double>(last) ? last : static_cast<std::size_t>(std::ceil(lambda + 0.5) - 1));
+      return in_level(
+          lambda >= static_cast<double>(last) ? last : static_cast<std::size_t>(std::ceil(lambda + 0.5) - 1));
     case MinFilter::kNearestMipmapLinear:
     case MinFilter::kLinearMipmapLinear: break;
   }

@@ -5,7 +5,8 @@
 namespace tessera::reference {
 namespace {
 
-// The inverse transpose of the upper left 3x3 part; for a singular matrix its cofactors, which have the right direction.
+// The inverse transpose of the upper left 3x3 part; for a singular matrix its cofactors, which have the right
+// direction.
 Mat4 normal_matrix(const Mat4& m) {
   const auto column = [&](std::size_t c) { return Vec3{m.rows[0][c], m.rows[1][c], m.rows[2][c]}; };
   const Vec3 a = column(0), b = column(1), c = column(2);
@@ -29,7 +30,8 @@ VertexStage::VertexStage(const Mesh& mesh, const Draw& draw, const Camera& camer
       eye_from_object_(multiply(camera.view_from_world, draw.world_from_object)),
       clip_from_eye_(camera.clip_from_view),
       normal_matrix_(normal_matrix(eye_from_object_)) {
-  if (mesh.normals.empty() && draw.lighting && draw.shading != Shading::kFlat) mean_normals_ = mean_face_normals(mesh);
+  if (mesh.normals.empty() && draw.lighting && draw.shading != Shading::kFlat)
+    mean_normals_ = mean_face_normals(mesh);
 }
 
 Vec3 VertexStage::object_normal(std::size_t primitive, std::uint32_t vertex) const {

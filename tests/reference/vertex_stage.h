@@ -15,7 +15,7 @@ struct Corner {
   Vec3 normal_eye;  ///< normalized if the draw says so; null if the draw is unlit
   Vec4 color;       ///< the vertex colour as given; unused if the mesh has none
   TexCoord texcoord;
-  double index = 0; ///< the palette index as given; unused if the mesh has none
+  double index = 0;  ///< the palette index as given; unused if the mesh has none
 };
 
 /// The corners of one point, line or polygon, in the order of Primitive::vertices.

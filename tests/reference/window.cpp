@@ -14,7 +14,8 @@ std::int64_t snap(double pixels_from_centre) {
 std::int64_t floor_pixel(std::int64_t subpixels) { return subpixels >> 8; }
 static_assert(kSubpixels == 1 << 8);
 
-// The standard patterns of Direct3D 11, in 1/16 pixel, turned over: theirs are written with y down. All lie within their pixel.
+// The standard patterns of Direct3D 11, in 1/16 pixel, turned over: theirs are written with y down. All lie
+// within their pixel.
 constexpr std::int64_t k16th = kSubpixels / 16;
 
 template <std::size_t N>
@@ -25,7 +26,8 @@ constexpr std::array<Point, N> pattern(std::array<Point, N> sixteenths) {
 
 constexpr std::array<Point, 1> kCentre{};
 constexpr auto kFour = pattern<4>({{{-2, 6}, {6, 2}, {-6, -2}, {2, -6}}});
-constexpr auto kEight = pattern<8>({{{1, 3}, {-1, -3}, {5, -1}, {-3, 5}, {-5, -5}, {-7, 1}, {3, -7}, {7, 7}}});
+constexpr auto kEight =
+    pattern<8>({{{1, 3}, {-1, -3}, {5, -1}, {-3, 5}, {-5, -5}, {-7, 1}, {3, -7}, {7, 7}}});
 static_assert(kEight.size() == kMaxSamples);
 
 }  // namespace
@@ -45,10 +47,12 @@ WindowVertex window_vertex(const ClipVertex& vertex, const Window& window) {
   const Rect& viewport = window.viewport;
   const Vec4 p = vertex.position;
   const double z = p.z / p.w, depth = window.reversed ? z : (z + 1) / 2;
-  return {{snap(p.x / p.w * viewport.width / 2) + viewport.width * kSubpixels / 2,
-           snap(p.y / p.w * viewport.height / 2) + viewport.height * kSubpixels / 2},
-          window.depth_range[0] + (window.depth_range[1] - window.depth_range[0]) * std::clamp(depth, 0.0, 1.0),
-          1 / p.w, vertex.share};
+  return {
+      {snap(p.x / p.w * viewport.width / 2) + viewport.width * kSubpixels / 2,
+       snap(p.y / p.w * viewport.height / 2) + viewport.height * kSubpixels / 2},
+      window.depth_range[0] + (window.depth_range[1] - window.depth_range[0]) * std::clamp(depth, 0.0, 1.0),
+      1 / p.w,
+      vertex.share};
 }
 
 std::span<const Point> sample_offsets(int samples) {

@@ -27,8 +27,8 @@ Rect intersection(Rect a, Rect b);
 /// Vertices are snapped to 1/256 pixel.
 inline constexpr std::int64_t kSubpixels = 256;
 
-/// Bound of |coordinate| from the viewport's centre, in pixels. An edge function is a difference of two products of coordinate
-/// differences, each at most twice the extent.
+/// Bound of |coordinate| from the viewport's centre, in pixels. An edge function is a difference of two
+/// products of coordinate differences, each at most twice the extent.
 inline constexpr std::int64_t kExtent = std::int64_t{1} << 21;
 inline constexpr std::int64_t kMaxDifference = 2 * (kExtent + 1) * kSubpixels;
 static_assert(kMaxDifference <= INT64_MAX / kMaxDifference / 2);
@@ -64,12 +64,14 @@ std::span<const Point> sample_offsets(int samples);
 
 /// One pixel of which at least one sample is covered.
 struct Fragment {
-  int x = 0, y = 0;  ///< window, y up
-  std::uint32_t coverage = 0;               ///< bit i: sample i is covered
-  std::array<double, kMaxSamples> depth{};  ///< of each covered sample: after depth range and offset, 0..1, not yet rounded to a level
-  Share share;       ///< perspective-correct, of each of the primitive's corners, at the pixel's centre, covered or not
-  /// Derivatives of the shares there, for each pixel, if the window asks for them. Of a line the one along it stands in x [GL 2.1,
-  /// equation 3.15]; of a point they are 0.
+  int x = 0, y = 0;            ///< window, y up
+  std::uint32_t coverage = 0;  ///< bit i: sample i is covered
+  std::array<double, kMaxSamples>
+      depth{};  ///< of each covered sample: after depth range and offset, 0..1, not yet rounded to a level
+  Share share;  ///< perspective-correct, of each of the primitive's corners, at the pixel's centre, covered
+                ///< or not
+  /// Derivatives of the shares there, for each pixel, if the window asks for them. Of a line the one along it
+  /// stands in x [GL 2.1, equation 3.15]; of a point they are 0.
   Share share_dx, share_dy;
 };
 
@@ -83,6 +85,8 @@ struct Pixels {
 /// The visible pixels of the smallest rectangle that holds all points between `low` and `high`.
 Pixels visible_pixels(Point low, Point high, const Window& window);
 
-inline Point pixel_centre(std::int64_t x, std::int64_t y) { return {x * kSubpixels + kSubpixels / 2, y * kSubpixels + kSubpixels / 2}; }
+inline Point pixel_centre(std::int64_t x, std::int64_t y) {
+  return {x * kSubpixels + kSubpixels / 2, y * kSubpixels + kSubpixels / 2};
+}
 
 }  // namespace tessera::reference

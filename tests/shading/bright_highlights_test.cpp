@@ -1,4 +1,5 @@
-// Lights far beyond 1 show the feet of their highlights, by every kernel: what is next to nothing is multiplied by next to infinity.
+// Lights far beyond 1 show the feet of their highlights, by every kernel: what is next to nothing is
+// multiplied by next to infinity.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +10,8 @@
 namespace tessera::test {
 namespace {
 
-/// Light and eye are straight before a surface that leans away, so that S.n, or R.E, is `cosine` and no other number of the highlight is rounded.
+/// Light and eye are straight before a surface that leans away, so that S.n, or R.E, is `cosine` and no other
+/// number of the highlight is rounded.
 struct BrightHighlight {
   LightKind kind = LightKind::point;
   bool local_viewer = false, phong_highlight = false, colors_vertices = false;
@@ -29,14 +31,18 @@ struct BrightHighlight {
     l.specular = {shines, shines, shines};
     l.spot_direction = {0, 0, -1};
     l.spot_cutoff = is_spot(kind) ? 30.0f : 180.0f;
-    if (kind == LightKind::attenuated_point || kind == LightKind::attenuated_spot) l.attenuation = {constant, constant < 1 ? 0.0f : 0x1p-30f, 0};
+    if (kind == LightKind::attenuated_point || kind == LightKind::attenuated_spot)
+      l.attenuation = {constant, constant < 1 ? 0.0f : 0x1p-30f, 0};
     c.lights.push_back(l);
     return c;
   }
   double factor() const { return static_cast<double>(brightness) / constant; }
   std::vector<LightingPoint> points(double cosine) const {
-    const double z = phong_highlight ? std::sqrt((1 + cosine) / 2) : cosine;  // R.E is the cosine of twice the angle
-    const LightingPoint p{{static_cast<float>(std::sqrt(1 - z * z)), 0, static_cast<float>(z)}, {0, 0, -2}, {brightness, brightness, brightness}};
+    const double z =
+        phong_highlight ? std::sqrt((1 + cosine) / 2) : cosine;  // R.E is the cosine of twice the angle
+    const LightingPoint p{{static_cast<float>(std::sqrt(1 - z * z)), 0, static_cast<float>(z)},
+                          {0, 0, -2},
+                          {brightness, brightness, brightness}};
     return std::vector<LightingPoint>(16, p);
   }
 };
@@ -48,7 +54,8 @@ std::vector<BrightHighlight> all_highlights() {
       for (const bool phong : {false, true})
         for (const bool of_vertices : {false, true})
           for (const float brightness : {1.0f, 2e9f, 3e20f, 1.9e28f})
-            for (const float constant : {1.0f, 0x1p-30f}) all.push_back({static_cast<LightKind>(kind), local, phong, of_vertices, brightness, constant});
+            for (const float constant : {1.0f, 0x1p-30f})
+              all.push_back({static_cast<LightKind>(kind), local, phong, of_vertices, brightness, constant});
   return all;
 }
 
@@ -58,7 +65,8 @@ constexpr double kShares[] = {0.1, 0.4, 0.8};  // that are to be seen
 TEST(BrightHighlights, ShowTheirFeet) {
   std::size_t compared = 0, squared = 0, sharp = 0;
   for (const BrightHighlight& bright : all_highlights()) {
-    const bool is_attenuated = bright.kind == LightKind::attenuated_point || bright.kind == LightKind::attenuated_spot;
+    const bool is_attenuated =
+        bright.kind == LightKind::attenuated_point || bright.kind == LightKind::attenuated_spot;
     if ((bright.constant < 1 && !is_attenuated) || bright.factor() > 0x1p94) continue;
     for (const float exponent : kExponents)
       for (const double share : kShares) {
@@ -68,9 +76,11 @@ TEST(BrightHighlights, ShowTheirFeet) {
         squared += program.terms[0].squared, sharp += program.terms[0].sharp;
         for (const Isa isa : available_isas()) {
           const double found = light(program, bright.points(cosine), isa)[7][1];
-          ASSERT_NEAR(found, share, 4e-6 * exponent + 1e-5) << name_of(isa) << ", kind " << static_cast<int>(bright.kind) << ", exponent " << exponent << ", brightness " << bright.brightness
-                                                  << " over " << bright.constant << (bright.local_viewer ? ", local viewer" : "") << (bright.phong_highlight ? ", R.E" : "")
-                                                  << (bright.colors_vertices ? ", vertex colours" : "");
+          ASSERT_NEAR(found, share, 4e-6 * exponent + 1e-5)
+              << name_of(isa) << ", kind " << static_cast<int>(bright.kind) << ", exponent " << exponent
+              << ", brightness " << bright.brightness << " over " << bright.constant
+              << (bright.local_viewer ? ", local viewer" : "") << (bright.phong_highlight ? ", R.E" : "")
+              << (bright.colors_vertices ? ", vertex colours" : "");
         }
         ++compared;
       }
@@ -97,12 +107,15 @@ TEST(BrightHighlights, OfIndicesShowTheirFeet) {
     for (const float exponent : kExponents)
       for (const double share : kShares) {
         const double cosine = std::pow(share / bright.brightness, 1 / double{exponent});
-        if (bright.constant < 1 || bright.colors_vertices || cosine < (bright.phong_highlight ? 0.01 : 1e-36)) continue;
+        if (bright.constant < 1 || bright.colors_vertices || cosine < (bright.phong_highlight ? 0.01 : 1e-36))
+          continue;
         const LightingCase c = bright.lit(exponent);
-        LightingProgram program = plan_index_lighting({{0, 0, 1000}, exponent, 4096}, c.lights, c.model, nullptr);
+        LightingProgram program =
+            plan_index_lighting({{0, 0, 1000}, exponent, 4096}, c.lights, c.model, nullptr);
         program.renormalize = true;
         const double found = light(program, bright.points(cosine), available_isas().front())[7][0];
-        ASSERT_NEAR(found, 1000 * share, 1 + 4e-3 * exponent) << static_cast<int>(bright.kind) << " " << exponent << " " << bright.brightness;
+        ASSERT_NEAR(found, 1000 * share, 1 + 4e-3 * exponent)
+            << static_cast<int>(bright.kind) << " " << exponent << " " << bright.brightness;
       }
 }
 

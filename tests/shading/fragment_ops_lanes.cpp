@@ -9,14 +9,16 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout, const test::FragmentArrays& arrays) {
+void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout,
+                           const test::FragmentArrays& arrays) {
   for (std::size_t i = 0; i < arrays.count; i += kLanes) {
     Colors source;
     for (int c = 0; c < 4; ++c) source.c[c] = hn::LoadU(kFloat, arrays.source[c] + i);
     const Int stored = hn::LoadU(kInt, arrays.stored + i);
     if (ops.blend) source = blended_colors(ops, source, stored_colors(layout, stored));
     const Int words = words_of(layout, source, splat(arrays.threshold));
-    hn::StoreU(ops.logic == Logic::copy ? words : logic_words(ops.logic, words, stored), kInt, arrays.words + i);
+    hn::StoreU(ops.logic == Logic::copy ? words : logic_words(ops.logic, words, stored), kInt,
+               arrays.words + i);
   }
 }
 
@@ -26,7 +28,8 @@ void test_stencil_lanes(const StencilSide& side, std::int32_t most, const test::
     const Int stored = hn::LoadU(kInt, arrays.stored + i), outcome = hn::LoadU(kInt, arrays.outcome + i);
     const LaneMask covered = hn::Gt(outcome, hn::Zero(kInt)), deep = hn::Gt(outcome, splat(1));
     const LaneMask passed = hn::And(covered, stencil_passes(steps, stored)), zpassed = hn::And(passed, deep);
-    const Int value = stencil_result(steps, stored, hn::AndNot(passed, covered), hn::AndNot(zpassed, passed), zpassed);
+    const Int value =
+        stencil_result(steps, stored, hn::AndNot(passed, covered), hn::AndNot(zpassed, passed), zpassed);
     hn::StoreU(hn::Or(value, hn::And(hn::VecFromMask(kInt, passed), splat(256))), kInt, arrays.words + i);
   }
 }

@@ -12,11 +12,12 @@ namespace tessera::test {
 
 struct FragmentArrays {
   std::size_t count;
-  const float* source[4];          ///< r g b a
-  const std::int32_t* stored;      ///< words, or stencil values
-  const std::int32_t* outcome;     ///< stencil: 0 nothing, 1 passed the test and failed the depth test, 2 passed both
+  const float* source[4];      ///< r g b a
+  const std::int32_t* stored;  ///< words, or stencil values
+  const std::int32_t*
+      outcome;  ///< stencil: 0 nothing, 1 passed the test and failed the depth test, 2 passed both
   float threshold;
-  std::int32_t* words;             ///< out
+  std::int32_t* words;  ///< out
 };
 
 /// Blends (if asked for), stores and combines.

@@ -1,5 +1,5 @@
-// The operations on fragments: lanes against the scalar twin bit for bit, and the twin against the reference renderer's own
-// functions, over whole truth tables.
+// The operations on fragments: lanes against the scalar twin bit for bit, and the twin against the reference
+// renderer's own functions, over whole truth tables.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,9 +15,13 @@ namespace {
 constexpr int kCompareOps = 8, kActions = 8, kFactors = 15, kEquations = 5, kLogics = 16;
 
 reference::StencilFace reference_face(const StencilSide& side) {
-  return {.func = static_cast<reference::Compare>(side.func), .ref = static_cast<std::uint32_t>(side.reference), .mask = static_cast<std::uint32_t>(side.mask),
-          .fail = static_cast<reference::StencilOp>(side.fail), .zfail = static_cast<reference::StencilOp>(side.zfail),
-          .zpass = static_cast<reference::StencilOp>(side.zpass), .write_mask = static_cast<std::uint32_t>(side.write_mask)};
+  return {.func = static_cast<reference::Compare>(side.func),
+          .ref = static_cast<std::uint32_t>(side.reference),
+          .mask = static_cast<std::uint32_t>(side.mask),
+          .fail = static_cast<reference::StencilOp>(side.fail),
+          .zfail = static_cast<reference::StencilOp>(side.zfail),
+          .zpass = static_cast<reference::StencilOp>(side.zpass),
+          .write_mask = static_cast<std::uint32_t>(side.write_mask)};
 }
 
 // 8 functions x 8 operations, in each outcome, over every stored value, with masks, for 1, 3 and 8 bits.
@@ -31,21 +35,39 @@ TEST(FragmentOps, StencilTruthTables) {
     const std::int32_t most = (1 << bits) - 1;
     for (int func = 0; func < kCompareOps; ++func)
       for (int action = 0; action < kActions; ++action)
-        for (const auto& [reference_value, mask, write_mask] : {std::array<std::int32_t, 3>{0, 255, 255}, {1, 255, 255}, {most, 255, 255}, {5, 6, 255}, {200, 255, 0x55}, {77, 0, 0}}) {
+        for (const auto& [reference_value, mask, write_mask] : {std::array<std::int32_t, 3>{0, 255, 255},
+                                                                {1, 255, 255},
+                                                                {most, 255, 255},
+                                                                {5, 6, 255},
+                                                                {200, 255, 0x55},
+                                                                {77, 0, 0}}) {
           // Each operation stands in each outcome once, beside others.
-          const StencilSide side{.func = static_cast<CompareOp>(func), .reference = std::min(reference_value, most), .mask = mask & most,
-                                 .fail = static_cast<StencilAction>(action), .zfail = static_cast<StencilAction>((action + 3) % kActions),
-                                 .zpass = static_cast<StencilAction>((action + 5) % kActions), .write_mask = write_mask & most};
+          const StencilSide side{.func = static_cast<CompareOp>(func),
+                                 .reference = std::min(reference_value, most),
+                                 .mask = mask & most,
+                                 .fail = static_cast<StencilAction>(action),
+                                 .zfail = static_cast<StencilAction>((action + 3) % kActions),
+                                 .zpass = static_cast<StencilAction>((action + 5) % kActions),
+                                 .write_mask = write_mask & most};
           const reference::StencilFace face = reference_face(side);
           for (const Isa isa : available_isas()) {
-            test::test_stencil(isa)(side, most, {.count = stored.size(), .source = {}, .stored = stored.data(), .outcome = outcome.data(), .threshold = 0, .words = words.data()});
+            test::test_stencil(isa)(side, most,
+                                    {.count = stored.size(),
+                                     .source = {},
+                                     .stored = stored.data(),
+                                     .outcome = outcome.data(),
+                                     .threshold = 0,
+                                     .words = words.data()});
             for (std::size_t i = 0; i < stored.size(); ++i) {
               if (stored[i] > most) continue;
               const auto before = static_cast<std::uint32_t>(stored[i]);
               const bool passes = outcome[i] > 0 && reference::passes_stencil(face, before, bits);
               const reference::StencilOp op = !passes ? face.fail : outcome[i] == 2 ? face.zpass : face.zfail;
-              const std::uint32_t after = outcome[i] == 0 ? before : reference::stencil_after(op, face, before, bits);
-              ASSERT_EQ(static_cast<std::uint32_t>(words[i]), after | (passes ? 256u : 0u)) << "func " << func << " action " << action << " stored " << before << " outcome " << outcome[i];
+              const std::uint32_t after =
+                  outcome[i] == 0 ? before : reference::stencil_after(op, face, before, bits);
+              ASSERT_EQ(static_cast<std::uint32_t>(words[i]), after | (passes ? 256u : 0u))
+                  << "func " << func << " action " << action << " stored " << before << " outcome "
+                  << outcome[i];
               ++checked;
             }
           }
@@ -57,10 +79,14 @@ TEST(FragmentOps, StencilTruthTables) {
 TEST(FragmentOps, CompareAndLogicTables) {
   for (int op = 0; op < kCompareOps; ++op)
     for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b) EXPECT_EQ(compares(a, static_cast<CompareOp>(op), b), reference::passes(static_cast<reference::Compare>(op), a, b));
+      for (int b = 0; b < 4; ++b)
+        EXPECT_EQ(compares(a, static_cast<CompareOp>(op), b),
+                  reference::passes(static_cast<reference::Compare>(op), a, b));
   constexpr std::uint32_t kSource = 0x0f5a33c5u, kStored = 0x3355aa0fu;
   for (int logic = 0; logic < kLogics; ++logic)
-    EXPECT_EQ(logic_word(static_cast<Logic>(logic), kSource, kStored), reference::combined(static_cast<reference::LogicOp>(logic), kSource, kStored)) << logic;
+    EXPECT_EQ(logic_word(static_cast<Logic>(logic), kSource, kStored),
+              reference::combined(static_cast<reference::LogicOp>(logic), kSource, kStored))
+        << logic;
 }
 
 struct Samples {
@@ -70,10 +96,19 @@ struct Samples {
     std::uint32_t random = 7;
     const auto next = [&] { return random = random * 1664525u + 1013904223u; };
     for (auto& list : c)
-      for (std::size_t i = 0; i < count; ++i) list.push_back(i % 5 == 0 ? static_cast<float>(next() >> 31) : static_cast<float>(next() >> 8) * 0x1p-24f);
+      for (std::size_t i = 0; i < count; ++i)
+        list.push_back(i % 5 == 0 ? static_cast<float>(next() >> 31)
+                                  : static_cast<float>(next() >> 8) * 0x1p-24f);
     for (std::int32_t& word : stored) word = static_cast<std::int32_t>(next());
   }
-  test::FragmentArrays arrays(float threshold) { return {.count = stored.size(), .source = {c[0].data(), c[1].data(), c[2].data(), c[3].data()}, .stored = stored.data(), .outcome = nullptr, .threshold = threshold, .words = words.data()}; }
+  test::FragmentArrays arrays(float threshold) {
+    return {.count = stored.size(),
+            .source = {c[0].data(), c[1].data(), c[2].data(), c[3].data()},
+            .stored = stored.data(),
+            .outcome = nullptr,
+            .threshold = threshold,
+            .words = words.data()};
+  }
 };
 
 std::vector<ColorLayout> layouts() {
@@ -87,8 +122,8 @@ std::vector<ColorLayout> layouts() {
   return all;
 }
 
-// All pairs of factors for colour and for alpha, all equations, all depths: twin bit for bit, and within the rounding of floats of
-// the reference's doubles.
+// All pairs of factors for colour and for alpha, all equations, all depths: twin bit for bit, and within the
+// rounding of floats of the reference's doubles.
 TEST(FragmentOps, BlendFactorsAndEquations) {
   Samples samples(64);
   for (const ColorLayout& layout : layouts()) {
@@ -101,18 +136,27 @@ TEST(FragmentOps, BlendFactorsAndEquations) {
         ops.src_color = ops.dst_alpha = static_cast<Factor>(pair / kFactors);
         ops.dst_color = ops.src_alpha = static_cast<Factor>(pair % kFactors);
         ops.constant = {0.25f, 0.5f, 0.875f, 0.375f};
-        const reference::Blend blend{.src = static_cast<reference::BlendFactor>(ops.src_color), .dst = static_cast<reference::BlendFactor>(ops.dst_color),
-                                     .src_alpha = static_cast<reference::BlendFactor>(ops.src_alpha), .dst_alpha = static_cast<reference::BlendFactor>(ops.dst_alpha),
-                                     .equation = static_cast<reference::BlendEquation>(equation), .color = {0.25, 0.5, 0.875, 0.375}};
+        const reference::Blend blend{.src = static_cast<reference::BlendFactor>(ops.src_color),
+                                     .dst = static_cast<reference::BlendFactor>(ops.dst_color),
+                                     .src_alpha = static_cast<reference::BlendFactor>(ops.src_alpha),
+                                     .dst_alpha = static_cast<reference::BlendFactor>(ops.dst_alpha),
+                                     .equation = static_cast<reference::BlendEquation>(equation),
+                                     .color = {0.25, 0.5, 0.875, 0.375}};
         for (const Isa isa : available_isas()) {
           test::store_fragments(isa)(ops, layout, samples.arrays(0.5f));
           for (std::size_t i = 0; i < samples.stored.size(); ++i) {
             const Rgba source{samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]};
-            const Rgba destination = stored_components(layout, static_cast<std::uint32_t>(samples.stored[i])), result = blended(ops, source, destination);
-            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), stored_word(layout, result, 0.5f)) << "pair " << pair << " equation " << equation << " bits " << layout.bits;
-            const reference::Vec4 exact = reference::blended(blend, {source[0], source[1], source[2], source[3]}, {destination[0], destination[1], destination[2], destination[3]});
+            const Rgba destination = stored_components(layout, static_cast<std::uint32_t>(samples.stored[i])),
+                       result = blended(ops, source, destination);
+            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), stored_word(layout, result, 0.5f))
+                << "pair " << pair << " equation " << equation << " bits " << layout.bits;
+            const reference::Vec4 exact =
+                reference::blended(blend, {source[0], source[1], source[2], source[3]},
+                                   {destination[0], destination[1], destination[2], destination[3]});
             const double wanted[4] = {exact.x, exact.y, exact.z, exact.w};
-            for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(result[c], std::clamp(wanted[c], 0.0, 1.0), 3e-7) << "component " << c << " pair " << pair << " equation " << equation;
+            for (std::size_t c = 0; c < 4; ++c)
+              ASSERT_NEAR(result[c], std::clamp(wanted[c], 0.0, 1.0), 3e-7)
+                  << "component " << c << " pair " << pair << " equation " << equation;
           }
         }
       }
@@ -129,8 +173,10 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
         for (const Isa isa : available_isas()) {
           test::store_fragments(isa)(ops, layout, samples.arrays(threshold));
           for (std::size_t i = 0; i < samples.stored.size(); ++i) {
-            const std::uint32_t word = stored_word(layout, {samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]}, threshold);
-            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), logic_word(ops.logic, word, static_cast<std::uint32_t>(samples.stored[i])));
+            const std::uint32_t word = stored_word(
+                layout, {samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]}, threshold);
+            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]),
+                      logic_word(ops.logic, word, static_cast<std::uint32_t>(samples.stored[i])));
             ASSERT_EQ(word & ~(layout.word_mask() | layout.alpha_mask()), 0u);
           }
         }
@@ -139,12 +185,18 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
 
 TEST(FragmentOps, DitherPatternsAreTheReferences) {
   for (const int height : {1, 7, 8, 480})
-    for (const auto& [n, dither] : {std::pair{1, reference::Dither::kNone}, {2, reference::Dither::kBayer2}, {4, reference::Dither::kBayer4}, {8, reference::Dither::kBayer8}}) {
+    for (const auto& [n, dither] : {std::pair{1, reference::Dither::kNone},
+                                    {2, reference::Dither::kBayer2},
+                                    {4, reference::Dither::kBayer4},
+                                    {8, reference::Dither::kBayer8}}) {
       FragmentOps ops;
       set_dither(ops, n, height);
       EXPECT_EQ(ops.dither, n > 1);
       for (int y = 0; y < height; ++y)
-        for (int x = 0; x < 20; ++x) EXPECT_EQ(ops.threshold[y % kDitherSize][x % kDitherSize], static_cast<float>(reference::dither_threshold(dither, x, height - 1 - y))) << n << " at " << x << ", " << y;
+        for (int x = 0; x < 20; ++x)
+          EXPECT_EQ(ops.threshold[y % kDitherSize][x % kDitherSize],
+                    static_cast<float>(reference::dither_threshold(dither, x, height - 1 - y)))
+              << n << " at " << x << ", " << y;
     }
 }
 

@@ -11,11 +11,14 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size, float* b1, float* b2) {
+bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size,
+                             float* b1, float* b2) {
   TriangleGroup g;
   g.count = 1;
   for (int i = 0; i < kGroupSize; ++i)
-    for (int k = 0; k < 3; ++k) g.x[k][i] = vertices[k].x, g.y[k][i] = vertices[k].y, g.z[k][i] = vertices[k].z, g.rw[k][i] = vertices[k].rw;
+    for (int k = 0; k < 3; ++k)
+      g.x[k][i] = vertices[k].x, g.y[k][i] = vertices[k].y, g.z[k][i] = vertices[k].z,
+      g.rw[k][i] = vertices[k].rw;
   set_up_edges(g, tile_x, tile_y, {0, 0, tile_size, tile_size});
   set_up_weights(g);
   if (g.mask == 0) return false;
@@ -48,7 +51,8 @@ bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int 
   return true;
 }
 
-void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, const float* b2, std::size_t count, const test::InterpolatedValues& values) {
+void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, const float* b2,
+                              std::size_t count, const test::InterpolatedValues& values) {
   alignas(64) float attributes[3][kAttributePadding] = {};
   ShadedTriangle t;
   for (int k = 0; k < 3; ++k) {

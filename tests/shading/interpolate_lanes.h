@@ -1,4 +1,5 @@
-// Barycentric coordinates of a triangle's pixels as the kernels compute them, one tile at a time, and what they interpolate by them.
+// Barycentric coordinates of a triangle's pixels as the kernels compute them, one tile at a time, and what
+// they interpolate by them.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,8 @@
 namespace tessera::test {
 
 /// Fills b1 and b2, tile_size^2 each, in rows. False where the triangle has no pixel in the tile.
-using TileBarycentrics = bool(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size, float* b1, float* b2);
+using TileBarycentrics = bool(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size,
+                              float* b1, float* b2);
 TileBarycentrics* tile_barycentrics(Isa isa);
 
 /// A value at `count` points, a multiple of 16, by each of the kernels' ways.
@@ -17,7 +19,8 @@ struct InterpolatedValues {
   float *alone, *in_lanes, *of_several;  ///< Corners, CornerLanes, CornerArrays
   float *within, *within_lanes;          ///< kept within the range of the vertices: Corners, RangeLanes
 };
-using InterpolateValues = void(const float (&at_vertices)[3], const float* b1, const float* b2, std::size_t count, const InterpolatedValues& values);
+using InterpolateValues = void(const float (&at_vertices)[3], const float* b1, const float* b2,
+                               std::size_t count, const InterpolatedValues& values);
 InterpolateValues* interpolate_values(Isa isa);
 
 }  // namespace tessera::test

@@ -1,4 +1,5 @@
-// Barycentric coordinates and what is interpolated by them: the bits of their scalar twins on every instruction set, and perspective as exact arithmetic has it.
+// Barycentric coordinates and what is interpolated by them: the bits of their scalar twins on every
+// instruction set, and perspective as exact arithmetic has it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,9 @@ constexpr int kTile = 32;
 // 1/w of the corners: equal, or apart by up to `decades`.
 void set_random_w(RandomTriangles& source, Triangle& t, double decades) {
   const double base = std::pow(10.0, 6 * source.unit() - 3);
-  for (WindowVertex& v : t) v.rw = static_cast<float>(base * std::pow(10.0, source.between(0, 2) == 0 ? -decades : -decades * source.unit()));
+  for (WindowVertex& v : t)
+    v.rw = static_cast<float>(
+        base * std::pow(10.0, source.between(0, 2) == 0 ? -decades : -decades * source.unit()));
   if (source.between(0, 4) == 0) t[1].rw = t[2].rw = t[0].rw;
 }
 
@@ -42,7 +45,8 @@ void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckP
       bool touched = tile_barycentrics(isa)(vertices, 0, 0, kTile, b1.data(), b2.data());
       reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
         ASSERT_TRUE(touched) << Describe{t};
-        check(t, reference, x, y, b1[static_cast<std::size_t>(y * kTile + x)], b2[static_cast<std::size_t>(y * kTile + x)], isa);
+        check(t, reference, x, y, b1[static_cast<std::size_t>(y * kTile + x)],
+              b2[static_cast<std::size_t>(y * kTile + x)], isa);
       });
       if (::testing::Test::HasFatalFailure()) return;
     }
@@ -51,30 +55,39 @@ void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckP
 int rounds(int normal) { return long_tests() ? normal * 30 : normal; }
 
 TEST(Interpolate, HasTheBitsOfItsTwin) {
-  for_each_pixel(31, rounds(1500), 6, [](const Triangle& t, const TriangleReference&, int x, int y, float b1, float b2, Isa isa) {
-    const WindowVertex v[3] = {t[0], t[1], t[2]};
-    const BarycentricReference expected = barycentric_reference(v, x, y);
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(b1), std::bit_cast<std::uint32_t>(expected.b1)) << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(b2), std::bit_cast<std::uint32_t>(expected.b2)) << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
-  });
+  for_each_pixel(31, rounds(1500), 6,
+                 [](const Triangle& t, const TriangleReference&, int x, int y, float b1, float b2, Isa isa) {
+                   const WindowVertex v[3] = {t[0], t[1], t[2]};
+                   const BarycentricReference expected = barycentric_reference(v, x, y);
+                   ASSERT_EQ(std::bit_cast<std::uint32_t>(b1), std::bit_cast<std::uint32_t>(expected.b1))
+                       << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
+                   ASSERT_EQ(std::bit_cast<std::uint32_t>(b2), std::bit_cast<std::uint32_t>(expected.b2))
+                       << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
+                 });
 }
 
-// All terms are positive and each is rounded a handful of times: 1/area, its product with 1/w, the edge, the multiply-add, two
-// sums, the quotient and the product: nine roundings, 9 * 2^-24 of a number that is at most 1.
+// All terms are positive and each is rounded a handful of times: 1/area, its product with 1/w, the edge, the
+// multiply-add, two sums, the quotient and the product: nine roundings, 9 * 2^-24 of a number that is at
+// most 1.
 TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
   for (const double decades : {0.5, 6.0, 12.0}) {
     double worst = 0;
-    for_each_pixel(32, rounds(1500), decades, [&](const Triangle& t, const TriangleReference& reference, int x, int y, float b1, float b2, Isa) {
-      long double weight[3], sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
-      const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)), error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
-      keep_worst(worst, error1, error2);
-      ASSERT_LE(worst, 9 * 0x1p-24) << Describe{t};
-      ASSERT_GE(b1, 0);
-      ASSERT_GE(b2, 0);
-      ASSERT_LE(b1 + b2, 1 + 0x1p-21f);
-    });
-    std::printf("[  figure  ] barycentric coordinates, w apart by up to 10^%g: off by at most %.3g\n", decades, worst);
+    for_each_pixel(
+        32, rounds(1500), decades,
+        [&](const Triangle& t, const TriangleReference& reference, int x, int y, float b1, float b2, Isa) {
+          long double weight[3], sum = 0;
+          for (std::size_t k = 0; k < 3; ++k)
+            sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
+          const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)),
+                       error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
+          keep_worst(worst, error1, error2);
+          ASSERT_LE(worst, 9 * 0x1p-24) << Describe{t};
+          ASSERT_GE(b1, 0);
+          ASSERT_GE(b2, 0);
+          ASSERT_LE(b1 + b2, 1 + 0x1p-21f);
+        });
+    std::printf("[  figure  ] barycentric coordinates, w apart by up to 10^%g: off by at most %.3g\n",
+                decades, worst);
   }
 }
 
@@ -93,8 +106,11 @@ struct InterpolatedPoints {
     b1[2] = b2[3] = 1;
   }
   void interpolate(Isa isa, const float (&at_vertices)[3]) {
-    for (auto* values : {&alone, &in_lanes, &of_several, &within, &within_lanes}) values->fill(std::numeric_limits<float>::quiet_NaN());
-    interpolate_values(isa)(at_vertices, b1.data(), b2.data(), kPoints, {alone.data(), in_lanes.data(), of_several.data(), within.data(), within_lanes.data()});
+    for (auto* values : {&alone, &in_lanes, &of_several, &within, &within_lanes})
+      values->fill(std::numeric_limits<float>::quiet_NaN());
+    interpolate_values(isa)(
+        at_vertices, b1.data(), b2.data(), kPoints,
+        {alone.data(), in_lanes.data(), of_several.data(), within.data(), within_lanes.data()});
   }
 };
 
@@ -102,7 +118,9 @@ TEST(Interpolate, ValuesHaveTheBitsOfTheirTwin) {
   RandomTriangles source(33, kTile);
   for (int round = 0; round < rounds(2000); ++round) {
     InterpolatedPoints points(source);
-    const auto any = [&] { return static_cast<float>((source.unit() - 0.5) * std::exp2(200 * source.unit() - 100)); };
+    const auto any = [&] {
+      return static_cast<float>((source.unit() - 0.5) * std::exp2(200 * source.unit() - 100));
+    };
     const float v[3] = {any(), any(), any()};
     const auto [low, high] = std::minmax({v[0], v[1], v[2]});
     for (const Isa isa : available_isas()) {
@@ -110,8 +128,11 @@ TEST(Interpolate, ValuesHaveTheBitsOfTheirTwin) {
       for (std::size_t i = 0; i < kPoints; ++i) {
         const float expected = BarycentricReference{points.b1[i], points.b2[i]}.interpolate(v[0], v[1], v[2]);
         for (const float found : {points.alone[i], points.in_lanes[i], points.of_several[i]})
-          ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected)) << name_of(isa) << ", " << points.b1[i] << " " << points.b2[i] << ", of " << v[0] << " " << v[1] << " " << v[2];
-        for (const float found : {points.within[i], points.within_lanes[i]}) ASSERT_EQ(found, std::clamp(expected, low, high)) << name_of(isa);
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected))
+              << name_of(isa) << ", " << points.b1[i] << " " << points.b2[i] << ", of " << v[0] << " " << v[1]
+              << " " << v[2];
+        for (const float found : {points.within[i], points.within_lanes[i]})
+          ASSERT_EQ(found, std::clamp(expected, low, high)) << name_of(isa);
       }
     }
   }
@@ -124,7 +145,8 @@ TEST(Interpolate, ConstantsStayExactlyConstant) {
     for (const float value : {0.0f, 0.1f, 1.0f, 255.5f, -3e30f})
       for (const Isa isa : available_isas()) {
         points.interpolate(isa, {value, value, value});
-        for (const auto* values : {&points.alone, &points.in_lanes, &points.of_several, &points.within, &points.within_lanes})
+        for (const auto* values :
+             {&points.alone, &points.in_lanes, &points.of_several, &points.within, &points.within_lanes})
           for (const float found : *values) ASSERT_EQ(found, value) << name_of(isa);
       }
   }

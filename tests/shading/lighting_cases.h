@@ -1,4 +1,5 @@
-// Random surfaces under random lights, and the lighting equation as it stands in the specification, in double.
+// Random surfaces under random lights, and the lighting equation as it stands in the specification, in
+// double.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +39,11 @@ class RandomLighting {
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   float in(double low, double high) { return static_cast<float>(low + (high - low) * unit()); }
   bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(random_) == 1; }
-  Rgb color() { return one_in(4) ? Rgb{0, 0, 0} : one_in(6) ? Rgb{in(-1, 1), in(-1, 1), in(-1, 1)} : Rgb{in(0, 0.6), in(0, 0.6), in(0, 0.6)}; }
+  Rgb color() {
+    return one_in(4)   ? Rgb{0, 0, 0}
+           : one_in(6) ? Rgb{in(-1, 1), in(-1, 1), in(-1, 1)}
+                       : Rgb{in(0, 0.6), in(0, 0.6), in(0, 0.6)};
+  }
   std::array<float, 3> direction() {
     double x, y, z, squared;
     do x = 2 * unit() - 1, y = 2 * unit() - 1, z = 2 * unit() - 1, squared = x * x + y * y + z * z;
@@ -61,7 +66,9 @@ class RandomLighting {
       l.spot_exponent = kExponents[std::uniform_int_distribution<std::size_t>(0, 6)(random_)];
       // Most of them towards the scene.
       if (!l.directional && !one_in(4)) {
-        const float length = std::sqrt(l.position[0] * l.position[0] + l.position[1] * l.position[1] + (l.position[2] + 3) * (l.position[2] + 3)) + 1e-3f;
+        const float length = std::sqrt(l.position[0] * l.position[0] + l.position[1] * l.position[1] +
+                                       (l.position[2] + 3) * (l.position[2] + 3)) +
+                             1e-3f;
         l.spot_direction = {-l.position[0] / length, -l.position[1] / length, -(l.position[2] + 3) / length};
       }
     }
@@ -73,14 +80,17 @@ class RandomLighting {
   }
   SurfaceMaterial material() {
     constexpr float kShininess[] = {0, 0.5f, 1, 5, 20, 76.8f, 128, 1000, 10000};
-    return {color(), color(), color(), color(), kShininess[std::uniform_int_distribution<std::size_t>(0, 8)(random_)]};
+    return {color(), color(), color(), color(),
+            kShininess[std::uniform_int_distribution<std::size_t>(0, 8)(random_)]};
   }
   LightingCase next() {
     LightingCase c;
     c.material = material();
     if (one_in(3)) c.tracked = {one_in(2), one_in(2), one_in(2), one_in(2)};
     const int count = std::uniform_int_distribution<int>(0, 5)(random_);
-    for (int i = 0; i < count; ++i) c.lights.push_back(light(static_cast<LightKind>(std::uniform_int_distribution<int>(0, kLightKinds - 1)(random_))));
+    for (int i = 0; i < count; ++i)
+      c.lights.push_back(
+          light(static_cast<LightKind>(std::uniform_int_distribution<int>(0, kLightKinds - 1)(random_))));
     c.model = {color(), one_in(2), one_in(2)};
     c.renormalize = c.model.unit_normals = one_in(2);
     c.negate_normal = one_in(2);
@@ -98,7 +108,8 @@ class RandomLighting {
   std::mt19937 random_;
 };
 
-/// Section 5 of the specification. `smooth` turns false where the formula jumps within rounding of this point.
+/// Section 5 of the specification. `smooth` turns false where the formula jumps within rounding of this
+/// point.
 inline std::array<double, 3> lighting_formula(const LightingCase& c, const LightingPoint& p, bool& smooth) {
   using Vec = std::array<double, 3>;
   const auto dot = [](const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
@@ -117,24 +128,31 @@ inline std::array<double, 3> lighting_formula(const LightingCase& c, const Light
   const Vec towards_eye = vec({-p.position[0], -p.position[1], -p.position[2]});
   const Vec e = c.model.local_viewer ? normalized(towards_eye) : Vec{0, 0, 1};
   const auto material = [&](bool tracked, const Rgb& own) { return vec(tracked ? p.vertex : own); };
-  const Vec ambient = material(c.tracked.ambient, c.material.ambient), diffuse = material(c.tracked.diffuse, c.material.diffuse);
-  const Vec specular = material(c.tracked.specular, c.material.specular), emission = material(c.tracked.emission, c.material.emission);
+  const Vec ambient = material(c.tracked.ambient, c.material.ambient),
+            diffuse = material(c.tracked.diffuse, c.material.diffuse);
+  const Vec specular = material(c.tracked.specular, c.material.specular),
+            emission = material(c.tracked.emission, c.material.emission);
 
   Vec sum = emission;
   for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(c.model.scene_ambient[k]) * ambient[k];
   for (const EyeLight& light : c.lights) {
-    const Vec from_point = light.directional ? vec(light.position) : Vec{double{light.position[0]} - p.position[0], double{light.position[1]} - p.position[1], double{light.position[2]} - p.position[2]};
+    const Vec from_point = light.directional ? vec(light.position)
+                                             : Vec{double{light.position[0]} - p.position[0],
+                                                   double{light.position[1]} - p.position[1],
+                                                   double{light.position[2]} - p.position[2]};
     const double distance = std::sqrt(dot(from_point, from_point));
     const Vec l = normalized(from_point);
     double att = 1;
     if (!light.directional) {
-      const double denominator = light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance * distance;
+      const double denominator =
+          light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance * distance;
       att = denominator > 0 ? 1 / denominator : 1e6;
       smooth &= std::abs(denominator) > kNear || distance == 0;
     }
     double spot = 1;
     if (light.spot_cutoff != 180) {
-      const double cosine = -dot(l, vec(light.spot_direction)), edge = std::cos(light.spot_cutoff * 3.14159265358979323846 / 180);
+      const double cosine = -dot(l, vec(light.spot_direction)),
+                   edge = std::cos(light.spot_cutoff * 3.14159265358979323846 / 180);
       spot = cosine < edge || cosine <= 0 ? 0 : power(cosine, light.spot_exponent);
       smooth &= std::abs(cosine - edge) > kNear && (std::abs(cosine) > kNear || distance == 0);
     }
@@ -149,17 +167,23 @@ inline std::array<double, 3> lighting_formula(const LightingCase& c, const Light
       smooth &= c.material.shininess >= 1 || c.material.shininess == 0 || base > 1e-3 || base < -1e-3;
       smooth &= c.material.shininess <= 20 || base < 1.00001;
     }
-    const bool shiny = specular[0] * light.specular[0] != 0 || specular[1] * light.specular[1] != 0 || specular[2] * light.specular[2] != 0;
-    if (shiny) smooth &= (std::abs(n_dot_l) > kNear || dot(n, n) == 0 || distance == 0) && (c.model.phong_highlight || dot(half, half) > 1e-3);
+    const bool shiny = specular[0] * light.specular[0] != 0 || specular[1] * light.specular[1] != 0 ||
+                       specular[2] * light.specular[2] != 0;
+    if (shiny)
+      smooth &= (std::abs(n_dot_l) > kNear || dot(n, n) == 0 || distance == 0) &&
+                (c.model.phong_highlight || dot(half, half) > 1e-3);
     for (std::size_t k = 0; k < 3; ++k)
-      sum[k] += att * spot * (light.ambient[k] * ambient[k] + std::max(n_dot_l, 0.0) * light.diffuse[k] * diffuse[k] + highlight * light.specular[k] * specular[k]);
+      sum[k] += att * spot *
+                (light.ambient[k] * ambient[k] + std::max(n_dot_l, 0.0) * light.diffuse[k] * diffuse[k] +
+                 highlight * light.specular[k] * specular[k]);
   }
   for (double& s : sum) s = std::clamp(s, 0.0, 1.0);
   return sum;
 }
 
 /// Lights up to kBatchPoints points on one instruction set.
-inline std::vector<Rgb> light(const LightingProgram& program, const std::vector<LightingPoint>& points, Isa isa) {
+inline std::vector<Rgb> light(const LightingProgram& program, const std::vector<LightingPoint>& points,
+                              Isa isa) {
   ShadingBatch batch{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -170,7 +194,8 @@ inline std::vector<Rgb> light(const LightingProgram& program, const std::vector<
   }
   light_points(isa)(program, batch, static_cast<int>((points.size() + 15) / 16 * 16));
   std::vector<Rgb> colors;
-  for (std::size_t i = 0; i < points.size(); ++i) colors.push_back({batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i]});
+  for (std::size_t i = 0; i < points.size(); ++i)
+    colors.push_back({batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i]});
   return colors;
 }
 

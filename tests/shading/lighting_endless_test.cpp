@@ -1,4 +1,5 @@
-// Lighting by numbers that no float holds: what is lit is full, what is black stays black, and every instruction set has the same.
+// Lighting by numbers that no float holds: what is lit is full, what is black stays black, and every
+// instruction set has the same.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +13,8 @@
 namespace tessera::test {
 namespace {
 
-// Long normals (of scaled models, not normalized) to a high power, times a bright light: red is full, the others know nothing of it.
+// Long normals (of scaled models, not normalized) to a high power, times a bright light: red is full, the
+// others know nothing of it.
 TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
   for (const float length : {1.5f, 3.0f, 100.0f}) {
     Special s;
@@ -30,14 +32,18 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
   }
 }
 
-// Squares of distances from 2^64 on are no floats: attenuation is that of the largest ones, and a million only where its denominator is not positive.
+// Squares of distances from 2^64 on are no floats: attenuation is that of the largest ones, and a million
+// only where its denominator is not positive.
 TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
   struct Row {
     std::array<float, 3> attenuation;
     double factor;
   };
-  for (const float distance : {1e19f, 1e20f, 1e30f, std::numeric_limits<float>::max(), std::numeric_limits<float>::infinity()})
-    for (const Row& row : {Row{{2, 0, 0}, 0.5}, Row{{1, 0.1f, 0}, 0}, Row{{1, 0, 0.1f}, 0}, Row{{4, 1e-45f, 0}, 0.25}, Row{{-1, 0, 0}, 1e6}, Row{{1, -1, 0}, 1e6}, Row{{1, 0, -1}, 1e6}}) {
+  for (const float distance :
+       {1e19f, 1e20f, 1e30f, std::numeric_limits<float>::max(), std::numeric_limits<float>::infinity()})
+    for (const Row& row :
+         {Row{{2, 0, 0}, 0.5}, Row{{1, 0.1f, 0}, 0}, Row{{1, 0, 0.1f}, 0}, Row{{4, 1e-45f, 0}, 0.25},
+          Row{{-1, 0, 0}, 1e6}, Row{{1, -1, 0}, 1e6}, Row{{1, 0, -1}, 1e6}}) {
       Special s;
       s.light().ambient = s.light().diffuse = s.light().specular = {0, 0, 0};
       s.light().ambient[1] = row.factor > 1 ? 1e-6f : 1.0f;
@@ -46,8 +52,10 @@ TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
       s.c.material.ambient = {0, 0.5f, 0};
       for (LightingPoint& p : s.points) p.position = {distance, 0, -2};
       for (const Isa isa : available_isas())
-        EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1], 0.2 * 0.5 + 0.5 * s.light().ambient[1] * row.factor, 1e-5)
-            << name_of(isa) << ", distance " << distance << ", attenuation " << row.attenuation[0] << " " << row.attenuation[1] << " " << row.attenuation[2];
+        EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1],
+                    0.2 * 0.5 + 0.5 * s.light().ambient[1] * row.factor, 1e-5)
+            << name_of(isa) << ", distance " << distance << ", attenuation " << row.attenuation[0] << " "
+            << row.attenuation[1] << " " << row.attenuation[2];
       expect_same_bits(s.c.program(), s.points);
     }
 }
@@ -67,13 +75,19 @@ std::vector<EndlessLight> endless_lights() {
     all.push_back({name, normal, {0, 0, -2}, light});
     change(all.back());
   };
-  const auto attenuated = [](float constant) { return [constant](EndlessLight& e) { e.light.attenuation = {constant, 0, 0}; }; };
+  const auto attenuated = [](float constant) {
+    return [constant](EndlessLight& e) { e.light.attenuation = {constant, 0, 0}; };
+  };
   add("the inverse of a small denominator", {0, 0, 1}, attenuated(1e-42f));
-  add("the same of the largest colour", {0, 0, 1}, [&](EndlessLight& e) { e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kMost, 0}; });
+  add("the same of the largest colour", {0, 0, 1}, [&](EndlessLight& e) {
+    e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kMost, 0};
+  });
   add("the same on long normals", {0, 0, 100}, attenuated(1e-42f));
   add("the same on longer ones", {0, 0, 1e10f}, attenuated(1e-42f));
   add("the longest normals", {0, 0, 3e38f}, attenuated(0.5f));
-  add("the longest normals, of no attenuation", {3e38f, 3e38f, 3e38f}, [&](EndlessLight& e) { e.light.directional = true, e.light.position = {kThird, kThird, kThird}; });
+  add("the longest normals, of no attenuation", {3e38f, 3e38f, 3e38f}, [&](EndlessLight& e) {
+    e.light.directional = true, e.light.position = {kThird, kThird, kThird};
+  });
   // Squares of such distances have few digits: |L| and V.D are 1.2.
   add("a cone and attenuation, from a hair away", {0, 0, 1}, [](EndlessLight& e) {
     e.position = {0, 0, 0};
@@ -94,7 +108,8 @@ std::vector<EndlessLight> endless_lights() {
   });
   return all;
 }
-// What is lit is full, what faces away is not, and black stays black: of the light, of the vertices, and also under highlights without end.
+// What is lit is full, what faces away is not, and black stays black: of the light, of the vertices, and also
+// under highlights without end.
 TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
   for (const EndlessLight& endless : endless_lights())
     for (const bool tracked : {false, true})
@@ -113,13 +128,18 @@ TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
           if (i >= 16 && i % 2 == 0)
             for (float& n : p.normal) n = -n;
         }
-        SCOPED_TRACE(std::string(endless.name) + (tracked ? ", tracked" : "") + (ambient != 0 ? ", ambient" : ""));
+        SCOPED_TRACE(std::string(endless.name) + (tracked ? ", tracked" : "") +
+                     (ambient != 0 ? ", ambient" : ""));
         for (const Isa isa : available_isas()) {
           const std::vector<Rgb> colors = test::light(s.c.program(), s.points, isa);
           for (std::size_t i = 0; i < colors.size(); ++i) {
             EXPECT_NEAR(colors[i][0], kGlow + kBase, 1e-7) << name_of(isa) << " " << i;
-            if (i < 16 && (!tracked || i % 4 != 3)) { EXPECT_EQ(colors[i][1], 1) << name_of(isa) << " " << i; }
-            if (((i >= 16 && i % 2 == 0) || (tracked && i % 4 == 3)) && ambient == 0) { EXPECT_NEAR(colors[i][1], kBase, 1e-7) << name_of(isa) << " " << i; }
+            if (i < 16 && (!tracked || i % 4 != 3)) {
+              EXPECT_EQ(colors[i][1], 1) << name_of(isa) << " " << i;
+            }
+            if (((i >= 16 && i % 2 == 0) || (tracked && i % 4 == 3)) && ambient == 0) {
+              EXPECT_NEAR(colors[i][1], kBase, 1e-7) << name_of(isa) << " " << i;
+            }
             EXPECT_NEAR(colors[i][2], kBase, 1e-7) << name_of(isa) << " " << i;
           }
         }
@@ -147,7 +167,8 @@ TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
     }
   expect_same_bits(s.c.program(), s.points);
 }
-// A highlight without end is full as one is that has an end: the index is the specular one at most, and masked.
+// A highlight without end is full as one is that has an end: the index is the specular one at most, and
+// masked.
 TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
   for (const float brightness : {1e20f, 3e38f}) {
     Special s;
@@ -155,12 +176,16 @@ TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
     s.light().specular = {brightness, brightness, brightness};
     s.light().attenuation = {1e-30f, 0, 0};
     LightingProgram program = plan_index_lighting({{100, 120, 50}, 10, 256}, s.c.lights, s.c.model, nullptr);
-    for (const Isa isa : available_isas()) EXPECT_EQ(test::light(program, s.points, isa)[1][0], 0) << brightness;  // far below 0: no digits are left to mask
+    for (const Isa isa : available_isas())
+      EXPECT_EQ(test::light(program, s.points, isa)[1][0], 0)
+          << brightness;  // far below 0: no digits are left to mask
     program = plan_index_lighting({{100, 120, 200}, 10, 256}, s.c.lights, s.c.model, nullptr);
-    for (const Isa isa : available_isas()) EXPECT_EQ(test::light(program, s.points, isa)[1][0], 200) << brightness;
+    for (const Isa isa : available_isas())
+      EXPECT_EQ(test::light(program, s.points, isa)[1][0], 200) << brightness;
   }
 }
-// What has an end is not cut: a normal as long as numbers go, under a light or on a material as weak as they are.
+// What has an end is not cut: a normal as long as numbers go, under a light or on a material as weak as they
+// are.
 TEST(LightingSpecialCase, LongNormalsAndWeakColorsMakeUpForEachOther) {
   Special s;
   s.light().ambient = s.light().specular = {0, 0, 0};
@@ -182,7 +207,8 @@ TEST(LightingSpecialCase, OverflowStaysWithinRange) {
       }
       for (const Isa isa : available_isas())
         for (const Rgb& color : light(c.program(), points, isa))
-          for (const float component : color) ASSERT_TRUE(component >= 0 && component <= 1) << name_of(isa) << " " << component;
+          for (const float component : color)
+            ASSERT_TRUE(component >= 0 && component <= 1) << name_of(isa) << " " << component;
       expect_same_bits(c.program(), points);
     }
   }

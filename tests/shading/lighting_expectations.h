@@ -1,4 +1,5 @@
-// What the tests of lighting hold kernels against: their scalar twin, bit by bit; the formula, in double; and a surface whose colour is known by hand.
+// What the tests of lighting hold kernels against: their scalar twin, bit by bit; the formula, in double; and
+// a surface whose colour is known by hand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,15 +20,18 @@ inline void expect_same_bits(const LightingProgram& program, const std::vector<L
   for (const Isa isa : available_isas()) {
     const std::vector<Rgb> colors = light(program, points, isa);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Rgb expected = light_point_reference(program, {points[i].normal, points[i].position, points[i].vertex});
+      const Rgb expected =
+          light_point_reference(program, {points[i].normal, points[i].position, points[i].vertex});
       for (std::size_t k = 0; k < 3; ++k)
         ASSERT_EQ(std::bit_cast<std::uint32_t>(colors[i][k]), std::bit_cast<std::uint32_t>(expected[k]))
-            << name_of(isa) << " point " << i << " component " << k << ": " << colors[i][k] << " for " << expected[k];
+            << name_of(isa) << " point " << i << " component " << k << ": " << colors[i][k] << " for "
+            << expected[k];
     }
   }
 }
 
-inline double distance_to_formula(const LightingCase& c, const std::vector<LightingPoint>& points, std::size_t* compared = nullptr) {
+inline double distance_to_formula(const LightingCase& c, const std::vector<LightingPoint>& points,
+                                  std::size_t* compared = nullptr) {
   double worst = 0;
   const std::vector<Rgb> colors = light(c.program(), points, available_isas().front());
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -10,9 +10,12 @@
 namespace tessera::test {
 namespace {
 
-TEST(LightingSpecialCase, HeadOnEverythingIsSeen) { Special().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular); }
+TEST(LightingSpecialCase, HeadOnEverythingIsSeen) {
+  Special().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular);
+}
 TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
-  for (const std::array<float, 3>& coefficients : {std::array<float, 3>{0, 0, 0}, {1, -1, 0}, {1, 0, -1}, {2, -1, 0}}) {
+  for (const std::array<float, 3>& coefficients :
+       {std::array<float, 3>{0, 0, 0}, {1, -1, 0}, {1, 0, -1}, {2, -1, 0}}) {
     Special s;
     s.light().attenuation = coefficients;
     s.light().diffuse = s.light().specular = {0, 0, 0};
@@ -55,7 +58,8 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightWhereTheLightFalls) {
   Special s;
   s.c.material.shininess = 0;
   for (LightingPoint& p : s.points) p.normal = {0.8f, 0, 0.6f};
-  s.expect(kGlow + kBase + kAmbient + 0.6 * kDiffuse + kSpecular, kBase + kAmbient + 0.6 * kDiffuse + kSpecular);
+  s.expect(kGlow + kBase + kAmbient + 0.6 * kDiffuse + kSpecular,
+           kBase + kAmbient + 0.6 * kDiffuse + kSpecular);
 }
 TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
   Special s;
@@ -63,7 +67,9 @@ TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
   for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
   s.expect(kGlow + kBase + kAmbient + kDiffuse, kBase + kAmbient + kDiffuse);
   s.c.material.shininess = 0;
-  for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular, 2e-6);
+  for (const Isa isa : available_isas())
+    EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
+                2e-6);
 }
 TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
   Special s;
@@ -73,18 +79,23 @@ TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
     for (const float cutoff : {0.0f, 90.0f, 180.0f}) {
       s.light().spot_cutoff = cutoff;
       for (const Isa isa : available_isas())
-        EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular, 2e-6) << "in the axis, cutoff " << cutoff;
+        EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
+                    2e-6)
+            << "in the axis, cutoff " << cutoff;
     }
   }
   // Beside the light: V.D = 0, outside every cone; 180 degrees is no cone.
   for (LightingPoint& p : s.points) p = {{-1, 0, 0}, {2, 0, 0}, {1, 1, 1}};
   for (const float cutoff : {0.0f, 90.0f}) {
     s.light().spot_cutoff = cutoff;
-    for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase, 2e-6) << "beside the axis, cutoff " << cutoff;
+    for (const Isa isa : available_isas())
+      EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase, 2e-6)
+          << "beside the axis, cutoff " << cutoff;
   }
   s.light().spot_cutoff = 180;
   s.light().spot_exponent = 0;
-  for (const Isa isa : available_isas()) EXPECT_GT(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse - 2e-6);
+  for (const Isa isa : available_isas())
+    EXPECT_GT(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse - 2e-6);
 }
 TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
   Special s;
@@ -94,7 +105,8 @@ TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
     s.c.lights[1].diffuse[k] = -3.5f;
     s.c.lights[1].ambient[k] = s.c.lights[1].specular[k] = 0;
   }
-  s.expect(kGlow + kBase + kAmbient + 0.5 * kDiffuse + kSpecular, kBase + kAmbient + 0.5 * kDiffuse + kSpecular);
+  s.expect(kGlow + kBase + kAmbient + 0.5 * kDiffuse + kSpecular,
+           kBase + kAmbient + 0.5 * kDiffuse + kSpecular);
   s.c.lights[1].diffuse = {-30, -30, -30};
   s.expect(0, 0);
 }
@@ -108,7 +120,8 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
     s.light().position = {1, 0, 0};
     s.light().ambient = s.light().diffuse = {0, 0, 0};
     for (LightingPoint& p : s.points) p.normal = {size, 0, -size};
-    for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1], kBase + kSpecular, 2e-6) << size;
+    for (const Isa isa : available_isas())
+      EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1], kBase + kSpecular, 2e-6) << size;
     expect_same_bits(s.c.program(), s.points);
   }
 }
@@ -120,7 +133,10 @@ TEST(LightingSpecialCase, SmallExponentsKeepTheSmallestCosines) {
   for (LightingPoint& p : s.points) p = {{1, 0, 0}, {0, 0, 0}, {1, 1, 1}};
   for (const float shininess : {0.01f, 0.05f, 0.1f}) {
     s.c.material.shininess = shininess;
-    for (const Isa isa : available_isas()) EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[2][1], kBase + kAmbient + kSpecular * std::exp2(-63.0 * shininess), 1e-5) << shininess;
+    for (const Isa isa : available_isas())
+      EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[2][1],
+                  kBase + kAmbient + kSpecular * std::exp2(-63.0 * shininess), 1e-5)
+          << shininess;
   }
 }
 

@@ -1,4 +1,5 @@
-// The lighting kernels: the same bits as their scalar twin on every instruction set, and the specification's formula.
+// The lighting kernels: the same bits as their scalar twin on every instruction set, and the specification's
+// formula.
 #include "shading/lighting.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,8 @@ int rounds(int normal) {
   return value != nullptr && *value != '\0' && *value != '0' ? normal * 30 : normal;
 }
 
-// Every combination by itself: kind of light x highlight x how that comes about x parts that are ambient or tracked, each with every preparation of the normals.
+// Every combination by itself: kind of light x highlight x how that comes about x parts that are ambient or
+// tracked, each with every preparation of the normals.
 TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
   RandomLighting random(1);
   std::set<std::tuple<LightKind, HighlightKind, bool, bool, bool, bool>> combinations;
@@ -46,15 +48,20 @@ TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
         std::vector<LightingPoint> points(kBatchPoints);
         for (LightingPoint& p : points) p = random.point();
         const LightingProgram program = c.program();
-        for (const LightTerm& term : program.terms) combinations.insert({term.kind, term.highlight, term.squared, term.sharp, program.tracked, !is_black(term.ambient)});
+        for (const LightTerm& term : program.terms)
+          combinations.insert({term.kind, term.highlight, term.squared, term.sharp, program.tracked,
+                               !is_black(term.ambient)});
         expect_same_bits(program, points);
         if (HasFatalFailure()) return;
       }
     }
   }
-  // All highlights may be sharp. Squares are those of Blinn's whose S differs from point to point; ambient parts of directional lights are no part of theirs.
+  // All highlights may be sharp. Squares are those of Blinn's whose S differs from point to point; ambient
+  // parts of directional lights are no part of theirs.
   const int highlights = 2 * kHighlightKinds - 1, directional = highlights + 1, positional = highlights + 2;
-  EXPECT_EQ(combinations.size(), static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4)) << "some were never run";
+  EXPECT_EQ(combinations.size(),
+            static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4))
+      << "some were never run";
 }
 TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
   RandomLighting random(2);
@@ -81,15 +88,18 @@ TEST(Lighting, OfNarrowConesHasTheBitsOfItsTwin) {
     for (LightingPoint& p : points) {
       p = random.point();
       const std::array<float, 3> aside = random.direction();
-      const float reach = random.in(0, 2.5) * std::max(l.spot_cutoff, 1e-6f) * 0.017453f, distance = random.in(0.1, 50);
-      for (std::size_t k = 0; k < 3; ++k) p.position[k] = l.position[k] + distance * (l.spot_direction[k] + reach * aside[k]);
+      const float reach = random.in(0, 2.5) * std::max(l.spot_cutoff, 1e-6f) * 0.017453f,
+                  distance = random.in(0.1, 50);
+      for (std::size_t k = 0; k < 3; ++k)
+        p.position[k] = l.position[k] + distance * (l.spot_direction[k] + reach * aside[k]);
     }
     expect_same_bits(c.program(), points);
     if (HasFatalFailure()) return;
     LightingProgram ambient_alone = c.program();
     ambient_alone.base = {0, 0, 0};
     ambient_alone.terms[0].diffuse = ambient_alone.terms[0].specular = {0, 0, 0};
-    for (const Rgb& color : light(ambient_alone, points, available_isas().front())) (color[0] > 0 ? inside : outside) += 1;
+    for (const Rgb& color : light(ambient_alone, points, available_isas().front()))
+      (color[0] > 0 ? inside : outside) += 1;
   }
   EXPECT_TRUE(inside > 2000 && outside > 2000) << inside << " " << outside;
 }
@@ -100,7 +110,9 @@ TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
   int wrapped = 0, most = 0, between = 0;
   for (int round = 0; round < rounds(2000); ++round) {
     const LightingCase c = random.next();
-    IndexMaterial material{{random.in(-100, 100), random.in(-100, 100), random.in(-100, 100)}, c.material.shininess, std::ldexp(1.0f, round % 24 + 1)};
+    IndexMaterial material{{random.in(-100, 100), random.in(-100, 100), random.in(-100, 100)},
+                           c.material.shininess,
+                           std::ldexp(1.0f, round % 24 + 1)};
     if (random.one_in(4)) material.indexes[1] = material.indexes[0];
     if (random.one_in(4)) material.indexes[2] = material.indexes[0];
     if (random.one_in(4)) material.indexes[0] = 0;
@@ -112,8 +124,10 @@ TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
     for (const Isa isa : available_isas()) {
       const std::vector<Rgb> colors = light(program, points, isa);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const float expected = light_point_reference(program, {points[i].normal, points[i].position, points[i].vertex})[0];
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(colors[i][0]), std::bit_cast<std::uint32_t>(expected)) << name_of(isa) << " point " << i << ": " << colors[i][0] << " for " << expected;
+        const float expected =
+            light_point_reference(program, {points[i].normal, points[i].position, points[i].vertex})[0];
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(colors[i][0]), std::bit_cast<std::uint32_t>(expected))
+            << name_of(isa) << " point " << i << ": " << colors[i][0] << " for " << expected;
         ASSERT_TRUE(expected >= 0 && expected <= material.modulus);
         wrapped += material.indexes[2] < 0;
         most += expected == material.indexes[2];
@@ -123,8 +137,9 @@ TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
   }
   EXPECT_TRUE(wrapped > 1000 && most > 1000 && between > 1000) << wrapped << " " << most << " " << between;
 }
-// Every kernel's sums, by the formula in double: what a grey material would have, through the last step. Of sharp highlights, the 16 u for each one of the
-// exponent that they may be off by (tests/numerics/README.md), times what the index changes by with s.
+// Every kernel's sums, by the formula in double: what a grey material would have, through the last step. Of
+// sharp highlights, the 16 u for each one of the exponent that they may be off by (tests/numerics/README.md),
+// times what the index changes by with s.
 TEST(Lighting, OfIndicesIsThatOfTheFormula) {
   RandomLighting random(6);
   std::size_t compared = 0;
@@ -133,7 +148,11 @@ TEST(Lighting, OfIndicesIsThatOfTheFormula) {
     LightingCase c = random.next();
     c.lights.resize(std::min<std::size_t>(c.lights.size(), 2));
     c.tracked = {};
-    c.material = {{0, 0, 0}, {0.25f, 0, 0}, {0, 0.25f, 0}, {0.5f, 0.5f, 0}, c.material.shininess};  // within 0..1, so that nothing is clamped
+    c.material = {{0, 0, 0},
+                  {0.25f, 0, 0},
+                  {0, 0.25f, 0},
+                  {0.5f, 0.5f, 0},
+                  c.material.shininess};  // within 0..1, so that nothing is clamped
     c.model.scene_ambient = {0, 0, 0};
     const IndexMaterial material{{3, 40, 90}, c.material.shininess, 256};
     LightingProgram program = plan_index_lighting(material, c.lights, c.model, nullptr);
@@ -154,10 +173,13 @@ TEST(Lighting, OfIndicesIsThatOfTheFormula) {
       const std::array<double, 3> sums = lighting_formula(c, points[i], smooth);
       if (!smooth || sums[0] <= 0 || sums[0] >= 1 || sums[1] <= 0 || sums[1] >= 1) continue;
       const double d = 4 * (sums[0] - 0.5), s = 4 * (sums[1] - 0.5);
-      const double index = std::min(3 + d * (1 - s) * 37 + s * 87, 90.0), expected = index - 256 * std::floor(index / 256);
+      const double index = std::min(3 + d * (1 - s) * 37 + s * 87, 90.0),
+                   expected = index - 256 * std::floor(index / 256);
       if (std::abs(index) < 0.01) continue;  // either end of the range
-      const double highlights_off = 16 * 0x1p-24 * c.material.shininess * 4 * (lighting_formula(sizes, points[i], smooth)[1] - 0.5);
-      ASSERT_NEAR(colors[i][0], expected, 0.005 + highlights_off * std::abs(87 - 37 * d)) << "round " << round << ", d " << d << ", s " << s;
+      const double highlights_off =
+          16 * 0x1p-24 * c.material.shininess * 4 * (lighting_formula(sizes, points[i], smooth)[1] - 0.5);
+      ASSERT_NEAR(colors[i][0], expected, 0.005 + highlights_off * std::abs(87 - 37 * d))
+          << "round " << round << ", d " << d << ", s " << s;
       ++compared;
     }
   }
@@ -182,8 +204,9 @@ TEST(Lighting, IsWithinOneLevelOfTheFormula) {
   std::printf("[  figure  ] lighting, largest distance to the formula: %.3g (1/255 is 0.0039)\n", worst);
 }
 
-// 1 - 2^-24 to the power of 16384 is 0.999: what rounding takes from S.n or R.E counts so many times. Normals, light and halfway
-// vectors are of length 1 within 2^-23 or so each; the highlight is then off by a few times 2^-23 of its exponent, until it is measured otherwise.
+// 1 - 2^-24 to the power of 16384 is 0.999: what rounding takes from S.n or R.E counts so many times.
+// Normals, light and halfway vectors are of length 1 within 2^-23 or so each; the highlight is then off by a
+// few times 2^-23 of its exponent, until it is measured otherwise.
 TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
   for (const float shininess : {128.0f, 1000.0f, 4096.0f, 16384.0f}) {
     RandomLighting random(4);
@@ -210,11 +233,15 @@ TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
           ll += l[k] * l[k];
           pp += double{p.position[k]} * p.position[k];
         }
-        if (local) e = {-p.position[0] / std::sqrt(pp), -p.position[1] / std::sqrt(pp), -p.position[2] / std::sqrt(pp)};
+        if (local)
+          e = {-p.position[0] / std::sqrt(pp), -p.position[1] / std::sqrt(pp),
+               -p.position[2] / std::sqrt(pp)};
         // A viewer nearly opposite to the light would magnify the roundings of both in L + E.
         const bool opposite = l[0] * e[0] + l[1] * e[1] + l[2] * e[2] < -0.8 * std::sqrt(ll);
         for (std::size_t k = 0; k < 3; ++k) {
-          p.normal[k] = opposite ? 0.0f : static_cast<float>(l[k] / std::sqrt(ll) + e[k] + 1.5 / std::sqrt(shininess) * (random.unit() - 0.5));
+          p.normal[k] = opposite ? 0.0f
+                                 : static_cast<float>(l[k] / std::sqrt(ll) + e[k] +
+                                                      1.5 / std::sqrt(shininess) * (random.unit() - 0.5));
         }
       }
       double& most = worst[point][phong][local];
@@ -223,7 +250,8 @@ TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
     for (const bool point : {false, true}) {
       for (const bool phong : {false, true}) {
         for (const bool local : {false, true}) {
-          std::printf("[  figure  ] shininess %g, %s, %s, %s viewer: %.2f levels from the formula\n", shininess, point ? "point light" : "directional", phong ? "Phong" : "Blinn",
+          std::printf("[  figure  ] shininess %g, %s, %s, %s viewer: %.2f levels from the formula\n",
+                      shininess, point ? "point light" : "directional", phong ? "Phong" : "Blinn",
                       local ? "local" : "infinite", 255 * worst[point][phong][local]);
           EXPECT_LE(worst[point][phong][local], 8 * 0x1p-23 * shininess);
           EXPECT_LE(worst[point][phong][local], 1 / 255.0);

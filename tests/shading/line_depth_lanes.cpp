@@ -11,7 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-std::vector<std::int32_t> line_keys_lanes(DepthKind kind, std::uint32_t z0, std::uint32_t z1, const std::vector<double>& parameters) {
+std::vector<std::int32_t> line_keys_lanes(DepthKind kind, std::uint32_t z0, std::uint32_t z1,
+                                          const std::vector<double>& parameters) {
   const LineDepth depth(kind, z0, z1, 0);
   std::vector<std::int32_t> keys(parameters.size());
   for (std::size_t first = 0; first < keys.size(); first += kLanes) {
@@ -19,14 +20,17 @@ std::vector<std::int32_t> line_keys_lanes(DepthKind kind, std::uint32_t z0, std:
     alignas(64) double in[kLanes] = {};
     alignas(64) std::int32_t out[kLanes];
     std::copy_n(parameters.begin() + static_cast<std::ptrdiff_t>(first), count, in);
-    hn::Store(depth.keys(each_part([&](int p) HWY_ATTR { return hn::Load(kDouble, in + p * kLanes / kDoubleParts); })), kInt, out);
+    hn::Store(depth.keys(each_part(
+                  [&](int p) HWY_ATTR { return hn::Load(kDouble, in + p * kLanes / kDoubleParts); })),
+              kInt, out);
     std::copy_n(out, count, keys.begin() + static_cast<std::ptrdiff_t>(first));
   }
   return keys;
 }
 
 test::KeyPair point_keys_lanes(DepthKind kind, std::uint32_t z, double offset) {
-  return {point_key(kind, z, offset), hn::GetLane(LineDepth(kind, z, z, offset).keys(to_doubles(hn::Zero(kInt))))};
+  return {point_key(kind, z, offset),
+          hn::GetLane(LineDepth(kind, z, z, offset).keys(to_doubles(hn::Zero(kInt))))};
 }
 
 }  // namespace HWY_NAMESPACE

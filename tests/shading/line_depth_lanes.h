@@ -10,10 +10,12 @@
 namespace tessera::test {
 
 /// The key of each parameter: how far of the line from depth word z0 to z1 one has come.
-using LineKeys = std::vector<std::int32_t>(DepthKind kind, std::uint32_t z0, std::uint32_t z1, const std::vector<double>& parameters);
+using LineKeys = std::vector<std::int32_t>(DepthKind kind, std::uint32_t z0, std::uint32_t z1,
+                                           const std::vector<double>& parameters);
 LineKeys* line_keys(Isa isa);
 
-/// The key of a point with an offset (see LineDepth), and what a line from there to there has at its first vertex.
+/// The key of a point with an offset (see LineDepth), and what a line from there to there has at its first
+/// vertex.
 struct KeyPair {
   std::int32_t point, line;
 };

@@ -1,4 +1,5 @@
-// Depth keys along lines against integers: where all products are exact, a key is the whole part of its depth; and points' keys against lines'.
+// Depth keys along lines against integers: where all products are exact, a key is the whole part of its
+// depth; and points' keys against lines'.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -15,7 +16,7 @@ namespace tessera::test {
 namespace {
 
 struct Cases {
-  int parameter_bits;     // parameters are multiples of 2^-bits
+  int parameter_bits;      // parameters are multiples of 2^-bits
   std::uint32_t farthest;  // depth words lie below it
 };
 constexpr Cases kCases[] = {{28, 1u << 20}, {28, 4}, {18, 0xffffffffu}};
@@ -31,16 +32,24 @@ TEST(LineDepth, IsTheWholePart) {
         const std::int64_t one = std::int64_t{1} << of.parameter_bits, change = std::int64_t{z1} - z0;
         for (int i = 0; i < 16; ++i) {
           // Half of them as near to where a level of 32 bits begins as they come.
-          const std::int64_t level_at = change == 0 ? 0 : (2 * (static_cast<std::int64_t>(random()) % std::abs(change)) + 1) * one / (2 * std::abs(change));
-          const std::int64_t n = std::min(one, i % 2 == 0 ? level_at + i % 4 / 2 : static_cast<std::int64_t>(random()) % (one + 1));
+          const std::int64_t level_at =
+              change == 0 ? 0
+                          : (2 * (static_cast<std::int64_t>(random()) % std::abs(change)) + 1) * one /
+                                (2 * std::abs(change));
+          const std::int64_t n = std::min(
+              one, i % 2 == 0 ? level_at + i % 4 / 2 : static_cast<std::int64_t>(random()) % (one + 1));
           parameters.push_back(static_cast<double>(n) / static_cast<double>(one));
           const std::int64_t depth = (std::int64_t{z0} << of.parameter_bits) + n * change;
           if (kind == DepthKind::unorm32)
-            expected.push_back(static_cast<std::int32_t>(((depth + one / 2) >> of.parameter_bits) - (std::int64_t{1} << 31)));
+            expected.push_back(static_cast<std::int32_t>(((depth + one / 2) >> of.parameter_bits) -
+                                                         (std::int64_t{1} << 31)));
           else
-            expected.push_back(static_cast<std::int32_t>(depth >> (of.parameter_bits + (kind == DepthKind::unorm24 ? 8 : 16))));
+            expected.push_back(static_cast<std::int32_t>(
+                depth >> (of.parameter_bits + (kind == DepthKind::unorm24 ? 8 : 16))));
         }
-        for (const Isa isa : available_isas()) ASSERT_EQ(line_keys(isa)(kind, z0, z1, parameters), expected) << name_of(isa) << ", depth words " << z0 << " to " << z1;
+        for (const Isa isa : available_isas())
+          ASSERT_EQ(line_keys(isa)(kind, z0, z1, parameters), expected)
+              << name_of(isa) << ", depth words " << z0 << " to " << z1;
       }
 }
 
@@ -48,16 +57,21 @@ TEST(LineDepth, IsTheWholePart) {
 TEST(LineDepth, IsThatOfAPointAtItsFirstVertex) {
   std::mt19937 random(5);
   const auto word = [&] { return static_cast<std::uint32_t>(random()) >> random() % 32; };
-  for (const DepthKind kind : {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
+  for (const DepthKind kind :
+       {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
     for (int round = 0; round < 20000; ++round) {
       const bool is_float = kind == DepthKind::float32;
       const std::uint32_t bits = round % 3 == 0 ? word() : ~word();
-      const std::uint32_t z = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(bits) * 0x1p-32f) : bits;
-      const double sizes[] = {0, 0.5, 1.5, static_cast<double>(word()), 0x1p31, 0x1p32, 0x1p40, std::numeric_limits<double>::infinity()};
-      const double offset = sizes[random() % std::size(sizes)] * (random() % 2 == 0 ? 1 : -1) * (is_float ? 0x1p-32 : 1);
+      const std::uint32_t z =
+          is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(bits) * 0x1p-32f) : bits;
+      const double sizes[] = {0,      0.5,    1.5,    static_cast<double>(word()),
+                              0x1p31, 0x1p32, 0x1p40, std::numeric_limits<double>::infinity()};
+      const double offset =
+          sizes[random() % std::size(sizes)] * (random() % 2 == 0 ? 1 : -1) * (is_float ? 0x1p-32 : 1);
       for (const Isa isa : available_isas()) {
         const KeyPair keys = point_keys(isa)(kind, z, offset);
-        ASSERT_EQ(keys.point, keys.line) << name_of(isa) << ", kind " << static_cast<int>(kind) << ", word " << z << ", offset " << offset;
+        ASSERT_EQ(keys.point, keys.line)
+            << name_of(isa) << ", kind " << static_cast<int>(kind) << ", word " << z << ", offset " << offset;
       }
     }
 }

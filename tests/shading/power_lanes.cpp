@@ -10,7 +10,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-void evaluate_power_lanes(test::PowerFunction function, const float* arguments, float exponent, float* results, std::size_t count) {
+void evaluate_power_lanes(test::PowerFunction function, const float* arguments, float exponent,
+                          float* results, std::size_t count) {
   if (function == test::PowerFunction::chosen)
     return with_power(power_with(exponent), [&](const auto& raise) HWY_ATTR {
       for (std::size_t i = 0; i < count; i += kLanes) {
@@ -21,7 +22,9 @@ void evaluate_power_lanes(test::PowerFunction function, const float* arguments, 
     });
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Float x = hn::LoadU(kFloat, arguments + i);
-    const Float y = function == test::PowerFunction::power ? power_lanes(x, exponent) : function == test::PowerFunction::log2 ? log2_lanes(x) : exp2_lanes(x);
+    const Float y = function == test::PowerFunction::power  ? power_lanes(x, exponent)
+                    : function == test::PowerFunction::log2 ? log2_lanes(x)
+                                                            : exp2_lanes(x);
     hn::StoreU(y, kFloat, results + i);
   }
 }

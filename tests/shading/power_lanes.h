@@ -1,4 +1,5 @@
-// The power function's kernels, which only translation units for many targets can see, as plain functions over arrays.
+// The power function's kernels, which only translation units for many targets can see, as plain functions
+// over arrays.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +9,10 @@
 namespace tessera::test {
 
 enum class PowerFunction { power, log2, exp2, chosen };
-/// Of `count` arguments, a multiple of 16; the exponent matters to powers alone. `chosen`: in the way that lighting takes.
-using EvaluatePower = void(PowerFunction function, const float* arguments, float exponent, float* results, std::size_t count);
+/// Of `count` arguments, a multiple of 16; the exponent matters to powers alone. `chosen`: in the way that
+/// lighting takes.
+using EvaluatePower = void(PowerFunction function, const float* arguments, float exponent, float* results,
+                           std::size_t count);
 EvaluatePower* evaluate_power(Isa isa);
 
 }  // namespace tessera::test

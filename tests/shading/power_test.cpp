@@ -1,4 +1,5 @@
-// x^y, log2 and 2^x: the bits of their scalar twins on every instruction set, and how far they are from the truth.
+// x^y, log2 and 2^x: the bits of their scalar twins on every instruction set, and how far they are from the
+// truth.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -18,13 +19,17 @@ namespace {
 
 constexpr float kExponents[] = {0.5f, 1, 2, 20, 128, 1000, 16384};
 
-// Every exponent of a float, each with the ends and the middle of its range and many in between; and what is no number.
+// Every exponent of a float, each with the ends and the middle of its range and many in between; and what is
+// no number.
 std::vector<float> all_magnitudes() {
   std::vector<float> values;
   std::mt19937 random(1);
   for (std::uint32_t exponent = 0; exponent <= 255; ++exponent) {
     for (std::uint32_t i = 0; i < 256; ++i) {
-      const std::uint32_t mantissa = i < 4 ? i : i < 8 ? 0x7fffff - (i - 4) : i < 12 ? 0x3504f3 + i - 10 : static_cast<std::uint32_t>(random()) & 0x7fffff;
+      const std::uint32_t mantissa = i < 4    ? i
+                                     : i < 8  ? 0x7fffff - (i - 4)
+                                     : i < 12 ? 0x3504f3 + i - 10
+                                              : static_cast<std::uint32_t>(random()) & 0x7fffff;
       values.push_back(std::bit_cast<float>(exponent << 23 | mantissa));
       if (i % 8 == 0) values.push_back(-values.back());
     }
@@ -42,34 +47,42 @@ std::vector<float> cosines() {
   return values;
 }
 
-std::vector<float> evaluate(PowerFunction function, const std::vector<float>& arguments, float exponent, Isa isa) {
+std::vector<float> evaluate(PowerFunction function, const std::vector<float>& arguments, float exponent,
+                            Isa isa) {
   std::vector<float> results(arguments.size());
   evaluate_power(isa)(function, arguments.data(), exponent, results.data(), arguments.size());
   return results;
 }
 
 template <class Reference>
-void expect_same_bits(PowerFunction function, const std::vector<float>& arguments, float exponent, const Reference& reference) {
+void expect_same_bits(PowerFunction function, const std::vector<float>& arguments, float exponent,
+                      const Reference& reference) {
   for (const Isa isa : available_isas()) {
     const std::vector<float> results = evaluate(function, arguments, exponent, isa);
     for (std::size_t i = 0; i < arguments.size(); ++i)
-      ASSERT_EQ(std::bit_cast<std::uint32_t>(results[i]), std::bit_cast<std::uint32_t>(reference(arguments[i])))
-          << name_of(isa) << ": " << arguments[i] << " to " << exponent << " is " << results[i] << ", not " << reference(arguments[i]);
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(results[i]),
+                std::bit_cast<std::uint32_t>(reference(arguments[i])))
+          << name_of(isa) << ": " << arguments[i] << " to " << exponent << " is " << results[i] << ", not "
+          << reference(arguments[i]);
   }
 }
 
 TEST(Power, HasTheBitsOfItsTwin) {
   for (const float y : {0x1p-20f, 0.1f, 0.5f, 1.0f, 2.0f, 20.0f, 76.8f, 128.0f, 1000.0f, 16384.0f}) {
-    expect_same_bits(PowerFunction::power, all_magnitudes(), y, [y](float x) { return power_reference(x, y); });
+    expect_same_bits(PowerFunction::power, all_magnitudes(), y,
+                     [y](float x) { return power_reference(x, y); });
     expect_same_bits(PowerFunction::power, cosines(), y, [y](float x) { return power_reference(x, y); });
   }
 }
 // Whole ones are products up to the largest, and not above it; what is between is not.
 TEST(Power, IsChosenAsItsTwinIs) {
-  for (const float y : {0.0f, 0.5f, 1.0f, 2.0f, 3.0f, 25.0f, 25.5f, 31.0f, 63.0f, 64.0f, 64.5f, 65.0f, 1000.0f}) {
-    expect_same_bits(PowerFunction::chosen, all_magnitudes(), y, [y](float x) { return power_of_reference(x, y); });
+  for (const float y :
+       {0.0f, 0.5f, 1.0f, 2.0f, 3.0f, 25.0f, 25.5f, 31.0f, 63.0f, 64.0f, 64.5f, 65.0f, 1000.0f}) {
+    expect_same_bits(PowerFunction::chosen, all_magnitudes(), y,
+                     [y](float x) { return power_of_reference(x, y); });
     expect_same_bits(PowerFunction::chosen, cosines(), y, [y](float x) { return power_of_reference(x, y); });
-    EXPECT_EQ(whole_power(y) != 0, y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64) << y;
+    EXPECT_EQ(whole_power(y) != 0, y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64)
+        << y;
   }
   EXPECT_EQ(whole_power(std::numeric_limits<float>::quiet_NaN()), 0);
   EXPECT_EQ(power_of_reference(0.75f, 3), 0.421875f);
@@ -81,11 +94,14 @@ TEST(Power, OfWholeExponentsIsExactWhereDigitsAreFew) {
       const float least = whole_power_reference(tiny, n);
       EXPECT_TRUE(least >= kSmallestNormal && least <= 1.01f * kSmallestNormal) << n << ": " << least;
     }
-    for (int e = -1; e * n >= -125; --e) EXPECT_EQ(whole_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
+    for (int e = -1; e * n >= -125; --e)
+      EXPECT_EQ(whole_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
     EXPECT_EQ(whole_power_reference(1, n), 1.0f);
     EXPECT_EQ(whole_power_reference(0x1p90f, n), n == 1 ? 0x1p90f : 0x1p96f) << n;
     EXPECT_EQ(whole_power_reference(std::numeric_limits<float>::infinity(), n), 0x1p96f) << n;
-    for (const float x : {0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) EXPECT_EQ(whole_power_reference(x, n), 0.0f) << n;
+    for (const float x :
+         {0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+      EXPECT_EQ(whole_power_reference(x, n), 0.0f) << n;
   }
 }
 TEST(Power, Log2HasTheBitsOfItsTwin) {
@@ -104,7 +120,8 @@ TEST(Power, Log2HasTheBitsOfItsTwin) {
 }
 TEST(Power, Exp2HasTheBitsOfItsTwin) {
   std::vector<float> arguments;
-  for (int i = -126 * 512; i <= 127 * 512; ++i) arguments.push_back(static_cast<float>(i) / 512 + (i % 3 != 0 && i < 127 * 512 ? 0.0007f : 0));
+  for (int i = -126 * 512; i <= 127 * 512; ++i)
+    arguments.push_back(static_cast<float>(i) / 512 + (i % 3 != 0 && i < 127 * 512 ? 0.0007f : 0));
   while (arguments.size() % 16 != 0) arguments.push_back(0);
   expect_same_bits(PowerFunction::exp2, arguments, 1, [](float x) { return exp2_reference(x); });
   long double worst = 0;
@@ -120,15 +137,17 @@ TEST(Power, IsExactAtOneAndPowersOfTwo) {
   for (int e = -63; e <= 48; ++e) EXPECT_EQ(power_reference(std::ldexp(1.0f, e), 2), std::ldexp(1.0f, 2 * e));
 }
 TEST(Power, OfNothingPositiveIsZero) {
-  for (const float x : {0.0f, -0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+  for (const float x :
+       {0.0f, -0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
     for (const float y : kExponents) EXPECT_EQ(power_reference(x, y), 0.0f);
 }
 
-// x^y = 2^p, p = y log2 x. log2 is off by at most 9.1e-8 of itself (measured above), and its product with y by 2^-24 more: p is
-// off by 1.5e-7 |p|, which is a relative error of 1.1e-7 |p| in the result, or up to 1.8 |p| units in the last place, on top of
-// one or two from 2^p. For visible results |p| is at most 8, and rarely is everything at its worst at once: what is promised of all
-// powers is 15.6 and 228.2 (tests/numerics/README.md), what these exponents come to is held to 14 and 160. The absolute error
-// peaks where |p| 2^p does: at 1.1e-7 / (e ln 2) + 6e-8.
+// x^y = 2^p, p = y log2 x. log2 is off by at most 9.1e-8 of itself (measured above), and its product with y
+// by 2^-24 more: p is off by 1.5e-7 |p|, which is a relative error of 1.1e-7 |p| in the result, or up to 1.8
+// |p| units in the last place, on top of one or two from 2^p. For visible results |p| is at most 8, and
+// rarely is everything at its worst at once: what is promised of all powers is 15.6 and 228.2
+// (tests/numerics/README.md), what these exponents come to is held to 14 and 160. The absolute error peaks
+// where |p| 2^p does: at 1.1e-7 / (e ln 2) + 6e-8.
 TEST(Power, IsAsExactAsItSays) {
   for (const float y : kExponents) {
     double absolute = 0, visible = 0, any = 0;
@@ -137,12 +156,16 @@ TEST(Power, IsAsExactAsItSays) {
       if (exact < 0x1p-126L) continue;
       const float power = power_reference(x, y);
       const int exponent = std::ilogb(static_cast<float>(exact));
-      const double error = static_cast<double>(std::abs(power - exact)), ulp = error / std::ldexp(1.0, exponent - 23);
+      const double error = static_cast<double>(std::abs(power - exact)),
+                   ulp = error / std::ldexp(1.0, exponent - 23);
       keep_worst(absolute, error);
       keep_worst(any, ulp);
       if (exact >= 1 / 256.0L) keep_worst(visible, ulp);
     }
-    std::printf("[  figure  ] x^%g for x in 0..1: absolute error at most %.3g, %.3g ulp where it is at least 1/256, %.4g ulp anywhere\n", y, absolute, visible, any);
+    std::printf(
+        "[  figure  ] x^%g for x in 0..1: absolute error at most %.3g, %.3g ulp where it is at least 1/256, "
+        "%.4g ulp anywhere\n",
+        y, absolute, visible, any);
     EXPECT_LE(absolute, 1.0e-7);
     EXPECT_LE(visible, 14);
     EXPECT_LE(any, 160);

@@ -1,4 +1,5 @@
-// Pixels of several samples: their colour is the mean of the samples' levels, whichever way the samples got their colours.
+// Pixels of several samples: their colour is the mean of the samples' levels, whichever way the samples got
+// their colours.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -27,7 +28,8 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
         stage.frame().layout.alpha_bits = alpha;
         stage.frame().samples = samples;
         std::vector<Triangle> triangles;
-        for (int i = 0; i < 60; ++i) triangles.push_back(source.next(i % 2 == 0 ? Shape::medium : Shape::tiny));
+        for (int i = 0; i < 60; ++i)
+          triangles.push_back(source.next(i % 2 == 0 ? Shape::medium : Shape::tiny));
         for (const Triangle& triangle : triangles) {
           TileDraw& draw = stage.add_draw(triangle.data());
           draw.word = static_cast<std::uint32_t>(source.random()());
@@ -41,7 +43,8 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
             for (int x = 0; x < kTile; ++x) {
               std::uint32_t words[kMaxSamples];
               for (int s = 0; s < samples; ++s) words[s] = stage.sample_color(s, x, y);
-              ASSERT_EQ(stage.color(x, y) & mask, resolved_word(layout, words, samples)) << name_of(isa) << ", " << bits << " bits, " << alpha << " of alpha";
+              ASSERT_EQ(stage.color(x, y) & mask, resolved_word(layout, words, samples))
+                  << name_of(isa) << ", " << bits << " bits, " << alpha << " of alpha";
             }
         }
       }
@@ -50,7 +53,8 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
 // The twin by hand: halves go up, and components do not run into each other.
 TEST(Samples, MeanRoundsHalvesUp) {
   const std::uint32_t words[8] = {0xff0000, 0xff0001, 0xff0101, 0xff01ff, 0, 0, 0, 0};
-  EXPECT_EQ(resolved_word(rgb_layout(24), words, 4), 0xff0140u);  // green 2/4 -> 1, blue (1 + 1 + 255)/4 = 64.25
+  EXPECT_EQ(resolved_word(rgb_layout(24), words, 4),
+            0xff0140u);  // green 2/4 -> 1, blue (1 + 1 + 255)/4 = 64.25
   EXPECT_EQ(resolved_word(rgb_layout(24), words, 8), 0x800020u);  // red 127.5, green 0.25, blue 32.125
   const std::uint32_t greys[4] = {0, 1, 1, 0};
   EXPECT_EQ(resolved_word(rgb_layout(1), greys, 4), 1u);
@@ -59,12 +63,13 @@ TEST(Samples, MeanRoundsHalvesUp) {
 // How draws of interpolated colours go through a tile.
 enum class Way { later, later_one_by_one, at_once, mixed, with_operations };
 constexpr Way kWays[] = {Way::later, Way::later_one_by_one, Way::at_once, Way::mixed, Way::with_operations};
-constexpr const char* kWayNames[] = {"later", "later, one by one", "at once", "at once between others that wait", "with operations"};
+constexpr const char* kWayNames[] = {"later", "later, one by one", "at once",
+                                     "at once between others that wait", "with operations"};
 
 constexpr std::uint32_t kTriangles = 51, kDraws = 3;
 
-
-// Three draws of random triangles, in perspective, behind and through each other, with colours of their fronts and backs.
+// Three draws of random triangles, in perspective, behind and through each other, with colours of their
+// fronts and backs.
 constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
 float unit_depth(std::uint32_t random) { return static_cast<float>(random >> 8) * 0x1p-24f; }
 
@@ -79,11 +84,16 @@ struct InterpolatedDraws {
   InterpolatedDraws(RandomTriangles& source, int round, DepthKind depth_kind) {
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       const bool wide = round % 3 == 2 && i % 13 == 0;
-      const Triangle triangle = source.next(wide ? Shape::wide : i % 3 == 0 ? Shape::large : i % 3 == 1 ? Shape::medium : Shape::tiny);
+      const Triangle triangle = source.next(wide         ? Shape::wide
+                                            : i % 3 == 0 ? Shape::large
+                                            : i % 3 == 1 ? Shape::medium
+                                                         : Shape::tiny);
       if (reference_of(triangle).area != 0) visible.push_back(i);
       for (WindowVertex v : triangle) {
         const auto depth = static_cast<std::uint32_t>(source.random()());
-        v.z = depth_kind == DepthKind::float32 ? std::bit_cast<std::uint32_t>(unit_depth(depth)) : depth_kind == DepthKind::unorm32 ? depth : (depth & 0xffff0000u) | 0x8000u;
+        v.z = depth_kind == DepthKind::float32   ? std::bit_cast<std::uint32_t>(unit_depth(depth))
+              : depth_kind == DepthKind::unorm32 ? depth
+                                                 : (depth & 0xffff0000u) | 0x8000u;
         v.rw = 0.5f + static_cast<float>(source.unit());
         vertices.push_back(v);
         for (int c = 0; c < 8; ++c) colors.push_back(static_cast<float>(source.unit()));
@@ -92,7 +102,9 @@ struct InterpolatedDraws {
     colors.resize(colors.size() + 64);
     if (round % 4 == 1) uses_depth = false;
     if (round % 4 == 2) depth_test = CompareOp::notequal;
-    if (round % 5 >= 3) rect = {source.between(0, 9), source.between(0, 9), source.between(20, kTile), source.between(20, kTile)};
+    if (round % 5 >= 3)
+      rect = {source.between(0, 9), source.between(0, 9), source.between(20, kTile),
+              source.between(20, kTile)};
   }
 
   void add_to(TileStage& stage, Way way, const FragmentOps& operations) const {
@@ -136,17 +148,25 @@ TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
             for (int y = 0; y < kTile; ++y)
               for (int x = 0; x < kTile; ++x) seen.push_back(stage.sample_color(s, x, y));
           if (first.empty()) first = seen;
-          ASSERT_EQ(seen, first) << name_of(isa) << ", round " << round << ": " << kWayNames[static_cast<int>(way)];
+          ASSERT_EQ(seen, first) << name_of(isa) << ", round " << round << ": "
+                                 << kWayNames[static_cast<int>(way)];
         }
-        ASSERT_EQ(shaded[static_cast<int>(Way::at_once)], shaded[static_cast<int>(Way::with_operations)]) << name_of(isa) << ", round " << round;
-        ASSERT_LE(shaded[static_cast<int>(Way::later)], shaded[static_cast<int>(Way::at_once)]) << name_of(isa) << ", round " << round;
+        ASSERT_EQ(shaded[static_cast<int>(Way::at_once)], shaded[static_cast<int>(Way::with_operations)])
+            << name_of(isa) << ", round " << round;
+        ASSERT_LE(shaded[static_cast<int>(Way::later)], shaded[static_cast<int>(Way::at_once)])
+            << name_of(isa) << ", round " << round;
       }
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, SampledColors, testing::Values(DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32),
-                         [](const auto& kind) { return (kind.param == DepthKind::float32 ? "float" : "unorm") + std::to_string(depth_bits(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Formats, SampledColors,
+                         testing::Values(DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32,
+                                         DepthKind::float32),
+                         [](const auto& kind) {
+                           return (kind.param == DepthKind::float32 ? "float" : "unorm") +
+                                  std::to_string(depth_bits(kind.param));
+                         });
 
 }  // namespace
 }  // namespace tessera::test

@@ -1,4 +1,5 @@
-// Environments against OpenGL 1.5's table in double, for textures with and without alpha; the bits of their twin on every instruction set.
+// Environments against OpenGL 1.5's table in double, for textures with and without alpha; the bits of their
+// twin on every instruction set.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -15,7 +16,8 @@ struct Rgba {
 };
 
 // GL 1.5, table 3.22 and 3.23: f the fragment's, t the texture's, k the environment's colour.
-Rgba by_the_table(TextureFunction function, bool has_alpha, const Rgba& f, const Rgba& t, const std::array<float, 3>& k) {
+Rgba by_the_table(TextureFunction function, bool has_alpha, const Rgba& f, const Rgba& t,
+                  const std::array<float, 3>& k) {
   Rgba v = f;
   for (std::size_t i = 0; i < 3; ++i) {
     if (function == TextureFunction::modulate) v.c[i] = f.c[i] * t.c[i];
@@ -32,23 +34,32 @@ Rgba by_the_table(TextureFunction function, bool has_alpha, const Rgba& f, const
 TEST(TextureEnv, IsTheTableAndHasTheBitsOfItsTwin) {
   std::mt19937 random(3);
   const auto unit = [&] { return static_cast<float>(random() % 257) / 256.0f; };
-  for (const auto function : {TextureFunction::modulate, TextureFunction::replace, TextureFunction::decal, TextureFunction::blend, TextureFunction::add})
+  for (const auto function : {TextureFunction::modulate, TextureFunction::replace, TextureFunction::decal,
+                              TextureFunction::blend, TextureFunction::add})
     for (const bool has_alpha : {false, true})
       for (int round = 0; round < 50; ++round) {
-        const DrawTexture texture{.function = function, .has_alpha = has_alpha, .constant = {unit(), unit(), unit()}};
+        const DrawTexture texture{
+            .function = function, .has_alpha = has_alpha, .constant = {unit(), unit(), unit()}};
         float colors[4][16], texels[4][16];
         for (int c = 0; c < 4; ++c)
-          for (int i = 0; i < 16; ++i) colors[c][i] = unit(), texels[c][i] = c == 3 && !has_alpha ? 1.0f : unit();
+          for (int i = 0; i < 16; ++i)
+            colors[c][i] = unit(), texels[c][i] = c == 3 && !has_alpha ? 1.0f : unit();
         for (const Isa isa : available_isas()) {
           float out[4][16];
           std::copy(&colors[0][0], &colors[0][0] + 64, &out[0][0]);
           texture_colors(isa)(texture, out, texels);
           for (int i = 0; i < 16; ++i) {
-            const auto twin = textured_color(texture, {colors[0][i], colors[1][i], colors[2][i], colors[3][i]}, {texels[0][i], texels[1][i], texels[2][i], texels[3][i]});
-            const Rgba table = by_the_table(function, has_alpha, {{colors[0][i], colors[1][i], colors[2][i]}, colors[3][i]}, {{texels[0][i], texels[1][i], texels[2][i]}, texels[3][i]}, texture.constant);
+            const auto twin =
+                textured_color(texture, {colors[0][i], colors[1][i], colors[2][i], colors[3][i]},
+                               {texels[0][i], texels[1][i], texels[2][i], texels[3][i]});
+            const Rgba table =
+                by_the_table(function, has_alpha, {{colors[0][i], colors[1][i], colors[2][i]}, colors[3][i]},
+                             {{texels[0][i], texels[1][i], texels[2][i]}, texels[3][i]}, texture.constant);
             for (std::size_t c = 0; c < 4; ++c) {
-              ASSERT_EQ(std::bit_cast<std::uint32_t>(out[c][i]), std::bit_cast<std::uint32_t>(twin[c])) << name_of(isa) << ", function " << static_cast<int>(function) << ", component " << c;
-              ASSERT_NEAR(out[c][i], c == 3 ? table.a : table.c[c], 2e-7) << "function " << static_cast<int>(function) << ", component " << c;
+              ASSERT_EQ(std::bit_cast<std::uint32_t>(out[c][i]), std::bit_cast<std::uint32_t>(twin[c]))
+                  << name_of(isa) << ", function " << static_cast<int>(function) << ", component " << c;
+              ASSERT_NEAR(out[c][i], c == 3 ? table.a : table.c[c], 2e-7)
+                  << "function " << static_cast<int>(function) << ", component " << c;
             }
           }
         }

@@ -13,7 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-void sample_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) { sample_texture_lanes(texture, batch, count); }
+void sample_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) {
+  sample_texture_lanes(texture, batch, count);
+}
 
 void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], std::uint32_t (&words)[16]) {
   for (int i = 0; i < 16; i += kLanes) {
@@ -29,17 +31,21 @@ void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], 
 void color_lanes(const DrawTexture& texture, float (&colors)[4][16], const float (&texels)[4][16]) {
   for (int i = 0; i < 16; i += kLanes) {
     Colors color, texel;
-    for (int c = 0; c < 4; ++c) color.c[c] = hn::LoadU(kFloat, colors[c] + i), texel.c[c] = hn::LoadU(kFloat, texels[c] + i);
+    for (int c = 0; c < 4; ++c)
+      color.c[c] = hn::LoadU(kFloat, colors[c] + i), texel.c[c] = hn::LoadU(kFloat, texels[c] + i);
     color = textured_lanes(texture, color, texel);
     for (int c = 0; c < 4; ++c) hn::StoreU(color.c[c], kFloat, colors[c] + i);
   }
 }
 
-bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&attributes)[3], const DrawTexture& texture, int tile_size, float* s, float* t, float* squared) {
+bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&attributes)[3],
+                      const DrawTexture& texture, int tile_size, float* s, float* t, float* squared) {
   TriangleGroup g;
   g.count = 1;
   for (int i = 0; i < kGroupSize; ++i)
-    for (int k = 0; k < 3; ++k) g.x[k][i] = vertices[k].x, g.y[k][i] = vertices[k].y, g.z[k][i] = vertices[k].z, g.rw[k][i] = vertices[k].rw;
+    for (int k = 0; k < 3; ++k)
+      g.x[k][i] = vertices[k].x, g.y[k][i] = vertices[k].y, g.z[k][i] = vertices[k].z,
+      g.rw[k][i] = vertices[k].rw;
   set_up_edges(g, 0, 0, {0, 0, tile_size, tile_size});
   set_up_weights(g);
   if (g.mask == 0) return false;
@@ -76,7 +82,8 @@ void level_lanes(const float* footprints, std::int32_t* levels, std::size_t coun
   TextureLevels texture;
   texture.last = kMaxTextureLevels - 1;
   texture.blends_levels = true;
-  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(kLanes)) hn::StoreU(level_of_detail(texture, hn::LoadU(kFloat, footprints + i)), kInt, levels + i);
+  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(kLanes))
+    hn::StoreU(level_of_detail(texture, hn::LoadU(kFloat, footprints + i)), kInt, levels + i);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,5 @@
-// Texels against the filters' definitions in double [GL 2.1, 3.8.8, 3.8.9], on textures whose levels have nothing to do with each other;
-// the same bits on every instruction set.
+// Texels against the filters' definitions in double [GL 2.1, 3.8.8, 3.8.9], on textures whose levels have
+// nothing to do with each other; the same bits on every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@ namespace tessera::test {
 namespace {
 
 enum class Min { nearest, linear, nearest_nearest, linear_nearest, nearest_linear, linear_linear };
-constexpr Min kMins[] = {Min::nearest, Min::linear, Min::nearest_nearest, Min::linear_nearest, Min::nearest_linear, Min::linear_linear};
+constexpr Min kMins[] = {Min::nearest,        Min::linear,         Min::nearest_nearest,
+                         Min::linear_nearest, Min::nearest_linear, Min::linear_linear};
 constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::clamp_to_edge, Wrap::mirrored_repeat};
 
 struct TestTexture {
@@ -25,11 +26,14 @@ struct TestTexture {
   std::vector<std::uint32_t> words;
   Min min;
 
-  TestTexture(std::mt19937& random, int width, int height, bool mag_linear, Min min_filter, Wrap wrap_s, Wrap wrap_t) : min(min_filter) {
+  TestTexture(std::mt19937& random, int width, int height, bool mag_linear, Min min_filter, Wrap wrap_s,
+              Wrap wrap_t)
+      : min(min_filter) {
     levels.mag_linear = mag_linear;
     levels.min_linear = min == Min::linear || min == Min::linear_nearest || min == Min::linear_linear;
     levels.blends_levels = min == Min::nearest_linear || min == Min::linear_linear;
-    levels.most_magnified = mag_linear && (min == Min::nearest_nearest || min == Min::nearest_linear) ? 2.0f : 1.0f;
+    levels.most_magnified =
+        mag_linear && (min == Min::nearest_nearest || min == Min::nearest_linear) ? 2.0f : 1.0f;
     levels.wrap_s = wrap_s;
     levels.wrap_t = wrap_t;
     add_level(random, 0, width, height);
@@ -56,7 +60,10 @@ struct TestTexture {
       for (int i = 0; i < width; ++i) row[i] = static_cast<std::uint32_t>(random());
       row[width] = levels.wrap_s == Wrap::repeat ? row[0] : row[width - 1];
     }
-    if (height > 1) std::memcpy(first + height * level.stride, levels.wrap_t == Wrap::repeat ? first : first + (height - 1) * level.stride, sizeof(std::uint32_t) * static_cast<std::size_t>(level.stride));
+    if (height > 1)
+      std::memcpy(first + height * level.stride,
+                  levels.wrap_t == Wrap::repeat ? first : first + (height - 1) * level.stride,
+                  sizeof(std::uint32_t) * static_cast<std::size_t>(level.stride));
   }
 };
 
@@ -73,20 +80,26 @@ std::int64_t wrapped_index(std::int64_t i, Wrap wrap, std::int64_t size) {
 double level_component(const TestTexture& texture, int level, bool linear, double s, double t, int c) {
   const TextureLevel& l = texture.levels.level[level];
   const auto at = [&](std::int64_t i, std::int64_t j) {
-    return texture.component(level, wrapped_index(i, texture.levels.wrap_s, l.width), wrapped_index(j, texture.levels.wrap_t, l.height), c);
+    return texture.component(level, wrapped_index(i, texture.levels.wrap_s, l.width),
+                             wrapped_index(j, texture.levels.wrap_t, l.height), c);
   };
   const double u = s * l.width, v = t * l.height;
   if (!linear) return at(static_cast<std::int64_t>(std::floor(u)), static_cast<std::int64_t>(std::floor(v)));
-  const double left = std::floor(u - 0.5), below = std::floor(v - 0.5), a = u - 0.5 - left, b = v - 0.5 - below;
+  const double left = std::floor(u - 0.5), below = std::floor(v - 0.5), a = u - 0.5 - left,
+               b = v - 0.5 - below;
   const auto i = static_cast<std::int64_t>(left), j = static_cast<std::int64_t>(below);
-  return (1 - a) * (1 - b) * at(i, j) + a * (1 - b) * at(i + 1, j) + (1 - a) * b * at(i, j + 1) + a * b * at(i + 1, j + 1);
+  return (1 - a) * (1 - b) * at(i, j) + a * (1 - b) * at(i + 1, j) + (1 - a) * b * at(i, j + 1) +
+         a * b * at(i + 1, j + 1);
 }
 
 double expected_component(const TestTexture& texture, double s, double t, double lambda, int c) {
   const TextureLevels& levels = texture.levels;
-  const double late = levels.mag_linear && (texture.min == Min::nearest_nearest || texture.min == Min::nearest_linear) ? 0.5 : 0.0;
+  const double late =
+      levels.mag_linear && (texture.min == Min::nearest_nearest || texture.min == Min::nearest_linear) ? 0.5
+                                                                                                       : 0.0;
   if (lambda <= late) return level_component(texture, 0, levels.mag_linear, s, t, c);
-  if (texture.min == Min::nearest || texture.min == Min::linear) return level_component(texture, 0, levels.min_linear, s, t, c);
+  if (texture.min == Min::nearest || texture.min == Min::linear)
+    return level_component(texture, 0, levels.min_linear, s, t, c);
   const double q = levels.last;
   if (!levels.blends_levels) {
     const double d = lambda <= 0.5 ? 0 : lambda <= q + 0.5 ? std::ceil(lambda + 0.5) - 1 : q;
@@ -94,14 +107,17 @@ double expected_component(const TestTexture& texture, double s, double t, double
   }
   const int d1 = static_cast<int>(lambda >= q ? q : std::floor(lambda)), d2 = lambda >= q ? d1 : d1 + 1;
   const double share = lambda - std::floor(lambda);
-  return (1 - share) * level_component(texture, d1, levels.min_linear, s, t, c) + share * level_component(texture, d2, levels.min_linear, s, t, c);
+  return (1 - share) * level_component(texture, d1, levels.min_linear, s, t, c) +
+         share * level_component(texture, d2, levels.min_linear, s, t, c);
 }
 
 // No nearest filter has to choose near a border between two texels.
 bool is_clear(const TestTexture& texture, double s, double t) {
   for (int level = 0; level <= texture.levels.last; ++level) {
     const auto is_near = [](double x) { return std::abs(x - std::round(x)) < 2e-4; };
-    if (is_near(s * texture.levels.level[level].width) || (texture.levels.level[0].height > 1 && is_near(t * texture.levels.level[level].height))) return false;
+    if (is_near(s * texture.levels.level[level].width) ||
+        (texture.levels.level[0].height > 1 && is_near(t * texture.levels.level[level].height)))
+      return false;
   }
   return true;
 }
@@ -114,13 +130,16 @@ void for_each_filter(const Check& check) {
     for (const bool mag_linear : {false, true})
       for (const Min min : kMins)
         for (const Wrap wrap_s : kWraps)
-          for (const Wrap wrap_t : kWraps) check(TestTexture(random, width, height, mag_linear, min, wrap_s, wrap_t), random);
+          for (const Wrap wrap_t : kWraps)
+            check(TestTexture(random, width, height, mag_linear, min, wrap_s, wrap_t), random);
 }
 
 TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
   double worst = 0;
   for_each_filter([&](const TestTexture& texture, std::mt19937& random) {
-    const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
     ShadingBatch batch{};
     float lambda[kBatchPoints];
     for (int i = 0; i < kBatchPoints; ++i) {
@@ -140,11 +159,17 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
         const double t = texture.levels.level[0].height == 1 ? 0 : double{batch.field[kTextureT][i]};
         const double detail = 0.5 * std::log2(double{batch.field[kTexelsSquared][i]});
         for (int c = 0; c < 4; ++c) {
-          const double expected = expected_component(texture, batch.field[kTextureS][i], t, detail, c), off = std::abs(255.0 * out.field[kTexelR + c][i] - expected);
-          const bool exact = (detail <= 0 && !texture.levels.mag_linear) || (!texture.levels.min_linear && !texture.levels.blends_levels && detail > 0.5);
-          ASSERT_LE(off, exact ? 1e-4 : 0.06) << name_of(isa) << ", " << texture.levels.level[0].width << "x" << texture.levels.level[0].height << ", min " << static_cast<int>(texture.min)
-                                              << ", mag linear " << texture.levels.mag_linear << ", wraps " << static_cast<int>(texture.levels.wrap_s) << " " << static_cast<int>(texture.levels.wrap_t)
-                                              << ", s " << batch.field[kTextureS][i] << ", t " << t << ", level of detail " << detail << ", component " << c << ", expected " << expected;
+          const double expected = expected_component(texture, batch.field[kTextureS][i], t, detail, c),
+                       off = std::abs(255.0 * out.field[kTexelR + c][i] - expected);
+          const bool exact = (detail <= 0 && !texture.levels.mag_linear) ||
+                             (!texture.levels.min_linear && !texture.levels.blends_levels && detail > 0.5);
+          ASSERT_LE(off, exact ? 1e-4 : 0.06)
+              << name_of(isa) << ", " << texture.levels.level[0].width << "x"
+              << texture.levels.level[0].height << ", min " << static_cast<int>(texture.min)
+              << ", mag linear " << texture.levels.mag_linear << ", wraps "
+              << static_cast<int>(texture.levels.wrap_s) << " " << static_cast<int>(texture.levels.wrap_t)
+              << ", s " << batch.field[kTextureS][i] << ", t " << t << ", level of detail " << detail
+              << ", component " << c << ", expected " << expected;
           worst = std::max(worst, off);
         }
       }
@@ -158,19 +183,23 @@ TEST(TextureSampling, RepeatsExactlyHoweverFar) {
   std::mt19937 random(7);
   for (const int width : {100, 1000, 1024, 3000}) {
     TestTexture texture(random, width, 1, true, Min::linear, Wrap::repeat, Wrap::repeat);
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(width); ++i) texture.words[i] = i % 2 == 0 || i == static_cast<std::size_t>(width) ? 0 : 0xffffffff;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(width); ++i)
+      texture.words[i] = i % 2 == 0 || i == static_cast<std::size_t>(width) ? 0 : 0xffffffff;
     ShadingBatch batch{};
     std::uniform_real_distribution<float> far(-4096, 4096);
     for (int round = 0; round < 20; ++round) {
       for (int i = 0; i < kBatchPoints; ++i) batch.field[kTextureS][i] = far(random);
       // The largest before the first centre, the smallest before 0 and what rounds to the end.
-      const float edges[] = {std::nextafter(0.5f / static_cast<float>(width), 0.0f), 0.5f / static_cast<float>(width), -1e-30f, std::nextafter(1.0f, 0.0f), 0.0f};
+      const float edges[] = {std::nextafter(0.5f / static_cast<float>(width), 0.0f),
+                             0.5f / static_cast<float>(width), -1e-30f, std::nextafter(1.0f, 0.0f), 0.0f};
       std::ranges::copy(edges, batch.field[kTextureS]);
       for (const Isa isa : available_isas()) {
         ShadingBatch out = batch;
         sample_texture(isa)(texture.levels, out, kBatchPoints);
         for (int i = 0; i < kBatchPoints; ++i)
-          ASSERT_NEAR(255 * out.field[kTexelR][i], level_component(texture, 0, true, batch.field[kTextureS][i], 0, 0), 0.06) << name_of(isa) << ", width " << width << ", s " << batch.field[kTextureS][i];
+          ASSERT_NEAR(255 * out.field[kTexelR][i],
+                      level_component(texture, 0, true, batch.field[kTextureS][i], 0, 0), 0.06)
+              << name_of(isa) << ", width " << width << ", s " << batch.field[kTextureS][i];
       }
     }
   }
@@ -187,23 +216,33 @@ TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
   }
   for (const Isa isa : available_isas()) {
     sample_texture(isa)(texture.levels, batch, kBatchPoints);
-    for (int i = 0; i < kBatchPoints; ++i) EXPECT_NEAR(255 * batch.field[kTexelR][i], level_component(texture, i % 6, false, 0.3f, 0.3f, 0), 1e-4) << i % 6 << " and a half, " << name_of(isa);
+    for (int i = 0; i < kBatchPoints; ++i)
+      EXPECT_NEAR(255 * batch.field[kTexelR][i], level_component(texture, i % 6, false, 0.3f, 0.3f, 0), 1e-4)
+          << i % 6 << " and a half, " << name_of(isa);
   }
 }
 
-// Whatever stands in lanes that nobody looks at: texels of the texture, the same on every instruction set, and none from elsewhere.
+// Whatever stands in lanes that nobody looks at: texels of the texture, the same on every instruction set,
+// and none from elsewhere.
 TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
   for_each_filter([&](const TestTexture& texture, std::mt19937& random) {
     ShadingBatch batch{};
     for (int i = 0; i < kBatchPoints; ++i) {
       const auto any = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(random())); };
-      batch.field[kTextureS][i] = i % 3 == 0 ? any() : static_cast<float>(static_cast<int>(random() % 64)) / 16.0f - 2;
-      batch.field[kTextureT][i] = i % 5 == 0 ? any() : static_cast<float>(static_cast<int>(random() % 64)) / 16.0f - 2;
-      batch.field[kTexelsSquared][i] = i % 2 == 0 ? any() : std::exp2(static_cast<float>(random() % 24) - 3.0f);
+      batch.field[kTextureS][i] =
+          i % 3 == 0 ? any() : static_cast<float>(static_cast<int>(random() % 64)) / 16.0f - 2;
+      batch.field[kTextureT][i] =
+          i % 5 == 0 ? any() : static_cast<float>(static_cast<int>(random() % 64)) / 16.0f - 2;
+      batch.field[kTexelsSquared][i] =
+          i % 2 == 0 ? any() : std::exp2(static_cast<float>(random() % 24) - 3.0f);
     }
-    constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
-    constexpr float kOdd[] = {kInfinity, -kInfinity, kNan, 1e30f, -1e30f, 16777217.0f, -1e-30f, 1e-45f, -1e-45f, 0.0f, -0.0f, 1.0f};
-    for (int i = 0; i < 12; ++i) batch.field[kTextureS][i] = kOdd[i], batch.field[kTextureT][16 + i] = kOdd[i], batch.field[kTexelsSquared][32 + i] = kOdd[i];
+    constexpr float kInfinity = std::numeric_limits<float>::infinity(),
+                    kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kOdd[] = {kInfinity, -kInfinity, kNan,    1e30f, -1e30f, 16777217.0f,
+                              -1e-30f,   1e-45f,     -1e-45f, 0.0f,  -0.0f,  1.0f};
+    for (int i = 0; i < 12; ++i)
+      batch.field[kTextureS][i] = kOdd[i], batch.field[kTextureT][16 + i] = kOdd[i],
+      batch.field[kTexelsSquared][32 + i] = kOdd[i];
     ShadingBatch expected = batch;
     sample_texture(Isa::scalar)(texture.levels, expected, kBatchPoints);
     TextureLevels levels = texture.levels;
@@ -215,8 +254,11 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
         sample_texture(isa)(levels, out, kBatchPoints);
         for (int c = 0; c < 4; ++c)
           for (int i = 0; i < kBatchPoints; ++i) {
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.field[kTexelR + c][i]), std::bit_cast<std::uint32_t>(expected.field[kTexelR + c][i]))
-                << name_of(isa) << (gathers ? ", gathers" : "") << ", s " << batch.field[kTextureS][i] << ", t " << batch.field[kTextureT][i] << ", texels squared " << batch.field[kTexelsSquared][i];
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.field[kTexelR + c][i]),
+                      std::bit_cast<std::uint32_t>(expected.field[kTexelR + c][i]))
+                << name_of(isa) << (gathers ? ", gathers" : "") << ", s " << batch.field[kTextureS][i]
+                << ", t " << batch.field[kTextureT][i] << ", texels squared "
+                << batch.field[kTexelsSquared][i];
             ASSERT_TRUE(out.field[kTexelR + c][i] >= 0 && out.field[kTexelR + c][i] <= 1);
           }
       }
@@ -233,8 +275,10 @@ TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
       std::uint32_t words[16];
       texel_components(isa)(components, units, words);
       for (int i = 0; i < 16; ++i) {
-        ASSERT_EQ(units[i], static_cast<float>(components[i]) / kTexelOne) << name_of(isa) << " " << components[i];
-        ASSERT_EQ(words[i], 0x010101u * static_cast<std::uint32_t>(std::fma(units[i], 255.0f, 0.5f))) << name_of(isa) << " " << components[i];
+        ASSERT_EQ(units[i], static_cast<float>(components[i]) / kTexelOne)
+            << name_of(isa) << " " << components[i];
+        ASSERT_EQ(words[i], 0x010101u * static_cast<std::uint32_t>(std::fma(units[i], 255.0f, 0.5f)))
+            << name_of(isa) << " " << components[i];
       }
     }
 }

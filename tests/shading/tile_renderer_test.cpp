@@ -1,5 +1,5 @@
-// A pixel's colour does not depend on the way that it came about: at once or later, by the path of small triangles or that of
-// large ones, alone or among others, on whichever instruction set.
+// A pixel's colour does not depend on the way that it came about: at once or later, by the path of small
+// triangles or that of large ones, alone or among others, on whichever instruction set.
 #include "shading/tile_renderer.h"
 
 #include <gtest/gtest.h>
@@ -31,13 +31,16 @@ struct Mesh {
   int stride = 3;
 };
 bool is_clockwise(const Triangle& v) {  // y goes down
-  const auto from_first = [&](std::size_t k) { return std::pair{Exact{v[k].x} - v[0].x, Exact{v[k].y} - v[0].y}; };
+  const auto from_first = [&](std::size_t k) {
+    return std::pair{Exact{v[k].x} - v[0].x, Exact{v[k].y} - v[0].y};
+  };
   const auto [ax, ay] = from_first(1);
   const auto [bx, by] = from_first(2);
   return ax * by - ay * bx > 0;
 }
 enum class Sides { both, one };  // of triangles, that are seen
-Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthKind kind, double low, double high, Sides sides = Sides::both) {
+Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthKind kind, double low, double high,
+                 Sides sides = Sides::both) {
   Mesh mesh;
   mesh.stride = stride;
   for (int i = 0; i < triangles; ++i) {
@@ -74,7 +77,9 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
     for (int round = 0; round < 100; ++round) {
       stage.forget_draws();
       Mesh mesh = random_mesh(source, 1, 3, DepthKind::none, 0, 1);
-      const float levels[3] = {static_cast<float>((1 << layout.r_bits) - 1), static_cast<float>((1 << layout.g_bits) - 1), static_cast<float>((1 << layout.b_bits) - 1)};
+      const float levels[3] = {static_cast<float>((1 << layout.r_bits) - 1),
+                               static_cast<float>((1 << layout.g_bits) - 1),
+                               static_cast<float>((1 << layout.b_bits) - 1)};
       for (std::size_t i = 0; i < 9; ++i) mesh.attributes[i] = mesh.attributes[i] * levels[i % 3] + 0.5f;
       if (mesh.visible.empty()) continue;
       add(stage, mesh);
@@ -84,8 +89,11 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
         TriangleReference(v).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
           const BarycentricReference at = barycentric_reference(v, x, y);
           const float* a = mesh.attributes.data();
-          const auto level = [&](int c) { return static_cast<std::uint32_t>(at.interpolate(a[c], a[3 + c], a[6 + c])); };
-          ASSERT_EQ(stage.color(x, y), level(0) << layout.r_shift() | level(1) << layout.g_shift() | level(2)) << name_of(isa) << " " << bits << " bits";
+          const auto level = [&](int c) {
+            return static_cast<std::uint32_t>(at.interpolate(a[c], a[3 + c], a[6 + c]));
+          };
+          ASSERT_EQ(stage.color(x, y), level(0) << layout.r_shift() | level(1) << layout.g_shift() | level(2))
+              << name_of(isa) << " " << bits << " bits";
         });
       }
     }
@@ -93,15 +101,19 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
 }
 
 std::int32_t farthest_key(DepthKind kind) {
-  return depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u : kind == DepthKind::none ? 0xffffffu : 0xffffffffu >> (32 - depth_bits(kind)));
+  return depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u
+                                   : kind == DepthKind::none  ? 0xffffffu
+                                                              : 0xffffffffu >> (32 - depth_bits(kind)));
 }
 
 TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
-  for (const DepthKind kind : {DepthKind::none, DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32}) {
+  for (const DepthKind kind :
+       {DepthKind::none, DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32}) {
     RandomTriangles source(42, kTile);
     TileStage stage(kTile, kTile, kTile, kind);
     for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
-      const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 3, kind, 0.5, 255.5, round % 2 == 0 ? Sides::both : Sides::one);
+      const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 3, kind, 0.5, 255.5,
+                                    round % 2 == 0 ? Sides::both : Sides::one);
       for (const Isa isa : available_isas()) {
         std::vector<std::uint32_t> colors[3];
         std::vector<std::int32_t> depths[3];
@@ -136,7 +148,8 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
     const bool of_polygons = round % 3 == 0, front_is_clockwise = round % 2 == 0, deferred = round % 4 < 2;
     const auto shows_back = [&](std::uint32_t id) {
       const WindowVertex* const corners = mesh.vertices.data() + 3 * std::size_t{id};
-      return of_polygons ? facing[id] == Facing::back : is_clockwise({corners[0], corners[1], corners[2]}) != front_is_clockwise;
+      return of_polygons ? facing[id] == Facing::back
+                         : is_clockwise({corners[0], corners[1], corners[2]}) != front_is_clockwise;
     };
     for (const Isa isa : available_isas()) {
       stage.forget_draws();
@@ -181,7 +194,8 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
       };
       const auto whole = draw_in(kTile);
       const int step = source.between(1, 9);
-      ASSERT_EQ(draw_in(step), whole) << name_of(isa) << ", windows of " << step << ": " << mesh.vertices[0].x << " " << mesh.vertices[0].y;
+      ASSERT_EQ(draw_in(step), whole) << name_of(isa) << ", windows of " << step << ": " << mesh.vertices[0].x
+                                      << " " << mesh.vertices[0].y;
     }
   }
 }
@@ -191,7 +205,8 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
   for (int round = 0; round < 200; ++round) {
     TileStage stage(kTile, kTile, kTile);
     Mesh mesh = random_mesh(source, 8, 3, DepthKind::none, 0, 0);
-    const std::uint32_t r = static_cast<std::uint32_t>(source.between(0, 255)), g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
+    const std::uint32_t r = static_cast<std::uint32_t>(source.between(0, 255)),
+                        g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       mesh.attributes[3 * i] = static_cast<float>(r) + 0.5f;
       mesh.attributes[3 * i + 1] = static_cast<float>(g);  // a hair less would be a level less
@@ -200,7 +215,9 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
     add(stage, mesh);
     for (const Isa isa : available_isas()) {
       stage.render(isa, 0, 0xff000000u);
-      for (const std::uint32_t word : stage.colors()) ASSERT_TRUE(word == 0xff000000u || word == (r << 16 | g << 8 | b)) << name_of(isa) << std::hex << " " << word;
+      for (const std::uint32_t word : stage.colors())
+        ASSERT_TRUE(word == 0xff000000u || word == (r << 16 | g << 8 | b))
+            << name_of(isa) << std::hex << " " << word;
     }
   }
 }
@@ -208,12 +225,14 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
 // What a batch may hold where no triangle covers its points.
 void fill_with_odd_values(ShadingBatch& batch, RandomTriangles& source) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 1e-40f, 3e38f, -3e38f, -0.5f};
+  constexpr float kOdd[] = {
+      std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 1e-40f, 3e38f, -3e38f, -0.5f};
   for (auto& field : batch.field)
     for (float& value : field) value = kOdd[source.between(0, 6)];
 }
 
-// Lighting at each pixel gathers pixels of many triangles into batches; which ones share a batch, and what it held before, must not matter.
+// Lighting at each pixel gathers pixels of many triangles into batches; which ones share a batch, and what it
+// held before, must not matter.
 TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
   RandomTriangles source(45, kTile);
   RandomLighting lights(46);
@@ -225,7 +244,8 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
     const LightingProgram front = c.program();
     c.negate_normal = true;
     const LightingProgram back = c.program();
-    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::unorm24, -3, 3, round % 2 == 0 ? Sides::both : Sides::one);
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::unorm24, -3, 3,
+                                  round % 2 == 0 ? Sides::both : Sides::one);
     std::vector<std::uint32_t> first;
     for (const Isa isa : available_isas()) {
       for (const bool at_once : {false, true}) {
@@ -270,8 +290,8 @@ PixelRect random_window(RandomTriangles& source) {
   return {x, y, source.between(x + 1, kTile), source.between(y + 1, kTile)};
 }
 
-// Mixes by alpha have kernels of their own where there is no other operation: for full blocks in a row, for others, and for single pixels. A test that always
-// passes makes them go the way that knows all operations.
+// Mixes by alpha have kernels of their own where there is no other operation: for full blocks in a row, for
+// others, and for single pixels. A test that always passes makes them go the way that knows all operations.
 TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
   RandomTriangles source(48, kTile);
   FragmentOps mix;
@@ -302,9 +322,13 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
             draw.alpha[face] = 0.625f;
           }
           const TileCounts counts = stage.render(isa, 0, 0x123456, farthest_key(kind));
-          return std::tuple(stage.colors(), kind != DepthKind::none ? stage.depths() : std::vector<std::int32_t>(), counts.shaded_pixels);
+          return std::tuple(stage.colors(),
+                            kind != DepthKind::none ? stage.depths() : std::vector<std::int32_t>(),
+                            counts.shaded_pixels);
         };
-        ASSERT_EQ(draw_with(mix), draw_with(general)) << name_of(isa) << (has_alpha ? ", alpha of the vertices" : "") << (constant ? ", one colour" : "");
+        ASSERT_EQ(draw_with(mix), draw_with(general))
+            << name_of(isa) << (has_alpha ? ", alpha of the vertices" : "")
+            << (constant ? ", one colour" : "");
       }
     }
 }
