@@ -9,7 +9,7 @@
 #include "engine/draw_range.h"
 #include "engine/frame_commands.h"
 #include "engine/frame_watch.h"
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 #include "raster/binning.h"
 
 namespace tessera {
@@ -29,7 +29,7 @@ class BinStage {
   ///
   /// @param limit  bytes that the bins may take together; beside them 8 bytes a tile and 8 for every 64
   /// batches begun say what they hold
-  BinStage(std::size_t limit, Parallel& parallel, Isa isa) : limit_(limit), parallel_(parallel), isa_(isa) {}
+  BinStage(std::size_t limit, WorkerPool& worker_pool, Isa isa) : limit_bytes_(limit), worker_pool_(worker_pool), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
 
@@ -40,7 +40,7 @@ class BinStage {
   /// Fills the bins of some tiles. False if there are several and their bins would pass the limit. A single
   /// tile is always filled: if its bins would pass the limit they will be made while it is rendered, a batch
   /// at a time.
-  bool fill(const TileRange& tiles, FrameWatch& watch);
+  bool fill(const TileRange& tiles, FrameProgress& progress);
   /// What was filled last, if that fitted. It stays in one place. Tiles are looked through before they are
   /// rendered.
   BinBatches& batches() { return batches_; }
@@ -57,19 +57,19 @@ class BinStage {
   void bin(Bins& bins, std::size_t begin, std::size_t end) const;
   void fill_one_by_one(const TileRange& tile);
 
-  std::size_t limit_;
-  Parallel& parallel_;
+  std::size_t limit_bytes_;
+  WorkerPool& worker_pool_;
   Isa isa_;
   std::vector<Bins> bins_;
   BinBudget budget_;          ///< of bins_
-  bool knows_taken_ = false;  ///< the budget tells, to the byte, what they take
+  bool budget_is_exact_ = false;  ///< the budget tells, to the byte, what they take
   const FrameCommands* commands_ = nullptr;
   TileGrid grid_{};
   std::vector<BinDraw> draws_;
-  std::vector<PixelRect> rects_;  ///< of the draws, in the whole frame
+  std::vector<PixelRect> draw_rects_;  ///< of the draws, in the whole frame
   std::vector<std::size_t>
       first_element_;    ///< of each draw, counted through the frame; a bitmap or an image counts as one
-  DrawRanges polygons_;  ///< triangles whose polygons are faced together, or moved
+  DrawRanges polygon_ranges_;  ///< triangles whose polygons are faced together, or moved
   std::size_t batch_count_ = 1;
   BinBatches batches_;
   std::vector<WorkerCounts> worker_counts_;

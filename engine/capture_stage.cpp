@@ -11,44 +11,44 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
                            bool count_fragments, Isa isa)
     : capture_(capture), grid_(frame.grid), render_(tessera::render_tile(isa)) {
   normal_program_.needs_normal = normal_program_.renormalize = true;
-  if (!capture.primitives.empty()) {
+  if (!capture.primitive_ids.empty()) {
     std::size_t most = 0;
     for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->elements);
-    numbers_.resize(most);
-    std::iota(numbers_.begin(), numbers_.end(), 0u);
+    triangle_ids_.resize(most);
+    std::iota(triangle_ids_.begin(), triangle_ids_.end(), 0u);
     for (const GeometryDraw& geometry : commands.geometry) {
-      std::vector<std::uint32_t>& numbers = polygon_numbers_.emplace_back();
-      const std::size_t each = geometry.mesh->polygon_triangles();
+      std::vector<std::uint32_t>& numbers = polygon_ids_.emplace_back();
+      const std::size_t each = geometry.mesh->triangles_per_polygon();
       if (each < 2) continue;
       numbers.resize(geometry.mesh->elements);
       for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
     }
   }
-  if (capture.objects.empty() && capture.primitives.empty() && capture.normals.empty() && !count_fragments)
+  if (capture.draw_ids.empty() && capture.primitive_ids.empty() && capture.normals.empty() && !count_fragments)
     return;
   passes_.reserve(4);  // frames of passes point into them
-  if (!capture.objects.empty()) add_pass(What::objects, commands, frame);
-  if (!capture.primitives.empty()) add_pass(What::primitives, commands, frame);
-  if (!capture.normals.empty()) add_pass(What::normals, commands, frame);
-  if (count_fragments) add_pass(What::fragments, commands, frame);
+  if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame);
+  if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame);
+  if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame);
+  if (count_fragments) add_pass(PassKind::fragments, commands, frame);
 }
 
-void CaptureStage::add_pass(What what, const FrameCommands& commands, const TileFrame& frame) {
-  Pass& pass = passes_.emplace_back(Pass{what, frame, commands.tile_draws, commands.clears, {}});
+void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame) {
+  Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
   pass.ops.reserve(pass.draws.size());  // draws point into it
   for (std::size_t i = 0; i < pass.draws.size(); ++i) {
     TileDraw& draw = pass.draws[i];
     const std::size_t plan = commands.tile_draw_plan[i];
-    if (what == What::fragments) {
+    if (kind == PassKind::fragments) {
       draw.uses_depth = false;
       draw.ops = nullptr;
     }
     if (draw.ops == nullptr) draw.texture = nullptr;                // else its alpha may be tested
-    if (draw.write_mask == 0 && what != What::fragments) continue;  // depth alone
+    if (draw.write_mask == 0 && kind != PassKind::fragments) continue;  // depth alone
     draw.write_mask = 0xffffffffu;
-    draw.deferred = what == What::normals;
+    draw.deferred = kind == PassKind::normals;
     draw.source = ColorSource::constant;
-    draw.word = static_cast<std::uint32_t>(commands.plan_draw[plan]);
+    draw.packed_color = static_cast<std::uint32_t>(commands.plan_draw[plan]);
     if (draw.ops != nullptr) {
       // The tests are what decides who is seen; what becomes of the colour does not.
       FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
@@ -56,28 +56,28 @@ void CaptureStage::add_pass(What what, const FrameCommands& commands, const Tile
       ops.logic = Logic::copy;
       draw.ops = &ops;
       draw.deferred = false;
-      draw.number = what == What::primitives ? TileDraw::Number::primitive : TileDraw::Number::draw;
+      draw.id_output = kind == PassKind::primitive_ids ? TileDraw::IdOutput::primitive : TileDraw::IdOutput::draw;
     }
-    if (what == What::normals && draw.texels != nullptr) {
+    if (kind == PassKind::normals && draw.texels != nullptr) {
       // As if nothing had been drawn: they have none.
       draw.deferred = false;
-      draw.number = TileDraw::Number::draw;
-      draw.word = Capture::kNothing;
-    } else if (what == What::primitives) {
-      draw.source = ColorSource::triangle_word;
-      draw.words[0] = draw.words[1] =
-          (polygon_numbers_[plan].empty() ? numbers_ : polygon_numbers_[plan]).data();
-    } else if (what == What::normals) {
+      draw.id_output = TileDraw::IdOutput::draw;
+      draw.packed_color = Capture::kNothing;
+    } else if (kind == PassKind::primitive_ids) {
+      draw.source = ColorSource::per_triangle_packed;
+      draw.packed_colors[0] = draw.packed_colors[1] =
+          (polygon_ids_[plan].empty() ? triangle_ids_ : polygon_ids_[plan]).data();
+    } else if (kind == PassKind::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;
-      draw.first_attribute = commands.plans[plan]->captured_normal;
+      draw.first_attribute = commands.plans[plan]->captured_normal_offset;
       draw.attribute_count = 3;
       for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
       draw.programs[0] = draw.programs[1] = &normal_program_;
     }
   }
   for (TileClear& clear : pass.clears) {
-    clear.color_word = Capture::kNothing;
+    clear.packed_color = Capture::kNothing;
     clear.dithered = false;
     clear.accumulation = false;
   }
@@ -94,13 +94,13 @@ std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,
   const int size = grid_.tile_size, x0 = column * size, y0 = row * size;
   std::fill_n(workspace.color(), size * size, Capture::kNothing);
   const TileCounts counts = render_(pass.frame, row * grid_.columns() + column, workspace);
-  if (pass.what == What::objects) write_numbers(capture_.objects, x0, y0, workspace);
-  if (pass.what == What::primitives) write_numbers(capture_.primitives, x0, y0, workspace);
-  if (pass.what == What::normals) write_normals(x0, y0, workspace);
-  return pass.what == What::fragments ? counts.shaded_pixels : 0;
+  if (pass.kind == PassKind::draw_ids) write_ids(capture_.draw_ids, x0, y0, workspace);
+  if (pass.kind == PassKind::primitive_ids) write_ids(capture_.primitive_ids, x0, y0, workspace);
+  if (pass.kind == PassKind::normals) write_normals(x0, y0, workspace);
+  return pass.kind == PassKind::fragments ? counts.shaded_pixels : 0;
 }
 
-void CaptureStage::write_numbers(std::span<std::uint32_t> to, int x0, int y0,
+void CaptureStage::write_ids(std::span<std::uint32_t> to, int x0, int y0,
                                  TileWorkspace& workspace) const {
   const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
             height = std::min(size, grid_.height_px - y0);

@@ -33,26 +33,26 @@ class CaptureStage {
   }
 
  private:
-  enum class What : std::uint8_t { objects, primitives, normals, fragments };
+  enum class PassKind : std::uint8_t { draw_ids, primitive_ids, normals, fragments };
   struct Pass {
-    What what;
+    PassKind kind;
     TileFrame frame;
     std::vector<TileDraw> draws;
     std::vector<TileClear> clears;
     std::vector<FragmentOps> ops;  ///< the tests of draws that have operations
   };
-  void add_pass(What what, const FrameCommands& commands, const TileFrame& frame);
+  void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame);
   std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
-  void write_numbers(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
+  void write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
   void write_normals(int x0, int y0, TileWorkspace& workspace) const;
 
   Capture capture_;
   TileGrid grid_;
   RenderTile* render_;
   LightingProgram normal_program_;      ///< makes normals of length 1, and no light
-  std::vector<std::uint32_t> numbers_;  ///< 0, 1, 2, ...: the triangles of the longest mesh
+  std::vector<std::uint32_t> triangle_ids_;  ///< 0, 1, 2, ...: the triangles of the longest mesh
   std::vector<std::vector<std::uint32_t>>
-      polygon_numbers_;  ///< of each draw: the polygon of each triangle, where it has several
+      polygon_ids_;  ///< of each draw: the polygon of each triangle, where it has several
   std::vector<Pass> passes_;
 };
 

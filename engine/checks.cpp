@@ -8,38 +8,38 @@ namespace tessera {
 namespace {
 
 template <class Values>
-void require_all_finite(const Name& name, const Values& values) {
+void require_all_finite(const FieldName& name, const Values& values) {
   const auto odd =
       std::find_if(std::begin(values), std::end(values), [](double v) { return !std::isfinite(v); });
-  if (odd != std::end(values)) throw Error(name.text() + " holds " + text(*odd) + ", must be finite");
+  if (odd != std::end(values)) throw Error(name.text() + " holds " + format_number(*odd) + ", must be finite");
 }
 
 }  // namespace
 
-std::string text(double value) {
+std::string format_number(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.9g", value);
   return buffer;
 }
 
-void require_finite(const Name& name, std::initializer_list<double> values) {
+void require_finite(const FieldName& name, std::initializer_list<double> values) {
   require_all_finite(name, values);
 }
-void require_finite(const Name& name, const Color& c) { require_finite(name, {c.r, c.g, c.b, c.a}); }
-void require_finite(const Name& name, const Matrix& matrix) { require_all_finite(name, matrix.m); }
+void require_finite(const FieldName& name, const Color& c) { require_finite(name, {c.r, c.g, c.b, c.a}); }
+void require_finite(const FieldName& name, const Matrix& matrix) { require_all_finite(name, matrix.m); }
 
-void require_range(const Name& name, double value, double low, double high) {
+void require_range(const FieldName& name, double value, double low, double high) {
   if (!(value >= low && value <= high))
-    throw Error(name.text() + " is " + text(value) + ", must be " + text(low) + " to " + text(high));
+    throw Error(name.text() + " is " + format_number(value) + ", must be " + format_number(low) + " to " + format_number(high));
 }
 
-void check_rect(const Name& name, const Rect& rect) {
+void check_rect(const FieldName& name, const Rect& rect) {
   if (rect.width < 0 || rect.height < 0)
     throw Error(name.text() + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) +
                 " pixels, must not be negative");
 }
 
-void refuse_enum(const Name& name, unsigned value, unsigned last) {
+void throw_invalid_enum(const FieldName& name, unsigned value, unsigned last) {
   throw Error(name.text() + " is " + std::to_string(value) + ", which stands for nothing, must be 0 to " +
               std::to_string(last));
 }

@@ -35,16 +35,16 @@ TrackedColors tracked_colors(ColorMaterial mode) {
 
 void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target) {
   const FrameBufferFormat& format = target.format;
-  const Camera& camera = draw.surroundings->camera;
+  const Camera& camera = draw.scene_state->camera;
   const glm::dmat4 eye_from_object = to_glm(camera.view) * to_glm(draw.state.transform);
   const Matrix clip = from_glm(to_glm(camera.projection) * eye_from_object);
   std::copy(clip.m.begin(), clip.m.end(), plan.transform.clip_from_object);
   const bool phong = draw.state.shading == Shading::phong;
   plan.eye = eye_transform(eye_from_object, draw.state.normalize ? kUnitNormals
-                                            : phong              ? kMeasurableNormals
-                                                                 : kNormalsAsTheyAre);
+                                            : phong              ? kNormalizableNormals
+                                                                 : kUnscaledNormals);
   plan.captured_eye =
-      draw.state.normalize || phong ? plan.eye : eye_transform(eye_from_object, kMeasurableNormals);
+      draw.state.normalize || phong ? plan.eye : eye_transform(eye_from_object, kNormalizableNormals);
 
   const Rect viewport = draw.state.viewport.value_or(Rect{0, 0, format.width, format.height});
   VertexTransform& t = plan.transform;
@@ -52,7 +52,7 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   t.half_height = viewport.height / 2.0;
   t.guard_x = kGuardBandPixels / t.half_width;
   t.guard_y = kGuardBandPixels / t.half_height;
-  t.set_roughness();
+  t.set_error_bounds();
   t.center_x = kSubpixelScale * viewport.x + kHalfPixel * viewport.width;
   t.center_y = kSubpixelScale * (format.height - viewport.y) - kHalfPixel * viewport.height;
   t.reversed = camera.reversed;
@@ -71,11 +71,11 @@ const Material& back_material(const DrawState& state) {
 void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
   const DrawState& state = draw.state;
   if (plan.write_mask == 0) return;
-  plan.two_sided = state.lighting && draw.surroundings->light_model.two_sided && plan.keep_back;
+  plan.two_sided = state.lighting && draw.scene_state->light_model.two_sided && plan.keep_back;
   if (!layout.index) return;
   plan.uses_color_indices = !state.lighting && draw.mesh.color_indices;
-  plan.index[0] = plan.uses_color_indices || (state.lighting && state.material.color_indexes);
-  plan.index[1] = plan.two_sided ? back_material(state).color_indexes.has_value() : plan.index[0];
+  plan.is_index[0] = plan.uses_color_indices || (state.lighting && state.material.index_ramp);
+  plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];
 }
 
 /// What of the mesh's and the materials' colours and indices is not looked at.
@@ -92,35 +92,35 @@ void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const Co
   if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none)
     note("the mesh's colours are not used: it is lit, and color_material is none");
   if (draw.mesh.has_colors() && state.color_material != ColorMaterial::none && plan.only_indices())
-    note("the mesh's colours are not used: the material has color_indexes");
+    note("the mesh's colours are not used: the material has an index_ramp");
   if (!layout.index &&
-      (state.material.color_indexes || (plan.two_sided && back_material(state).color_indexes)))
-    note("the material's color_indexes are not used: the buffer holds RGB");
+      (state.material.index_ramp || (plan.two_sided && back_material(state).index_ramp)))
+    note("the material's index_ramp is not used: the buffer holds RGB");
 }
 
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
-  const LightModel& model = draw.surroundings->light_model;
-  const glm::dmat4 view = to_glm(draw.surroundings->camera.view);
+  const LightModel& model = draw.scene_state->light_model;
+  const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
-  for (const Light& light : draw.surroundings->lights) plan.lights.push_back(eye_light(light, view));
+  for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
   const TrackedColors tracked =
       draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
-  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == Highlight::phong,
+  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
                                unit_normals};
   const auto set_program = [&](LightingProgram& program, const Material& material, bool index) {
     if (reasons && index)
       *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
     program = index
-                  ? plan_index_lighting({*material.color_indexes, material.shininess, layout.index_modulus()},
+                  ? plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()},
                                         plan.lights, lighting, reasons, std::move(program.terms))
                   : plan_lighting(surface(material), tracked, plan.lights, lighting, reasons,
                                   std::move(program.terms));
   };
-  set_program(plan.front, draw.state.material, plan.index[0]);
+  set_program(plan.front, draw.state.material, plan.is_index[0]);
   if (plan.two_sided) {
     if (reasons) *reasons += "  back faces:\n";
-    set_program(plan.back, back_material(draw.state), plan.index[1]);
+    set_program(plan.back, back_material(draw.state), plan.is_index[1]);
     plan.back.negate_normal = true;
   }
   plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
@@ -139,13 +139,13 @@ bool has_constant_color(const DrawPlan& plan) {
   if (!plan.front.terms.empty() || plan.front.tracked || (plan.float_colors && plan.vertex_alpha))
     return false;
   if (!plan.two_sided) return true;
-  if (!plan.back.terms.empty() || plan.index[0] != plan.index[1]) return false;
+  if (!plan.back.terms.empty() || plan.is_index[0] != plan.is_index[1]) return false;
   return plan.only_indices() ? unlit_index(plan.back) == unlit_index(plan.front)
                              : plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
 }
 
 /// What is stored depends on what was, or on where it is stored.
-bool needs_order(const DrawPlan& plan, const ColorLayout& layout) {
+bool is_order_dependent(const DrawPlan& plan, const ColorLayout& layout) {
   return plan.has_ops &&
          (plan.ops.blend || plan.ops.dither || plan.ops.logic != Logic::copy || layout.alpha_bits > 0);
 }
@@ -157,7 +157,7 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.vertex_alpha = plan.uses_vertex_colors =
       draw.mesh.has_colors() && (!state.lighting || tracked_colors(state.color_material).diffuse);
   plan.alpha[0] = clamp_unit(state.material.diffuse.a);
-  plan.alpha[1] = state.lighting && draw.surroundings->light_model.two_sided
+  plan.alpha[1] = state.lighting && draw.scene_state->light_model.two_sided
                       ? clamp_unit(back_material(state).diffuse.a)
                       : plan.alpha[0];
   plan.source = ColorSource::constant;
@@ -166,22 +166,22 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
   plan.clamps_vertex_alpha = plan.flat || !state.lighting || state.shading != Shading::phong;
   plan.scaled_colors = false;
-  plan.attribute_count = plan.colors_triangles() ? 0 : 4;
+  plan.attribute_count = plan.has_per_triangle_colors() ? 0 : 4;
 }
 
 /// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one
 /// colour itself.
 void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
   plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
-  if (plan.index[0] || plan.texture.use == TexturePlan::Use::none) return;
+  if (plan.is_index[0] || plan.texture.use == TexturePlan::Use::none) return;
   if (plan.texture.use == TexturePlan::Use::texels) {
-    plan.textures_pixels = true;
+    plan.textures_per_pixel = true;
     plan.scaled_colors = false;
-    plan.deferred = !needs_order(plan, layout);
+    plan.deferred = !is_order_dependent(plan, layout);
     return;
   }
   const auto [r, g, b, a] =
-      textured_color(plan.texture.texture,
+      texture_env_reference(plan.texture.texture,
                      {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2], plan.alpha[0]},
                      plan.texture.texture.texel);
   plan.constant_color = {r, g, b};
@@ -191,7 +191,7 @@ void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& lay
 /// Whether the texture has to wait for the pixels, with colours that are made at the vertices, or at the
 /// pixels themselves.
 void plan_texturing(DrawPlan& plan, bool at_vertices) {
-  plan.textures_pixels =
+  plan.textures_per_pixel =
       plan.texture.use != TexturePlan::Use::none && !(at_vertices && plan.texture.is_affine());
 }
 
@@ -225,7 +225,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan_lights(plan, draw, layout, reasons);
     if (has_constant_color(plan)) {
       plan.two_sided = false;
-      if (plan.index[0]) plan.constant_index = unlit_index(plan.front);
+      if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
       note("no light depends on the surface: one colour for the draw");
       set_constant_color(plan, plan.front.base, layout);
       return;
@@ -240,7 +240,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
   if (phong && plan.topology != Topology::points) {
     plan.source = ColorSource::per_pixel;
-    plan.deferred = !needs_order(plan, layout);
+    plan.deferred = !is_order_dependent(plan, layout);
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
     plan.attribute_count = (needs_normal ? 3 : 0) +
@@ -255,9 +255,9 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.smooth_normals = generate && !has_faces;
     // Words have no room for texels: as floats, like colours that have operations to go through.
     if (plan.texture.use == TexturePlan::Use::texels)
-      plan.has_ops = plan.float_colors = plan.textures_pixels = true;
-    const bool by_triangle = plan.face_normals || plan.provoking_apart;
-    plan.source = by_triangle ? ColorSource::triangle_word : ColorSource::vertex_word;
+      plan.has_ops = plan.float_colors = plan.textures_per_pixel = true;
+    const bool by_triangle = plan.face_normals || plan.provoking_vertex_elsewhere;
+    plan.source = by_triangle ? ColorSource::per_triangle_packed : ColorSource::per_vertex_packed;
     if (plan.float_colors) {
       plan.source = ColorSource::interpolated;
       plan.flat = true;
@@ -273,12 +273,12 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.smooth_normals = generate;
     plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // elsewhere colours may be extrapolated
     plan.scaled_colors = !layout.index && !layout.luminance && !plan.float_colors && !sampled && has_faces &&
-                         !plan.textures_pixels;
+                         !plan.textures_per_pixel;
     // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a
     // colour that is not just stored.
-    const bool shades_seen = layout.index || layout.luminance || plan.textures_pixels ||
+    const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
                              (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
-    plan.deferred = shades_seen && !needs_order(plan, layout);
+    plan.deferred = shades_visible && !is_order_dependent(plan, layout);
     plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }
@@ -305,7 +305,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
     plan.outlines |= modes[face] != PolygonMode::fill;
   }
   plan.front_is_clockwise = state.front_face == FrontFace::cw;
-  plan.provoking_apart =
+  plan.provoking_vertex_elsewhere =
       state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
 }
 
@@ -324,7 +324,7 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
                          const ColorLayout& layout) {
   std::uint32_t mask = 0;
   if (layout.index || layout.luminance) {
-    mask = color_mask[0] ? layout.word_mask() : 0;
+    mask = color_mask[0] ? layout.value_mask() : 0;
   } else {
     mask = (color_mask[0] ? layout.r_mask() : 0) | (color_mask[1] ? layout.g_mask() : 0) |
            (color_mask[2] ? layout.b_mask() : 0);
@@ -332,12 +332,12 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
   if (color_mask[3]) mask |= layout.alpha_mask();
   mask &= plane_mask;
   if (mask == 0) return 0;
-  return mask == (layout.word_mask() | layout.alpha_mask())
+  return mask == (layout.value_mask() | layout.alpha_mask())
              ? 0xffffffffu
              : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
 }
 
-void DrawPlan::start_anew() {
+void DrawPlan::reset() {
   DrawPlan plan;
   plan.lights.swap(lights);
   plan.front.terms.swap(front.terms);
@@ -351,7 +351,7 @@ void DrawPlan::start_anew() {
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
                std::string* reasons) {
   const DrawState& state = draw.state;
-  plan.start_anew();
+  plan.reset();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
   if (draw.pixels) {
     plan_pixel_places(plan, *draw.pixels, target);
@@ -391,7 +391,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
     *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   plan.float_colors =
-      plan.has_ops && (!fragments.is_stencil_test || plan.has_offset() || plan.outlines || draw.pixels ||
+      plan.has_ops && (!fragments.is_stencil_only || plan.has_offset() || plan.outlines || draw.pixels ||
                        plan.topology != Topology::triangles || target.format.samples > 1);
   if (reasons && target.format.samples > 1)
     *reasons += "  " + std::to_string(target.format.samples) +
@@ -409,24 +409,24 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
     plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
   }
   if (reasons && plan.texture.use == TexturePlan::Use::one_color)
-    *reasons += plan.textures_pixels
+    *reasons += plan.textures_per_pixel
                     ? "  texture: one colour, worked into each pixel's\n"
                     : "  texture: one colour, folded into the colours of vertices, faces or the draw\n";
-  if (plan.textures_pixels && plan.texture.use == TexturePlan::Use::texels) {
-    plan.texcoords = plan.texture.texture.attribute = plan.attribute_count;
+  if (plan.textures_per_pixel && plan.texture.use == TexturePlan::Use::texels) {
+    plan.texcoord_offset = plan.texture.texture.attribute = plan.attribute_count;
     plan.attribute_count += 2;
   }
   if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
-    plan.captured_normal = plan.attribute_count;
+    plan.captured_normal_offset = plan.attribute_count;
     plan.attribute_count += 3;
   }
   const bool writes_depth = plan.uses_depth && plan.depth_write;
   const bool writes_stencil = plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes());
   const bool never_seen = (has_depth && state.depth.test == Compare::never) ||
                           (plan.ops.alpha_test && plan.ops.alpha_func == CompareOp::never);
-  plan.invisible =
+  plan.is_noop =
       plan.rect.empty() || (!writes_stencil && (never_seen || (plan.write_mask == 0 && !writes_depth)));
-  if (reasons && plan.invisible) *reasons += "  can change no pixel: left out\n";
+  if (reasons && plan.is_noop) *reasons += "  can change no pixel: left out\n";
 }
 
 }  // namespace tessera

@@ -25,9 +25,9 @@ struct DrawPlan {
   PolygonStyle style[2] = {};            ///< of fronts and backs
   PixelRect rect;                        ///< where pixels may change, raster space
   bool keep_front = true, keep_back = true, front_is_clockwise = false;
-  bool invisible = false;  ///< no buffer can change
+  bool is_noop = false;  ///< no buffer can change
 
-  std::optional<PixelRectangle> texels;  ///< a bitmap or an image, in place of a mesh
+  std::optional<PixelRectangle> pixel_rectangle;  ///< a bitmap or an image, in place of a mesh
   std::int32_t depth_key = 0;            ///< of all its pixels
 
   ColorSource source = ColorSource::constant;
@@ -53,41 +53,41 @@ struct DrawPlan {
   std::vector<EyeLight> lights;
   LightingProgram front, back;
   Rgb constant_color{};      ///< ColorSource::constant; within 0 .. 1
-  bool index[2] = {};        ///< front, back: the colour is an index
+  bool is_index[2] = {};        ///< front, back: the colour is an index
   float constant_index = 0;  ///< ColorSource::constant, if it is
   bool uses_vertex_colors = false, uses_color_indices = false;
   bool smooth_normals = false;   ///< the mesh has none: means of its faces
   bool face_normals = false;     ///< the mesh has none: flat
-  bool provoking_apart = false;  ///< flat, and the provoking vertex is not one of each triangle's
+  bool provoking_vertex_elsewhere = false;  ///< flat, and the provoking vertex is not one of each triangle's
   bool scaled_colors = true;     ///< interpolated colours are carried in levels
 
   TexturePlan texture;
-  bool textures_pixels = false;  ///< at each of them
+  bool textures_per_pixel = false;  ///< at each of them
   bool folds_texture() const {
-    return !textures_pixels && texture.use != TexturePlan::Use::none;
+    return !textures_per_pixel && texture.use != TexturePlan::Use::none;
   }  ///< its one colour into the colours of vertices, triangles or the draw
 
   /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and
   /// back]; then texture coordinates, then the normal that a capture wants.
   int attribute_count = 0;
-  int texcoords = -1;        ///< where they begin; -1: none are wanted
-  int captured_normal = -1;  ///< where it begins; -1: none is wanted
+  int texcoord_offset = -1;        ///< where they begin; -1: none are wanted
+  int captured_normal_offset = -1;  ///< where it begins; -1: none is wanted
 
   bool has_offset() const { return offset_factor != 0 || offset_units != 0; }
-  bool only_indices() const { return index[0] && index[1]; }
-  bool looks_up_colors() const {
+  bool only_indices() const { return is_index[0] && is_index[1]; }
+  bool uses_palette() const {
     return write_mask != 0 && !only_indices();
   }  ///< in the palette, if the buffer has one
   /// Floats that a vertex's colour of one face takes: for operations that take it it has alpha; an index has
   /// no more than itself, but beside a face with colours as much room as those.
   int color_floats() const { return only_indices() ? 1 : float_colors ? 4 : 3; }
   /// Colours are made for triangles, not for vertices.
-  bool colors_triangles() const {
-    return source == ColorSource::triangle_word || (flat && (face_normals || provoking_apart));
+  bool has_per_triangle_colors() const {
+    return source == ColorSource::per_triangle_packed || (flat && (face_normals || provoking_vertex_elsewhere));
   }
 
   /// As a new one, but that its lists keep their memory.
-  void start_anew();
+  void reset();
 };
 
 /// @param plan  is replaced

@@ -13,21 +13,21 @@ namespace {
 Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
 
 std::array<float, 3> unit(const glm::dvec3& v) {
-  const glm::dvec3 m = measurable(v);
+  const glm::dvec3 m = scaled_to_safe_range(v);
   const double length = glm::length(m);
   const glm::dvec3 n = length > 0 ? m / length : glm::dvec3(0);
   return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
 }
 
-double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+double max_abs(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 // Squares of distances are floats. A light from 2^62 on stands nearer, by a power of two and in the same
 // direction, and is attenuated as where it was.
-void move_within_reach(EyeLight& light, const glm::dvec3& at) {
-  constexpr int kFarthest = 62;
-  const double distance = largest_of(at);
+void bring_within_float_range(EyeLight& light, const glm::dvec3& at) {
+  constexpr int kMaxDistanceExponent = 62;
+  const double distance = max_abs(at);
   const int exponent =
-      std::isfinite(distance) && distance > 0 ? std::max(std::ilogb(distance) - (kFarthest - 1), 0) : 0;
+      std::isfinite(distance) && distance > 0 ? std::max(std::ilogb(distance) - (kMaxDistanceExponent - 1), 0) : 0;
   for (int c = 0; c < 3; ++c)
     light.position[static_cast<std::size_t>(c)] = static_cast<float>(std::scalbn(at[c], -exponent));
   light.attenuation[1] = std::scalbn(light.attenuation[1], exponent);
@@ -48,7 +48,7 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
     e.position = unit(glm::dmat3(view) * glm::dvec3(p[0], p[1], p[2]));
   } else {
     const glm::dvec4 at = view * glm::dvec4(glm::dvec3(p[0], p[1], p[2]) / double{p[3]}, 1.0);
-    move_within_reach(e, glm::dvec3(at) / (at.w != 0 ? at.w : 1.0));
+    bring_within_float_range(e, glm::dvec3(at) / (at.w != 0 ? at.w : 1.0));
   }
   const auto& d = light.spot_direction;
   e.spot_direction = unit(glm::dmat3(view) * glm::dvec3(d[0], d[1], d[2]));
@@ -62,7 +62,7 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
 // matter: they change no bit.
 EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLengths& lengths) {
   const auto exponent_of = [](const glm::dmat3& m) {
-    const double largest = std::max({largest_of(m[0]), largest_of(m[1]), largest_of(m[2])});
+    const double largest = std::max({max_abs(m[0]), max_abs(m[1]), max_abs(m[2])});
     return largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
   };
   const auto scale_by = [](glm::dmat3& m, int exponent) {

@@ -16,24 +16,24 @@ static_assert(static_cast<int>(Factor::src_alpha_saturate) ==
 static_assert(static_cast<int>(Equation::max) == static_cast<int>(BlendEquation::max) &&
               static_cast<int>(Logic::set) == static_cast<int>(LogicOp::set));
 
-StencilSide side(const StencilFace& face, std::int32_t most) {
+StencilSide side(const StencilFace& face, std::int32_t max_value) {
   return {.func = static_cast<CompareOp>(face.func),
           .reference =
-              static_cast<std::int32_t>(std::min<std::uint32_t>(face.ref, static_cast<std::uint32_t>(most))),
-          .mask = static_cast<std::int32_t>(face.mask) & most,
+              static_cast<std::int32_t>(std::min<std::uint32_t>(face.ref, static_cast<std::uint32_t>(max_value))),
+          .mask = static_cast<std::int32_t>(face.mask) & max_value,
           .fail = static_cast<StencilAction>(face.fail),
           .zfail = static_cast<StencilAction>(face.zfail),
           .zpass = static_cast<StencilAction>(face.zpass),
-          .write_mask = static_cast<std::int32_t>(face.write_mask) & most};
+          .write_mask = static_cast<std::int32_t>(face.write_mask) & max_value};
 }
 
 bool does_nothing(const StencilSide& side) { return side.func == CompareOp::always && !side.writes(); }
 
 void plan_stencil(FragmentPlan& plan, const StencilState& state, int bits) {
   FragmentOps& ops = plan.ops;
-  ops.stencil_most = (1 << bits) - 1;
-  ops.faces[0] = side(state.front, ops.stencil_most);
-  ops.faces[1] = side(state.back.value_or(state.front), ops.stencil_most);
+  ops.stencil_max = (1 << bits) - 1;
+  ops.faces[0] = side(state.front, ops.stencil_max);
+  ops.faces[1] = side(state.back.value_or(state.front), ops.stencil_max);
   ops.stencil = plan.uses_stencil = !does_nothing(ops.faces[0]) || !does_nothing(ops.faces[1]);
 }
 
@@ -56,7 +56,7 @@ void plan_blend(FragmentOps& ops, const BlendState& state) {
 
 }  // namespace
 
-FragmentOps dither_of(const FrameBufferState& target) {
+FragmentOps dither_ops(const FrameBufferState& target) {
   FragmentOps ops;
   const Dither dither = target.format.dither;
   set_dither(ops,
@@ -78,7 +78,7 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   const auto note = [&](const char* line) {
     if (reasons) *reasons += std::string("  ") + line + "\n";
   };
-  if (writes_color && !only_indices) ops = dither_of(target);
+  if (writes_color && !only_indices) ops = dither_ops(target);
   if (state.alpha_test) {
     ops.alpha_func = static_cast<CompareOp>(state.alpha_test->func);
     ops.alpha_reference = state.alpha_test->ref;
@@ -104,7 +104,7 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   const bool depends_on_color =
       ops.alpha_test || ops.blend || ops.dither || ops.logic != Logic::copy || stores_alpha;
   plan.needed = ops.stencil || depends_on_color;
-  plan.is_stencil_test = ops.stencil && !depends_on_color;
+  plan.is_stencil_only = ops.stencil && !depends_on_color;
   return plan;
 }
 

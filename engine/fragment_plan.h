@@ -11,12 +11,12 @@ namespace tessera {
 struct FragmentPlan {
   FragmentOps ops;
   bool needed = false;           ///< else fragments go by the short way
-  bool is_stencil_test = false;  ///< and nothing else
+  bool is_stencil_only = false;  ///< and nothing else
   bool uses_stencil = false;
 };
 
 /// The dither of a buffer, and nothing else.
-FragmentOps dither_of(const FrameBufferState& target);
+FragmentOps dither_ops(const FrameBufferState& target);
 
 /// @param writes_color  some colour plane may change
 /// @param only_indices  what is written are indices, which nothing dithers

@@ -8,7 +8,7 @@
 #include "engine/checks.h"
 #include "engine/draw_plan.h"
 #include "engine/out_of_memory.h"
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 #include "engine/planar_shadow.h"
 #include "engine/recording.h"
 #include "engine/renderer_state.h"
@@ -26,9 +26,9 @@ void check_material(const char* what, const Material& m) {
   require_finite({what, ".specular"}, m.specular);
   require_finite({what, ".emission"}, m.emission);
   require_range({what, ".shininess"}, m.shininess, 0, 16384);
-  if (m.color_indexes)
-    require_finite({what, ".color_indexes"},
-                   {(*m.color_indexes)[0], (*m.color_indexes)[1], (*m.color_indexes)[2]});
+  if (m.index_ramp)
+    require_finite({what, ".index_ramp"},
+                   {(*m.index_ramp)[0], (*m.index_ramp)[1], (*m.index_ramp)[2]});
 }
 
 void check_light(std::size_t number, const Light& l) {
@@ -42,7 +42,7 @@ void check_light(std::size_t number, const Light& l) {
                    {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
     require_range({"", "spot_exponent"}, l.spot_exponent, 0, 16384);
     if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90))
-      throw Error("spot_cutoff is " + text(l.spot_cutoff) + ", must be 0 to 90, or 180");
+      throw Error("spot_cutoff is " + format_number(l.spot_cutoff) + ", must be 0 to 90, or 180");
   };
   try {
     check();
@@ -77,7 +77,7 @@ void check_state(const DrawState& s) {
 
 void check_size(const char* name, float size) {
   if (std::isfinite(size) && size > 0) return;
-  throw Error("Frame::draw: " + std::string(name) + " is " + text(size) +
+  throw Error("Frame::draw: " + std::string(name) + " is " + format_number(size) +
               ", must be a finite number above 0");
 }
 
@@ -99,19 +99,19 @@ const TextureState* check_texture(const DrawState& s, const TextureState* state)
 
 template <class Change>
 void change(FrameRecording& recording, const char* function, const Change& edit) {
-  with_memory(function, [&] { edit(recording.changeable_surroundings()); });
+  translate_bad_alloc(function, [&] { edit(recording.mutable_scene_state()); });
 }
 
 }  // namespace
 
 Frame::Frame(FrameBuffer& target)
-    : recording_(with_memory("Frame", [] { return std::make_unique<FrameRecording>(); })) {
+    : recording_(translate_bad_alloc("Frame", [] { return std::make_unique<FrameRecording>(); })) {
   if (!target.state_) throw Error("Frame: the frame buffer was moved from");
   recording_->target = target.state_.get();
 }
 Frame::Frame(FrameBuffer& target, Renderer& helper) : Frame(target) {
   if (!helper.state_) throw Error("Frame: the renderer was moved from");
-  recording_->workers = &helper.state_->parallel;
+  recording_->workers = &helper.state_->worker_pool;
 }
 Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
@@ -122,21 +122,21 @@ void Frame::set_camera(const Camera& camera) {
   const FloatingPointMode mode;
   require_finite({"Frame::set_camera: view"}, camera.view);
   require_finite({"Frame::set_camera: projection"}, camera.projection);
-  change(*recording_, "Frame::set_camera", [&](Surroundings& changed) { changed.camera = camera; });
+  change(*recording_, "Frame::set_camera", [&](SceneState& changed) { changed.camera = camera; });
 }
 
 void Frame::set_lights(std::span<const Light> lights) {
   const FloatingPointMode mode;
   for (std::size_t i = 0; i < lights.size(); ++i) check_light(i, lights[i]);
   change(*recording_, "Frame::set_lights",
-         [&](Surroundings& changed) { changed.lights.assign(lights.begin(), lights.end()); });
+         [&](SceneState& changed) { changed.lights.assign(lights.begin(), lights.end()); });
 }
 
 void Frame::set_light_model(const LightModel& model) {
   const FloatingPointMode mode;
   require_finite({"Frame::set_light_model: ambient"}, model.ambient);
-  require_enum({"Frame::set_light_model: specular"}, model.specular, Highlight::phong);
-  change(*recording_, "Frame::set_light_model", [&](Surroundings& changed) { changed.light_model = model; });
+  require_enum({"Frame::set_light_model: specular"}, model.specular, SpecularModel::phong);
+  change(*recording_, "Frame::set_light_model", [&](SceneState& changed) { changed.light_model = model; });
 }
 
 void Frame::clear(const Clear& clear) {
@@ -148,9 +148,9 @@ void Frame::clear(const Clear& clear) {
   if (clear.index) {
     if (!target.layout.index)
       throw Error("Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
-    if (*clear.index > target.layout.word_mask())
+    if (*clear.index > target.layout.value_mask())
       throw Error("Frame::clear: the index is " + std::to_string(*clear.index) + ", must be at most " +
-                  std::to_string(target.layout.word_mask()));
+                  std::to_string(target.layout.value_mask()));
   }
   if (clear.depth) {
     if (target.depth_kind == DepthKind::none)
@@ -174,7 +174,7 @@ void Frame::clear(const Clear& clear) {
       require_range({"Frame::clear: a component of accumulation"}, component, -1, 1);
   }
   if (clear.scissor) check_rect({"Frame::clear: scissor"}, *clear.scissor);
-  with_memory("Frame::clear", [&] { recording_->clears.push_back({clear, recording_->draws.size()}); });
+  translate_bad_alloc("Frame::clear", [&] { recording_->clears.push_back({clear, recording_->draws.size()}); });
 }
 
 void Frame::accumulate(const Accum& accum) {
@@ -184,24 +184,24 @@ void Frame::accumulate(const Accum& accum) {
     throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0)
     throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
-  require_enum({"Frame::accumulate: op"}, accum.op, AccumOp::return_);
+  require_enum({"Frame::accumulate: op"}, accum.op, AccumOp::return_color);
   require_finite({"Frame::accumulate: value"}, {accum.value});
   if (accum.scissor) check_rect({"Frame::accumulate: scissor"}, *accum.scissor);
   check_color_mask("Frame::accumulate", accum.color_mask, target);
-  with_memory("Frame::accumulate", [&] {
-    recording_->accums.push_back({accum, recording_->draws.size(), recording_->clears.size()});
+  translate_bad_alloc("Frame::accumulate", [&] {
+    recording_->accumulations.push_back({accum, recording_->draws.size(), recording_->clears.size()});
   });
 }
 
 void Frame::draw(const Mesh& mesh, const DrawState& state) {
   const FloatingPointMode mode;
-  with_memory("Frame::draw", [&] {
-    RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .surroundings = &recording_->surroundings()};
+  translate_bad_alloc("Frame::draw", [&] {
+    RecordedDraw draw{.mesh = check_mesh(mesh), .state = state, .scene_state = &recording_->scene_state()};
     check_state(state);
     check_shape(state, *recording_->target);
     check_fragment_state("Frame::draw", state, *recording_->target);
     draw.texture = check_texture(state, state.texture != nullptr ? state.texture->state_.get() : nullptr);
-    if (state.shadow_on) turn_into_shadow(draw);
+    if (state.shadow_on) apply_planar_shadow(draw);
     check_indices(draw.mesh, recording_->workers);
     recording_->draws.push_back(std::move(draw));
   });
@@ -209,7 +209,7 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
 
 void Frame::keep(std::initializer_list<Buffer> buffers) {
   for (const Buffer buffer : buffers) require_enum({"Frame::keep: a buffer"}, buffer, Buffer::accumulation);
-  recording_->keeps_chosen = true;
+  recording_->has_keep_list = true;
   recording_->kept = {};
   for (const Buffer buffer : buffers) recording_->kept[static_cast<std::size_t>(buffer)] = true;
 }
@@ -222,8 +222,8 @@ void Frame::capture(const Capture& capture) {
       throw Error(std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) +
                   " elements, the frame buffer needs " + std::to_string(needed));
   };
-  require_size("objects", capture.objects.size(), pixels);
-  require_size("primitives", capture.primitives.size(), pixels);
+  require_size("draw_ids", capture.draw_ids.size(), pixels);
+  require_size("primitive_ids", capture.primitive_ids.size(), pixels);
   require_size("normals", capture.normals.size(), 3 * pixels);
   recording_->capture = capture;
 }
@@ -236,7 +236,7 @@ std::string Frame::explain(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
     throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
                 std::to_string(recording_->draws.size()) + " draws, counted from 0");
-  return with_memory("Frame::explain", [&] {
+  return translate_bad_alloc("Frame::explain", [&] {
     const FloatingPointMode mode;
     std::string reasons;
     DrawPlan plan;

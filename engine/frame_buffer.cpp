@@ -53,9 +53,9 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
     throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) +
                 " bytes, a row takes " + std::to_string(row));
   require_enum({function, ": the target's order"}, target.order, PixelOrder::bgra8);
-  if (target.part && (target.part->width < 0 || target.part->height < 0))
-    throw Error(std::string(function) + ": the target's part is " + std::to_string(target.part->width) +
-                " x " + std::to_string(target.part->height) + " pixels, must not be negative");
+  if (target.region && (target.region->width < 0 || target.region->height < 0))
+    throw Error(std::string(function) + ": the target's region is " + std::to_string(target.region->width) +
+                " x " + std::to_string(target.region->height) + " pixels, must not be negative");
 }
 
 template <class T>
@@ -74,11 +74,11 @@ void check_image_target(const ImageTarget& target, const FrameBufferFormat& form
   require_image(target, format, "Renderer::finish");
 }
 
-PixelRect shown_part(const ImageTarget& target) {
+PixelRect target_region(const ImageTarget& target) {
   const PixelRect whole{0, 0, target.width, target.height};
-  if (!target.part) return whole;
-  const PixelRect part = intersect(whole, raster_rect(*target.part, target.height));
-  return part.empty() ? PixelRect{} : part;
+  if (!target.region) return whole;
+  const PixelRect region = intersect(whole, raster_rect(*target.region, target.height));
+  return region.empty() ? PixelRect{} : region;
 }
 
 std::vector<Color> named_palette(std::string_view palette_name, int color_bits) try {
@@ -100,7 +100,7 @@ std::vector<Color> named_palette(std::string_view palette_name, int color_bits) 
 std::vector<Color> default_palette(int color_bits) {
   require_range("color_bits", color_bits, 1, 24);
   const FloatingPointMode mode;
-  return with_memory("palette", [&] { return to_colors(default_palette_of(color_bits).entries); });
+  return translate_bad_alloc("palette", [&] { return to_colors(default_palette_of(color_bits).entries); });
 }
 
 namespace {
@@ -150,7 +150,7 @@ Palette checked_palette(std::span<const Color> colors, int bits) {
       if (!(component >= 0 && component <= 1))
         throw Error("FrameBuffer: palette entry " + std::to_string(i) + " has a component " +
                     std::to_string(component) + ", must be 0 to 1");
-    palette.entries.push_back(stored_color(c.r, c.g, c.b));
+    palette.entries.push_back(quantize_rgb8(c.r, c.g, c.b));
   }
   return palette;
 }
@@ -159,7 +159,7 @@ void make_planes(FrameBufferState& s) {
   s.color.planes = BitplaneStack(s.format.width, s.format.height, s.format.color_bits + s.format.alpha_bits);
   s.depth.planes = BitplaneStack(s.format.width, s.format.height, depth_bits(s.depth_kind));
   s.stencil.planes = BitplaneStack(s.format.width, s.format.height, s.format.stencil_bits);
-  for (StoredBuffer& component : s.accumulation)
+  for (Attachment& component : s.accumulation)
     component.planes = BitplaneStack(s.format.width, s.format.height, s.format.accumulation_bits);
 }
 
@@ -179,7 +179,7 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
   }
   s.format = std::move(format);
   make_planes(s);
-  if (s.depth_kind != DepthKind::none) s.depth.become_uniform(depth_word(s.depth_kind, 1.0));
+  if (s.depth_kind != DepthKind::none) s.depth.fast_clear(quantize_depth(s.depth_kind, 1.0));
 } catch (const std::bad_alloc&) {
   throw Error("FrameBuffer: not enough memory");
 }
@@ -195,10 +195,10 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory)
                 std::to_string(kPlaneAlignment));
   auto* at = reinterpret_cast<std::uint8_t*>(memory.data());
   for (const Buffer which : kBuffers)
-    for (StoredBuffer& part : state_->parts(which)) {
-      part.planes.use_memory(at);
-      at += part.planes.needed_bytes();
-      part.settle_lent_memory();
+    for (Attachment& attachment : state_->attachments(which)) {
+      attachment.planes.use_external_memory(at);
+      at += attachment.planes.needed_bytes();
+      attachment.materialize_external_memory();
     }
 }
 
@@ -213,7 +213,7 @@ std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
   make_planes(state);
   std::size_t bytes = 0;
   for (const Buffer which : kBuffers)
-    for (const StoredBuffer& part : state.parts(which)) bytes += part.planes.needed_bytes();
+    for (const Attachment& attachment : state.attachments(which)) bytes += attachment.planes.needed_bytes();
   return bytes;
 }
 
@@ -227,7 +227,7 @@ void FrameBuffer::set_palette(std::span<const Color> entries) {
   FrameBufferState& s = *state_;
   if (!s.layout.index)
     throw Error("FrameBuffer::set_palette: the colour mode is rgb; palettes belong to index mode");
-  with_memory("FrameBuffer::set_palette", [&] {
+  translate_bad_alloc("FrameBuffer::set_palette", [&] {
     const FloatingPointMode mode;
     std::vector<Color> colors = entries.empty() ? default_palette(s.format.color_bits)
                                                 : std::vector<Color>(entries.begin(), entries.end());
@@ -239,22 +239,22 @@ void FrameBuffer::set_palette(std::span<const Color> entries) {
 
 int FrameBuffer::plane_count(Buffer buffer) const noexcept {
   int planes = 0;
-  for (const StoredBuffer& part : state_->parts(buffer)) planes += part.planes.plane_count();
+  for (const Attachment& attachment : state_->attachments(buffer)) planes += attachment.planes.plane_count();
   return planes;
 }
 std::size_t FrameBuffer::allocated_bytes(Buffer buffer) const noexcept {
   std::size_t bytes = 0;
-  for (const StoredBuffer& part : state_->parts(buffer)) bytes += part.planes.bytes();
+  for (const Attachment& attachment : state_->attachments(buffer)) bytes += attachment.planes.bytes();
   return bytes;
 }
 
 namespace {
 
-const StoredBuffer& require_kept(FrameBufferState& state, Buffer which, const char* function) {
-  const StoredBuffer& buffer = state.buffer(which);
+const Attachment& require_defined(FrameBufferState& state, Buffer which, const char* function) {
+  const Attachment& buffer = state.buffer(which);
   if (buffer.planes.plane_count() == 0)
     throw Error(std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
-  if (buffer.content == StoredBuffer::Content::lost)
+  if (buffer.content == Attachment::Content::undefined)
     throw Error(std::string(function) + ": the last frame did not keep the " + std::string(name(which)) +
                 " buffer; name it in Frame::keep()");
   return buffer;
@@ -262,25 +262,25 @@ const StoredBuffer& require_kept(FrameBufferState& state, Buffer which, const ch
 
 // Calls use(words of a row, y) for every row from the top. Planes are read in bands, tile by tile.
 template <class Use>
-void for_each_row(const StoredBuffer& buffer, const char* function, const Use& use) {
-  constexpr int kBand = 32;
+void for_each_row(const Attachment& buffer, const char* function, const Use& use) {
+  constexpr int kBandRows = 32;
   const int width = buffer.planes.width_px(), height = buffer.planes.height_px();
-  LoadPlanesFn* const load = with_memory(function, [] { return load_planes_for(available_isas().front()); });
-  auto band = with_memory(function, [&] {
-    return std::vector<std::uint32_t>(static_cast<std::size_t>(width) * kBand, buffer.word);
+  LoadPlanesFn* const load = translate_bad_alloc(function, [] { return load_planes_for(available_isas().front()); });
+  auto band = translate_bad_alloc(function, [&] {
+    return std::vector<std::uint32_t>(static_cast<std::size_t>(width) * kBandRows, buffer.clear_value);
   });
   const auto row = [&](int y) {
     return band.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
   };
-  alignas(kPlaneAlignment) std::uint32_t tile[kBand * kBand];
-  for (int y0 = 0; y0 < height; y0 += kBand) {
-    const int rows = std::min(kBand, height - y0);
-    if (buffer.content != StoredBuffer::Content::uniform) {
-      for (int x0 = 0; x0 < width; x0 += kBand) {
-        load(tile, {x0, y0, kBand, 0}, buffer.planes);
+  alignas(kPlaneAlignment) std::uint32_t tile[kBandRows * kBandRows];
+  for (int y0 = 0; y0 < height; y0 += kBandRows) {
+    const int rows = std::min(kBandRows, height - y0);
+    if (buffer.content != Attachment::Content::fast_cleared) {
+      for (int x0 = 0; x0 < width; x0 += kBandRows) {
+        load(tile, {x0, y0, kBandRows, 0}, buffer.planes);
         for (int y = 0; y < rows; ++y)
-          for (int x = 0; x < std::min(kBand, width - x0); x += kBlockSize)
-            std::copy_n(tile + tile_index(x, y, kBand), std::min(kBlockSize, width - x0 - x),
+          for (int x = 0; x < std::min(kBandRows, width - x0); x += kBlockSize)
+            std::copy_n(tile + tile_index(x, y, kBandRows), std::min(kBlockSize, width - x0 - x),
                         row(y) + x0 + x);
       }
     }
@@ -291,21 +291,21 @@ void for_each_row(const StoredBuffer& buffer, const char* function, const Use& u
 }
 template <class Use>
 void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
-  for_each_row(require_kept(state, which, function), function, use);
+  for_each_row(require_defined(state, which, function), function, use);
 }
 
 }  // namespace
 
 PlaneView FrameBuffer::plane(Buffer which, int k) const try {
   require_enum({"FrameBuffer::plane: buffer"}, which, Buffer::accumulation);
-  require_kept(*state_, which, "FrameBuffer::plane");
+  require_defined(*state_, which, "FrameBuffer::plane");
   if (k < 0 || k >= plane_count(which))
     throw Error("FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) +
                 " buffer, which has planes 0 to " + std::to_string(plane_count(which) - 1));
-  const std::span<StoredBuffer> parts = state_->parts(which);
-  for (StoredBuffer& part : parts) part.materialize();
-  const int planes = parts.front().planes.plane_count();
-  const StoredBuffer& buffer = parts[static_cast<std::size_t>(k / planes)];
+  const std::span<Attachment> attachments = state_->attachments(which);
+  for (Attachment& attachment : attachments) attachment.materialize();
+  const int planes = attachments.front().planes.plane_count();
+  const Attachment& buffer = attachments[static_cast<std::size_t>(k / planes)];
   return {buffer.planes.plane(k % planes), buffer.planes.width_px(), buffer.planes.height_px(),
           buffer.planes.stride_bytes()};
 } catch (const std::bad_alloc&) {
@@ -315,19 +315,19 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
 void FrameBuffer::read_color(const ImageTarget& target) const {
   require_image(target, state_->format, "FrameBuffer::read_color");
   const FloatingPointMode mode;
-  const auto scan_out = with_memory("FrameBuffer::read_color", [&] {
+  const auto scan_out = translate_bad_alloc("FrameBuffer::read_color", [&] {
     return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr,
                    target.order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8,
                    available_isas().front());
   });
-  const PixelRect part = shown_part(target);
+  const PixelRect region = target_region(target);
   for_each_row(*state_, Buffer::color, "FrameBuffer::read_color",
                [&](std::span<const std::uint32_t> row, std::size_t y) {
-                 if (static_cast<int>(y) < part.y0 || static_cast<int>(y) >= part.y1) return;
+                 if (static_cast<int>(y) < region.y0 || static_cast<int>(y) >= region.y1) return;
                  auto* const pixels = static_cast<std::uint8_t*>(target.pixels) +
                                       static_cast<std::ptrdiff_t>(y) * target.stride_bytes;
-                 scan_out.row(row.data() + part.x0, part.x1 - part.x0,
-                              pixels + 4 * static_cast<std::ptrdiff_t>(part.x0));
+                 scan_out.row(row.data() + region.x0, region.x1 - region.x0,
+                              pixels + 4 * static_cast<std::ptrdiff_t>(region.x0));
                });
 }
 
@@ -347,7 +347,7 @@ void FrameBuffer::read_depth(std::span<float> depth) const {
   for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth",
                [&](std::span<const std::uint32_t> row, std::size_t y) {
                  for (std::size_t x = 0; x < row.size(); ++x)
-                   depth[y * row.size() + x] = static_cast<float>(depth_from_word(kind, row[x]));
+                   depth[y * row.size() + x] = static_cast<float>(dequantize_depth(kind, row[x]));
                });
 }
 
@@ -368,7 +368,7 @@ void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, 
   const ViewDepth distance(camera, background, kFunction);
   for_each_row(*state_, Buffer::depth, kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
     for (std::size_t x = 0; x < row.size(); ++x)
-      depth[y * row.size() + x] = distance.at(depth_from_word(kind, row[x]));
+      depth[y * row.size() + x] = distance.at(dequantize_depth(kind, row[x]));
   });
 }
 
@@ -384,7 +384,7 @@ void FrameBuffer::read_stencil(std::span<std::uint8_t> stencil) const {
 void FrameBuffer::read_accumulation(std::span<float> rgba) const {
   constexpr const char* kFunction = "FrameBuffer::read_accumulation";
   require_pixels(rgba, state_->format, kFunction, 4);
-  require_kept(*state_, Buffer::accumulation, kFunction);
+  require_defined(*state_, Buffer::accumulation, kFunction);
   const int bits = state_->format.accumulation_bits;
   const FloatingPointMode mode;
   for (std::size_t c = 0; c < 4; ++c)
@@ -392,7 +392,7 @@ void FrameBuffer::read_accumulation(std::span<float> rgba) const {
       // The lowest level is a step below -1.
       for (std::size_t x = 0; x < row.size(); ++x)
         rgba[4 * (y * row.size() + x) + c] = static_cast<float>(
-            std::max(accumulation_level_from_word(row[x], bits) / accumulation_one(bits), -1.0));
+            std::max(accumulation_level_from_stored(row[x], bits) / accumulation_one(bits), -1.0));
     });
 }
 

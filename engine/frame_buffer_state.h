@@ -18,32 +18,32 @@ namespace tessera {
 inline constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
 /// One buffer of the stack, and what is known of it without looking at its planes.
-struct StoredBuffer {
+struct Attachment {
   enum class Content : std::uint8_t {
-    uniform,  ///< every pixel has `word`; nothing is allocated
+    fast_cleared,  ///< every pixel has `clear_value`; nothing is allocated
     planes,   ///< it stands in the planes
-    lost      ///< the last frame did not keep it
+    undefined      ///< the last frame did not keep it
   };
   BitplaneStack planes;
-  Content content = Content::uniform;
-  std::uint32_t word = 0;
+  Content content = Content::fast_cleared;
+  std::uint32_t clear_value = 0;
 
   /// Makes the planes real. Throws std::bad_alloc; then nothing changed.
   void materialize() {
-    if (content != Content::uniform) return;
-    if (planes.allocated()) planes.fill(word);
-    else planes.allocate(word);
+    if (content != Content::fast_cleared) return;
+    if (planes.allocated()) planes.fill(clear_value);
+    else planes.allocate(clear_value);
     content = Content::planes;
   }
   /// Every pixel becomes `value`.
-  void become_uniform(std::uint32_t value) {
+  void fast_clear(std::uint32_t value) {
     planes.release();
-    content = Content::uniform;
-    word = value & planes.word_mask();
+    content = Content::fast_cleared;
+    clear_value = value & planes.value_mask();
   }
   /// The caller looks at memory of its own: what is known has to stand there.
-  void settle_lent_memory() {
-    if (planes.uses_lent_memory() && planes.plane_count() > 0) materialize();
+  void materialize_external_memory() {
+    if (planes.uses_external_memory() && planes.plane_count() > 0) materialize();
   }
 };
 
@@ -53,11 +53,11 @@ struct FrameBufferState {
   DepthKind depth_kind = DepthKind::none;
   Palette palette;                                ///< index mode
   std::unique_ptr<PaletteSearch> palette_search;  ///< made when a colour first needs it
-  StoredBuffer color, depth, stencil;
-  std::array<StoredBuffer, 4> accumulation;  ///< red, green, blue, alpha: a stack holds at most 32 planes
+  Attachment color, depth, stencil;
+  std::array<Attachment, 4> accumulation;  ///< red, green, blue, alpha: a stack holds at most 32 planes
 
   /// Of accumulation the first of its four; what is lost, all of them are.
-  StoredBuffer& buffer(Buffer which) {
+  Attachment& buffer(Buffer which) {
     switch (which) {
       case Buffer::color: return color;
       case Buffer::depth: return depth;
@@ -66,13 +66,13 @@ struct FrameBufferState {
     }
   }
   /// What a buffer consists of, in the order of its planes; what is no Buffer, of nothing.
-  std::span<StoredBuffer> parts(Buffer which) {
+  std::span<Attachment> attachments(Buffer which) {
     if (which > Buffer::accumulation) return {};
     if (which == Buffer::accumulation) return accumulation;
     return {&buffer(which), 1};
   }
   /// The search structure, made on first use.
-  const PaletteSearch* search() {
+  const PaletteSearch* ensure_palette_search() {
     if (!layout.index) return nullptr;
     if (!palette_search)
       palette_search = std::make_unique<PaletteSearch>(palette, format.dither != Dither::none);

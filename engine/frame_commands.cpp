@@ -26,25 +26,25 @@ bool covers(const PixelRect& rect, const PixelRect& whole) {
   return rect.x0 <= whole.x0 && rect.y0 <= whole.y0 && rect.x1 >= whole.x1 && rect.y1 >= whole.y1;
 }
 
-bool wants(const FrameRecording& recording, Buffer buffer, bool touched, bool presented) {
-  return recording.keeps_chosen ? recording.kept[static_cast<std::size_t>(buffer)] : touched && !presented;
+bool keeps_buffer(const FrameRecording& recording, Buffer buffer, bool touched, bool presented) {
+  return recording.has_keep_list ? recording.kept[static_cast<std::size_t>(buffer)] : touched && !presented;
 }
 
 void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target) {
   if (clear.index) {
-    to.color_word = *clear.index;
+    to.packed_color = *clear.index;
     return;
   }
-  const FragmentOps ops = dither_of(target);
+  const FragmentOps ops = dither_ops(target);
   const Color& c = *clear.color;
-  to.color_word = color_word(target.layout, target.search(), c.r, c.g, c.b, c.a);
+  to.packed_color = pack_color_or_index(target.layout, target.ensure_palette_search(), c.r, c.g, c.b, c.a);
   if (!ops.dither) return;
   for (std::size_t i = 0; i < to.pattern.size(); ++i) {
     const float t = ops.threshold[i / kDitherSize][i % kDitherSize], moved = (t - 0.5f) * ops.palette_spread;
     to.pattern[i] = target.layout.index
-                        ? target.search()->nearest_unclamped(c.r + moved, c.g + moved, c.b + moved)
-                        : stored_word(target.layout, {c.r, c.g, c.b, c.a}, t);
-    to.dithered |= to.pattern[i] != to.color_word;
+                        ? target.ensure_palette_search()->nearest_unclamped(c.r + moved, c.g + moved, c.b + moved)
+                        : pack_color(target.layout, {c.r, c.g, c.b, c.a}, t);
+    to.dithered |= to.pattern[i] != to.packed_color;
   }
 }
 
@@ -70,26 +70,26 @@ void for_each_command(const FrameCommands& commands, const OnClear& on_clear,
 }
 
 // What an accumulation does to a buffer.
-enum class Work : std::uint8_t { none, reads, changes, replaces /* all of it, whatever was there */ };
+enum class BufferAccess : std::uint8_t { none, read, modify, overwrite /* all of it, whatever was there */ };
 
-Work work_on_color(const TileAccumulation& command, const PixelRect& whole) {
+BufferAccess color_access(const TileAccumulation& command, const PixelRect& whole) {
   const AccumulationOp op = command.arithmetic.op();
-  if (op == AccumulationOp::accumulate || op == AccumulationOp::load) return Work::reads;
-  if (op != AccumulationOp::give_back) return Work::none;
-  return command.write_mask == 0xffffffffu && covers(command.rect, whole) ? Work::replaces : Work::changes;
+  if (op == AccumulationOp::accumulate || op == AccumulationOp::load) return BufferAccess::read;
+  if (op != AccumulationOp::give_back) return BufferAccess::none;
+  return command.write_mask == 0xffffffffu && covers(command.rect, whole) ? BufferAccess::overwrite : BufferAccess::modify;
 }
-Work work_on_accumulation(const TileAccumulation& command, const PixelRect& whole) {
+BufferAccess accumulation_access(const TileAccumulation& command, const PixelRect& whole) {
   const AccumulationOp op = command.arithmetic.op();
-  if (op == AccumulationOp::give_back) return Work::reads;
-  return op == AccumulationOp::load && covers(command.rect, whole) ? Work::replaces : Work::changes;
+  if (op == AccumulationOp::give_back) return BufferAccess::read;
+  return op == AccumulationOp::load && covers(command.rect, whole) ? BufferAccess::overwrite : BufferAccess::modify;
 }
 
-// Decides what tiles load and store of one buffer. `clears_it` and `words` look at a clear; `draw_touches` at
-// a plan; `work_of` at an accumulation.
-template <class ClearsIt, class DrawTouches, class WorkOf, class Words>
-void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const StoredBuffer& stored,
-                  const PixelRect& whole, const ClearsIt& clears_it, const DrawTouches& draw_touches,
-                  const WorkOf& work_of, const Words& words, Buffer which) {
+// Decides what tiles load and store of one buffer. `clear_touches` and `words` look at a clear; `draw_touches` at
+// a plan; `access_of` at an accumulation.
+template <class ClearTouches, class DrawTouches, class AccessOf, class Words>
+void plan_attachment_ops(AttachmentOps& attachment_ops, const FrameCommands& commands, const Attachment& stored,
+                  const PixelRect& whole, const ClearTouches& clear_touches, const DrawTouches& draw_touches,
+                  const AccessOf& access_of, const Words& words, Buffer which) {
   bool any = false, starts_anew = false, clears_are_whole = true, is_used = false, is_changed = false;
   const TileClear* last_clear = nullptr;
   const auto begin = [&](bool anew) {
@@ -99,54 +99,54 @@ void plan_traffic(BufferTraffic& traffic, const FrameCommands& commands, const S
   for_each_command(
       commands,
       [&](const TileClear& clear) {
-        if (!clears_it(clear)) return;
+        if (!clear_touches(clear)) return;
         begin(covers(clear.rect, whole));
         clears_are_whole &= covers(clear.rect, whole);
         last_clear = &clear;
       },
       [&](const TileAccumulation& command) {
-        const Work work = work_of(command, whole);
-        if (work == Work::none) return;
-        begin(work == Work::replaces);
+        const BufferAccess access = access_of(command, whole);
+        if (access == BufferAccess::none) return;
+        begin(access == BufferAccess::overwrite);
         is_used = true;
-        is_changed |= work != Work::reads;
+        is_changed |= access != BufferAccess::read;
       },
       [&](const DrawPlan& plan) {
         if (!draw_touches(plan)) return;
         begin(false);
         is_used = is_changed = true;
       });
-  traffic.touched = last_clear != nullptr || is_changed;
-  traffic.used = is_used || (traffic.keep && last_clear != nullptr) || traffic.used;
-  if (!traffic.used) return;
-  traffic.load = !starts_anew;
-  if (traffic.load && stored.content == StoredBuffer::Content::lost)
+  attachment_ops.touched = last_clear != nullptr || is_changed;
+  attachment_ops.used = is_used || (attachment_ops.keep && last_clear != nullptr) || attachment_ops.used;
+  if (!attachment_ops.used) return;
+  attachment_ops.load = !starts_anew;
+  if (attachment_ops.load && stored.content == Attachment::Content::undefined)
     throw Error("Renderer::finish: the frame starts from the " + std::string(name(which)) +
                 " buffer, which the frame before did not keep; clear the whole of it first, or name it in "
                 "Frame::keep() then");
   // Clears alone need no planes.
   if (!is_changed && last_clear != nullptr && clears_are_whole &&
       !(which == Buffer::color && last_clear->dithered)) {
-    traffic.ends_uniform = true;
-    traffic.uniform_words = words(*last_clear);
+    attachment_ops.ends_fast_cleared = true;
+    attachment_ops.clear_values = words(*last_clear);
   }
-  traffic.store = traffic.keep && traffic.touched && !traffic.ends_uniform;
+  attachment_ops.store = attachment_ops.keep && attachment_ops.touched && !attachment_ops.ends_fast_cleared;
 }
 
 // nullopt: it changes nothing.
 std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const FrameBufferState& target) {
   static_assert(static_cast<int>(AccumOp::accum) == static_cast<int>(AccumulationOp::accumulate) &&
-                static_cast<int>(AccumOp::return_) == static_cast<int>(AccumulationOp::give_back));
+                static_cast<int>(AccumOp::return_color) == static_cast<int>(AccumulationOp::give_back));
   TileAccumulation command{.rect = rect_of(accum.scissor, target),
                            .arithmetic = Accumulation(static_cast<AccumulationOp>(accum.op), accum.value,
                                                       target.format.accumulation_bits, target.layout),
                            .write_mask = write_mask(accum.color_mask, ~0u, target.layout),
-                           .dither = dither_of(target)};
-  if (command.rect.empty() || (accum.op == AccumOp::return_ && command.write_mask == 0)) return std::nullopt;
+                           .dither = dither_ops(target)};
+  if (command.rect.empty() || (accum.op == AccumOp::return_color && command.write_mask == 0)) return std::nullopt;
   return command;
 }
 
-void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffers) {
+void set_fragment_ops(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffers) {
   draw.ops = &plan.ops;
   draw.plain_colors = !plan.float_colors;
   draw.offset_factor = plan.offset_factor;
@@ -154,17 +154,17 @@ void connect_operations(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffe
   draw.flat = plan.flat;
   for (int face = 0; face < 2; ++face) {
     const int side = plan.two_sided ? face : 0;
-    if (plan.flat && plan.colors_triangles()) draw.face_colors[face] = buffers.face_colors[side].data();
+    if (plan.flat && plan.has_per_triangle_colors()) draw.face_colors[face] = buffers.face_colors[side].data();
     for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = plan.constant_color[c];
-    if (plan.index[face]) draw.color[face][0] = plan.constant_index;
+    if (plan.is_index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
-    if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.index[face])
+    if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.is_index[face])
       draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
   }
 }
 
 /// The plan of each draw, and which of them can change something.
-void plan_draws(FrameCommands& commands, FrameRecording& recording, Parallel& parallel) {
+void plan_draws(FrameCommands& commands, FrameRecording& recording, WorkerPool& worker_pool) {
   const std::size_t draws = recording.draws.size();
   const auto plan_range = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -175,14 +175,14 @@ void plan_draws(FrameCommands& commands, FrameRecording& recording, Parallel& pa
   if (draws <= kDrawsPerTask) {
     plan_range(0, draws);
   } else {
-    parallel.for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) {
+    worker_pool.for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) {
       plan_range(task * kDrawsPerTask, std::min(draws, (task + 1) * kDrawsPerTask));
     });
   }
   for (std::size_t i = 0; i < draws; ++i) {
     const DrawPlan& plan = commands.plan_memory[i];
     commands.first_plan_at.push_back(static_cast<std::uint32_t>(commands.plans.size()));
-    if (plan.invisible || (!plan.texels && recording.draws[i].mesh.elements == 0)) continue;
+    if (plan.is_noop || (!plan.pixel_rectangle && recording.draws[i].mesh.elements == 0)) continue;
     commands.plans.push_back(&plan);
     commands.plan_draw.push_back(i);
   }
@@ -191,7 +191,7 @@ void plan_draws(FrameCommands& commands, FrameRecording& recording, Parallel& pa
 
 }  // namespace
 
-void FrameCommands::start_anew() {
+void FrameCommands::reset() {
   plans.clear();
   plan_draw.clear();
   first_tile_draw.clear();
@@ -206,11 +206,11 @@ void FrameCommands::start_anew() {
 }
 
 void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
-                std::deque<DrawBuffers>& buffers, Parallel& parallel) {
+                std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool) {
   FrameBufferState& target = *recording.target;
   const PixelRect whole = whole_buffer(target);
-  commands.start_anew();
-  plan_draws(commands, recording, parallel);
+  commands.reset();
+  plan_draws(commands, recording, worker_pool);
   for (const RecordedClear& recorded : recording.clears) {
     commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
     const Clear& clear = recorded.clear;
@@ -228,7 +228,7 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     if (tile_clear.color) set_clear_color(tile_clear, clear, target);
     if (tile_clear.depth)
       tile_clear.depth_key =
-          depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, *clear.depth));
+          depth_key_from_stored(target.depth_kind, quantize_depth(target.depth_kind, *clear.depth));
     if (tile_clear.accumulation) {
       const Color& c = *clear.accumulation;
       const int bits = target.format.accumulation_bits;
@@ -238,7 +238,7 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     commands.clears.push_back(tile_clear);
   }
   commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
-  for (const RecordedAccum& recorded : recording.accums) {
+  for (const RecordedAccum& recorded : recording.accumulations) {
     auto command = plan_accumulation(recorded.accum, target);
     if (!command) continue;
     command->before_draw = commands.first_plan_at[recorded.before_draw];
@@ -253,9 +253,9 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
   const auto any_clear = [&](auto predicate) {
     return std::any_of(commands.clears.begin(), commands.clears.end(), predicate);
   };
-  const auto any_work = [&](auto work_of) {
+  const auto any_modifies = [&](auto access_of) {
     return std::any_of(commands.accumulations.begin(), commands.accumulations.end(),
-                       [&](const TileAccumulation& a) { return work_of(a, whole) >= Work::changes; });
+                       [&](const TileAccumulation& a) { return access_of(a, whole) >= BufferAccess::modify; });
   };
   const auto draws_color = [](const DrawPlan& plan) { return plan.write_mask != 0; };
   const auto draws_depth = [](const DrawPlan& plan) { return plan.uses_depth; };
@@ -265,32 +265,32 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
   const auto clears_depth = [](const TileClear& clear) { return clear.depth; };
   const auto clears_stencil = [](const TileClear& clear) { return clear.stencil; };
   const auto clears_accumulation = [](const TileClear& clear) { return clear.accumulation; };
-  const auto no_work = [](const TileAccumulation&, const PixelRect&) { return Work::none; };
+  const auto no_access = [](const TileAccumulation&, const PixelRect&) { return BufferAccess::none; };
   using Words = std::array<std::uint32_t, 4>;
   commands.color.keep =
-      wants(recording, Buffer::color,
-            any_plan(draws_color) || any_clear(clears_color) || any_work(work_on_color), presented);
+      keeps_buffer(recording, Buffer::color,
+            any_plan(draws_color) || any_clear(clears_color) || any_modifies(color_access), presented);
   commands.depth.keep =
-      wants(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
+      keeps_buffer(recording, Buffer::depth, any_plan(draws_depth) || any_clear(clears_depth), presented);
   commands.stencil.keep =
-      wants(recording, Buffer::stencil, any_plan(draws_stencil) || any_clear(clears_stencil), presented);
+      keeps_buffer(recording, Buffer::stencil, any_plan(draws_stencil) || any_clear(clears_stencil), presented);
   commands.accumulation.keep =
-      wants(recording, Buffer::accumulation, any_clear(clears_accumulation) || any_work(work_on_accumulation),
+      keeps_buffer(recording, Buffer::accumulation, any_clear(clears_accumulation) || any_modifies(accumulation_access),
             presented);
   commands.color.used = presented;
-  plan_traffic(
-      commands.color, commands, target.color, whole, clears_color, draws_color, work_on_color,
-      [](const TileClear& c) { return Words{c.color_word}; }, Buffer::color);
-  plan_traffic(
-      commands.depth, commands, target.depth, whole, clears_depth, draws_depth, no_work,
-      [&](const TileClear& c) { return Words{depth_word_from_key(target.depth_kind, c.depth_key)}; },
+  plan_attachment_ops(
+      commands.color, commands, target.color, whole, clears_color, draws_color, color_access,
+      [](const TileClear& c) { return Words{c.packed_color}; }, Buffer::color);
+  plan_attachment_ops(
+      commands.depth, commands, target.depth, whole, clears_depth, draws_depth, no_access,
+      [&](const TileClear& c) { return Words{stored_depth_from_key(target.depth_kind, c.depth_key)}; },
       Buffer::depth);
-  plan_traffic(
-      commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, no_work,
+  plan_attachment_ops(
+      commands.stencil, commands, target.stencil, whole, clears_stencil, draws_stencil, no_access,
       [](const TileClear& c) { return Words{static_cast<std::uint32_t>(c.stencil_value)}; }, Buffer::stencil);
-  plan_traffic(
+  plan_attachment_ops(
       commands.accumulation, commands, target.accumulation[0], whole, clears_accumulation, draws_nothing,
-      work_on_accumulation, [](const TileClear& c) { return std::bit_cast<Words>(c.accumulation_levels); },
+      accumulation_access, [](const TileClear& c) { return std::bit_cast<Words>(c.accumulation_levels); },
       Buffer::accumulation);
   // Tiles have no memory for what is not used.
   for (TileClear& clear : commands.clears) {
@@ -317,7 +317,7 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
     geometry.plan = commands.plans[i];
     geometry.buffers = &buffers[i];
     geometry.layout = &target.layout;
-    geometry.search = commands.plans[i]->looks_up_colors() ? target.search() : nullptr;
+    geometry.palette_search = commands.plans[i]->uses_palette() ? target.ensure_palette_search() : nullptr;
     geometry.provoking_vertex = draw.state.provoking_vertex;
     commands.geometry.push_back(geometry);
   }
@@ -333,7 +333,7 @@ std::span<const PolygonStyle> styles_of(const DrawPlan& plan) {
   return {kInOrder + first, last - first + 1};
 }
 
-void connect_draws(FrameCommands& commands) {
+void build_tile_draws(FrameCommands& commands) {
   for (const GeometryDraw& geometry : commands.geometry) {
     const DrawPlan& plan = *geometry.plan;
     DrawBuffers& buffers = *geometry.buffers;
@@ -345,41 +345,41 @@ void connect_draws(FrameCommands& commands) {
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
     draw.attribute_stride = plan.attribute_count;
-    draw.attribute_count = plan.texcoords >= 0         ? plan.texcoords
-                           : plan.captured_normal >= 0 ? plan.captured_normal
+    draw.attribute_count = plan.texcoord_offset >= 0         ? plan.texcoord_offset
+                           : plan.captured_normal_offset >= 0 ? plan.captured_normal_offset
                                                        : plan.attribute_count;
     draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
     draw.facing = geometry.facing();
     draw.depth_offsets = geometry.depth_offsets();
-    draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->polygon_triangles());
+    draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->triangles_per_polygon());
     draw.uses_depth = plan.uses_depth;
     draw.depth_write = plan.depth_write;
     draw.depth_test = plan.depth_test;
-    if (plan.texels) draw.texels = &*plan.texels;
+    if (plan.pixel_rectangle) draw.texels = &*plan.pixel_rectangle;
     draw.depth_key = plan.depth_key;
     draw.source = plan.source;
     draw.write_mask = plan.write_mask;
     draw.deferred = plan.deferred;
     draw.scaled_colors = plan.scaled_colors;
-    draw.words[0] = buffers.words[0].data();
-    draw.words[1] = buffers.words[plan.two_sided ? 1 : 0].data();
+    draw.packed_colors[0] = buffers.packed_colors[0].data();
+    draw.packed_colors[1] = buffers.packed_colors[plan.two_sided ? 1 : 0].data();
     draw.color_attribute[1] = plan.two_sided ? plan.color_floats() : 0;
-    std::copy_n(plan.index, 2, draw.index);
+    std::copy_n(plan.is_index, 2, draw.index);
     draw.programs[0] = &plan.front;
     draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
     if (plan.source == ColorSource::constant)
-      draw.word = plan.index[0] ? index_word(*geometry.layout, plan.constant_index)
-                                : color_word(*geometry.layout, geometry.search, plan.constant_color[0],
+      draw.packed_color = plan.is_index[0] ? quantize_index(*geometry.layout, plan.constant_index)
+                                : pack_color_or_index(*geometry.layout, geometry.palette_search, plan.constant_color[0],
                                              plan.constant_color[1], plan.constant_color[2]);
-    if (plan.textures_pixels) {
+    if (plan.textures_per_pixel) {
       draw.texture = &plan.texture.texture;
       for (int face = 0; face < 2; ++face)
         draw.color[face] = {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2],
                             plan.alpha[face]};
     }
-    if (plan.has_ops) connect_operations(draw, plan, buffers);
+    if (plan.has_ops) set_fragment_ops(draw, plan, buffers);
     if (plan.source == ColorSource::per_pixel) {
       // The order in which the vertex stage stores them.
       int next = 0;

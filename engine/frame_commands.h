@@ -9,22 +9,22 @@
 
 #include "engine/draw_plan.h"
 #include "engine/geometry.h"
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 #include "engine/recording.h"
 #include "shading/tile_renderer.h"
 
 namespace tessera {
 
 /// How a buffer goes through a frame.
-struct BufferTraffic {
+struct AttachmentOps {
   bool used = false;     ///< tiles work on it
   bool touched = false;  ///< a command changes it
   bool load = false;     ///< tiles start from what the frame buffer holds
   bool store = false;    ///< tiles end in the planes
   bool keep = false;
   /// The whole buffer ends as one word that no pixel of a draw can have changed: nothing is stored.
-  bool ends_uniform = false;
-  std::array<std::uint32_t, 4> uniform_words{};  ///< of each of the buffer's parts
+  bool ends_fast_cleared = false;
+  std::array<std::uint32_t, 4> clear_values{};  ///< of each of the buffer's attachments
 };
 
 /// Used for one frame after the other: its memory is kept.
@@ -42,12 +42,12 @@ struct FrameCommands {
   std::vector<std::uint32_t>
       first_plan_at;  ///< of each recorded draw, and one past the last: the first plan from there on
   std::vector<std::uint32_t> clears_until;  ///< of each recorded clear, likewise
-  BufferTraffic color, depth, stencil, accumulation;
+  AttachmentOps color, depth, stencil, accumulation;
 
-  void start_anew();
+  void reset();
 
   bool stores() const { return color.store || depth.store || stencil.store || accumulation.store; }
-  const BufferTraffic& traffic(Buffer which) const {
+  const AttachmentOps& attachment_ops(Buffer which) const {
     switch (which) {
       case Buffer::color: return color;
       case Buffer::depth: return depth;
@@ -61,12 +61,12 @@ struct FrameCommands {
 /// an image too. Throws Error where a buffer that the frame needs was not kept by the frame before.
 /// @param commands  are replaced
 void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
-                std::deque<DrawBuffers>& buffers, Parallel& parallel);
+                std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool);
 
 /// The styles in which a plan's elements are drawn, in the order of its tile draws; none: as they are.
 std::span<const PolygonStyle> styles_of(const DrawPlan& plan);
 
 /// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
-void connect_draws(FrameCommands& commands);
+void build_tile_draws(FrameCommands& commands);
 
 }  // namespace tessera

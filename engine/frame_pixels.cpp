@@ -25,7 +25,7 @@ DrawState draw_state(const FragmentState& s) {
 
 // What bitmaps and images have in common. `row_bytes` are those that a row needs.
 void check_pixels(const char* function, RecordedPixels& pixels, const char* memory, std::int64_t row_bytes) {
-  PixelRectangle& texels = pixels.texels;
+  PixelRectangle& texels = pixels.rectangle;
   require_range({function, ": width"}, texels.width, 1, kMaxFrameBufferSize);
   require_range({function, ": height"}, texels.height, 1, kMaxFrameBufferSize);
   if (texels.top_row == nullptr) throw Error(std::string(function) + ": " + memory + " is null");
@@ -39,9 +39,9 @@ void check_pixels(const char* function, RecordedPixels& pixels, const char* memo
 
 void record(FrameRecording& recording, const char* function, const RecordedPixels& pixels,
             const FragmentState& state) {
-  with_memory(function, [&] {
+  translate_bad_alloc(function, [&] {
     RecordedDraw draw{
-        .mesh = {}, .state = draw_state(state), .surroundings = &recording.surroundings(), .pixels = pixels};
+        .mesh = {}, .state = draw_state(state), .scene_state = &recording.scene_state(), .pixels = pixels};
     check_fragment_state(function, draw.state, *recording.target);
     recording.draws.push_back(std::move(draw));
   });
@@ -52,7 +52,7 @@ void record(FrameRecording& recording, const char* function, const RecordedPixel
 void Frame::draw_bitmap(const Bitmap& bitmap, const FragmentState& state) {
   constexpr const char* kFunction = "Frame::draw_bitmap";
   const FloatingPointMode mode;
-  RecordedPixels pixels{.texels = {.x = bitmap.x,
+  RecordedPixels pixels{.rectangle = {.x = bitmap.x,
                                    .y = bitmap.y,
                                    .width = bitmap.width,
                                    .height = bitmap.height,
@@ -62,8 +62,8 @@ void Frame::draw_bitmap(const Bitmap& bitmap, const FragmentState& state) {
                         .color = bitmap.color};
   check_pixels(kFunction, pixels, "bits", (std::int64_t{bitmap.width} + 7) / 8);
   require_finite({kFunction, ": color"}, bitmap.color);
-  pixels.texels.x = std::floor(pixels.texels.x);
-  pixels.texels.y = std::floor(pixels.texels.y);
+  pixels.rectangle.x = std::floor(pixels.rectangle.x);
+  pixels.rectangle.y = std::floor(pixels.rectangle.y);
   record(*recording_, kFunction, pixels, state);
 }
 
@@ -71,7 +71,7 @@ void Frame::draw_image(const PixelImage& image, const FragmentState& state) {
   constexpr const char* kFunction = "Frame::draw_image";
   const FloatingPointMode mode;
   require_range({kFunction, ": channels"}, image.channels, 1, 4);
-  RecordedPixels pixels{.texels = {.x = image.x,
+  RecordedPixels pixels{.rectangle = {.x = image.x,
                                    .y = image.y,
                                    .zoom_x = image.zoom_x,
                                    .zoom_y = image.zoom_y,

@@ -5,16 +5,16 @@
 
 namespace tessera {
 
-void FrameTrace::Tasks::add(const FrameTask& task) noexcept try {
+void FrameTrace::WorkerTasks::add(const FrameTask& task) noexcept try {
   list.push_back(task);
 } catch (const std::bad_alloc&) {
-  is_whole = false;
+  is_complete = false;
 }
 
 std::vector<FrameTask> FrameTrace::tasks() const noexcept try {
   std::vector<FrameTask> all;
-  for (const Tasks& of_worker : tasks_) {
-    if (!of_worker.is_whole) return {};
+  for (const WorkerTasks& of_worker : tasks_) {
+    if (!of_worker.is_complete) return {};
     all.insert(all.end(), of_worker.list.begin(), of_worker.list.end());
   }
   const auto began_before = [](const FrameTask& a, const FrameTask& b) { return a.begin < b.begin; };

@@ -34,9 +34,9 @@ class FrameTrace {
   using Clock = std::chrono::steady_clock;
   /// Of one worker, in cache lines of its own. The frame is worth more than its trace: what there is no
   /// memory for is left out.
-  struct alignas(64) Tasks {
+  struct alignas(64) WorkerTasks {
     std::vector<FrameTask> list;
-    bool is_whole = true;
+    bool is_complete = true;
     void add(const FrameTask& task) noexcept;
   };
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -44,7 +44,7 @@ class FrameTrace {
   Clock::time_point start_ = Clock::now();
   FrameStage stage_ = FrameStage::vertices;
   int pass_ = -1;
-  std::vector<Tasks> tasks_;  // of each worker
+  std::vector<WorkerTasks> tasks_;  // of each worker
 };
 
 }  // namespace tessera

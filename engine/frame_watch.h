@@ -11,10 +11,10 @@
 
 namespace tessera {
 
-class FrameWatch {
+class FrameProgress {
  public:
   /// `progress` may be empty: then it costs nothing.
-  FrameWatch(const std::function<bool(double)>& progress, FrameTrace& trace)
+  FrameProgress(const std::function<bool(double)>& progress, FrameTrace& trace)
       : progress_(progress), trace_(trace) {}
 
   /// A stage of `tasks` tasks begins, at whose end `end` of the frame is done; the last one's is 1. Between
@@ -24,7 +24,7 @@ class FrameWatch {
     begin_ = end_;
     end_ = end;
     tasks_ = tasks;
-    done_ = told_ = 0;
+    done_ = reported_ = 0;
   }
   /// Runs a task, on any worker. Throws Cancelled, or what the callback throws.
   template <class Work>
@@ -46,9 +46,9 @@ class FrameWatch {
   double begin_ = 0, end_ = 0;
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;
-  std::atomic<bool> calling_ =
+  std::atomic<bool> in_callback_ =
       false;              // the callback, by one at a time; for ever once it has stopped the frame
-  std::size_t told_ = 0;  // of done_, in this stage
+  std::size_t reported_ = 0;  // of done_, in this stage
   std::chrono::steady_clock::time_point last_call_{};
 };
 

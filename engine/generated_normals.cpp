@@ -37,7 +37,7 @@ glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t first, std::size_t la
 }
 
 void store_unit(const glm::dvec3& v, float* out) {
-  const glm::dvec3 m = measurable(v);
+  const glm::dvec3 m = scaled_to_safe_range(v);
   const double length = glm::length(m);
   const glm::dvec3 n = length > 0 ? m / length : glm::dvec3(0);
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k]);
@@ -58,79 +58,79 @@ std::uint64_t hash_of(const Key& key) {
   return hash;
 }
 
-constexpr std::size_t kMostTasks = 64, kMostParts = 64, kItemsOfATask = 1024, kVerticesOfAPart = 4096;
+constexpr std::size_t kMaxTasks = 64, kMaxPartitions = 64, kItemsPerTask = 1024, kVerticesPerPartition = 4096;
 
 /// A power of two, for open addressing.
 std::size_t table_slots(std::size_t vertices) { return std::bit_ceil(2 * vertices + 1); }
 
 }  // namespace
 
-SmoothNormals::Cut::Cut(std::size_t vertices, std::size_t elements)
-    : tasks(std::clamp(std::max(vertices, elements) / kItemsOfATask, std::size_t{1}, kMostTasks)),
-      parts(std::clamp(vertices / kVerticesOfAPart, std::size_t{1}, kMostParts)) {}
+SmoothNormals::Partitioning::Partitioning(std::size_t vertices, std::size_t elements)
+    : tasks(std::clamp(std::max(vertices, elements) / kItemsPerTask, std::size_t{1}, kMaxTasks)),
+      partitions(std::clamp(vertices / kVerticesPerPartition, std::size_t{1}, kMaxPartitions)) {}
 template <class Work>
-void SmoothNormals::Cut::for_each_range(Parallel& parallel, std::size_t count, const Work& work) const {
-  parallel.for_each(tasks,
+void SmoothNormals::Partitioning::for_each_range(WorkerPool& worker_pool, std::size_t count, const Work& work) const {
+  worker_pool.for_each(tasks,
                     [&](std::size_t task, int) { work(count * task / tasks, count * (task + 1) / tasks); });
 }
 
 template <class Item>
-void SmoothNormals::Sorted<Item>::reserve(const Cut& cut, std::size_t count) {
+void SmoothNormals::PartitionedItems<Item>::reserve(const Partitioning& partitioning, std::size_t count) {
   items.resize(count);
-  ends.resize(cut.tasks * cut.parts);
+  ends.resize(partitioning.tasks * partitioning.partitions);
 }
 
-/// @param for_each_of_task  calls its second argument with the part and each item of a task; it is called
+/// @param for_each_of_task  calls its second argument with the partition and each item of a task; it is called
 /// twice
 template <class Item>
 template <class ForEach>
-void SmoothNormals::Sorted<Item>::sort(Parallel& parallel, const Cut& cut, const ForEach& for_each_of_task) {
-  tasks = cut.tasks;
-  parts = cut.parts;
-  std::size_t* const at = ends.resize(tasks * parts);
-  parallel.for_each(tasks, [&](std::size_t task, int) {
-    std::size_t* const counts = at + task * parts;
-    std::fill_n(counts, parts, std::size_t{0});
-    for_each_of_task(task, [&](std::size_t part, const Item&) { ++counts[part]; });
+void SmoothNormals::PartitionedItems<Item>::sort(WorkerPool& worker_pool, const Partitioning& partitioning, const ForEach& for_each_of_task) {
+  tasks = partitioning.tasks;
+  partitions = partitioning.partitions;
+  std::size_t* const at = ends.resize(tasks * partitions);
+  worker_pool.for_each(tasks, [&](std::size_t task, int) {
+    std::size_t* const counts = at + task * partitions;
+    std::fill_n(counts, partitions, std::size_t{0});
+    for_each_of_task(task, [&](std::size_t partition, const Item&) { ++counts[partition]; });
   });
   std::size_t begin = 0;
-  for (std::size_t part = 0; part < parts; ++part)
-    for (std::size_t task = 0; task < tasks; ++task) begin += std::exchange(at[task * parts + part], begin);
+  for (std::size_t partition = 0; partition < partitions; ++partition)
+    for (std::size_t task = 0; task < tasks; ++task) begin += std::exchange(at[task * partitions + partition], begin);
   Item* const sorted = items.resize(begin);
-  parallel.for_each(tasks, [&](std::size_t task, int) {
+  worker_pool.for_each(tasks, [&](std::size_t task, int) {
     for_each_of_task(task,
-                     [&](std::size_t part, const Item& item) { sorted[at[task * parts + part]++] = item; });
+                     [&](std::size_t partition, const Item& item) { sorted[at[task * partitions + partition]++] = item; });
   });
 }
 
 template <class Item>
 template <class Work>
-void SmoothNormals::Sorted<Item>::for_each_in(std::size_t part, const Work& work) const {
-  const std::size_t* const last_task = ends.data() + (tasks - 1) * parts;
-  for (std::size_t i = part == 0 ? 0 : last_task[part - 1]; i < last_task[part]; ++i) work(items.data()[i]);
+void SmoothNormals::PartitionedItems<Item>::for_each_in(std::size_t partition, const Work& work) const {
+  const std::size_t* const last_task = ends.data() + (tasks - 1) * partitions;
+  for (std::size_t i = partition == 0 ? 0 : last_task[partition - 1]; i < last_task[partition]; ++i) work(items.data()[i]);
 }
 
 // For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
-void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& parallel, const Cut& cut) {
-  std::uint8_t* const part = part_.resize(mesh.vertices);
-  cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, WorkerPool& worker_pool, const Partitioning& partitioning) {
+  std::uint8_t* const partition = partition_.resize(mesh.vertices);
+  partitioning.for_each_range(worker_pool, mesh.vertices, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
-      part[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % cut.parts);
+      partition[v] = static_cast<std::uint8_t>((hash_of(key_at(mesh, v)) >> 32) % partitioning.partitions);
   });
-  vertices_.sort(parallel, cut, [&](std::size_t task, const auto& add) {
-    for (std::size_t v = mesh.vertices * task / cut.tasks; v < mesh.vertices * (task + 1) / cut.tasks; ++v)
-      add(part[v], static_cast<std::uint32_t>(v));
+  vertices_.sort(worker_pool, partitioning, [&](std::size_t task, const auto& add) {
+    for (std::size_t v = mesh.vertices * task / partitioning.tasks; v < mesh.vertices * (task + 1) / partitioning.tasks; ++v)
+      add(partition[v], static_cast<std::uint32_t>(v));
   });
-  std::size_t begin[kMostParts + 1] = {};
-  for (std::size_t p = 0; p < cut.parts; ++p) {
+  std::size_t begin[kMaxPartitions + 1] = {};
+  for (std::size_t p = 0; p < partitioning.partitions; ++p) {
     std::size_t count = 0;
     vertices_.for_each_in(p, [&](std::uint32_t) { ++count; });
     begin[p + 1] = begin[p] + table_slots(count);
   }
-  std::uint32_t* const tables = table_.resize(begin[cut.parts]);
+  std::uint32_t* const tables = table_.resize(begin[partitioning.partitions]);
   std::uint32_t* const first_at = first_.resize(mesh.vertices);
   glm::dvec3* const sums = sums_.resize(mesh.vertices);
-  parallel.for_each(cut.parts, [&](std::size_t p, int) {
+  worker_pool.for_each(partitioning.partitions, [&](std::size_t p, int) {
     constexpr std::uint32_t kEmpty = 0xffffffffu;
     std::uint32_t* const table = tables + begin[p];
     const std::size_t slots = begin[p + 1] - begin[p];
@@ -146,17 +146,17 @@ void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, Parallel& pa
   });
 }
 
-void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel, const Cut& cut) {
-  const std::size_t each = mesh.polygon_triangles(), faces = mesh.elements / each;
+void SmoothNormals::sum_faces(const MeshArrays& mesh, WorkerPool& worker_pool, const Partitioning& partitioning) {
+  const std::size_t each = mesh.triangles_per_polygon(), faces = mesh.elements / each;
   glm::dvec3* const areas = areas_.resize(faces);
-  cut.for_each_range(parallel, faces, [&](std::size_t first, std::size_t last) {
+  partitioning.for_each_range(worker_pool, faces, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f) areas[f] = area_normal(mesh, f * each, (f + 1) * each);
   });
-  corners_.sort(parallel, cut, [&](std::size_t task, const auto& add) {
+  corners_.sort(worker_pool, partitioning, [&](std::size_t task, const auto& add) {
     const auto add_corner = [&](std::size_t vertex, std::size_t face) {
-      add(part_.data()[vertex], Corner{first_.data()[vertex], static_cast<std::uint32_t>(face)});
+      add(partition_.data()[vertex], Corner{first_.data()[vertex], static_cast<std::uint32_t>(face)});
     };
-    for (std::size_t f = faces * task / cut.tasks; f < faces * (task + 1) / cut.tasks; ++f) {
+    for (std::size_t f = faces * task / partitioning.tasks; f < faces * (task + 1) / partitioning.tasks; ++f) {
       if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z))
         continue;  // this polygon will be dropped; its neighbours keep theirs
       // A polygon's first triangle has three of its vertices, each further one another: the one that those
@@ -167,15 +167,15 @@ void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel, const 
     }
   });
   // A face counts once at each position, also where several of its corners lie there (a triangle has no area
-  // then). In each part faces follow each other.
+  // then). In each partition faces follow each other.
   constexpr std::uint32_t kNone = 0xffffffffu;
   std::uint32_t* const last_face = table_.data();  // of each vertex; the table itself has served
   if (each > 1)
-    cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+    partitioning.for_each_range(worker_pool, mesh.vertices, [&](std::size_t first, std::size_t last) {
       std::fill(last_face + first, last_face + last, kNone);
     });
-  parallel.for_each(cut.parts, [&](std::size_t part, int) {
-    corners_.for_each_in(part, [&](const Corner& corner) {
+  worker_pool.for_each(partitioning.partitions, [&](std::size_t partition, int) {
+    corners_.for_each_in(partition, [&](const Corner& corner) {
       if (each == 1 || std::exchange(last_face[corner.vertex], corner.face) != corner.face)
         sums_.data()[corner.vertex] += areas[corner.face];
     });
@@ -183,31 +183,31 @@ void SmoothNormals::sum_faces(const MeshArrays& mesh, Parallel& parallel, const 
 }
 
 void SmoothNormals::reserve(std::size_t vertices, std::size_t elements) {
-  const Cut cut(vertices, elements);
-  part_.resize(vertices);
-  vertices_.reserve(cut, vertices);
-  table_.resize(4 * vertices + 2 * cut.parts);  // table_slots(n) <= 4 n + 2
+  const Partitioning partitioning(vertices, elements);
+  partition_.resize(vertices);
+  vertices_.reserve(partitioning, vertices);
+  table_.resize(4 * vertices + 2 * partitioning.partitions);  // table_slots(n) <= 4 n + 2
   first_.resize(vertices);
   sums_.resize(vertices);
   areas_.resize(elements);
-  corners_.reserve(cut, 3 * elements);
+  corners_.reserve(partitioning, 3 * elements);
 }
 
-void SmoothNormals::make(const MeshArrays& mesh, Parallel& parallel, float* normals) {
+void SmoothNormals::make(const MeshArrays& mesh, WorkerPool& worker_pool, float* normals) {
   const bool has_faces = mesh.topology() == Topology::triangles;
-  const Cut cut(mesh.vertices, mesh.elements);
+  const Partitioning partitioning(mesh.vertices, mesh.elements);
   if (has_faces) {
-    find_first_at_positions(mesh, parallel, cut);
-    sum_faces(mesh, parallel, cut);
+    find_first_at_positions(mesh, worker_pool, partitioning);
+    sum_faces(mesh, worker_pool, partitioning);
   }
-  cut.for_each_range(parallel, mesh.vertices, [&](std::size_t first, std::size_t last) {
+  partitioning.for_each_range(worker_pool, mesh.vertices, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
       store_unit(has_faces ? sums_.data()[first_.data()[v]] : glm::dvec3(0), normals + 3 * v);
   });
 }
 
 void make_face_normals(const MeshArrays& mesh, std::size_t first, std::size_t last, float* normals) {
-  const std::size_t each = mesh.polygon_triangles();
+  const std::size_t each = mesh.triangles_per_polygon();
   for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
     const glm::dvec3 normal = area_normal(mesh, begin, begin + each);
     for (std::size_t t = begin; t < begin + each; ++t) store_unit(normal, normals + 3 * t);

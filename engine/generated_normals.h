@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/mesh_arrays.h"
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 #include "engine/scratch.h"
 
 namespace tessera {
@@ -22,46 +22,46 @@ class SmoothNormals {
   /// length (or 0), in object space; 3 floats each. The same bits for any number of threads: each sum is made
   /// in the faces' order. Throws std::bad_alloc.
   /// @param normals  of 3 floats for each vertex
-  void make(const MeshArrays& mesh, Parallel& parallel, float* normals);
+  void make(const MeshArrays& mesh, WorkerPool& worker_pool, float* normals);
 
  private:
   /// How a mesh is cut.
-  struct Cut {
+  struct Partitioning {
     std::size_t tasks;  ///< ranges of its vertices or faces
-    std::size_t parts;  ///< of its vertices: all at one position are in the same
+    std::size_t partitions;  ///< of its vertices: all at one position are in the same
 
-    Cut(std::size_t vertices, std::size_t elements);
+    Partitioning(std::size_t vertices, std::size_t elements);
     /// Calls work(first, last) for each task's range of `count` things.
     template <class Work>
-    void for_each_range(Parallel& parallel, std::size_t count, const Work& work) const;
+    void for_each_range(WorkerPool& worker_pool, std::size_t count, const Work& work) const;
   };
-  /// Items sorted by part of the mesh, those of a part in the order in which they came.
+  /// Items sorted by partition of the mesh, those of a partition in the order in which they came.
   template <class Item>
-  struct Sorted {
+  struct PartitionedItems {
     Scratch<Item> items;
-    Scratch<std::size_t> ends;  ///< of each task's items of each part
+    Scratch<std::size_t> ends;  ///< of each task's items of each partition
 
-    void reserve(const Cut& cut, std::size_t count);
+    void reserve(const Partitioning& partitioning, std::size_t count);
     template <class ForEach>
-    void sort(Parallel& parallel, const Cut& cut, const ForEach& for_each_of_task);
+    void sort(WorkerPool& worker_pool, const Partitioning& partitioning, const ForEach& for_each_of_task);
     template <class Work>
-    void for_each_in(std::size_t part, const Work& work) const;
+    void for_each_in(std::size_t partition, const Work& work) const;
 
-    std::size_t tasks = 0, parts = 0;
+    std::size_t tasks = 0, partitions = 0;
   };
   /// A corner of a face.
   struct Corner {
     std::uint32_t vertex, face;
   };
 
-  void find_first_at_positions(const MeshArrays& mesh, Parallel& parallel, const Cut& cut);
-  void sum_faces(const MeshArrays& mesh, Parallel& parallel, const Cut& cut);
+  void find_first_at_positions(const MeshArrays& mesh, WorkerPool& worker_pool, const Partitioning& partitioning);
+  void sum_faces(const MeshArrays& mesh, WorkerPool& worker_pool, const Partitioning& partitioning);
 
-  Scratch<std::uint8_t> part_;  // of each vertex: the same at the same position
-  Sorted<std::uint32_t> vertices_;
+  Scratch<std::uint8_t> partition_;  // of each vertex: the same at the same position
+  PartitionedItems<std::uint32_t> vertices_;
   Scratch<std::uint32_t> table_, first_;
   Scratch<glm::dvec3> areas_, sums_;  // of faces; at the first vertices
-  Sorted<Corner> corners_;
+  PartitionedItems<Corner> corners_;
 };
 
 /// Of the faces that begin in triangles [first, last): for each triangle its face's normal, unit length (or

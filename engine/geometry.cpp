@@ -27,19 +27,19 @@ void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t
 
 // A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position
 // is not.
-std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count, std::uint8_t* codes) {
+std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count, std::uint8_t* outcodes) {
   std::uint8_t any = 0;
   for (std::size_t i = 0; i < count; ++i) {
     float probe = 0;
     for (std::size_t k = 0; k < each; ++k) probe += values.at(i)[k] * 0.0f;
-    if (!(probe == 0)) any = codes[i] |= kNonFinite;
+    if (!(probe == 0)) any = outcodes[i] |= kNonFinite;
   }
   return any;
 }
 
-std::uint32_t word_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i, int face) {
-  if (draw.plan->index[face]) return index_word(*draw.layout, batch.field[kColorR][i]);
-  return color_word(*draw.layout, draw.search, batch.field[kColorR][i], batch.field[kColorG][i],
+std::uint32_t packed_color_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i, int face) {
+  if (draw.plan->is_index[face]) return quantize_index(*draw.layout, batch.field[kColorR][i]);
+  return pack_color_or_index(*draw.layout, draw.palette_search, batch.field[kColorR][i], batch.field[kColorG][i],
                     batch.field[kColorB][i]);
 }
 
@@ -67,11 +67,11 @@ struct Batch {
 };
 
 // Where the colours of one face of a batch go as floats, and how far one is from the next.
-struct FloatColors {
+struct ColorOutput {
   float* first;
   std::size_t stride;
 };
-FloatColors float_colors(const GeometryDraw& draw, const Batch& points, int face) {
+ColorOutput color_output(const GeometryDraw& draw, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
   if (points.triangles) return {draw.buffers->face_colors[face].data() + 4 * points.first, 4};
   const auto stride = static_cast<std::size_t>(plan.attribute_count);
@@ -79,28 +79,28 @@ FloatColors float_colors(const GeometryDraw& draw, const Batch& points, int face
 }
 
 void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
-  const auto [out, stride] = float_colors(draw, points, face);
+  const auto [out, stride] = color_output(draw, points, face);
   for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
 }
 
 // For operations that take colours: r g b a for each point.
 void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
-  auto [out, stride] = float_colors(draw, points, face);
+  auto [out, stride] = color_output(draw, points, face);
   for (std::size_t i = 0; i < points.count; ++i, out += stride) {
     for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
     out[3] = !plan.vertex_alpha         ? plan.alpha[face]
              : plan.clamps_vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f)
                                         : points.alpha[i];
     if (plan.folds_texture())
-      out[3] = textured_color(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
+      out[3] = texture_env_reference(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
   }
 }
 
 // A texture of one colour over colours that are clamped.
 void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    const auto color = textured_color(
+    const auto color = texture_env_reference(
         texture, {batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i], 1},
         texture.texel);
     for (std::size_t c = 0; c < 3; ++c) batch.field[kColorR + c][i] = color[c];
@@ -110,21 +110,21 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
 // The colour of a batch goes where the draw's triangles will look for it.
 void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face, Isa isa) {
   const DrawPlan& plan = *draw.plan;
-  if (plan.folds_texture() && !plan.index[face]) fold_texture(plan.texture.texture, batch, points.count);
+  if (plan.folds_texture() && !plan.is_index[face]) fold_texture(plan.texture.texture, batch, points.count);
   const bool as_floats = plan.source == ColorSource::interpolated;
-  if (as_floats && plan.index[face]) return store_indices(draw, batch, points, face);
+  if (as_floats && plan.is_index[face]) return store_indices(draw, batch, points, face);
   if (plan.float_colors) return store_rgba(draw, batch, points, face);
   if (as_floats) {
     if (plan.scaled_colors) scale_colors(isa)(*draw.layout, batch, static_cast<int>(points.count));
-    auto [out, stride] = float_colors(draw, points, face);
+    auto [out, stride] = color_output(draw, points, face);
     for (std::size_t i = 0; i < points.count; ++i, out += stride)
       for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
-  } else if (!plan.index[face] && !draw.layout->index) {
-    vertex_words(isa)(*draw.layout, batch, static_cast<int>(points.count),
-                      draw.buffers->words[face].data() + points.first);
+  } else if (!plan.is_index[face] && !draw.layout->index) {
+    pack_vertex_colors(isa)(*draw.layout, batch, static_cast<int>(points.count),
+                      draw.buffers->packed_colors[face].data() + points.first);
   } else {
     for (std::size_t i = 0; i < points.count; ++i)
-      draw.buffers->words[face].data()[points.first + i] = word_of(draw, batch, i, face);
+      draw.buffers->packed_colors[face].data()[points.first + i] = packed_color_of(draw, batch, i, face);
   }
 }
 
@@ -166,7 +166,7 @@ bool needs_position(const DrawPlan& plan) {
 }
 
 // Per-pixel lighting: the vertex stage only carries its inputs into eye space.
-void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first, std::size_t count) {
+void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first, std::size_t count) {
   const DrawPlan& plan = *draw.plan;
   const auto stride = static_cast<std::size_t>(plan.attribute_count);
   float* out = draw.buffers->attributes.data() + first * stride;
@@ -186,7 +186,7 @@ void store_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
-  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->texcoords;
+  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->texcoord_offset;
   for (std::size_t i = 0; i < count; ++i, out += stride)
     std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
 }
@@ -198,7 +198,7 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
   float eye[3][kVertexBatch];
   eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
   const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
-  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal;
+  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal_offset;
   for (std::size_t i = 0; i < count; ++i, out += stride) {
     const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
     for (std::size_t c = 0; c < 3; ++c)
@@ -221,7 +221,7 @@ void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last)
 // both conventions.
 void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
-  const std::size_t each = mesh.polygon_triangles(), first_polygon = (first + each - 1) / each;
+  const std::size_t each = mesh.triangles_per_polygon(), first_polygon = (first + each - 1) / each;
   std::uint32_t* out = draw.buffers->boundary.data() + first_polygon * (each + 2);
   for (std::size_t begin = first_polygon * each; begin < last; begin += each) {
     for (const std::size_t corner :
@@ -243,28 +243,28 @@ void prepare_geometry(const GeometryDraw& draw) {
   DrawBuffers& buffers = *draw.buffers;
   const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->elements;
   buffers.vertices.resize(vertices);
-  buffers.codes.resize(vertices);
+  buffers.outcodes.resize(vertices);
   buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) +
                             2 * kAttributePadding);  // read in whole vectors
   for (int face = 0; face < 2; ++face)
     buffers.face_colors[face].resize(
-        plan.float_colors && plan.colors_triangles() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
-  const std::size_t words = plan.source == ColorSource::vertex_word     ? vertices
-                            : plan.source == ColorSource::triangle_word ? triangles
+        plan.float_colors && plan.has_per_triangle_colors() && face <= (plan.two_sided ? 1 : 0) ? 4 * triangles : 0);
+  const std::size_t words = plan.source == ColorSource::per_vertex_packed     ? vertices
+                            : plan.source == ColorSource::per_triangle_packed ? triangles
                                                                         : 0;
-  buffers.words[0].resize(words);
-  buffers.words[1].resize(plan.two_sided ? words : 0);
-  if (draw.makes_indices())
+  buffers.packed_colors[0].resize(words);
+  buffers.packed_colors[1].resize(plan.two_sided ? words : 0);
+  if (draw.generates_indices())
     buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
-  buffers.facing.resize(draw.faces_polygons() ? triangles : 0);
-  const std::size_t polygon_triangles = draw.mesh->polygon_triangles();
-  if (plan.outlines) buffers.boundary.resize(triangles / polygon_triangles * (polygon_triangles + 2));
+  buffers.facing.resize(draw.has_polygon_facing() ? triangles : 0);
+  const std::size_t triangles_per_polygon = draw.mesh->triangles_per_polygon();
+  if (plan.outlines) buffers.boundary.resize(triangles / triangles_per_polygon * (triangles_per_polygon + 2));
   if (plan.face_normals) buffers.face_normals.resize(3 * triangles);
-  buffers.any_code = false;
+  buffers.any_outcode = false;
 }
 
 void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last) {
-  if (draw.makes_indices()) list_corners(draw, first, last);
+  if (draw.generates_indices()) list_corners(draw, first, last);
   if (draw.plan->outlines) list_boundaries(draw, first, last);
   if (draw.plan->face_normals) make_face_normals(*draw.mesh, first, last, draw.buffers->face_normals.data());
 }
@@ -274,30 +274,30 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
   const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
   TransformVertices* const transform = transform_vertices(isa);
-  const bool colors_matter = plan.source == ColorSource::vertex_word ||
+  const bool colors_matter = plan.source == ColorSource::per_vertex_packed ||
                              plan.source == ColorSource::interpolated ||
                              plan.source == ColorSource::per_pixel;
   const StridedFloats normals = normals_of(draw);
   ShadingBatch batch;
   clear_batch(batch);
-  std::uint8_t codes = 0;
+  std::uint8_t outcodes = 0;
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
     const StridedFloats positions = mesh.positions.from(at);
-    codes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at,
-                       buffers.codes.data() + at);
+    outcodes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at,
+                       buffers.outcodes.data() + at);
     if (plan.uses_vertex_colors && mesh.colors)
-      codes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.codes.data() + at);
+      outcodes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.outcodes.data() + at);
     if (plan.uses_color_indices)
-      codes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.codes.data() + at);
-    if (plan.texcoords >= 0) {
-      codes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.codes.data() + at);
+      outcodes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.outcodes.data() + at);
+    if (plan.texcoord_offset >= 0) {
+      outcodes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.outcodes.data() + at);
       store_texcoords(draw, at, count);
     }
-    if (plan.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
+    if (plan.captured_normal_offset >= 0) store_captured_normals(draw, at, count, isa);
     if (needs_normal(plan) && !plan.face_normals)
-      codes |= mark_non_finite(normals.from(at), 3, count, buffers.codes.data() + at);
-    if (!colors_matter || plan.colors_triangles()) continue;
+      outcodes |= mark_non_finite(normals.from(at), 3, count, buffers.outcodes.data() + at);
+    if (!colors_matter || plan.has_per_triangle_colors()) continue;
     if (needs_normal(plan))
       eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY],
                        batch.field[kNormalZ]);
@@ -308,14 +308,14 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
       load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
     if (plan.uses_color_indices)
       load_color_indices(draw, batch, count, [at](std::size_t i) { return at + i; });
-    if (plan.source == ColorSource::per_pixel) store_inputs(draw, batch, at, count);
+    if (plan.source == ColorSource::per_pixel) store_lighting_inputs(draw, batch, at, count);
     else
       shade_batch(draw, batch, batch_of(draw, at, count, false, [at](std::size_t i) { return at + i; }), isa);
   }
-  if (codes != 0) buffers.any_code.store(true, std::memory_order_relaxed);
+  if (outcodes != 0) buffers.any_outcode.store(true, std::memory_order_relaxed);
 }
 
-void process_triangles(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {
+void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_t last, Isa isa) {
   const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
   const auto components = static_cast<std::size_t>(mesh.components);

@@ -10,6 +10,6 @@ namespace tessera {
 void check_image_target(const ImageTarget& target, const FrameBufferFormat& format);
 
 /// The pixels of a checked target that are to be written, rows counted from the top.
-PixelRect shown_part(const ImageTarget& target);
+PixelRect target_region(const ImageTarget& target);
 
 }  // namespace tessera

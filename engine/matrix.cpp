@@ -39,7 +39,7 @@ Matrix operator*(const Matrix& left, const Matrix& right) {
 Matrix translate(double x, double y, double z) { return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}}; }
 Matrix scale(double x, double y, double z) { return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}}; }
 
-glm::dvec3 measurable(const glm::dvec3& v) {
+glm::dvec3 scaled_to_safe_range(const glm::dvec3& v) {
   const double largest = std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
   if (!(largest > 0) || !std::isfinite(largest) || (largest > 1e-100 && largest < 1e100)) return v;
   const int exponent = std::ilogb(largest);
@@ -49,7 +49,7 @@ glm::dvec3 measurable(const glm::dvec3& v) {
 // [GL 2.1, 2.11.2, Rotate]
 Matrix rotate(double degrees, double x, double y, double z) {
   const FloatingPointMode mode;
-  const glm::dvec3 axis = measurable({x, y, z});
+  const glm::dvec3 axis = scaled_to_safe_range({x, y, z});
   x = axis.x, y = axis.y, z = axis.z;
   const double length = std::sqrt(x * x + y * y + z * z);
   if (!(length > 0) || !std::isfinite(length))
@@ -67,7 +67,7 @@ Matrix rotate(double degrees, double x, double y, double z) {
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up) {
   const FloatingPointMode mode;
   const glm::dvec3 e(eye.x, eye.y, eye.z), t(target.x, target.y, target.z),
-      u = measurable({up.x, up.y, up.z});
+      u = scaled_to_safe_range({up.x, up.y, up.z});
   const double span = glm::length(glm::cross(t - e, u));
   if (!(span > 0) || !std::isfinite(span))
     throw Error(

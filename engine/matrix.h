@@ -12,6 +12,6 @@ Matrix from_glm(const glm::dmat4& matrix);
 
 /// The same direction, its square within a double's range: very long and very short vectors are scaled by a
 /// power of two.
-glm::dvec3 measurable(const glm::dvec3& v);
+glm::dvec3 scaled_to_safe_range(const glm::dvec3& v);
 
 }  // namespace tessera

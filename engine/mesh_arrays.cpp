@@ -14,7 +14,7 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kIndicesPerTask = 4096,
-                      kManyIndices =
+                      kMinIndicesForWorkers =
                           65536;  // fewer than many are looked through before others could have begun
 
 [[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
@@ -29,12 +29,12 @@ void require_one_form(const char* what, std::size_t packed, const char* unit, st
 
 // Packed arrays have floats, or vertices as those with a stride do.
 std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
-  require_one_form("positions", positions.floats, "floats", positions.vertices, positions.stride_bytes);
-  if (positions.floats == 0) return positions.vertices;
-  if (positions.floats % components != 0)
-    fail("has " + std::to_string(positions.floats) + " floats of positions, must be a multiple of " +
+  require_one_form("positions", positions.float_count, "floats", positions.vertices, positions.stride_bytes);
+  if (positions.float_count == 0) return positions.vertices;
+  if (positions.float_count % components != 0)
+    fail("has " + std::to_string(positions.float_count) + " floats of positions, must be a multiple of " +
          std::to_string(components));
-  return positions.floats / components;
+  return positions.float_count / components;
 }
 
 void require_all(const char* what, std::size_t given, std::size_t vertices) {
@@ -43,11 +43,11 @@ void require_all(const char* what, std::size_t given, std::size_t vertices) {
          std::to_string(vertices) + " vertices");
 }
 
-void require_stride(const char* what, std::size_t stride_bytes, std::size_t multiple, std::size_t least) {
-  if (stride_bytes % multiple != 0 || stride_bytes < least)
+void require_stride(const char* what, std::size_t stride_bytes, std::size_t multiple, std::size_t min_bytes) {
+  if (stride_bytes % multiple != 0 || stride_bytes < min_bytes)
     fail("has a stride of " + std::to_string(stride_bytes) + " bytes for " + what + ", must be " +
          (multiple > 1 ? "a multiple of " + std::to_string(multiple) + " and " : "") + "at least " +
-         std::to_string(least));
+         std::to_string(min_bytes));
 }
 
 void require_address(const char* what, const void* data, std::size_t multiple) {
@@ -59,11 +59,11 @@ void require_address(const char* what, const void* data, std::size_t multiple) {
 StridedFloats strided(const FloatArray& array, const char* what, std::size_t components,
                       std::size_t vertices) {
   if (array.empty()) return {};
-  require_one_form(what, array.floats, "floats", array.vertices, array.stride_bytes);
+  require_one_form(what, array.float_count, "floats", array.vertices, array.stride_bytes);
   require_address(what, array.data, alignof(float));
-  if (array.floats != 0) {
-    if (array.floats != vertices * components)
-      fail("has " + std::to_string(array.floats) + " floats of " + what + ", its " +
+  if (array.float_count != 0) {
+    if (array.float_count != vertices * components)
+      fail("has " + std::to_string(array.float_count) + " floats of " + what + ", its " +
            std::to_string(vertices) + " vertices need " + std::to_string(vertices * components));
     return {array.data, components};
   }
@@ -103,18 +103,18 @@ void add_indices(const IndexArray& array, MeshArrays& mesh) {
   if (array.empty()) return;
   if (mesh.vertices == 0) fail("has " + std::to_string(array.count) + " indices, but no vertices");
   if (array.bits == 32) mesh.indices = indices_of<std::uint32_t>(array);
-  else if (array.bits == 16) mesh.short_indices = indices_of<std::uint16_t>(array);
+  else if (array.bits == 16) mesh.indices16 = indices_of<std::uint16_t>(array);
   else fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
 }
 
 bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   const std::size_t count = last - first;
   return (mesh.indices ? largest_index(std::span(mesh.indices + first, count))
-                       : largest_index(std::span(mesh.short_indices + first, count))) < mesh.vertices;
+                       : largest_index(std::span(mesh.indices16 + first, count))) < mesh.vertices;
 }
 
-bool are_in_bounds(const MeshArrays& mesh, Parallel* workers) {
-  if (workers == nullptr || mesh.corners < kManyIndices) return are_in_bounds(mesh, 0, mesh.corners);
+bool are_in_bounds(const MeshArrays& mesh, WorkerPool* workers) {
+  if (workers == nullptr || mesh.corners < kMinIndicesForWorkers) return are_in_bounds(mesh, 0, mesh.corners);
   std::atomic<bool> all = true;
   workers->for_each((mesh.corners + kIndicesPerTask - 1) / kIndicesPerTask, [&](std::size_t i, int) {
     const std::size_t first = i * kIndicesPerTask;
@@ -160,7 +160,7 @@ MeshArrays check_mesh(const Mesh& mesh) {
   return arrays;
 }
 
-void check_indices(const MeshArrays& mesh, Parallel* workers) {
+void check_indices(const MeshArrays& mesh, WorkerPool* workers) {
   if (!mesh.indexed() || are_in_bounds(mesh, workers)) return;
   std::size_t wrong = 0;
   while (wrong + 1 < mesh.corners && mesh.vertex_at(wrong) < mesh.vertices) ++wrong;

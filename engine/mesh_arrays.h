@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-class Parallel;
+class WorkerPool;
 
 struct MeshArrays {
   Primitive primitive = Primitive::triangles;
@@ -26,15 +26,15 @@ struct MeshArrays {
   StridedFloats color_indices;                ///< or none
   StridedFloats texcoords;                    ///< or none
   const std::uint32_t* indices = nullptr;     ///< null: 16 bits, or vertices in order
-  const std::uint16_t* short_indices = nullptr;
+  const std::uint16_t* indices16 = nullptr;
 
-  bool indexed() const { return indices != nullptr || short_indices != nullptr; }
-  std::size_t polygon_triangles() const { return triangles_of_polygon(primitive, elements); }
+  bool indexed() const { return indices != nullptr || indices16 != nullptr; }
+  std::size_t triangles_per_polygon() const { return triangles_of_polygon(primitive, elements); }
   Topology topology() const { return topology_of(primitive); }
   bool has_colors() const { return colors || color_bytes != nullptr; }
   /// The vertex at a corner, counted along the indices.
   std::size_t vertex_at(std::size_t corner) const {
-    return indices ? indices[corner] : short_indices ? short_indices[corner] : corner;
+    return indices ? indices[corner] : indices16 ? indices16[corner] : corner;
   }
   /// Component c of a vertex's colour.
   float color(std::size_t vertex, std::size_t c) const {
@@ -49,6 +49,6 @@ MeshArrays check_mesh(const Mesh& mesh);
 
 /// Throws Error that names the first index that is out of bounds, if there is one.
 /// @param workers  look through many together; null: the caller alone does
-void check_indices(const MeshArrays& mesh, Parallel* workers);
+void check_indices(const MeshArrays& mesh, WorkerPool* workers);
 
 }  // namespace tessera

@@ -6,11 +6,11 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMostOfASmallMesh = 4096;  // vertices or elements
+constexpr std::size_t kMaxSmallMeshSize = 4096;  // vertices or elements
 
 }  // namespace
 
-void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, FrameWatch& watch,
+void NormalStage::run(std::span<const GeometryDraw> draws, WorkerPool& worker_pool, FrameProgress& progress,
                       double done) {
   small_.clear();
   std::size_t most_vertices = 0, most_elements = 0;
@@ -18,9 +18,9 @@ void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, F
     if (!draw.wants_smooth_normals()) continue;
     const MeshArrays& mesh = *draw.mesh;
     float* const normals = draw.buffers->smooth_normals.resize(3 * mesh.vertices);
-    if (std::max(mesh.vertices, mesh.elements) > kMostOfASmallMesh) {
-      if (makers_.empty()) makers_.emplace_back();
-      makers_.front().normals.make(mesh, parallel, normals);
+    if (std::max(mesh.vertices, mesh.elements) > kMaxSmallMeshSize) {
+      if (generators_.empty()) generators_.emplace_back();
+      generators_.front().normals.make(mesh, worker_pool, normals);
       continue;
     }
     small_.push_back(&draw);
@@ -29,17 +29,17 @@ void NormalStage::run(std::span<const GeometryDraw> draws, Parallel& parallel, F
     most_elements = std::max(most_elements, mesh.elements);
   }
   if (small_.empty()) return;
-  const std::size_t workers = parallel.workers_for(small_.size());
-  while (makers_.size() < workers) makers_.emplace_back();
+  const std::size_t workers = worker_pool.workers_for(small_.size());
+  while (generators_.size() < workers) generators_.emplace_back();
   for (std::size_t k = 0; k < workers; ++k)
-    makers_[k].normals.reserve(most_vertices,
+    generators_[k].normals.reserve(most_vertices,
                                most_elements);  // whoever has the largest one, and in whichever frame
-  watch.begin_stage(FrameStage::vertices, done, small_.size());
-  parallel.for_each(small_.size(), [&](std::size_t i, int worker) {
+  progress.begin_stage(FrameStage::vertices, done, small_.size());
+  worker_pool.for_each(small_.size(), [&](std::size_t i, int worker) {
     const GeometryDraw& draw = *small_[i];
-    Maker& maker = makers_[static_cast<std::size_t>(worker)];
-    watch.task(worker,
-               [&] { maker.normals.make(*draw.mesh, maker.alone, draw.buffers->smooth_normals.data()); });
+    Generator& generator = generators_[static_cast<std::size_t>(worker)];
+    progress.task(worker,
+               [&] { generator.normals.make(*draw.mesh, generator.serial_pool, draw.buffers->smooth_normals.data()); });
   });
 }
 

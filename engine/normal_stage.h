@@ -7,7 +7,7 @@
 #include "engine/frame_watch.h"
 #include "engine/generated_normals.h"
 #include "engine/geometry.h"
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 
 namespace tessera {
 
@@ -15,16 +15,16 @@ namespace tessera {
 class NormalStage {
  public:
   /// Makes those that draws want: of a large mesh all workers together, each small one some worker alone.
-  /// Throws std::bad_alloc, and what FrameWatch::task() throws.
+  /// Throws std::bad_alloc, and what FrameProgress::task() throws.
   /// @param done  share of the frame that is done then
-  void run(std::span<const GeometryDraw> draws, Parallel& parallel, FrameWatch& watch, double done);
+  void run(std::span<const GeometryDraw> draws, WorkerPool& worker_pool, FrameProgress& progress, double done);
 
  private:
-  struct Maker {
+  struct Generator {
     SmoothNormals normals;
-    Parallel alone{1};
+    WorkerPool serial_pool{1};
   };
-  std::vector<Maker> makers_;  // one for each worker that has ever been needed
+  std::vector<Generator> generators_;  // one for each worker that has ever been needed
   std::vector<const GeometryDraw*> small_;
 };
 

@@ -10,7 +10,7 @@ namespace tessera {
 
 /// Calls run(); std::bad_alloc becomes an Error that names the function.
 template <class Run>
-decltype(auto) with_memory(const char* function, const Run& run) {
+decltype(auto) translate_bad_alloc(const char* function, const Run& run) {
   try {
     return run();
   } catch (const std::bad_alloc&) {

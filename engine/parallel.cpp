@@ -70,12 +70,12 @@ class TaskOrder {
 };
 
 /// Sets a flag until the end of the scope.
-class Running {
+class ScopedFlag {
  public:
-  explicit Running(bool& flag) : flag_(flag) { flag_ = true; }
-  ~Running() { flag_ = false; }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
+  explicit ScopedFlag(bool& flag) : flag_(flag) { flag_ = true; }
+  ~ScopedFlag() { flag_ = false; }
+  ScopedFlag(const ScopedFlag&) = delete;
+  ScopedFlag& operator=(const ScopedFlag&) = delete;
 
  private:
   bool& flag_;
@@ -84,21 +84,21 @@ class Running {
 }  // namespace
 
 /// Tasks of one call.
-struct Parallel::Queue {
-  const AnyTask& task;
+struct WorkerPool::Dispatch {
+  const TaskRef& task;
   const TaskOrder order;
   const std::span<Share> shares;
   std::atomic<std::size_t> done{0};
   std::atomic<bool> failed{false};
   std::exception_ptr failure{};
-  std::atomic<int> stray{0};  // a worker that nobody asked for; 0: none
+  std::atomic<int> invalid_worker{0};  // a worker that nobody asked for; 0: none
 
-  static void work(void* queue, int worker) noexcept { static_cast<Queue*>(queue)->run(worker); }
+  static void work(void* dispatch, int worker) noexcept { static_cast<Dispatch*>(dispatch)->run(worker); }
   void run(int worker) noexcept {
     const FloatingPointMode mode;
     const auto own = static_cast<std::size_t>(worker);
     if (own >= shares.size()) {
-      stray.store(worker, std::memory_order_release);
+      invalid_worker.store(worker, std::memory_order_release);
       return;
     }
     std::size_t ran = 0, s = own;
@@ -131,7 +131,7 @@ struct Parallel::Queue {
 
 std::shared_ptr<Executor> serial_executor() { return std::make_shared<SerialExecutor>(); }
 
-Parallel::Parallel(int threads, std::shared_ptr<Executor> executor, std::uint32_t order)
+WorkerPool::WorkerPool(int threads, std::shared_ptr<Executor> executor, std::uint32_t order)
     : executor_(std::move(executor)), order_(order) {
   if (executor_) {
     threads_ = std::clamp(threads, 1, std::max(1, executor_->workers()));
@@ -144,14 +144,14 @@ Parallel::Parallel(int threads, std::shared_ptr<Executor> executor, std::uint32_
   }
   shares_ = std::vector<Share>(static_cast<std::size_t>(threads_));
 }
-Parallel::~Parallel() = default;
-Parallel::Parallel(Parallel&&) noexcept = default;
-Parallel& Parallel::operator=(Parallel&&) noexcept = default;
+WorkerPool::~WorkerPool() = default;
+WorkerPool::WorkerPool(WorkerPool&&) noexcept = default;
+WorkerPool& WorkerPool::operator=(WorkerPool&&) noexcept = default;
 
-void Parallel::run(std::size_t count, const AnyTask& task) {
+void WorkerPool::run(std::size_t count, const TaskRef& task) {
   if (count == 0) return;
   const TaskOrder order(order_, count);
-  if (runs_) {
+  if (is_running_) {
     // A task's call: the others are busy with the outer one. Who waited for them here might wait for one who
     // waits for this task.
     const FloatingPointMode mode;
@@ -164,28 +164,28 @@ void Parallel::run(std::size_t count, const AnyTask& task) {
     shares[s].next.store(first, std::memory_order_relaxed);
     shares[s].end = first = first_of_share(count, workers, s + 1);
   }
-  Queue queue{task, order, shares};
+  Dispatch dispatch{task, order, shares};
   {
-    const Running running(runs_);
-    executor_->run(static_cast<int>(workers), &Queue::work, &queue);
+    const ScopedFlag running(is_running_);
+    executor_->run(static_cast<int>(workers), &Dispatch::work, &dispatch);
   }
-  if (queue.failure) std::rethrow_exception(queue.failure);
-  if (const int stray = queue.stray.load(std::memory_order_acquire); stray != 0)
-    throw Error("Renderer: the executor called work for worker " + std::to_string(stray) +
+  if (dispatch.failure) std::rethrow_exception(dispatch.failure);
+  if (const int invalid_worker = dispatch.invalid_worker.load(std::memory_order_acquire); invalid_worker != 0)
+    throw Error("Renderer: the executor called work for worker " + std::to_string(invalid_worker) +
                 ", run() must call it for 0 .. " + std::to_string(workers - 1));
-  if (queue.done.load(std::memory_order_acquire) != count)
+  if (dispatch.done.load(std::memory_order_acquire) != count)
     throw Error(
         "Renderer: the executor returned before its work was done; run() must call work for each worker and "
         "wait for all of them");
 }
 
-int Parallel::distinct_workers_seen() {
+int WorkerPool::distinct_workers_seen() {
   int count = 0;
   for (Share& share : shares_) count += std::exchange(share.has_run, false) ? 1 : 0;
   return count;
 }
 
-void isolated(const std::function<void()>& run) { tbb::this_task_arena::isolate(run); }
+void run_isolated(const std::function<void()>& run) { tbb::this_task_arena::isolate(run); }
 
 int available_cores() { return std::max(1, tbb::info::default_concurrency()); }
 

@@ -23,19 +23,19 @@ constexpr std::size_t first_of_share(std::size_t tasks, std::size_t shares, std:
 }
 
 /// Runs tasks on the workers of an executor.
-class Parallel {
+class WorkerPool {
  public:
   /// @param threads  1 or more, the caller's included
   /// @param executor  null: a oneTBB arena of its own, or for one thread the caller's
   /// @param order  see RendererOptions::task_order
-  explicit Parallel(int threads, std::shared_ptr<Executor> executor = nullptr, std::uint32_t order = 0);
-  ~Parallel();
-  Parallel(Parallel&&) noexcept;
-  Parallel& operator=(Parallel&&) noexcept;
+  explicit WorkerPool(int threads, std::shared_ptr<Executor> executor = nullptr, std::uint32_t order = 0);
+  ~WorkerPool();
+  WorkerPool(WorkerPool&&) noexcept;
+  WorkerPool& operator=(WorkerPool&&) noexcept;
 
   int threads() const noexcept { return threads_; }
   /// Whether a call runs: it is a task that asks.
-  bool runs() const noexcept { return runs_; }
+  bool is_running() const noexcept { return is_running_; }
   /// How many workers run so many tasks.
   std::size_t workers_for(std::size_t count) const noexcept {
     return std::min(static_cast<std::size_t>(threads_), count);
@@ -60,29 +60,29 @@ class Parallel {
 
  private:
   /// A task that lives as long as it is called: unlike a std::function it needs no memory.
-  struct AnyTask {
+  struct TaskRef {
     void (*call)(const void* self, std::size_t i, int worker);
     const void* self;
   };
-  struct Queue;
+  struct Dispatch;
   /// One worker's. In a cache line of its own, which mostly that worker alone writes to.
   struct alignas(64) Share {
     std::atomic<std::size_t> next{0};  // nobody has begun the tasks from here on
     std::size_t end = 0;
     bool has_run = false;  // its worker has, since distinct_workers_seen() was asked
   };
-  void run(std::size_t count, const AnyTask& task);
+  void run(std::size_t count, const TaskRef& task);
 
   int threads_;
   std::shared_ptr<Executor> executor_;
   std::uint32_t order_ = 0;
   std::vector<Share> shares_;  // one for each worker
-  bool runs_ =
+  bool is_running_ =
       false;  // a call that is no task's. Tasks' calls read it: the executor's handing over orders that
 };
 
 /// Calls run(): if it waits for oneTBB, its thread takes no task meanwhile of the call that it is in.
-void isolated(const std::function<void()>& run);
+void run_isolated(const std::function<void()>& run);
 
 /// Cores that the process may use.
 int available_cores();

@@ -7,14 +7,14 @@
 namespace tessera {
 
 void plan_pixel_places(DrawPlan& plan, const RecordedPixels& pixels, const FrameBufferState& target) {
-  plan.texels = pixels.texels;
-  plan.rect = covered_pixels(pixels.texels, target.format.width, target.format.height, target.format.samples);
+  plan.pixel_rectangle = pixels.rectangle;
+  plan.rect = covered_pixels(pixels.rectangle, target.format.width, target.format.height, target.format.samples);
   if (target.depth_kind != DepthKind::none)
-    plan.depth_key = depth_key_from_word(target.depth_kind, depth_word(target.depth_kind, pixels.depth));
+    plan.depth_key = depth_key_from_stored(target.depth_kind, quantize_depth(target.depth_kind, pixels.depth));
 }
 
 void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, std::string* reasons) {
-  const PixelRectangle& texels = pixels.texels;
+  const PixelRectangle& texels = pixels.rectangle;
   const bool is_bitmap = texels.channels == 0;
   plan.source = plan.write_mask == 0 ? ColorSource::none
                 : is_bitmap          ? ColorSource::constant

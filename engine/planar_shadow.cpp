@@ -12,7 +12,7 @@ namespace {
 
 std::string list_of(const std::array<double, 4>& v, int count) {
   std::string list;
-  for (int i = 0; i < count; ++i) list.append(i == 0 ? "" : " ").append(text(v[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < count; ++i) list.append(i == 0 ? "" : " ").append(format_number(v[static_cast<std::size_t>(i)]));
   return list;
 }
 
@@ -68,9 +68,9 @@ Matrix planar_shadow(const std::array<double, 4>& plane, const Light& light) {
   return shadow_matrix("planar_shadow", plane, light);
 }
 
-void turn_into_shadow(RecordedDraw& draw) {
+void apply_planar_shadow(RecordedDraw& draw) {
   const ShadowOn& shadow = *draw.state.shadow_on;
-  const std::vector<Light>& lights = draw.surroundings->lights;
+  const std::vector<Light>& lights = draw.scene_state->lights;
   if (shadow.light >= lights.size())
     throw Error("Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " +
                 std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") +

@@ -7,6 +7,6 @@ namespace tessera {
 
 /// Turns a draw with `shadow_on` into that of the shadow. Throws Error for a light that is not there, or one
 /// that casts none on the plane.
-void turn_into_shadow(RecordedDraw& draw);
+void apply_planar_shadow(RecordedDraw& draw);
 
 }  // namespace tessera

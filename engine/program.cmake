@@ -53,7 +53,7 @@ add_custom_command(OUTPUT ${tessera_selftest}
 
 # The limit of threads belongs to the process, so the library does not export it: the program brings its own copy.
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS engine/cli/*.cpp)
-add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest} engine/parallel.cpp)
+add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest} engine/worker_pool.cpp)
 target_link_libraries(tessera_cli PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio tessera_import)

@@ -15,10 +15,10 @@
 
 namespace tessera {
 
-class Parallel;
+class WorkerPool;
 
 /// Camera, lights and light model as they were when a draw was recorded.
-struct Surroundings {
+struct SceneState {
   Camera camera;
   std::vector<Light> lights{Light{}};
   LightModel light_model;
@@ -26,7 +26,7 @@ struct Surroundings {
 
 /// A bitmap or an image.
 struct RecordedPixels {
-  PixelRectangle texels;
+  PixelRectangle rectangle;
   double depth = 0;
   Color color;  ///< of a bitmap
 };
@@ -34,7 +34,7 @@ struct RecordedPixels {
 struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
-  const Surroundings* surroundings = nullptr;  ///< the draws' between two changes
+  const SceneState* scene_state = nullptr;  ///< the draws' between two changes
   const TextureState* texture = nullptr;       ///< of the state's, wherever that moves
   std::optional<RecordedPixels> pixels{};      ///< in place of the mesh, which is empty then
 };
@@ -50,38 +50,38 @@ struct RecordedAccum {
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
-  Parallel* workers = nullptr;  ///< of a renderer that helps to record, if there is one
+  WorkerPool* workers = nullptr;  ///< of a renderer that helps to record, if there is one
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
-  std::vector<RecordedAccum> accums;
-  bool keeps_chosen = false;   ///< else by what the frame changes
+  std::vector<RecordedAccum> accumulations;
+  bool has_keep_list = false;   ///< else by what the frame changes
   std::array<bool, 4> kept{};  ///< if it is chosen: of each Buffer
   Capture capture;
 
   /// Of what is drawn next.
-  const Surroundings& surroundings() const { return surroundings_[last_surroundings_]; }
+  const SceneState& scene_state() const { return scene_states_[last_scene_state_]; }
   /// The same, to be changed: what is recorded already keeps its own. Throws std::bad_alloc.
-  Surroundings& changeable_surroundings() {
-    if (draws.empty() || draws.back().surroundings != &surroundings())
-      return surroundings_[last_surroundings_];
-    if (last_surroundings_ + 1 == surroundings_.size()) surroundings_.emplace_back();
-    surroundings_[last_surroundings_ + 1] = surroundings_[last_surroundings_];
-    return surroundings_[++last_surroundings_];
+  SceneState& mutable_scene_state() {
+    if (draws.empty() || draws.back().scene_state != &scene_state())
+      return scene_states_[last_scene_state_];
+    if (last_scene_state_ + 1 == scene_states_.size()) scene_states_.emplace_back();
+    scene_states_[last_scene_state_ + 1] = scene_states_[last_scene_state_];
+    return scene_states_[++last_scene_state_];
   }
   /// Camera, lights and light model stay, and so does the memory.
   void clear() noexcept {
     draws.clear();
     clears.clear();
-    accums.clear();
-    std::swap(surroundings_.front(), surroundings_[last_surroundings_]);
-    last_surroundings_ = 0;
-    keeps_chosen = false;
+    accumulations.clear();
+    std::swap(scene_states_.front(), scene_states_[last_scene_state_]);
+    last_scene_state_ = 0;
+    has_keep_list = false;
     capture = {};
   }
 
  private:
-  std::deque<Surroundings> surroundings_{1};  // from one change to the next; they stay where they are
-  std::size_t last_surroundings_ = 0;
+  std::deque<SceneState> scene_states_{1};  // from one change to the next; they stay where they are
+  std::size_t last_scene_state_ = 0;
 };
 
 }  // namespace tessera

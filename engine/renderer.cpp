@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-constexpr int kMostThreads = 1024;
+constexpr int kMaxThreads = 1024;
 
 InstructionSet public_name(Isa isa) {
   return isa == Isa::avx512 ? InstructionSet::avx512
@@ -44,16 +44,16 @@ std::string_view name(InstructionSet set) {
 }
 
 Renderer::Renderer(RendererOptions options) try {
-  if (options.threads < 0 || options.threads > kMostThreads)
+  if (options.threads < 0 || options.threads > kMaxThreads)
     throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to " +
-                std::to_string(kMostThreads));
+                std::to_string(kMaxThreads));
   if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 &&
       options.tile_size != 128)
     throw Error("Renderer: tile_size is " + std::to_string(options.tile_size) +
                 ", must be 0 (chosen), 32, 64 or 128");
-  if (options.bin_memory < kLeastBinMemory)
+  if (options.bin_memory < kMinBinMemory)
     throw Error("Renderer: bin_memory is " + std::to_string(options.bin_memory) +
-                " bytes, must be at least " + std::to_string(kLeastBinMemory));
+                " bytes, must be at least " + std::to_string(kMinBinMemory));
   const std::vector<InstructionSet> sets = available_instruction_sets();
   if (options.instruction_set == InstructionSet::automatic) options.instruction_set = sets.front();
   if (std::find(sets.begin(), sets.end(), options.instruction_set) == sets.end()) {
@@ -67,11 +67,11 @@ Renderer::Renderer(RendererOptions options) try {
                 " workers, must have at least 1");
   if (options.threads == 0)
     options.threads =
-        std::min(options.executor ? options.executor->workers() : available_cores(), kMostThreads);
+        std::min(options.executor ? options.executor->workers() : available_cores(), kMaxThreads);
   const Isa isa = internal_name(options.instruction_set);
   state_ = std::make_unique<RendererState>(std::move(options), isa);
   RendererState& state = *state_;
-  state.options.threads = state.parallel.threads();
+  state.options.threads = state.worker_pool.threads();
   state.log(LogLevel::info, [&] {
     return "tessera " TESSERA_VERSION ": " + std::to_string(state.options.threads) +
            (state.options.threads == 1 ? " thread, " : " threads, ") +
@@ -94,11 +94,11 @@ FrameRecording& require_recording(const std::unique_ptr<FrameRecording>& recordi
 }
 
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
-  if (state.parallel.runs())
+  if (state.worker_pool.is_running())
     throw Error(
         "Renderer::finish: called by this renderer's own progress callback; a frame must have ended before "
         "the next one");
-  return with_memory("Renderer::finish", [&] {
+  return translate_bad_alloc("Renderer::finish", [&] {
     const FrameStats stats = state.run(recording, image);
     state.report(stats);
     recording.clear();

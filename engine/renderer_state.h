@@ -10,17 +10,17 @@
 #include "engine/frame_commands.h"
 #include "engine/frame_watch.h"
 #include "engine/normal_stage.h"
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 #include "engine/tile_stage.h"
 #include "shading/tile_renderer.h"
 
 namespace tessera {
 
 /// What the workers' tiles need besides depth.
-struct TileMemory {
+struct WorkspaceRequirements {
   int colors = 1;  ///< tiles
   bool normals = false, stencil = false, accumulation = false, samples = false;
-  bool operator==(const TileMemory&) const = default;
+  bool operator==(const WorkspaceRequirements&) const = default;
 };
 
 struct alignas(64) WorkerCounts : StripCounts {};
@@ -28,24 +28,24 @@ struct alignas(64) WorkerCounts : StripCounts {};
 struct RendererState {
   RendererOptions options;
   Isa isa = Isa::scalar;
-  Parallel parallel;
+  WorkerPool worker_pool;
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
   DrawRanges ranges;  // of the tasks that run
   NormalStage normal_stage;
   BinStage bin_stage;
-  std::vector<TileRange> parts_left;  // to be rendered, from the last one to the next
-  StripMemory strip_memory;
-  ShowMemory show_memory;
+  std::vector<TileRange> pending_ranges;  // to be rendered, from the last one to the next
+  StripScratch strip_scratch;
+  ScanOutCache scan_out_cache;
   std::vector<TileWorkspace> workspaces;  // one for each worker
-  std::optional<TileMemory> prepared;     // what all of them have, and maybe more
+  std::optional<WorkspaceRequirements> prepared_requirements;     // what all of them have, and maybe more
   std::vector<WorkerCounts> worker_counts;
 
   RendererState(RendererOptions o, Isa i)
       : options(std::move(o)),
         isa(i),
-        parallel(options.threads, options.executor, options.task_order),
-        bin_stage(options.bin_memory, parallel, isa) {}
+        worker_pool(options.threads, options.executor, options.task_order),
+        bin_stage(options.bin_memory, worker_pool, isa) {}
 
   FrameStats run(FrameRecording& recording, const ImageTarget* image);
 
@@ -61,14 +61,14 @@ struct RendererState {
  private:
   /// Makes `ranges` of as many as `count(draw)` of each draw.
   template <class Count>
-  void cut_draws(const Count& count, std::size_t each);
-  void process_geometry(FrameWatch& watch);
-  void prepare_workspaces(const TileMemory& memory);
+  void split_draws(const Count& count, std::size_t each);
+  void process_geometry(FrameProgress& progress);
+  void prepare_workspaces(const WorkspaceRequirements& memory);
   /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
-  void render_parts(bool is_filled, const TileStage& stage, FrameStats& stats, FrameWatch& watch);
-  void look_through_tiles(const TileStage& stage, const TileRange& tiles, const FrameStats& stats,
-                          FrameWatch& watch);
-  void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameWatch& watch);
+  void render_ranges(bool is_filled, const TileStage& stage, FrameStats& stats, FrameProgress& progress);
+  void index_bin_batches(const TileStage& stage, const TileRange& tiles, const FrameStats& stats,
+                          FrameProgress& progress);
+  void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats, FrameProgress& progress);
   int tile_size_for(const FrameBufferFormat& format) const;
 };
 

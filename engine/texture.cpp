@@ -43,7 +43,7 @@ void check(const TextureImage& image, const TextureSampler& sampler) {
     throw Error("Texture: mag is a filter with mipmaps, must be nearest or linear");
 }
 
-std::uint32_t word_of(const std::uint8_t* pixel, int channels) {
+std::uint32_t packed_texel(const std::uint8_t* pixel, int channels) {
   constexpr std::uint32_t kOpaque = 0xff000000u;
   switch (channels) {
     case 1: return pixel[0] * 0x010101u | kOpaque;
@@ -66,7 +66,7 @@ void set_filters(TextureLevels& levels, const TextureSampler& sampler) {
       min == TextureFilter::nearest_mipmap_linear || min == TextureFilter::linear_mipmap_linear;
   const bool is_late = levels.mag_linear && (min == TextureFilter::nearest_mipmap_nearest ||
                                              min == TextureFilter::nearest_mipmap_linear);
-  levels.most_magnified = is_late ? 2.0f : 1.0f;
+  levels.magnification_limit = is_late ? 2.0f : 1.0f;
   levels.wrap_s = static_cast<Wrap>(sampler.wrap_s);
   levels.wrap_t = static_cast<Wrap>(sampler.wrap_t);
 }
@@ -76,13 +76,13 @@ bool has_mipmaps(const TextureSampler& sampler) {
 }
 
 // Sizes, and where each level lies. Returns the number of words.
-std::size_t lay_out(TextureLevels& levels, const TextureImage& image, bool mipmaps) {
+std::size_t lay_out_levels(TextureLevels& levels, const TextureImage& image, bool mipmaps) {
   levels.level[0] = {0, image.width, image.height};
   std::int64_t words = levels.level[0].words();
   while (mipmaps && (levels.level[levels.last].width > 1 || levels.level[levels.last].height > 1)) {
     const TextureLevel& larger = levels.level[levels.last++];
-    levels.level[levels.last] = {static_cast<std::int32_t>(words), next_size(larger.width),
-                                 next_size(larger.height)};
+    levels.level[levels.last] = {static_cast<std::int32_t>(words), next_level_size(larger.width),
+                                 next_level_size(larger.height)};
     words += levels.level[levels.last].words();
   }
   return static_cast<std::size_t>(words);
@@ -95,13 +95,13 @@ void fill_from(const TextureImage& image, std::uint32_t* words, const TextureLev
     const std::uint8_t* pixel = static_cast<const std::uint8_t*>(image.pixels) +
                                 stride * (image.bottom_row_first ? y : image.height - 1 - y);
     std::uint32_t* const row = words + level.first + std::ptrdiff_t{y} * level.stride;
-    for (int x = 0; x < image.width; ++x, pixel += image.channels) row[x] = word_of(pixel, image.channels);
+    for (int x = 0; x < image.width; ++x, pixel += image.channels) row[x] = packed_texel(pixel, image.channels);
   }
 }
 
 // What stands behind the last texel and the last row is what follows them. Where nothing follows, it has no
 // weight.
-void continue_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& of) {
+void pad_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& of) {
   std::uint32_t* const first = words + level.first;
   for (std::int32_t y = 0; y < level.height; ++y) {
     std::uint32_t* const row = first + std::ptrdiff_t{y} * level.stride;
@@ -122,8 +122,8 @@ std::array<float, 4> color_of(std::uint32_t word) {
 bool is_one_color(const TextureState& texture) {
   const TextureLevel& level = texture.levels.level[0];
   for (std::int32_t y = 0; y < level.height; ++y) {
-    const std::uint32_t* const row = texture.words.data() + std::ptrdiff_t{y} * level.stride;
-    if (!std::all_of(row, row + level.width, [&](std::uint32_t word) { return word == texture.words[0]; }))
+    const std::uint32_t* const row = texture.texels.data() + std::ptrdiff_t{y} * level.stride;
+    if (!std::all_of(row, row + level.width, [&](std::uint32_t word) { return word == texture.texels[0]; }))
       return false;
   }
   return true;
@@ -134,13 +134,13 @@ bool is_one_color(const TextureState& texture) {
 std::array<float, 4> color_at_origin(const TextureState& texture) {
   const TextureLevels& levels = texture.levels;
   const TextureLevel& level = levels.level[0];
-  if (!levels.mag_linear) return color_of(texture.words[0]);
+  if (!levels.mag_linear) return color_of(texture.texels[0]);
   const std::ptrdiff_t left = levels.wrap_s == Wrap::repeat ? level.width - 1 : 0,
                        below = levels.wrap_t == Wrap::repeat ? level.height - 1 : 0;
   std::array<float, 4> color;
   for (std::size_t c = 0; c < 4; ++c) {
     const auto component = [&](std::ptrdiff_t at) {
-      return texture.words[static_cast<std::size_t>(at)] >> kTexelShift[c] & 0xff;
+      return texture.texels[static_cast<std::size_t>(at)] >> kTexelShift[c] & 0xff;
     };
     const std::ptrdiff_t row = below * level.stride;
     color[c] =
@@ -156,13 +156,13 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
   texture->sampler = sampler;
   texture->channels = image.channels;
   set_filters(levels, sampler);
-  levels.gathers_pairs = machine_gathers_pairs();
-  texture->words.resize(lay_out(levels, image, has_mipmaps(sampler)));
-  std::uint32_t* const words = texture->words.data();
+  levels.gathers_pairs = machine_has_fast_gather();
+  texture->texels.resize(lay_out_levels(levels, image, has_mipmaps(sampler)));
+  std::uint32_t* const words = texture->texels.data();
   levels.words = words;
   fill_from(image, words, levels.level[0]);
   for (int i = 0; i < levels.last; ++i) fill_next_level(words, levels.level[i], levels.level[i + 1]);
-  for (int i = 0; i <= levels.last; ++i) continue_level(words, levels.level[i], levels);
+  for (int i = 0; i <= levels.last; ++i) pad_level(words, levels.level[i], levels);
   if (is_one_color(*texture)) texture->one_color = color_of(words[0]);
   texture->at_origin = color_at_origin(*texture);
   return texture;
@@ -173,7 +173,7 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
 Texture::Texture(const TextureImage& image, const TextureSampler& sampler) {
   const FloatingPointMode mode;
   check(image, sampler);
-  state_ = with_memory("Texture", [&] { return make_texture(image, sampler); });
+  state_ = translate_bad_alloc("Texture", [&] { return make_texture(image, sampler); });
 }
 Texture::~Texture() = default;
 Texture::Texture(Texture&&) noexcept = default;

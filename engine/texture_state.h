@@ -12,7 +12,7 @@
 namespace tessera {
 
 struct TextureState {
-  std::vector<std::uint32_t> words;
+  std::vector<std::uint32_t> texels;
   TextureLevels levels;  ///< points into them
   TextureSampler sampler;
   int channels = 4;

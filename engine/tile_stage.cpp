@@ -17,23 +17,23 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
          clear.rect.y1 == grid.height_px;
 }
 
-constexpr std::size_t kWeights = 4 * 64;
-static_assert(kWeights - 1 <= std::numeric_limits<std::uint8_t>::max());
+constexpr std::size_t kLoadClasses = 4 * 64;
+static_assert(kLoadClasses - 1 <= std::numeric_limits<std::uint8_t>::max());
 /// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load
 /// is never of a lower class.
-std::uint8_t weight_of(std::uint64_t triangles) {
+std::uint8_t load_class_of(std::uint64_t triangles) {
   if (triangles < 8) return static_cast<std::uint8_t>(triangles);
   const int highest_bit = std::bit_width(triangles) - 1;
   return static_cast<std::uint8_t>(4 * highest_bit - 4 +
                                    static_cast<int>(triangles >> (highest_bit - 2) & 3));
 }
 
-/// Deals strips of one weight, `sorted` ones from `begin` to before `end`. Place p in the order of weights
-/// belongs to share p % shares, as its number p / shares, so that each share has as many of every weight, or
-/// one more, and weights do not rise in it. Which strips of the weight take a share's places is free: it is
+/// Deals strips of one load_class, `sorted` ones from `begin` to before `end`. Place p in the order of weights
+/// belongs to share p % shares, as its number p / shares, so that each share has as many of every load_class, or
+/// one more, and weights do not rise in it. Which strips of the load_class take a share's places is free: it is
 /// neighbours.
-void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
-          std::vector<TileStrip>& dealt) {
+void distribute(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
+          std::vector<TileStrip>& distributed) {
   // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among
   // these.
   const std::size_t served = std::min(end - begin, shares),
@@ -42,57 +42,57 @@ void deal(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t e
     const std::size_t share = (first_share + k) % shares,
                       first_place = begin + (share + shares - begin % shares) % shares;
     std::size_t at = first_of_share(sorted.size(), shares, share) + first_place / shares;
-    for (std::size_t place = first_place; place < end; place += shares) dealt[at++] = sorted[next++];
+    for (std::size_t place = first_place; place < end; place += shares) distributed[at++] = sorted[next++];
   }
 }
 
 }  // namespace
 
 TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
-                     const ImageTarget* image, const CaptureStage& capture, ShowMemory& show, Isa isa)
+                     const ImageTarget* image, const CaptureStage& capture, ScanOutCache& scan_out_cache, Isa isa)
     : commands_(commands),
       frame_(frame),
       target_(target),
       image_(image),
       capture_(capture),
-      show_(show),
+      scan_out_cache_(scan_out_cache),
       render_(render_tile(isa)),
       store_planes_(store_planes_for(isa)),
       load_planes_(load_planes_for(isa)),
-      kept_tiles_(commands.color.store ? tiles_stored_together(isa, frame.grid.tile_size) : 1) {
+      buffered_tiles_(commands.color.store ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
   if (image == nullptr) return;
-  shown_ = shown_part(*image);
+  target_region_ = target_region(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
   const ByteOrder order = image->order == PixelOrder::rgba8 ? ByteOrder::rgba8 : ByteOrder::bgra8;
-  if (show.scan_out) show.scan_out->set(target.layout, palette, order);
-  else show.scan_out.emplace(target.layout, palette, order, isa);
+  if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, order);
+  else scan_out_cache.scan_out.emplace(target.layout, palette, order, isa);
   // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles
   // need not go through tile memory.
-  shows_clears_ = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() &&
+  copies_cleared_row_ = !capture.any() && !commands.stores() && !commands.color.load && !commands.clears.empty() &&
                   commands.accumulations.empty() &&
                   std::all_of(commands.clears.begin(), commands.clears.end(),
                               [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
-  if (!shows_clears_) return;
+  if (!copies_cleared_row_) return;
   std::uint32_t word = 0;
-  for (const TileClear& clear : commands.clears) word = clear.color ? clear.color_word : word;
+  for (const TileClear& clear : commands.clears) word = clear.color ? clear.packed_color : word;
   std::uint32_t words[kMaxTileSize];
   std::fill(std::begin(words), std::end(words), word);
-  show.cleared_row.resize(4 * static_cast<std::size_t>(frame.grid.width_px));
+  scan_out_cache.cleared_row.resize(4 * static_cast<std::size_t>(frame.grid.width_px));
   for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize)
-    show.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x),
-                       show.cleared_row.data() + std::ptrdiff_t{4} * x);
+    scan_out_cache.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x),
+                       scan_out_cache.cleared_row.data() + std::ptrdiff_t{4} * x);
 }
 
-void TileStage::cut_into_strips(const TileRange& tiles, const Parallel& workers, StripMemory& memory) const {
+void TileStage::build_strips(const TileRange& tiles, const WorkerPool& workers, StripScratch& memory) const {
   const TileGrid& grid = frame_.grid;
   const BinBatches& batches = *frame_.batches;
   const auto is_cleared = [&](int row, int column) {
-    return shows_clears_ && batches.untouched(row * grid.columns() + column);
+    return copies_cleared_row_ && batches.known_empty(row * grid.columns() + column);
   };
   // Tiles that share a cache line of a plane belong to one worker.
   const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
-  std::array<std::uint32_t, kWeights>
-      next{};  // how many strips have a weight, then where the next one of them goes
+  std::array<std::uint32_t, kLoadClasses>
+      next{};  // how many strips have a load_class, then where the next one of them goes
   memory.strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
@@ -102,19 +102,19 @@ void TileStage::cut_into_strips(const TileRange& tiles, const Parallel& workers,
       std::uint64_t triangles = 0;
       for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
       const auto small = [](int number) { return static_cast<std::int16_t>(number); };
-      memory.strips.push_back({small(row), small(column), small(end - 1), cleared, weight_of(triangles)});
-      ++next[memory.strips.back().weight];
+      memory.strips.push_back({small(row), small(column), small(end - 1), cleared, load_class_of(triangles)});
+      ++next[memory.strips.back().load_class];
     }
   }
   std::uint32_t count = 0;
-  for (std::size_t w = kWeights; w-- > 0;) count += std::exchange(next[w], count);
+  for (std::size_t w = kLoadClasses; w-- > 0;) count += std::exchange(next[w], count);
   memory.sorted.resize(count);
-  for (const TileStrip& strip : memory.strips) memory.sorted[next[strip.weight]++] = strip;
+  for (const TileStrip& strip : memory.strips) memory.sorted[next[strip.load_class]++] = strip;
   const std::size_t shares = workers.workers_for(count);
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-    const auto weight = memory.sorted[begin].weight;
-    end = next[weight];
-    deal(memory.sorted, begin, end, shares, memory.strips);
+    const auto load_class = memory.sorted[begin].load_class;
+    end = next[load_class];
+    distribute(memory.sorted, begin, end, shares, memory.strips);
   }
 }
 
@@ -122,8 +122,8 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
   if (strip.cleared) return fill_cleared(strip);
   std::array<const std::uint32_t*, kLinePixels / kMinTileSize> colors;
   const int size = frame_.grid.tile_size;
-  for (int first = strip.first_column; first <= strip.last_column; first += kept_tiles_) {
-    const auto count = static_cast<std::size_t>(std::min(kept_tiles_, strip.last_column + 1 - first));
+  for (int first = strip.first_column; first <= strip.last_column; first += buffered_tiles_) {
+    const auto count = static_cast<std::size_t>(std::min(buffered_tiles_, strip.last_column + 1 - first));
     for (std::size_t t = 0; t < count; ++t) {
       colors[t] = workspace.select_color(t);
       render_tile_at(strip.row, first + static_cast<int>(t), workspace, counts);
@@ -137,10 +137,10 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
 void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const {
   const TileGrid& grid = frame_.grid;
   const int size = grid.tile_size, x0 = column * size, y0 = row * size;
-  const bool shown = !intersect(shown_, {x0, y0, x0 + size, y0 + size}).empty();
+  const bool shown = !intersect(target_region_, {x0, y0, x0 + size, y0 + size}).empty();
   if (!shown && !commands_.stores() && !capture_.any()) return;
   const TilePlace color_place{x0, y0, size, 0},
-      depth_place{x0, y0, size, depth_word_from_key(target_.depth_kind, 0)};
+      depth_place{x0, y0, size, stored_depth_from_key(target_.depth_kind, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
   auto* stencil_words =
       commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
@@ -168,31 +168,31 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
   const int size = frame_.grid.tile_size;
   const PixelRect in_frame =
       intersect({x0, y0, x0 + size, y0 + size}, {0, 0, frame_.grid.width_px, frame_.grid.height_px});
-  const PixelRect part = intersect(in_frame, shown_);
+  const PixelRect region = intersect(in_frame, target_region_);
   const int width = in_frame.x1 - x0, height = in_frame.y1 - y0;
-  if (part == in_frame) {
-    show_.scan_out->tile(workspace.color(), size, width, height, shown_at(x0, y0), image_->stride_bytes);
+  if (region == in_frame) {
+    scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, target_pixel(x0, y0), image_->stride_bytes);
     return;
   }
   // The image's edge runs through the tile: by way of a picture of the whole tile.
   std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
-  show_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
-  for (int y = part.y0; y < part.y1; ++y)
-    std::memcpy(shown_at(part.x0, y), pixels + 4 * ((y - y0) * size + part.x0 - x0),
-                4 * static_cast<std::size_t>(part.x1 - part.x0));
+  scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
+  for (int y = region.y0; y < region.y1; ++y)
+    std::memcpy(target_pixel(region.x0, y), pixels + 4 * ((y - y0) * size + region.x0 - x0),
+                4 * static_cast<std::size_t>(region.x1 - region.x0));
 }
 
-void TileStage::load(const BufferTraffic& traffic, const StoredBuffer& stored, std::uint32_t* words,
+void TileStage::load(const AttachmentOps& attachment_ops, const Attachment& stored, std::uint32_t* words,
                      const TilePlace& place) const {
-  if (!traffic.used || !traffic.load) return;
-  if (stored.content == StoredBuffer::Content::uniform)
-    std::fill_n(words, place.tile_size * place.tile_size, stored.word ^ place.flip);
+  if (!attachment_ops.used || !attachment_ops.load) return;
+  if (stored.content == Attachment::Content::fast_cleared)
+    std::fill_n(words, place.tile_size * place.tile_size, stored.clear_value ^ place.flip);
   else load_planes_(words, place, stored.planes);
 }
 
-void TileStage::store(const BufferTraffic& traffic, StoredBuffer& stored, const std::uint32_t* words,
+void TileStage::store(const AttachmentOps& attachment_ops, Attachment& stored, const std::uint32_t* words,
                       const TilePlace& place) const {
-  if (traffic.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
+  if (attachment_ops.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
 }
 
 void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const {
@@ -201,21 +201,21 @@ void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixel
     auto* const words = reinterpret_cast<std::uint32_t*>(levels[c]);
     load(commands_.accumulation, target_.accumulation[c], words, place);
     const int bits = target_.format.accumulation_bits, pixels = place.tile_size * place.tile_size;
-    for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_word(words[i], bits);
+    for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_stored(words[i], bits);
   }
 }
 
 void TileStage::fill_cleared(const TileStrip& strip) const {
   const int size = frame_.grid.tile_size;
-  const PixelRect part = intersect(shown_, {strip.first_column * size, strip.row * size,
+  const PixelRect region = intersect(target_region_, {strip.first_column * size, strip.row * size,
                                             (strip.last_column + 1) * size, (strip.row + 1) * size});
-  if (part.empty()) return;
-  for (int y = part.y0; y < part.y1; ++y)
-    std::memcpy(shown_at(part.x0, y), show_.cleared_row.data(),
-                4 * static_cast<std::size_t>(part.x1 - part.x0));
+  if (region.empty()) return;
+  for (int y = region.y0; y < region.y1; ++y)
+    std::memcpy(target_pixel(region.x0, y), scan_out_cache_.cleared_row.data(),
+                4 * static_cast<std::size_t>(region.x1 - region.x0));
 }
 
-std::uint8_t* TileStage::shown_at(int x, int y) const {
+std::uint8_t* TileStage::target_pixel(int x, int y) const {
   return static_cast<std::uint8_t*>(image_->pixels) + y * image_->stride_bytes + std::ptrdiff_t{4} * x;
 }
 

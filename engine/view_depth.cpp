@@ -14,7 +14,7 @@ ViewDepth::ViewDepth(const Camera& camera, float background, const char* functio
   const auto& m = camera.projection.m;
   const auto refuse = [&](const std::string& needed) {
     std::string rows;
-    for (std::size_t i = 8; i < 16; ++i) rows += (i == 8 ? "" : i == 12 ? " and " : ", ") + text(m[i]);
+    for (std::size_t i = 8; i < 16; ++i) rows += (i == 8 ? "" : i == 12 ? " and " : ", ") + format_number(m[i]);
     throw Error(std::string(function) + ": projection's rows of z and w are " + rows + ", they must " +
                 needed);
   };

@@ -19,20 +19,20 @@ std::int32_t saturated(std::int64_t level, Range range) {
   return static_cast<std::int32_t>(std::clamp(level, range.low, range.high));
 }
 
-// The nearest integer, halves up, no further from 0 than `most`.
-std::int64_t rounded(double level, double most) {
+// The nearest integer, halves up, no further from 0 than `limit`.
+std::int64_t rounded(double level, double limit) {
   // Cut off first: the ends are integers. Conversion cuts towards 0, which is up for what is negative.
-  const double x = std::clamp(level + 0.5, -most, most);
+  const double x = std::clamp(level + 0.5, -limit, limit);
   const auto cut = static_cast<std::int64_t>(x);
   return cut - (static_cast<double>(cut) > x ? 1 : 0);
 }
 
-constexpr double kFarOutside = 8589934592.0;  // 2^33: leaves the range of 32 bits from anywhere
+constexpr double kMaxTerm = 8589934592.0;  // 2^33: leaves the range of 32 bits from anywhere
 
 }  // namespace
 
 std::int32_t accumulation_level(double value, int bits) {
-  return saturated(rounded(value * accumulation_one(bits), kFarOutside), range_of(bits));
+  return saturated(rounded(value * accumulation_one(bits), kMaxTerm), range_of(bits));
 }
 
 Accumulation::Accumulation(AccumulationOp op, double value, int bits, const ColorLayout& layout)
@@ -46,35 +46,35 @@ Accumulation::Accumulation(AccumulationOp op, double value, int bits, const Colo
   const double one = accumulation_one(bits);
   for (std::size_t c = 0; c < 4; ++c) {
     if (op == AccumulationOp::add || fields_[c].bits == 0) {
-      terms_[c][0] = rounded(value * one, kFarOutside);
+      terms_[c][0] = rounded(value * one, kMaxTerm);
       continue;
     }
     const int levels = (1 << fields_[c].bits) - 1;
     for (int level = 0; level <= levels; ++level)
       terms_[c][static_cast<std::size_t>(level)] =
-          rounded(value * (static_cast<double>(level) / levels) * one, kFarOutside);
+          rounded(value * (static_cast<double>(level) / levels) * one, kMaxTerm);
   }
 }
 
-template <bool kKeepsOld>
-void Accumulation::add_colors(const std::uint32_t* words, const AccumulatedPixels& levels, int count) const {
+template <bool kAccumulates>
+void Accumulation::add_colors(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const {
   const Range range = range_of(bits_);
   for (std::size_t c = 0; c < 4; ++c) {
     const auto [shift, bits] = fields_[c];
     const std::uint32_t mask = (1u << bits) - 1;
     for (int i = 0; i < count; ++i) {
-      const std::int64_t term = terms_[c][words[i] >> shift & mask];
-      levels[c][i] = saturated(kKeepsOld ? levels[c][i] + term : term, range);
+      const std::int64_t term = terms_[c][packed_colors[i] >> shift & mask];
+      levels[c][i] = saturated(kAccumulates ? levels[c][i] + term : term, range);
     }
   }
 }
 
-void Accumulation::run(const std::uint32_t* words, const AccumulatedPixels& levels, int count) const {
+void Accumulation::run(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const {
   TESSERA_ASSERT(op_ != AccumulationOp::give_back);
   const Range range = range_of(bits_);
   switch (op_) {
-    case AccumulationOp::accumulate: return add_colors<true>(words, levels, count);
-    case AccumulationOp::load: return add_colors<false>(words, levels, count);
+    case AccumulationOp::accumulate: return add_colors<true>(packed_colors, levels, count);
+    case AccumulationOp::load: return add_colors<false>(packed_colors, levels, count);
     case AccumulationOp::add:
       for (std::size_t c = 0; c < 4; ++c)
         for (int i = 0; i < count; ++i) levels[c][i] = saturated(levels[c][i] + terms_[c][0], range);
@@ -82,11 +82,11 @@ void Accumulation::run(const std::uint32_t* words, const AccumulatedPixels& leve
     default:
       for (std::int32_t* component : levels)
         for (int i = 0; i < count; ++i)
-          component[i] = saturated(rounded(component[i] * value_, kFarOutside), range);
+          component[i] = saturated(rounded(component[i] * value_, kMaxTerm), range);
   }
 }
 
-std::uint32_t Accumulation::word(const AccumulatedPixel& levels, double threshold) const {
+std::uint32_t Accumulation::packed_color(const AccumulatedPixel& levels, double threshold) const {
   const auto color = [&](std::size_t c) {
     return std::clamp(value_ * (levels[c] / accumulation_one(bits_)), 0.0, 1.0);
   };

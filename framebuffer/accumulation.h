@@ -32,7 +32,7 @@ constexpr double accumulation_one(int bits) { return bits == 16 ? 32767.0 : 2147
 /// not.
 std::int32_t accumulation_level(double value, int bits);
 /// A stored word with its sign.
-constexpr std::int32_t accumulation_level_from_word(std::uint32_t word, int bits) {
+constexpr std::int32_t accumulation_level_from_stored(std::uint32_t word, int bits) {
   return bits == 16 ? static_cast<std::int16_t>(word) : static_cast<std::int32_t>(word);
 }
 
@@ -46,10 +46,10 @@ class Accumulation {
 
   AccumulationOp op() const { return op_; }
   /// Changes the levels of `count` pixels. Not for give_back.
-  /// @param words  the colour words of these pixels; read by accumulate and load alone
-  void run(const std::uint32_t* words, const AccumulatedPixels& levels, int count) const;
+  /// @param packed_colors  packed colours of these pixels; read by accumulate and load alone
+  void run(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
   /// The colour word of give_back: each component floor(c (2^b - 1) + threshold).
-  std::uint32_t word(const AccumulatedPixel& levels, double threshold) const;
+  std::uint32_t packed_color(const AccumulatedPixel& levels, double threshold) const;
 
  private:
   // What is added to a component; at most twice the range, which leaves it from anywhere.
@@ -57,8 +57,8 @@ class Accumulation {
   struct Field {
     int shift = 0, bits = 0;  ///< in the colour word; no bits: always 1
   };
-  template <bool kKeepsOld>
-  void add_colors(const std::uint32_t* words, const AccumulatedPixels& levels, int count) const;
+  template <bool kAccumulates>
+  void add_colors(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
 
   AccumulationOp op_;
   double value_;

@@ -53,8 +53,8 @@ namespace {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
 // Two groups of 4 pixels, 16 pixels apart: they share a vector because bytes are shuffled within its halves.
-HWY_INLINE __m256i load_groups(const std::uint32_t* words, int group) noexcept {
-  const std::uint32_t* const low = words + group * kBlockPixels;
+HWY_INLINE __m256i load_groups(const std::uint32_t* pixels, int group) noexcept {
+  const std::uint32_t* const low = pixels + group * kBlockPixels;
   const __m128i* const high = reinterpret_cast<const __m128i*>(low + 4 * kBlockPixels);
   return _mm256_inserti128_si256(
       _mm256_castsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(low))), _mm_load_si128(high), 1);
@@ -77,16 +77,16 @@ HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mas
 /// @param kWholeBytes  the mask holds all of the lowest 8 kWholeBytes planes and no other; 0: any mask
 /// @param inside_px    how many of the pixels lie in the picture, from the left; 32 or more: all
 template <int kWholeBytes>
-HWY_INLINE void store_strip(const std::uint32_t* words, __m256i flips, int inside_px, StripBits to,
+HWY_INLINE void store_strip(const std::uint32_t* pixels, __m256i flips, int inside_px, StripBits to,
                             std::uint32_t mask) noexcept {
-  // In each group of 4 words: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the leftmost
+  // In each group of 4 pixels: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the leftmost
   // pixel but byte 0 gives bit 0 of a sign mask.
   const __m256i split = _mm256_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3,  //
                                          12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3);
-  const __m256i a = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(words, 0), flips), split);
-  const __m256i b = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(words, 1), flips), split);
-  const __m256i c = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(words, 2), flips), split);
-  const __m256i d = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(words, 3), flips), split);
+  const __m256i a = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 0), flips), split);
+  const __m256i b = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 1), flips), split);
+  const __m256i c = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 2), flips), split);
+  const __m256i d = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 3), flips), split);
   // 4x4 transposition; within a byte of the plane the left group is the upper half.
   const __m256i ba01 = _mm256_unpacklo_epi32(b, a), ba23 = _mm256_unpackhi_epi32(b, a);
   const __m256i dc01 = _mm256_unpacklo_epi32(d, c), dc23 = _mm256_unpackhi_epi32(d, c);
@@ -107,14 +107,14 @@ HWY_INLINE void store_strip(const std::uint32_t* words, __m256i flips, int insid
 
 #if HWY_TARGET == HWY_AVX3
 /// 64 pixels of a row that all lie in the picture: the steps of store_strip(), with four groups in a vector.
-HWY_INLINE void store_wide_strip(const std::uint32_t* words, std::uint32_t flip, StripBits to,
+HWY_INLINE void store_wide_strip(const std::uint32_t* pixels, std::uint32_t flip, StripBits to,
                                  std::uint32_t mask) noexcept {
   const __m512i flips = _mm512_set1_epi32(static_cast<int>(flip)),
                 split = _mm512_broadcast_i32x4(
                     _mm_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3));
   const auto split_groups = [&](int group) HWY_ATTR {
-    const __m512i groups = _mm512_inserti64x4(_mm512_castsi256_si512(load_groups(words, group)),
-                                              load_groups(words + 8 * kBlockPixels, group), 1);
+    const __m512i groups = _mm512_inserti64x4(_mm512_castsi256_si512(load_groups(pixels, group)),
+                                              load_groups(pixels + 8 * kBlockPixels, group), 1);
     return _mm512_shuffle_epi8(_mm512_xor_si512(groups, flips), split);
   };
   const __m512i a = split_groups(0), b = split_groups(1), c = split_groups(2), d = split_groups(3);
@@ -140,14 +140,14 @@ void store_rows_of(const StripRows& tile, std::uint32_t flip, std::uint32_t mask
   const __m256i flips = _mm256_set1_epi32(static_cast<int>(flip));
   StripBits row = tile.bits;
   for (int y = 0; y < tile.height_px; ++y, row.first += tile.stride_bytes) {
-    const std::uint32_t* const words = tile.words(0, y);
+    const std::uint32_t* const pixels = tile.pixels(0, y);
     int x = 0;
 #if HWY_TARGET == HWY_AVX3
     for (; x + 64 <= tile.width_px; x += 64)
-      store_wide_strip(words + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, mask);
+      store_wide_strip(pixels + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, mask);
 #endif
     for (; x < tile.width_px; x += 32)
-      store_strip<kWholeBytes>(words + x * kBlockSize, flips, tile.width_px - x,
+      store_strip<kWholeBytes>(pixels + x * kBlockSize, flips, tile.width_px - x,
                                {row.first + x / 8, row.plane_stride}, mask);
   }
 }
@@ -171,11 +171,11 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
 #else
 
 /// The 8 planes from `base` on, of 8 pixels.
-inline void store_byte_planes(const std::uint32_t* words, std::uint32_t flip, int inside_px, StripBits to,
+inline void store_byte_planes(const std::uint32_t* pixels, std::uint32_t flip, int inside_px, StripBits to,
                               int base, std::uint32_t mask) noexcept {
   std::uint64_t bytes = 0;
   for (int i = 0; i < inside_px; ++i)
-    bytes |= std::uint64_t{(words[strip_index(i)] ^ flip) >> base & 0xff} << byte_shift(i);
+    bytes |= std::uint64_t{(pixels[strip_index(i)] ^ flip) >> base & 0xff} << byte_shift(i);
   const std::uint64_t planes = transpose_8x8(bytes);
   for (int k = 0; k < 8; ++k)
     if ((mask >> (base + k) & 1) != 0) *to.plane(base + k) = static_cast<std::uint8_t>(planes >> (8 * k));
@@ -187,7 +187,7 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
     for (int x = 0; x < tile.width_px; x += 8)
       for (int base = 0; base < kMaxPlanes; base += 8)
         if ((mask >> base & 0xff) != 0)
-          store_byte_planes(tile.words(0, y) + x * kBlockSize, flip, std::min(8, tile.width_px - x),
+          store_byte_planes(tile.pixels(0, y) + x * kBlockSize, flip, std::min(8, tile.width_px - x),
                             {row.first + x / 8, row.plane_stride}, base, mask);
 }
 
@@ -197,20 +197,20 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
 
 void store_planes(std::span<const std::uint32_t* const> tiles, const TilePlace& first, BitplaneStack& planes,
                   std::uint32_t plane_store_mask) noexcept {
-  const std::uint32_t mask = plane_store_mask & planes.word_mask();
+  const std::uint32_t mask = plane_store_mask & planes.value_mask();
   if (mask == 0) return;
   const StripRows strip = strip_rows(tiles, first, planes);
   for (std::size_t t = 0; t < tiles.size(); ++t) store_rows(strip.only(t), first.flip, mask);
 }
 
 #if HWY_TARGET == HWY_AVX3
-void store_planes_by_lines(std::span<const std::uint32_t* const> tiles, const TilePlace& first,
+void store_planes_per_line(std::span<const std::uint32_t* const> tiles, const TilePlace& first,
                            BitplaneStack& planes, std::uint32_t plane_store_mask) noexcept {
   const StripRows strip = strip_rows(tiles, first, planes);
   const bool are_lines = first.x0_px % kLinePixels == 0 &&
                          strip.width_px == std::min(kLinePixels, planes.width_px() - first.x0_px);
   if (!are_lines) return store_planes(tiles, first, planes, plane_store_mask);
-  const std::uint32_t mask = plane_store_mask & planes.word_mask();
+  const std::uint32_t mask = plane_store_mask & planes.value_mask();
   if (mask != 0) store_lines(strip, first.flip, mask);
 }
 #endif
@@ -222,16 +222,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera {
 static bool has_lines(Isa isa) { return isa == Isa::avx512 && machine_has_gfni(); }
-int tiles_stored_together(Isa isa, int tile_size) noexcept {
+int tiles_per_store(Isa isa, int tile_size) noexcept {
   return has_lines(isa) ? kLinePixels / tile_size : 1;
 }
 StorePlanesFn* store_planes_for(Isa isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
-  if (has_lines(isa)) return &N_AVX3::store_planes_by_lines;
+  if (has_lines(isa)) return &N_AVX3::store_planes_per_line;
 #endif
-  return store_planes_tile_by_tile(isa);
+  return store_planes_per_tile(isa);
 }
-StorePlanesFn* store_planes_tile_by_tile([[maybe_unused]] Isa isa) noexcept {
+StorePlanesFn* store_planes_per_tile([[maybe_unused]] Isa isa) noexcept {
   return TESSERA_KERNEL(isa, store_planes);
 }
 }  // namespace tessera

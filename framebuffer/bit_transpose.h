@@ -46,10 +46,10 @@ using LoadPlanesFn = void(std::uint32_t* tile, const TilePlace& place, const Bit
 /// The fastest that this machine can run for `isa`.
 StorePlanesFn* store_planes_for(Isa isa) noexcept;
 /// How many tiles that wants at once: those of a line where it writes whole lines, else 1.
-int tiles_stored_together(Isa isa, int tile_size) noexcept;
+int tiles_per_store(Isa isa, int tile_size) noexcept;
 /// What store_planes_for() gives where whole lines have no way of their own; tests hold both against the
 /// reference.
-StorePlanesFn* store_planes_tile_by_tile(Isa isa) noexcept;
+StorePlanesFn* store_planes_per_tile(Isa isa) noexcept;
 LoadPlanesFn* load_planes_for(Isa isa) noexcept;
 
 }  // namespace tessera

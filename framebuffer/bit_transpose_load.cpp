@@ -29,7 +29,7 @@ struct LoadedRows {
   PlaneBits<const std::uint8_t> bits;  ///< of the top left pixel
   std::ptrdiff_t stride_bytes;         ///< of the planes' rows
   /// Of pixel 0 of row y; those of pixel x, a multiple of 4, come x * kBlockSize later.
-  std::uint32_t* words(int y) const noexcept { return tile + tile_index(0, y, tile_size); }
+  std::uint32_t* pixels(int y) const noexcept { return tile + tile_index(0, y, tile_size); }
 };
 
 }  // namespace
@@ -44,8 +44,8 @@ namespace {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
 /// Two groups of 4 pixels, 16 pixels apart: they share a vector because bytes are shuffled within its halves.
-HWY_INLINE void store_groups(__m256i groups, std::uint32_t* words, int group) noexcept {
-  std::uint32_t* const low = words + group * kBlockPixels;
+HWY_INLINE void store_groups(__m256i groups, std::uint32_t* pixels, int group) noexcept {
+  std::uint32_t* const low = pixels + group * kBlockPixels;
   _mm_store_si128(reinterpret_cast<__m128i*>(low), _mm256_castsi256_si128(groups));
   _mm_store_si128(reinterpret_cast<__m128i*>(low + 4 * kBlockPixels), _mm256_extracti128_si256(groups, 1));
 }
@@ -96,15 +96,15 @@ HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* o
 }
 
 /// 32 pixels from their bytes.
-HWY_INLINE void store_words(const __m256i (&bytes)[4], __m256i flips, std::uint32_t* words) noexcept {
+HWY_INLINE void store_words(const __m256i (&bytes)[4], __m256i flips, std::uint32_t* pixels) noexcept {
   const __m256i left01 = _mm256_unpacklo_epi8(bytes[0], bytes[1]),
                 right01 = _mm256_unpackhi_epi8(bytes[0], bytes[1]);
   const __m256i left23 = _mm256_unpacklo_epi8(bytes[2], bytes[3]),
                 right23 = _mm256_unpackhi_epi8(bytes[2], bytes[3]);
-  store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(left01, left23), flips), words, 0);
-  store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(left01, left23), flips), words, 1);
-  store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(right01, right23), flips), words, 2);
-  store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(right01, right23), flips), words, 3);
+  store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(left01, left23), flips), pixels, 0);
+  store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(left01, left23), flips), pixels, 1);
+  store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(right01, right23), flips), pixels, 2);
+  store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(right01, right23), flips), pixels, 3);
 }
 
 template <int kPixels, int kBytes>
@@ -125,9 +125,9 @@ void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexc
         load_byte_planes<kPixels>(row + x / 8, offset + 8 * i, left[i], right[i]);
       left[kBytes - 1] = _mm256_and_si256(left[kBytes - 1], present);
       right[kBytes - 1] = _mm256_and_si256(right[kBytes - 1], present);
-      std::uint32_t* const words = rows.words(y) + x * kBlockSize;
-      store_words(left, flips, words);
-      if (kPixels == 64) store_words(right, flips, words + 32 * kBlockSize);
+      std::uint32_t* const pixels = rows.pixels(y) + x * kBlockSize;
+      store_words(left, flips, pixels);
+      if (kPixels == 64) store_words(right, flips, pixels + 32 * kBlockSize);
     }
 }
 
@@ -148,16 +148,16 @@ void load_rows(const LoadedRows& rows, std::uint32_t flip, int plane_count) noex
 
 #else
 
-inline void load_strip(std::uint32_t* words, std::uint32_t flip, PlaneBits<const std::uint8_t> from,
+inline void load_strip(std::uint32_t* pixels, std::uint32_t flip, PlaneBits<const std::uint8_t> from,
                        int plane_count) noexcept {
-  for (int i = 0; i < 8; ++i) words[strip_index(i)] = flip;
+  for (int i = 0; i < 8; ++i) pixels[strip_index(i)] = flip;
   for (int base = 0; base < plane_count; base += 8) {
     std::uint64_t planes = 0;
     for (int k = 0; k < std::min(8, plane_count - base); ++k)
       planes |= std::uint64_t{*from.plane(base + k)} << (8 * k);
     const std::uint64_t bytes = transpose_8x8(planes);
     for (int i = 0; i < 8; ++i)
-      words[strip_index(i)] ^= static_cast<std::uint32_t>(bytes >> byte_shift(i) & 0xff) << base;
+      pixels[strip_index(i)] ^= static_cast<std::uint32_t>(bytes >> byte_shift(i) & 0xff) << base;
   }
 }
 
@@ -165,7 +165,7 @@ void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexc
   PlaneBits<const std::uint8_t> row = rows.bits;
   for (int y = 0; y < rows.height_px; ++y, row.first += rows.stride_bytes)
     for (int x = 0; x < rows.tile_size; x += 8)  // pad bits are 0
-      load_strip(rows.words(y) + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, plane_count);
+      load_strip(rows.pixels(y) + x * kBlockSize, flip, {row.first + x / 8, row.plane_stride}, plane_count);
 }
 
 #endif

@@ -13,8 +13,8 @@ inline void store_planes_reference(const std::uint32_t* tile, const TilePlace& p
   for (int y = 0; y < place.tile_size && place.y0_px + y < planes.height_px(); ++y)
     for (int x = 0; x < place.tile_size && place.x0_px + x < planes.width_px(); ++x) {
       const std::uint32_t incoming = tile[tile_index(x, y, place.tile_size)] ^ place.flip;
-      const std::uint32_t stored = planes.word(place.x0_px + x, place.y0_px + y);
-      planes.set_word(place.x0_px + x, place.y0_px + y,
+      const std::uint32_t stored = planes.pixel(place.x0_px + x, place.y0_px + y);
+      planes.set_pixel(place.x0_px + x, place.y0_px + y,
                       (stored & ~plane_store_mask) | (incoming & plane_store_mask));
     }
 }
@@ -25,7 +25,7 @@ inline void load_planes_reference(std::uint32_t* tile, const TilePlace& place,
     for (int x = 0; x < place.tile_size; ++x) {
       const bool inside = place.x0_px + x < planes.width_px();
       tile[tile_index(x, y, place.tile_size)] =
-          (inside ? planes.word(place.x0_px + x, place.y0_px + y) : 0) ^ place.flip;
+          (inside ? planes.pixel(place.x0_px + x, place.y0_px + y) : 0) ^ place.flip;
     }
 }
 

@@ -17,7 +17,7 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
 
 void BitplaneStack::allocate(std::uint32_t word) {
   if (allocated() || plane_count_ == 0) return;
-  memory_.reset(lent_ != nullptr ? lent_
+  memory_.reset(external_memory_ != nullptr ? external_memory_
                                  : static_cast<std::uint8_t*>(
                                        ::operator new (needed_bytes(), std::align_val_t{kPlaneAlignment})));
   fill(word);
@@ -37,7 +37,7 @@ void BitplaneStack::fill_rows(int y0, int y1, std::uint32_t word) noexcept {
   }
 }
 
-std::uint32_t BitplaneStack::word(int x, int y) const noexcept {
+std::uint32_t BitplaneStack::pixel(int x, int y) const noexcept {
   TESSERA_ASSERT(x >= 0 && x < width_px_ && y >= 0 && y < height_px_);
   const std::ptrdiff_t at = y * stride_bytes_ + x / 8;
   std::uint32_t word = 0;
@@ -45,7 +45,7 @@ std::uint32_t BitplaneStack::word(int x, int y) const noexcept {
   return word;
 }
 
-void BitplaneStack::set_word(int x, int y, std::uint32_t word) noexcept {
+void BitplaneStack::set_pixel(int x, int y, std::uint32_t word) noexcept {
   TESSERA_ASSERT(x >= 0 && x < width_px_ && y >= 0 && y < height_px_);
   const std::ptrdiff_t at = y * stride_bytes_ + x / 8;
   for (int k = 0; k < plane_count_; ++k) {

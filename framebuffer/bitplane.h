@@ -32,7 +32,7 @@ class BitplaneStack {
     width_px_ = other.width_px_, height_px_ = other.height_px_, plane_count_ = other.plane_count_;
     stride_bytes_ = other.stride_bytes_, plane_stride_bytes_ = other.plane_stride_bytes_;
     memory_ = std::move(other.memory_);
-    lent_ = other.lent_;
+    external_memory_ = other.external_memory_;
     return *this;
   }
   /// @param width_px, height_px  at least 1;  @param plane_count  0 .. kMaxPlanes
@@ -42,7 +42,7 @@ class BitplaneStack {
   int height_px() const noexcept { return height_px_; }
   int plane_count() const noexcept { return plane_count_; }
   /// Bits that a word of this stack may have.
-  std::uint32_t word_mask() const noexcept {
+  std::uint32_t value_mask() const noexcept {
     return plane_count_ == 0 ? 0 : ~std::uint32_t{0} >> (kMaxPlanes - plane_count_);
   }
 
@@ -52,18 +52,18 @@ class BitplaneStack {
   }
   /// From now on the planes stand in this memory, needed_bytes() at a multiple of kPlaneAlignment, which
   /// outlives the stack; taking and giving back allocates nothing. @pre not allocated
-  void use_memory(std::uint8_t* memory) noexcept {
+  void use_external_memory(std::uint8_t* memory) noexcept {
     TESSERA_ASSERT(!allocated() && reinterpret_cast<std::uintptr_t>(memory) % kPlaneAlignment == 0);
-    lent_ = memory;
+    external_memory_ = memory;
   }
-  bool uses_lent_memory() const noexcept { return lent_ != nullptr; }
+  bool uses_external_memory() const noexcept { return external_memory_ != nullptr; }
 
   bool allocated() const noexcept { return memory_ != nullptr; }
   /// Takes the memory, if it is not there yet, and fills every pixel with `word`. Throws std::bad_alloc; then
   /// nothing changed.
   void allocate(std::uint32_t word);
   void release() noexcept {
-    if (lent_ != nullptr) static_cast<void>(memory_.release());
+    if (external_memory_ != nullptr) static_cast<void>(memory_.release());
     memory_.reset();
   }
 
@@ -74,8 +74,8 @@ class BitplaneStack {
   void fill_rows(int y0, int y1, std::uint32_t word) noexcept;
 
   /// The word of one pixel, y from the top: the slow path, for tests and single pixels.
-  std::uint32_t word(int x, int y) const noexcept;
-  void set_word(int x, int y, std::uint32_t word) noexcept;
+  std::uint32_t pixel(int x, int y) const noexcept;
+  void set_pixel(int x, int y, std::uint32_t word) noexcept;
 
   /// Plane k: its top row, kPlaneAlignment aligned.
   std::uint8_t* plane(int k) noexcept {
@@ -94,7 +94,7 @@ class BitplaneStack {
   std::size_t bytes() const noexcept { return allocated() ? needed_bytes() : 0; }
 
  private:
-  struct Free {
+  struct AlignedDelete {
     void operator()(std::uint8_t* memory) const noexcept {
       ::operator delete (memory, std::align_val_t{kPlaneAlignment});
     }
@@ -102,8 +102,8 @@ class BitplaneStack {
   int width_px_ = 0, height_px_ = 0, plane_count_ = 0;
   std::ptrdiff_t stride_bytes_ = 0;
   std::size_t plane_stride_bytes_ = 0;
-  std::unique_ptr<std::uint8_t[], Free> memory_;
-  std::uint8_t* lent_ = nullptr;  // the caller's memory; else the stack takes its own
+  std::unique_ptr<std::uint8_t[], AlignedDelete> memory_;
+  std::uint8_t* external_memory_ = nullptr;  // the caller's memory; else the stack takes its own
 };
 
 }  // namespace tessera

@@ -1,16 +1,16 @@
-#include "framebuffer/fetch_lines.h"
+#include "framebuffer/prefetch_lines.h"
 
 // To fetch for writing is an instruction of its own, which 64-bit processors of x86 without it pass over, but
 // for some of 2004.
 #if defined(__x86_64__)
-#define TESSERA_FETCHES_FOR_WRITING [[gnu::target("prfchw")]]
+#define TESSERA_PREFETCHW_TARGET [[gnu::target("prfchw")]]
 #else
-#define TESSERA_FETCHES_FOR_WRITING
+#define TESSERA_PREFETCHW_TARGET
 #endif
 
 namespace tessera {
 
-TESSERA_FETCHES_FOR_WRITING void fetch_lines(const std::uint8_t* first_row, std::ptrdiff_t stride_bytes,
+TESSERA_PREFETCHW_TARGET void prefetch_lines(const std::uint8_t* first_row, std::ptrdiff_t stride_bytes,
                                              int bytes, int rows) noexcept {
   constexpr std::uintptr_t kLineBytes = 64;
   for (int y = 0; y < rows; ++y) {

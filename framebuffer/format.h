@@ -20,7 +20,7 @@ struct ColorLayout {
   int alpha_bits = 0;  ///< 0 or 8
   int r_shift() const { return g_bits + b_bits; }
   int g_shift() const { return b_bits; }
-  std::uint32_t word_mask() const { return (std::uint32_t{1} << bits) - 1; }  ///< of the colour
+  std::uint32_t value_mask() const { return (std::uint32_t{1} << bits) - 1; }  ///< of the colour
   float index_modulus() const { return static_cast<float>(std::uint32_t{1} << bits); }
   std::uint32_t alpha_mask() const { return ((std::uint32_t{1} << alpha_bits) - 1) << bits; }
   std::uint32_t r_mask() const { return ((std::uint32_t{1} << r_bits) - 1) << r_shift(); }
@@ -60,12 +60,12 @@ inline float masked_index(float index, float modulus) {
 }
 /// The stored word of a masked index: floor(index + 0.5), masked again. The sum itself is not exact above
 /// 2^23.
-inline std::uint32_t index_word(const ColorLayout& layout, float index) {
+inline std::uint32_t quantize_index(const ColorLayout& layout, float index) {
   const auto whole = static_cast<std::uint32_t>(index > 0 ? index : 0.0f);
-  return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.word_mask();
+  return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.value_mask();
 }
 /// What a display shows of level v of b bits: round(255 v / (2^b - 1)), in integers.
-constexpr std::uint32_t shown_level(std::uint32_t v, int bits) {
+constexpr std::uint32_t display_level(std::uint32_t v, int bits) {
   const std::uint32_t levels = (1u << bits) - 1;
   return levels == 0 ? 0 : (2 * 255 * v + levels) / (2 * levels);
 }
@@ -78,15 +78,15 @@ constexpr int depth_bits(DepthKind kind) {
 
 // A depth key is the stored level for 16 and 24 bits, the level with its top bit flipped for 32 bits, and the
 // bits of the float (never negative) for float32: in each case a signed comparison of keys compares depths.
-constexpr std::int32_t depth_key_from_word(DepthKind kind, std::uint32_t word) {
+constexpr std::int32_t depth_key_from_stored(DepthKind kind, std::uint32_t word) {
   return static_cast<std::int32_t>(kind == DepthKind::unorm32 ? word ^ 0x80000000u : word);
 }
-constexpr std::uint32_t depth_word_from_key(DepthKind kind, std::int32_t key) {
+constexpr std::uint32_t stored_depth_from_key(DepthKind kind, std::int32_t key) {
   return kind == DepthKind::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u
                                     : static_cast<std::uint32_t>(key);
 }
 /// floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
-inline std::uint32_t depth_word(DepthKind kind, double z) {
+inline std::uint32_t quantize_depth(DepthKind kind, double z) {
   if (kind == DepthKind::float32) {
     const float f = static_cast<float>(z) + 0.0f;  // + 0: no negative zero
     std::uint32_t word;
@@ -96,7 +96,7 @@ inline std::uint32_t depth_word(DepthKind kind, double z) {
   const double levels = std::ldexp(1.0, depth_bits(kind)) - 1;
   return static_cast<std::uint32_t>(std::floor(z * levels + 0.5));
 }
-inline double depth_from_word(DepthKind kind, std::uint32_t word) {
+inline double dequantize_depth(DepthKind kind, std::uint32_t word) {
   if (kind == DepthKind::float32) {
     float f;
     std::memcpy(&f, &word, sizeof f);

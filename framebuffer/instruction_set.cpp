@@ -6,7 +6,7 @@
 namespace tessera {
 
 // What each set needs is what Highway compiles its target with (HWY_TARGET_STR), and AVX512CD: see
-// repeated().
+// duplicate_lanes().
 #if HWY_TARGETS & HWY_AVX2
 static bool machine_has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
@@ -42,7 +42,7 @@ bool machine_has_gfni() {
 #endif
 }
 
-bool machine_gathers_pairs() {
+bool machine_has_fast_gather() {
 #if HWY_TARGETS & HWY_AVX3
   // Floats of 16 bits came with it, and after what had made Intel's gathers slow (INTEL-SA-00828).
   return machine_has_avx512() && __builtin_cpu_is("intel") && __builtin_cpu_supports("avx512fp16");

@@ -17,6 +17,6 @@ std::vector<Isa> available_isas();
 bool machine_has_gfni();
 /// Whether AVX-512 is quicker at gathering pairs of words than at loading them one by one, to the same bits:
 /// Intel's since Sapphire Rapids. These two are all that is chosen beside the set.
-bool machine_gathers_pairs();
+bool machine_has_fast_gather();
 
 }  // namespace tessera

@@ -36,7 +36,7 @@ constexpr int kVgaHueLevels[3][3][5] = {{{0, 16, 31, 47, 63}, {31, 39, 47, 55, 6
 
 /// round(255 v / 63)
 constexpr std::uint8_t from_6_bits(int v) {
-  return static_cast<std::uint8_t>(shown_level(static_cast<std::uint32_t>(v), 6));
+  return static_cast<std::uint8_t>(display_level(static_cast<std::uint32_t>(v), 6));
 }
 
 /// Hue h of the circle, 0 .. 23: blue, magenta, red, yellow, green, cyan at multiples of 4. On each leg one
@@ -67,7 +67,7 @@ std::vector<Rgb8> vga256() {
 std::vector<Rgb8> greys(int bits) {
   std::vector<Rgb8> entries(std::size_t{1} << bits);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    // shown_level(i, bits), in 64 bits: 2 * 255 * 2^24 is more than 32 hold.
+    // display_level(i, bits), in 64 bits: 2 * 255 * 2^24 is more than 32 hold.
     const std::uint64_t last = entries.size() - 1;
     const auto level = static_cast<std::uint8_t>((2 * 255 * std::uint64_t{i} + last) / (2 * last));
     entries[i] = {level, level, level};
@@ -88,7 +88,7 @@ std::vector<Rgb8> web216() {
 
 }  // namespace
 
-Rgb8 stored_color(float r, float g, float b) noexcept {
+Rgb8 quantize_rgb8(float r, float g, float b) noexcept {
   return {static_cast<std::uint8_t>(quantize(r, 8)), static_cast<std::uint8_t>(quantize(g, 8)),
           static_cast<std::uint8_t>(quantize(b, 8))};
 }

@@ -16,7 +16,7 @@ struct Rgb8 {
   friend constexpr bool operator==(Rgb8, Rgb8) = default;
 };
 /// The stored colour of components 0..1 (clamped; a NaN counts as 0): floor(255 c + 0.5).
-Rgb8 stored_color(float r, float g, float b) noexcept;
+Rgb8 quantize_rgb8(float r, float g, float b) noexcept;
 
 /// Exactly 2^bits entries, of which the first entries.size() were given; the others show black.
 struct Palette {

@@ -9,7 +9,7 @@ namespace tessera {
 namespace {
 
 float clamp_component(float c) noexcept { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
-constexpr float kFarthest = 16;  // more than the squared diagonal of what is looked up
+constexpr float kMaxSquaredDistance = 16;  // more than the squared diagonal of what is looked up
 double square(double d) noexcept { return d * d; }
 
 struct DistinctColor {
@@ -59,7 +59,7 @@ AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
 void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among,
                      const AxisTable& x, const AxisTable& y, const AxisTable& z,
                      std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
-  float best_farthest = kFarthest;
+  float best_farthest = kMaxSquaredDistance;
   distances.resize(among.size());
   for (std::size_t i = 0; i < among.size(); ++i) {
     const Rgb8 c = colors[among[i]].color;
@@ -129,7 +129,7 @@ std::uint32_t PaletteSearch::search(float r, float g, float b) const noexcept {
   const std::uint32_t* candidate = candidates_.data() + cell_begin_[cell];
   const std::uint32_t* const end = candidates_.data() + cell_begin_[cell + 1];
   std::uint32_t nearest = *candidate;
-  float nearest_distance = kFarthest;
+  float nearest_distance = kMaxSquaredDistance;
   for (; candidate != end; ++candidate) {
     const float distance = entries_[*candidate].squared_distance(r, g, b);
     if (distance < nearest_distance) {

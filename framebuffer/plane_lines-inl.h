@@ -19,7 +19,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "framebuffer/fetch_lines.h"
+#include "framebuffer/prefetch_lines.h"
 #include "framebuffer/strip_rows.h"
 
 #if HWY_TARGET == HWY_AVX3
@@ -70,16 +70,16 @@ HWY_INLINE void exchange_all(__m512i (&v)[8]) noexcept {
 /// the other.
 ///
 /// @param bytes  of words, each of which holds 8 planes
-HWY_INLINE void collect_quarter(const StripRows& strip, int x, int y, int bytes, __m512i* planes) noexcept {
+HWY_INLINE void transpose_quarter(const StripRows& strip, int x, int y, int bytes, __m512i* planes) noexcept {
   const __m512i split =
       _mm512_broadcast_i32x4(_mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15));
   // Through memory: more vectors than there are registers.
   alignas(64) __m512i eights[4][8];
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
-    const auto* const left = reinterpret_cast<const __m512i*>(strip.words(x + 8 * i, y));
+    const auto* const left = reinterpret_cast<const __m512i*>(strip.pixels(x + 8 * i, y));
     const auto* const right =
-        reinterpret_cast<const __m512i*>(strip.words(x + kQuarterPixels / 2 + 8 * i, y));
+        reinterpret_cast<const __m512i*>(strip.pixels(x + kQuarterPixels / 2 + 8 * i, y));
     const __m512i blocks[4] = {_mm512_shuffle_epi8(_mm512_load_si512(left), split),
                                _mm512_shuffle_epi8(_mm512_load_si512(left + 1), split),
                                _mm512_shuffle_epi8(_mm512_load_si512(right), split),
@@ -103,7 +103,7 @@ HWY_INLINE void collect_quarter(const StripRows& strip, int x, int y, int bytes,
 }
 
 /// Bits of the first `inside_px` pixels of a line.
-inline __m512i inside_line(int inside_px) noexcept {
+inline __m512i line_mask(int inside_px) noexcept {
   alignas(64) std::uint8_t bytes[kLinePixels / 8];
   for (int i = 0; i < kLinePixels / 8; ++i)
     bytes[i] = static_cast<std::uint8_t>(0xff00 >> std::clamp(inside_px - 8 * i, 0, 8));
@@ -114,14 +114,14 @@ inline __m512i inside_line(int inside_px) noexcept {
 inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_t mask) noexcept {
   const int bytes = (std::bit_width(mask) + 7) / 8;
   alignas(64) __m512i quarters[4][kMaxPlanes] = {};  // those outside the picture are masked away
-  const __m512i inside = inside_line(strip.width_px);
+  const __m512i inside = line_mask(strip.width_px);
   for (int y = 0; y < strip.height_px; y += kBlockSize) {
     const StripBits line{strip.bits.first + y * strip.stride_bytes, strip.bits.plane_stride};
     const int rows = std::min(kBlockSize, strip.height_px - y);
     for (int k = 0; k < 8 * bytes; ++k)  // the lines come while the bits are collected
-      if ((mask >> k & 1) != 0) fetch_lines(line.plane(k), strip.stride_bytes, 1, rows);
+      if ((mask >> k & 1) != 0) prefetch_lines(line.plane(k), strip.stride_bytes, 1, rows);
     for (int x = 0; x < strip.width_px; x += kQuarterPixels)
-      collect_quarter(strip, x, y, bytes, quarters[x / kQuarterPixels]);
+      transpose_quarter(strip, x, y, bytes, quarters[x / kQuarterPixels]);
     for (int k = 0; k < 8 * bytes; ++k) {
       if ((mask >> k & 1) == 0) continue;
       const __m512i flips = _mm512_set1_epi32((flip >> k & 1) != 0 ? -1 : 0);

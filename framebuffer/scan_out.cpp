@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "framebuffer/check.h"
-#include "framebuffer/fetch_lines.h"
+#include "framebuffer/prefetch_lines.h"
 #include "framebuffer/tile_grid.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Words = hn::ScalableTag<std::uint32_t>;
-using WordsVec = hn::Vec<Words>;
+using PackedTag = hn::ScalableTag<std::uint32_t>;
+using PackedVec = hn::Vec<PackedTag>;
 
 static_assert(std::endian::native == std::endian::little);  // the first byte of a pixel is its word's lowest
 
@@ -31,10 +31,10 @@ static_assert(std::endian::native == std::endian::little);  // the first byte of
 struct ComponentPixels {
   ScanOutRule rule;
 
-  WordsVec operator()(Words d, WordsVec words) const noexcept {
+  PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
     auto pixels = hn::Set(d, 0xff000000u);
     for (const ScanOutRule::Component& c : rule.components) {
-      const auto level = hn::And(hn::ShiftRightSame(words, c.shift), hn::Set(d, c.mask));
+      const auto level = hn::And(hn::ShiftRightSame(packed_pixels, c.shift), hn::Set(d, c.mask));
       const auto shown =
           hn::ShiftRight<16>(hn::Add(hn::Mul(level, hn::Set(d, c.scale)), hn::Set(d, 1u << 15)));
       pixels = hn::Or(pixels, hn::ShiftLeftSame(shown, c.byte_shift));
@@ -47,32 +47,32 @@ struct ComponentPixels {
 struct AlphaPixels {
   ScanOutRule rule;
 
-  WordsVec operator()(Words d, WordsVec words) const noexcept {
+  PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
     const auto top = hn::Set(d, 0xff000000u);
-    return hn::Or(hn::AndNot(top, ComponentPixels{rule}(d, words)),
-                  hn::And(hn::ShiftLeftSame(words, rule.alpha_shift), top));
+    return hn::Or(hn::AndNot(top, ComponentPixels{rule}(d, packed_pixels)),
+                  hn::And(hn::ShiftLeftSame(packed_pixels, rule.alpha_shift), top));
   }
 };
 
 /// Pixels of 24 bits stored in the byte order wanted but for the alpha.
 struct BlueFirstPixels {
-  WordsVec operator()(Words d, WordsVec words) const noexcept {
-    return hn::Or(words, hn::Set(d, 0xff000000u));
+  PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
+    return hn::Or(packed_pixels, hn::Set(d, 0xff000000u));
   }
 };
 /// The same with red and blue exchanged.
 struct RedFirstPixels {
-  WordsVec operator()(Words d, WordsVec words) const noexcept {
+  PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
 #if HWY_TARGET == HWY_SCALAR
-    const auto red = hn::And(hn::ShiftRight<16>(words), hn::Set(d, 0xffu));
-    const auto green = hn::And(words, hn::Set(d, 0xff00u));
-    const auto blue = hn::ShiftLeft<16>(hn::And(words, hn::Set(d, 0xffu)));
+    const auto red = hn::And(hn::ShiftRight<16>(packed_pixels), hn::Set(d, 0xffu));
+    const auto green = hn::And(packed_pixels, hn::Set(d, 0xff00u));
+    const auto blue = hn::ShiftLeft<16>(hn::And(packed_pixels, hn::Set(d, 0xffu)));
     return hn::Or(hn::Or(red, blue), hn::Or(green, hn::Set(d, 0xff000000u)));
 #else
-    const hn::Repartition<std::uint8_t, Words> bytes;
+    const hn::Repartition<std::uint8_t, PackedTag> bytes;
     alignas(16) static constexpr std::uint8_t kRedFirst[16] = {2,  1, 0, 3,  6,  5,  4,  7,
                                                                10, 9, 8, 11, 14, 13, 12, 15};
-    const auto exchanged = hn::TableLookupBytes(hn::BitCast(bytes, words), hn::LoadDup128(bytes, kRedFirst));
+    const auto exchanged = hn::TableLookupBytes(hn::BitCast(bytes, packed_pixels), hn::LoadDup128(bytes, kRedFirst));
     return hn::Or(hn::BitCast(d, exchanged), hn::Set(d, 0xff000000u));
 #endif
   }
@@ -83,63 +83,63 @@ struct IndexPixels {
   const std::uint32_t* pixels;
   std::uint32_t mask, last;
 
-  WordsVec operator()(Words d, WordsVec words) const noexcept {
-    const auto index = hn::Min(hn::And(words, hn::Set(d, mask)), hn::Set(d, last));
-    return hn::GatherIndex(d, pixels, hn::BitCast(hn::RebindToSigned<Words>(), index));
+  PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
+    const auto index = hn::Min(hn::And(packed_pixels, hn::Set(d, mask)), hn::Set(d, last));
+    return hn::GatherIndex(d, pixels, hn::BitCast(hn::RebindToSigned<PackedTag>(), index));
   }
 };
 
-/// The first lanes of a row of pixels, `step` words from one group of 4 to the next.
+/// The first lanes of a row of pixels, `step` packed_pixels from one group of 4 to the next.
 template <int kStep>
-HWY_INLINE WordsVec load_pixels(Words d, const std::uint32_t* words) noexcept {
+HWY_INLINE PackedVec load_pixels(PackedTag d, const std::uint32_t* packed_pixels) noexcept {
 #if HWY_TARGET == HWY_SCALAR
-  return hn::Load(d, words);
+  return hn::Load(d, packed_pixels);
 #else
   if constexpr (kStep == kBlockSize || HWY_LANES(std::uint32_t) <= kBlockSize) {
-    return hn::LoadU(d, words);
+    return hn::LoadU(d, packed_pixels);
   } else {
-    const hn::Half<Words> half;
+    const hn::Half<PackedTag> half;
     if constexpr (HWY_LANES(std::uint32_t) == 2 * kBlockSize) {
-      return hn::Combine(d, hn::LoadU(half, words + kStep), hn::LoadU(half, words));
+      return hn::Combine(d, hn::LoadU(half, packed_pixels + kStep), hn::LoadU(half, packed_pixels));
     } else {
-      const hn::Half<hn::Half<Words>> quarter;
+      const hn::Half<hn::Half<PackedTag>> quarter;
       return hn::Combine(
-          d, hn::Combine(half, hn::LoadU(quarter, words + 3 * kStep), hn::LoadU(quarter, words + 2 * kStep)),
-          hn::Combine(half, hn::LoadU(quarter, words + kStep), hn::LoadU(quarter, words)));
+          d, hn::Combine(half, hn::LoadU(quarter, packed_pixels + 3 * kStep), hn::LoadU(quarter, packed_pixels + 2 * kStep)),
+          hn::Combine(half, hn::LoadU(quarter, packed_pixels + kStep), hn::LoadU(quarter, packed_pixels)));
     }
   }
 #endif
 }
 
-/// Pixels may stand at any address, which a pointer to words must not.
-HWY_INLINE void store_pixels(Words d, WordsVec pixels, std::uint8_t* to) noexcept {
+/// Pixels may stand at any address, which a pointer to packed_pixels must not.
+HWY_INLINE void store_pixels(PackedTag d, PackedVec pixels, std::uint8_t* to) noexcept {
 #if HWY_TARGET == HWY_SCALAR
   const std::uint32_t pixel = hn::GetLane(pixels);
   std::memcpy(to, &pixel, sizeof pixel);
   static_cast<void>(d);
 #else
-  hn::StoreU(hn::BitCast(hn::Repartition<std::uint8_t, Words>(), pixels),
-             hn::Repartition<std::uint8_t, Words>(), to);
+  hn::StoreU(hn::BitCast(hn::Repartition<std::uint8_t, PackedTag>(), pixels),
+             hn::Repartition<std::uint8_t, PackedTag>(), to);
   static_cast<void>(d);
 #endif
 }
 
-/// One row; groups of 4 pixels stand kStep words apart: kBlockPixels in a tile, kBlockSize in a plain row.
+/// One row; groups of 4 pixels stand kStep packed_pixels apart: kBlockPixels in a tile, kBlockSize in a plain row.
 template <int kStep, class Pixels>
-HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px,
+HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels, int width_px,
                                   std::uint8_t* row) noexcept {
-  const Words d;
+  const PackedTag d;
   constexpr int kLanes = static_cast<int>(HWY_LANES(std::uint32_t)), kUnit = std::max(kLanes, kBlockSize);
   int x = 0;
-  for (; x + kUnit <= width_px; x += kUnit, words += kUnit / kBlockSize * kStep, row += 4 * kUnit)
+  for (; x + kUnit <= width_px; x += kUnit, packed_pixels += kUnit / kBlockSize * kStep, row += 4 * kUnit)
     for (int i = 0; i < kUnit; i += kLanes)
-      store_pixels(d, pixels(d, load_pixels<kStep>(d, words + i)), row + 4 * i);
-  // The rest, in memory of its own: neither the words beyond the last pixel nor the bytes beyond the row are
+      store_pixels(d, pixels(d, load_pixels<kStep>(d, packed_pixels + i)), row + 4 * i);
+  // The rest, in memory of its own: neither the packed_pixels beyond the last pixel nor the bytes beyond the row are
   // touched.
   const int rest_px = width_px - x;
   if (rest_px <= 0) return;
   HWY_ALIGN std::uint32_t rest[kUnit] = {};
-  for (int i = 0; i < rest_px; ++i) rest[i] = words[i / kBlockSize * kStep + i % kBlockSize];
+  for (int i = 0; i < rest_px; ++i) rest[i] = packed_pixels[i / kBlockSize * kStep + i % kBlockSize];
   for (int i = 0; i < kUnit; i += kLanes) hn::Store(pixels(d, hn::Load(d, rest + i)), d, rest + i);
   std::memcpy(row, rest, static_cast<std::size_t>(rest_px) * sizeof rest[0]);
 }
@@ -148,14 +148,14 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* wor
 /// Four rows, by blocks of 16 pixels: a block's rows are the quarters of a vector, and four blocks exchange
 /// them.
 template <class Pixels>
-HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* words, int width_px,
+HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels, int width_px,
                                         std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
-  const Words d;
+  const PackedTag d;
   constexpr int kUnit = 4 * kBlockSize;
   int x = 0;
   for (; x + kUnit <= width_px; x += kUnit) {
     const auto block = [&](int i) HWY_ATTR {
-      return pixels(d, hn::Load(d, words + (x / kBlockSize + i) * kBlockPixels)).raw;
+      return pixels(d, hn::Load(d, packed_pixels + (x / kBlockSize + i) * kBlockPixels)).raw;
     };
     const __m512i b0 = block(0), b1 = block(1), b2 = block(2), b3 = block(3);
     const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0)),
@@ -163,7 +163,7 @@ HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_
     const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2)),
                   lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
     const auto store = [&](__m512i row, int y) HWY_ATTR {
-      store_pixels(d, WordsVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
+      store_pixels(d, PackedVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
     };
     store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(2, 0, 2, 0)), 0);
     store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(3, 1, 3, 1)), 1);
@@ -172,7 +172,7 @@ HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_
   }
   if (x == width_px) return;
   for (int y = 0; y < kBlockSize; ++y)
-    scan_out_row_with<kBlockPixels>(pixels, words + x * kBlockSize + y * kBlockSize, width_px - x,
+    scan_out_row_with<kBlockPixels>(pixels, packed_pixels + x * kBlockSize + y * kBlockSize, width_px - x,
                                     first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
 }
 #endif
@@ -185,22 +185,22 @@ HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* ti
   // writing.
   const auto fetch = [&](int y) HWY_ATTR {
     if (y < height_px)
-      fetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px,
+      prefetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px,
                   std::min(kBlockSize, height_px - y));
   };
   fetch(0);
   for (int y = 0; y < height_px; y += kBlockSize) {
     fetch(y + kBlockSize);
-    const std::uint32_t* const words = tile + tile_index(0, y, tile_size);
+    const std::uint32_t* const packed_pixels = tile + tile_index(0, y, tile_size);
     std::uint8_t* const to = first_row + y * stride_bytes;
 #if HWY_TARGET == HWY_AVX3
     if (y + kBlockSize <= height_px) {
-      scan_out_block_row_with(pixels, words, width_px, to, stride_bytes);
+      scan_out_block_row_with(pixels, packed_pixels, width_px, to, stride_bytes);
       continue;
     }
 #endif
     for (int row = 0; row < std::min(kBlockSize, height_px - y); ++row)
-      scan_out_row_with<kBlockPixels>(pixels, words + row * kBlockSize, width_px, to + row * stride_bytes);
+      scan_out_row_with<kBlockPixels>(pixels, packed_pixels + row * kBlockSize, width_px, to + row * stride_bytes);
   }
 }
 
@@ -226,11 +226,11 @@ void scan_out_tile(const ScanOutRule& rule, const std::uint32_t* tile, int tile_
   });
 }
 
-void scan_out_row(const ScanOutRule& rule, const std::uint32_t* words, int width_px,
+void scan_out_row(const ScanOutRule& rule, const std::uint32_t* packed_pixels, int width_px,
                   std::uint8_t* row) noexcept {
   TESSERA_ASSERT(width_px >= 0);
   with_pixels(rule, [&](const auto& pixels)
-                        HWY_ATTR { scan_out_row_with<kBlockSize>(pixels, words, width_px, row); });
+                        HWY_ATTR { scan_out_row_with<kBlockSize>(pixels, packed_pixels, width_px, row); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -266,13 +266,13 @@ void ScanOut::set(const ColorLayout& layout, const Palette* palette, ByteOrder o
                         std::uint32_t{c.b} << b_byte | 0xff000000u);
     pixels_.push_back(0xff000000u);  // black, for all that was not given
     rule_.index = true;
-    rule_.index_mask = layout.word_mask();
+    rule_.index_mask = layout.value_mask();
     rule_.last_index = static_cast<std::uint32_t>(given);
     rule_.pixels = pixels_.data();
   } else if (layout.luminance) {
-    rule_.components = {component_rule(layout.word_mask(), 0, r_byte),
-                        component_rule(layout.word_mask(), 0, 8),
-                        component_rule(layout.word_mask(), 0, b_byte)};
+    rule_.components = {component_rule(layout.value_mask(), 0, r_byte),
+                        component_rule(layout.value_mask(), 0, 8),
+                        component_rule(layout.value_mask(), 0, b_byte)};
   } else {
     rule_.components = {component_rule((1u << layout.r_bits) - 1, layout.r_shift(), r_byte),
                         component_rule((1u << layout.g_bits) - 1, layout.g_shift(), 8),

@@ -1,4 +1,4 @@
-// Scan-out: stored words -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha
+// Scan-out: packed pixels -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha
 // 255 or as stored. Twin: scan_out_reference.h.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace tessera {
 /// Bytes of a pixel in memory, in this order.
 enum class ByteOrder : std::uint8_t { rgba8, bgra8 };
 
-/// How words become pixels. A component is `(word >> shift & mask) * scale`, rounded from 16 fraction bits,
+/// How packed pixels become display pixels. A component is `(word >> shift & mask) * scale`, rounded from 16 fraction bits,
 /// and goes to `byte_shift` of the pixel; an index is looked up.
 struct ScanOutRule {
   struct Component {
@@ -35,7 +35,7 @@ struct ScanOutRule {
 
 using ScanOutTileFn = void(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px,
                            int height_px, std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept;
-using ScanOutRowFn = void(const ScanOutRule& rule, const std::uint32_t* words, int width_px,
+using ScanOutRowFn = void(const ScanOutRule& rule, const std::uint32_t* packed_pixels, int width_px,
                           std::uint8_t* row) noexcept;
 
 /// Set once a frame; const use is thread-safe.
@@ -51,17 +51,17 @@ class ScanOut {
 
   /// The top left width_px x height_px pixels of a tile (tile memory, kTileAlignment aligned) go to the rows
   /// that start at `first_row`, top row first. stride_bytes may be negative. Nothing else is written. Bits of
-  /// a word beyond the layout's are ignored. Bit-identical to shown_pixel_reference() on every instruction
+  /// a word beyond the layout's are ignored. Bit-identical to scan_out_pixel_reference() on every instruction
   /// set. Never fails, never allocates.
   /// @param width_px, height_px  what of the tile lies in the picture: 0 .. tile_size.
   /// @param first_row            any alignment.
-  void tile(const std::uint32_t* tile_words, int tile_size, int width_px, int height_px,
+  void tile(const std::uint32_t* packed_tile, int tile_size, int width_px, int height_px,
             std::uint8_t* first_row, std::ptrdiff_t stride_bytes) const noexcept {
-    tile_fn_(rule_, tile_words, tile_size, width_px, height_px, first_row, stride_bytes);
+    tile_fn_(rule_, packed_tile, tile_size, width_px, height_px, first_row, stride_bytes);
   }
-  /// The same for one row of words, left to right.
-  void row(const std::uint32_t* words, int width_px, std::uint8_t* row_bytes) const noexcept {
-    row_fn_(rule_, words, width_px, row_bytes);
+  /// The same for one row of packed pixels, left to right.
+  void row(const std::uint32_t* packed_pixels, int width_px, std::uint8_t* row_bytes) const noexcept {
+    row_fn_(rule_, packed_pixels, width_px, row_bytes);
   }
 
  private:

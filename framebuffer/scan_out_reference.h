@@ -8,18 +8,18 @@
 namespace tessera {
 
 /// The four bytes of a pixel, the first one lowest.
-inline std::uint32_t shown_pixel_reference(const ColorLayout& layout, const Palette* palette, ByteOrder order,
+inline std::uint32_t scan_out_pixel_reference(const ColorLayout& layout, const Palette* palette, ByteOrder order,
                                            std::uint32_t word) noexcept {
   std::uint32_t r, g, b;
   if (layout.index) {
-    const Rgb8 entry = (*palette)[word & layout.word_mask()];
+    const Rgb8 entry = (*palette)[word & layout.value_mask()];
     r = entry.r, g = entry.g, b = entry.b;
   } else if (layout.luminance) {
-    r = g = b = shown_level(word & layout.word_mask(), layout.bits);
+    r = g = b = display_level(word & layout.value_mask(), layout.bits);
   } else {
-    r = shown_level((word & layout.r_mask()) >> layout.r_shift(), layout.r_bits);
-    g = shown_level((word & layout.g_mask()) >> layout.g_shift(), layout.g_bits);
-    b = shown_level(word & layout.b_mask(), layout.b_bits);
+    r = display_level((word & layout.r_mask()) >> layout.r_shift(), layout.r_bits);
+    g = display_level((word & layout.g_mask()) >> layout.g_shift(), layout.g_bits);
+    b = display_level(word & layout.b_mask(), layout.b_bits);
   }
   const std::uint32_t a = layout.alpha_bits == 0 ? 255 : (word & layout.alpha_mask()) >> layout.bits;
   return order == ByteOrder::rgba8 ? r | g << 8 | b << 16 | a << 24 : b | g << 8 | r << 16 | a << 24;

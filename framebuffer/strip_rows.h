@@ -53,7 +53,7 @@ struct StripRows {
   }
   /// Of pixel x, a multiple of 4, of row y; in the same tile those of pixel x + 4 come kBlockPixels later.
   /// Behind the last tile it is some pixel of that, for those who mask it away.
-  const std::uint32_t* words(int x, int y) const noexcept {
+  const std::uint32_t* pixels(int x, int y) const noexcept {
     const std::size_t tile = std::min(
         static_cast<std::size_t>(x) >> std::countr_zero(static_cast<unsigned>(tile_size)), tiles.size() - 1);
     return tiles[tile] + tile_index(x & (tile_size - 1), y, tile_size);

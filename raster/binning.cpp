@@ -14,13 +14,13 @@ namespace tessera {
 #define TESSERA_BINNING_SHARED
 /// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges
 /// may touch.
-void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
+void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
                         const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1);
 /// Clips one triangle and bins what is left of it.
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
-                          std::uint8_t codes);
+                          std::uint8_t outcodes);
 /// Whether the side that is seen of a triangle is kept.
-inline bool keeps(const BinDraw& draw, std::uint32_t triangle, double area) {
+inline bool passes_face_culling(const BinDraw& draw, std::uint32_t triangle, double area) {
   const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front
                                             : is_front(area, draw.front_is_clockwise);
   return front ? draw.keep_front : draw.keep_back;
@@ -33,20 +33,20 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 // A group of triangles as arrays, so that bounds and areas become lanes.
-inline constexpr int kGroup = 16;
-struct Group {
+inline constexpr int kBinningGroupSize = 16;
+struct BinningGroup {
   int count = 0;
-  std::uint32_t ids[kGroup];
-  alignas(64) std::int32_t x[3][kGroup], y[3][kGroup];
-  alignas(64) double area[kGroup];
-  alignas(64) std::int32_t turn[kGroup];  // the area's sign
-  alignas(64) std::int32_t px0[kGroup], py0[kGroup], px1[kGroup],
-      py1[kGroup];                            // pixels whose centres the bounds hold, inclusive
-  alignas(64) std::int32_t kept[kGroup];      // 1: the side that is seen is
-  alignas(64) std::int32_t extent[kGroup];    // the greater one of width and height
-  alignas(64) std::int32_t tile[kGroup];      // of the first pixel
-  alignas(64) std::int32_t to_other[kGroup];  // from there to the other one, of two
-  alignas(64) std::int32_t fate[kGroup];
+  std::uint32_t ids[kBinningGroupSize];
+  alignas(64) std::int32_t x[3][kBinningGroupSize], y[3][kBinningGroupSize];
+  alignas(64) double area[kBinningGroupSize];
+  alignas(64) std::int32_t area_sign[kBinningGroupSize];  // the area's sign
+  alignas(64) std::int32_t px0[kBinningGroupSize], py0[kBinningGroupSize], px1[kBinningGroupSize],
+      py1[kBinningGroupSize];                            // pixels whose centres the bounds hold, inclusive
+  alignas(64) std::int32_t passes_culling[kBinningGroupSize];      // 1: the side that is seen is
+  alignas(64) std::int32_t extent[kBinningGroupSize];    // the greater one of width and height
+  alignas(64) std::int32_t tile[kBinningGroupSize];      // of the first pixel
+  alignas(64) std::int32_t second_tile_offset[kBinningGroupSize];  // from there to the other one, of two
+  alignas(64) std::int32_t triangle_class[kBinningGroupSize];
 
   HWY_INLINE void add(const BinDraw& draw, std::uint32_t triangle, std::uint32_t i0, std::uint32_t i1,
                       std::uint32_t i2) {
@@ -59,13 +59,13 @@ struct Group {
   /// Sixteen in a row. @pre empty
   HWY_INLINE void fill(const BinDraw& draw, std::uint32_t first) {
 #if HWY_TARGET == HWY_SCALAR
-    for (std::uint32_t t = first; t < first + kGroup; ++t)
+    for (std::uint32_t t = first; t < first + kBinningGroupSize; ++t)
       add(draw, t, vertex_index<3>(draw, t, 0), vertex_index<3>(draw, t, 1), vertex_index<3>(draw, t, 2));
 #else
-    for (int t = 0; t < kGroup; ++t) ids[t] = first + static_cast<std::uint32_t>(t);
+    for (int t = 0; t < kBinningGroupSize; ++t) ids[t] = first + static_cast<std::uint32_t>(t);
     const std::uint32_t* const indices =
         draw.indices != nullptr ? draw.indices + std::size_t{first} * 3 : nullptr;
-    for (std::uint32_t t = 0; t < kGroup; t += 4)
+    for (std::uint32_t t = 0; t < kBinningGroupSize; t += 4)
       for (std::uint32_t corner = 0; corner < 3; ++corner) {
         const WindowVertex* v[4];
         for (std::uint32_t k = 0; k < 4; ++k)
@@ -73,7 +73,7 @@ struct Group {
                  (indices != nullptr ? indices[3 * (t + k) + corner] : 3 * (first + t + k) + corner);
         store_four(v, x[corner] + t, y[corner] + t);
       }
-    count = kGroup;
+    count = kBinningGroupSize;
 #endif
   }
 
@@ -93,8 +93,8 @@ struct Group {
 };
 
 // What becomes of a triangle: the first of these that is true.
-enum Fate : std::int32_t {
-  kWithoutArea = 1,
+enum TriangleClass : std::int32_t {
+  kZeroArea = 1,
   kCulled = 2,
   kOutside = 4,
   kInOneTile = 8,
@@ -102,67 +102,67 @@ enum Fate : std::int32_t {
   kInSeveralTiles = 32
 };
 
-HWY_INLINE void decide_fates(Group& g, const BinDraw& draw, int shift, int columns) {
-  for (int k = g.count; k < kGroup; ++k)
+HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shift, int columns) {
+  for (int k = g.count; k < kBinningGroupSize; ++k)
     for (int corner = 0; corner < 3; ++corner) g.x[corner][k] = g.y[corner][k] = 0;
-  for (int k = 0; k < kGroup; ++k) {
+  for (int k = 0; k < kBinningGroupSize; ++k) {
     const double dx1 = g.x[1][k] - g.x[0][k], dy1 = g.y[1][k] - g.y[0][k], dx2 = g.x[2][k] - g.x[0][k],
                  dy2 = g.y[2][k] - g.y[0][k];
     const double area = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
     g.area[k] = area;
-    g.turn[k] = (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
+    g.area_sign[k] = (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
   }
   if (draw.facing != nullptr) {
     for (int k = 0; k < g.count; ++k)
-      g.kept[k] = (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
+      g.passes_culling[k] = (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
   } else {
-    const std::int32_t of_negative = is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back,
-                       of_positive = is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
-    for (int k = 0; k < kGroup; ++k) g.kept[k] = g.turn[k] < 0 ? of_negative : of_positive;
+    const std::int32_t keeps_negative = is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back,
+                       keeps_positive = is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
+    for (int k = 0; k < kBinningGroupSize; ++k) g.passes_culling[k] = g.area_sign[k] < 0 ? keeps_negative : keeps_positive;
   }
   const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
   const std::int32_t reach = draw.sample_reach, two_tiles = 2 << (shift + kSubpixelBits);
-  for (int k = 0; k < kGroup; ++k) {
-    const std::int32_t low_x = least(g.x[0][k], g.x[1][k], g.x[2][k]),
-                       high_x = greatest(g.x[0][k], g.x[1][k], g.x[2][k]);
-    const std::int32_t low_y = least(g.y[0][k], g.y[1][k], g.y[2][k]),
-                       high_y = greatest(g.y[0][k], g.y[1][k], g.y[2][k]);
-    g.px0[k] = greatest(first_pixel(low_x - reach), rect.x0);
-    g.py0[k] = greatest(first_pixel(low_y - reach), rect.y0);
-    g.px1[k] = least(last_pixel(high_x + reach), rect.x1 - 1);
-    g.py1[k] = least(last_pixel(high_y + reach), rect.y1 - 1);
+  for (int k = 0; k < kBinningGroupSize; ++k) {
+    const std::int32_t low_x = min_of(g.x[0][k], g.x[1][k], g.x[2][k]),
+                       high_x = max_of(g.x[0][k], g.x[1][k], g.x[2][k]);
+    const std::int32_t low_y = min_of(g.y[0][k], g.y[1][k], g.y[2][k]),
+                       high_y = max_of(g.y[0][k], g.y[1][k], g.y[2][k]);
+    g.px0[k] = max_of(first_pixel(low_x - reach), rect.x0);
+    g.py0[k] = max_of(first_pixel(low_y - reach), rect.y0);
+    g.px1[k] = min_of(last_pixel(high_x + reach), rect.x1 - 1);
+    g.py1[k] = min_of(last_pixel(high_y + reach), rect.y1 - 1);
     const std::int32_t first_column = g.px0[k] >> shift, first_row = g.py0[k] >> shift;
     g.tile[k] = first_row * columns + first_column;
     const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
-    g.to_other[k] = down == 0 ? 1 : columns;
-    g.extent[k] = greatest(high_x - low_x, high_y - low_y);
-    const std::int32_t of_more = across + down == 1 && g.extent[k] <= two_tiles
+    g.second_tile_offset[k] = down == 0 ? 1 : columns;
+    g.extent[k] = max_of(high_x - low_x, high_y - low_y);
+    const std::int32_t multi_tile_class = across + down == 1 && g.extent[k] <= two_tiles
                                      ? kInTwoTiles
                                      : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
-    const std::int32_t of_seen = across + down == 0 ? kInOneTile : of_more;
-    const std::int32_t of_kept = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : of_seen;
-    g.fate[k] = g.turn[k] == 0 ? kWithoutArea : g.kept[k] == 0 ? kCulled : of_kept;
+    const std::int32_t visible_class = across + down == 0 ? kInOneTile : multi_tile_class;
+    const std::int32_t kept_class = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : visible_class;
+    g.triangle_class[k] = g.area_sign[k] == 0 ? kZeroArea : g.passes_culling[k] == 0 ? kCulled : kept_class;
   }
 }
 
 /// Of triangles of a pixel's size many lie between centres: with no more than 2x2 of those in their bounds
 /// that is found out here, and tiles need not look at them.
-HWY_INLINE void drop_missed(Group& g) {
-  for (int first = 0; first < kGroup; first += kLanes) {
+HWY_INLINE void cull_between_samples(BinningGroup& g) {
+  for (int first = 0; first < kBinningGroupSize; first += kLanes) {
     const auto load = [first](const std::int32_t* array) HWY_ATTR { return hn::Load(kInt, array + first); };
-    const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0), fate = load(g.fate);
-    const Int further = hn::Max(hn::Sub(load(g.px1), px0), hn::Sub(load(g.py1), py0));
+    const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0), triangle_class = load(g.triangle_class);
+    const Int max_pixel_extent = hn::Max(hn::Sub(load(g.px1), px0), hn::Sub(load(g.py1), py0));
     const auto is_small =
-        hn::And(hn::Lt(further, splat(2)),
+        hn::And(hn::Lt(max_pixel_extent, splat(2)),
                 hn::Lt(load(g.extent), splat(3 * kSubpixelScale)));  // the rectangle may have cut larger ones
-    const auto in_question = hn::And(is_small, hn::Gt(fate, splat(std::int32_t{kOutside})));
+    const auto in_question = hn::And(is_small, hn::Gt(triangle_class, splat(std::int32_t{kOutside})));
     if (hn::AllFalse(kInt, in_question)) continue;
     const auto from_center = [&](const std::int32_t* at, Int pixel) HWY_ATTR {
       return hn::Sub(load(at), hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(kHalfPixel)));
     };
     const Int x0 = from_center(g.x[0], px0), x1 = from_center(g.x[1], px0), x2 = from_center(g.x[2], px0);
     const Int y0 = from_center(g.y[0], py0), y1 = from_center(g.y[1], py0), y2 = from_center(g.y[2], py0);
-    const auto turns_left = hn::Lt(load(g.turn), zero);
+    const auto turns_left = hn::Lt(load(g.area_sign), zero);
     const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0},
               y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
     Int outside[4] = {zero, zero, zero, zero};  // whose sign is that of an edge that the centre is outside of
@@ -182,29 +182,29 @@ HWY_INLINE void drop_missed(Group& g) {
     }
     const auto is_missed =
         hn::Lt(hn::And(hn::And(outside[0], outside[1]), hn::And(outside[2], outside[3])), zero);
-    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), fate), kInt,
-              g.fate + first);
+    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), triangle_class), kInt,
+              g.triangle_class + first);
   }
 }
 
-HWY_INLINE std::uint32_t bits_of(const Group& g, Fate fate) {
+HWY_INLINE std::uint32_t class_mask(const BinningGroup& g, TriangleClass triangle_class) {
   std::uint32_t bits = 0;
-  for (int k = 0; k < kGroup; k += kLanes)
-    bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.fate + k), splat(std::int32_t{fate}))) << k;
-  return bits & of_first(g.count);
+  for (int k = 0; k < kBinningGroupSize; k += kLanes)
+    bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.triangle_class + k), splat(std::int32_t{triangle_class}))) << k;
+  return bits & low_bits_mask(g.count);
 }
 
 /// Entries of a group for the two tiles that came last: what follows one another is mostly in one and the
 /// same tile, or along a border in the same two.
-struct WaitingEntries {
+struct BinWriteCache {
   Bins& bins;
   const std::uint32_t draw;
   int tile[2] = {-1, -1};
   std::uint32_t count[2] = {0, 0};
   int last = 0;
-  std::uint32_t ids[2][kGroup];
+  std::uint32_t ids[2][kBinningGroupSize];
 
-  HWY_INLINE WaitingEntries(Bins& to, std::uint32_t of_draw) : bins(to), draw(of_draw) {}
+  HWY_INLINE BinWriteCache(Bins& to, std::uint32_t of_draw) : bins(to), draw(of_draw) {}
   HWY_INLINE void add(int to, std::uint32_t id) {
     if (tile[last] != to) {
       last ^= 1;
@@ -221,70 +221,70 @@ struct WaitingEntries {
   }
 };
 
-HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, Group& g) {
+HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, BinningGroup& g) {
   if (g.count == 0) return;
   const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7, columns = grid.columns();
-  decide_fates(g, draw, shift, columns);
-  if (draw.sample_reach == 0) drop_missed(g);
-  const std::uint32_t in_one = bits_of(g, kInOneTile), in_two = bits_of(g, kInTwoTiles),
-                      in_few = in_one | in_two, binned = in_few | bits_of(g, kInSeveralTiles);
+  classify_triangles(g, draw, shift, columns);
+  if (draw.sample_reach == 0) cull_between_samples(g);
+  const std::uint32_t in_one = class_mask(g, kInOneTile), in_two = class_mask(g, kInTwoTiles),
+                      in_few = in_one | in_two, binned = in_few | class_mask(g, kInSeveralTiles);
   BinCounts& counts = bins.counts;
   const auto count_of = [](std::uint32_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); };
-  counts.zero_area += count_of(bits_of(g, kWithoutArea));
-  counts.culled += count_of(bits_of(g, kCulled));
-  counts.outside += count_of(bits_of(g, kOutside));
+  counts.zero_area += count_of(class_mask(g, kZeroArea));
+  counts.culled += count_of(class_mask(g, kCulled));
+  counts.outside += count_of(class_mask(g, kOutside));
   counts.binned += count_of(binned);
-  WaitingEntries waiting(bins, draw.draw);
+  BinWriteCache cache(bins, draw.draw);
   for (std::uint32_t left = binned; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     if ((in_few >> k & 1) != 0) {
-      waiting.add(g.tile[k], g.ids[k]);
-      if ((in_two >> k & 1) != 0) waiting.add(g.tile[k] + g.to_other[k], g.ids[k]);
+      cache.add(g.tile[k], g.ids[k]);
+      if ((in_two >> k & 1) != 0) cache.add(g.tile[k] + g.second_tile_offset[k], g.ids[k]);
       continue;
     }
-    waiting.push();
+    cache.push();
     const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)],
                                       &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)],
                                       &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
-    bin_large_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift,
+    bin_multi_tile_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift,
                        g.px1[k] >> shift, g.py1[k] >> shift);
   }
-  waiting.push();
+  cache.push();
   g.count = 0;
 }
 
 /// What is to be done with a triangle of which some vertex has a code.
-enum class Coded { unusable, outside, clipped };
-HWY_INLINE Coded coded(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0, std::uint8_t c1,
+enum class ClipDecision { unusable, outside, clipped };
+HWY_INLINE ClipDecision clip_decision(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0, std::uint8_t c1,
                        std::uint8_t c2) {
   if (((c0 | c1 | c2) & kNonFinite) != 0 ||
       (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped))
-    return Coded::unusable;
-  return (c0 & c1 & c2) != 0 ? Coded::outside : Coded::clipped;
+    return ClipDecision::unusable;
+  return (c0 & c1 & c2) != 0 ? ClipDecision::outside : ClipDecision::clipped;
 }
 
 void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                          std::uint32_t last) {
   BinCounts& counts = bins.counts;
   counts.triangles_in += last - first;
-  Group group;
+  BinningGroup group;
   std::uint32_t triangle = first;
-  if (!draw.any_code)
-    for (; triangle + kGroup <= last; triangle += kGroup) {
+  if (!draw.any_outcode)
+    for (; triangle + kBinningGroupSize <= last; triangle += kBinningGroupSize) {
       group.fill(draw, triangle);
       bin_group(bins, grid, draw, group);
     }
   for (; triangle < last; ++triangle) {
     const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1),
                         i2 = vertex_index<3>(draw, triangle, 2);
-    if (draw.any_code) {
-      const std::uint8_t c0 = draw.codes[i0], c1 = draw.codes[i1], c2 = draw.codes[i2];
+    if (draw.any_outcode) {
+      const std::uint8_t c0 = draw.outcodes[i0], c1 = draw.outcodes[i1], c2 = draw.outcodes[i2];
       const bool is_dropped = draw.facing != nullptr && draw.facing[triangle] == Facing::dropped;
       if ((c0 | c1 | c2) != 0 || is_dropped) {
-        switch (coded(draw, triangle, c0, c1, c2)) {
-          case Coded::unusable: ++counts.non_finite; break;
-          case Coded::outside: ++counts.outside; break;
-          case Coded::clipped:
+        switch (clip_decision(draw, triangle, c0, c1, c2)) {
+          case ClipDecision::unusable: ++counts.non_finite; break;
+          case ClipDecision::outside: ++counts.outside; break;
+          case ClipDecision::clipped:
             bin_group(bins, grid, draw, group);  // order within a tile is submission order
             ++counts.clipped;
             bin_clipped_triangle(bins, grid, draw, triangle, c0 | c1 | c2);
@@ -294,7 +294,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
       }
     }
     group.add(draw, triangle, i0, i1, i2);
-    if (group.count == kGroup) bin_group(bins, grid, draw, group);
+    if (group.count == kBinningGroupSize) bin_group(bins, grid, draw, group);
   }
   bin_group(bins, grid, draw, group);
 }
@@ -311,7 +311,7 @@ void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::u
   TESSERA_KERNEL(isa, bin_triangles_lanes)(bins, grid, draw, first, last);
 }
 
-void bin_large_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
+void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
                         const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
   // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the
   // tile is outside. Ties at 0 belong to the fill rule and are left to the tile.
@@ -349,23 +349,23 @@ ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_
   v.object = {p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f};
   const TransformedVertex transformed = transform_vertex(*draw.transform, *v.object);
   v.position = transformed.position;
-  v.is_rough = transformed.is_rough;
+  v.needs_exact = transformed.needs_exact;
   const float* a = draw.attributes + std::size_t{vertex} * static_cast<std::size_t>(draw.attribute_stride);
   for (int j = 0; j < attribute_count; ++j) v.attributes[j] = a[j];
   return v;
 }
 
-WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes,
+WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t outcodes,
                              int attribute_count) {
   const ClipVertex corners[3] = {clip_vertex(draw, vertex_index<3>(draw, triangle, 0), attribute_count),
                                  clip_vertex(draw, vertex_index<3>(draw, triangle, 1), attribute_count),
                                  clip_vertex(draw, vertex_index<3>(draw, triangle, 2), attribute_count)};
-  return WindowPolygon(*draw.transform, clip_triangle(*draw.transform, corners, codes, attribute_count));
+  return WindowPolygon(*draw.transform, clip_triangle(*draw.transform, corners, outcodes, attribute_count));
 }
 
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
-                          std::uint8_t codes) {
-  const WindowPolygon polygon = clip_to_window(draw, triangle, codes, draw.attribute_count);
+                          std::uint8_t outcodes) {
+  const WindowPolygon polygon = clip_to_window(draw, triangle, outcodes, draw.attribute_count);
   if (polygon.clipped.count == 0) {
     ++bins.counts.outside;
     return;
@@ -374,7 +374,7 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     ++bins.counts.zero_area;
     return;
   }
-  if (!keeps(draw, triangle, polygon.area)) {  // facing belongs to the whole of it
+  if (!passes_face_culling(draw, triangle, polygon.area)) {  // facing belongs to the whole of it
     ++bins.counts.culled;
     return;
   }
@@ -388,15 +388,15 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0),
               py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
     if (px0 > px1 || py0 > py1) continue;
-    Piece& piece = bins.add_piece(triangle, 3, draw.attribute_count);
+    DerivedPrimitive& derived = bins.add_derived(triangle, 3, draw.attribute_count);
     for (int k = 0; k < 3; ++k) {
-      piece.vertices[k] = polygon.window[corner[k]];
+      derived.vertices[k] = polygon.window[corner[k]];
       std::copy_n(polygon.clipped.vertices[corner[k]].attributes, draw.attribute_count,
-                  bins.attributes(piece) + k * draw.attribute_count);
+                  bins.attributes(derived) + k * draw.attribute_count);
     }
     ++bins.counts.binned;
-    const WindowVertex* const v[3] = {&piece.vertices[0], &piece.vertices[1], &piece.vertices[2]};
-    bin_large_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.id_of_last_piece(),
+    const WindowVertex* const v[3] = {&derived.vertices[0], &derived.vertices[1], &derived.vertices[2]};
+    bin_multi_tile_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.last_derived_id(),
                        px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size,
                        py1 / grid.tile_size);
   }

@@ -35,8 +35,8 @@ struct BinDraw {
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
-  const std::uint8_t* codes = nullptr;
-  bool any_code = false;  ///< false: no vertex has one
+  const std::uint8_t* outcodes = nullptr;
+  bool any_outcode = false;  ///< false: no vertex has one
   bool keep_front = true, keep_back = true;
   bool front_is_clockwise = false;  ///< seen in the window
   const Facing* facing =
@@ -68,9 +68,9 @@ std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint
 /// A vertex with its attributes, before clipping.
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
 
-/// A triangle after clipping, with the attributes that are asked for. @param codes  the three vertices' codes
+/// A triangle after clipping, with the attributes that are asked for. @param outcodes  the three vertices' outcodes
 /// or-ed
-WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t codes,
+WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t outcodes,
                              int attribute_count);
 
 /// Bins a bitmap or an image that changes pixels of a rectangle, not empty.
@@ -89,8 +89,8 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
 void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                   std::uint32_t last, Isa isa);
 /// Pieces of points and lines that stand last in the list of clipped ones. False if they are outside.
-bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw);
-bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw);
+bool bin_derived_point(Bins& bins, const TileGrid& grid, const BinDraw& draw);
+bool bin_derived_line(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 
 /// Culls and bins triangles [first, last) of a draw.
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,

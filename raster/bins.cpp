@@ -6,19 +6,19 @@
 namespace tessera {
 
 std::size_t Bins::bytes() const {
-  return tails_.capacity() * sizeof(Tail) + triangles_.capacity() * sizeof(std::uint32_t) +
-         blocks_.capacity() * sizeof(Block) + pieces_.capacity() * sizeof(Piece) +
+  return tile_lists_.capacity() * sizeof(TileList) + triangles_.capacity() * sizeof(std::uint32_t) +
+         blocks_.capacity() * sizeof(Block) + derived_.capacity() * sizeof(DerivedPrimitive) +
          attributes_.capacity() * sizeof(float);
 }
 
 /// Room for `count` more, if the budget has what that takes: the old memory is given back only after the new
 /// is there.
-/// @param least  bytes of what is to grow step by step
+/// @param min_bytes  bytes of what is to grow step by step
 template <class T>
-bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t least) {
+bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t min_bytes) {
   const std::size_t wanted = items.size() + count, before = items.capacity();
   if (wanted <= before) return true;
-  const std::size_t after = least == 0 ? wanted : std::max({wanted, 2 * before, least / sizeof(T)});
+  const std::size_t after = min_bytes == 0 ? wanted : std::max({wanted, 2 * before, min_bytes / sizeof(T)});
   if (budget_ != nullptr && !budget_->take(after * sizeof(T))) return false;
   items.reserve(after);
   if (budget_ != nullptr) {
@@ -33,67 +33,67 @@ void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   budget_ = budget;
   first_tile_ = first_tile;
   used_ = 0;
-  pieces_.clear();
+  derived_.clear();
   counts = {};
-  tails_.clear();
+  tile_lists_.clear();
   triangles_.clear();
   const std::size_t before = bytes();
   if (blocks_.empty()) blocks_.resize(1);  // the one that is left after an overflow
   attributes_.clear();
   attributes_.assign(kAttributePadding, 0.0f);
   if (budget_ != nullptr) budget_->charge(bytes() - before);
-  overflowed_ = !reserve(tails_, tiles, 0) || !reserve(triangles_, tiles, 0);
+  overflowed_ = !reserve(tile_lists_, tiles, 0) || !reserve(triangles_, tiles, 0);
   tile_mask_ =
       overflowed_ ? 0 : ~std::size_t{0};  // without room for all they share one list, which nobody reads
   const std::size_t lists = overflowed_ ? 1 : tiles;
-  tails_.assign(lists, Tail{kNone, kNone, kNone});
+  tile_lists_.assign(lists, TileList{kNone, kNone, kNone});
   triangles_.assign(lists, 0);
 }
 
 void Bins::overflow() {
   overflowed_ = true;
-  pieces_.clear();
+  derived_.clear();
   attributes_.resize(kAttributePadding);
 }
 
-void Bins::add_block(Tail& tail) {
+void Bins::add_block(TileList& list) {
   if (!overflowed_ && used_ == blocks_.size()) {
     if (reserve(blocks_, 1)) blocks_.resize(blocks_.capacity());
     else overflow();
   }
   if (overflowed_) {  // entries of all tiles go into one block, which nobody reads
     blocks_.front().count = 0;
-    tail.last = 0;
+    list.last = 0;
     return;
   }
   const auto index = static_cast<std::uint32_t>(used_++);
   blocks_[index].count = 0;
   blocks_[index].next = kNone;
-  if (tail.last == kNone) tail.first = index;
-  else blocks_[tail.last].next = index;
-  tail.last = index;
+  if (list.last == kNone) list.first = index;
+  else blocks_[list.last].next = index;
+  list.last = index;
 }
 
-Piece& Bins::add_piece(std::uint32_t source, int corners, int attribute_count) {
+DerivedPrimitive& Bins::add_derived(std::uint32_t source, int corners, int attribute_count) {
   const auto floats = static_cast<std::size_t>(corners * attribute_count);
-  if (overflowed_ || !reserve(pieces_, 1) || !reserve(attributes_, floats)) overflow();
+  if (overflowed_ || !reserve(derived_, 1) || !reserve(attributes_, floats)) overflow();
   const std::size_t first = attributes_.size() - kAttributePadding;
   attributes_.resize(attributes_.size() + floats);
-  Piece& piece = pieces_.emplace_back();
-  piece.source = source;
-  piece.first_attribute = first;
-  return piece;
+  DerivedPrimitive& derived = derived_.emplace_back();
+  derived.source = source;
+  derived.first_attribute = first;
+  return derived;
 }
 
-void Bins::drop_last_piece() {
-  attributes_.resize(pieces_.back().first_attribute + kAttributePadding);
-  pieces_.pop_back();
+void Bins::drop_last_derived() {
+  attributes_.resize(derived_.back().first_attribute + kAttributePadding);
+  derived_.pop_back();
 }
 
 void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile) {
   const auto tiles = static_cast<std::size_t>(tile_count), words = (bins.size() + 63) / 64;
   triangles_.resize(tiles);
-  holding_.resize(tiles * words);
+  batch_mask_.resize(tiles * words);
   bins_ = bins.data();
   count_ = static_cast<std::uint32_t>(bins.size());
   words_ = static_cast<std::uint32_t>(words);
@@ -101,23 +101,23 @@ void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile)
   fill_ = nullptr;
 }
 
-void BinBatches::look_through(int first_tile, int count) {
-  if (one_by_one()) return;
+void BinBatches::index_batches(int first_tile, int count) {
+  if (is_streamed()) return;
   const auto tiles = static_cast<std::size_t>(count);
   std::uint64_t* const sums = triangles_.data() + index_of(first_tile);
-  std::uint64_t* const holding = holding_.data() + index_of(first_tile) * words_;
+  std::uint64_t* const batch_mask = batch_mask_.data() + index_of(first_tile) * words_;
   std::fill_n(sums, tiles, 0);
-  std::fill_n(holding, tiles * words_, 0);
+  std::fill_n(batch_mask, tiles * words_, 0);
   for (std::uint32_t b = 0; b < count_; ++b) {
     const std::uint32_t* const triangles = bins_[b].triangles_from(first_tile);
     for (std::size_t t = 0; t < tiles; ++t) {
       sums[t] += triangles[t];
-      holding[t * words_ + b / 64] |= std::uint64_t{triangles[t] != 0} << b % 64;
+      batch_mask[t * words_ + b / 64] |= std::uint64_t{triangles[t] != 0} << b % 64;
     }
   }
 }
 
-void BinBatches::set_one_by_one(const Bins& place, std::uint32_t count,
+void BinBatches::set_streamed(const Bins& place, std::uint32_t count,
                                 std::function<void(std::uint32_t)> fill) {
   bins_ = &place;
   count_ = count;

@@ -17,12 +17,12 @@ namespace tessera {
 // A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an
 // image is a marker alone.
 inline constexpr std::uint32_t kDrawMarker = 0x80000000u;
-inline constexpr std::uint32_t kPiece =
+inline constexpr std::uint32_t kDerivedBit =
     0x40000000u;  ///< the id counts in the batch's own list of clipped triangles
-inline constexpr std::uint32_t kMaxTriangles = kPiece - 1;
+inline constexpr std::uint32_t kMaxTriangles = kDerivedBit - 1;
 
 /// A part of an element that has vertices of its own: what clipping left, or an edge or corner of a polygon.
-struct Piece {
+struct DerivedPrimitive {
   WindowVertex vertices[3];
   std::size_t first_attribute = 0;  ///< see Bins::attributes()
   std::uint32_t source = 0;         ///< the element that it is a part of
@@ -99,12 +99,12 @@ class Bins {
 
   void push(int tile, std::uint32_t draw, std::uint32_t id) { push(tile, draw, std::span(&id, 1)); }
   void push(int tile, std::uint32_t draw, std::span<const std::uint32_t> ids) {
-    Tail& tail = tail_of(tile);
-    if (tail.draw != draw) mark(tail, draw);
+    TileList& list = list_of(tile);
+    if (list.draw != draw) push_draw_marker(list, draw);
     triangles_[index_of(tile)] += static_cast<std::uint32_t>(ids.size());
     counts.entries += ids.size();
     while (!ids.empty()) {
-      Block& block = block_with_room(tail);
+      Block& block = block_with_room(list);
       const std::size_t copied = std::min<std::size_t>(ids.size(), kBlockEntries - block.count);
       std::copy_n(ids.data(), copied, block.entries + block.count);
       block.count += static_cast<std::uint32_t>(copied);
@@ -113,13 +113,13 @@ class Bins {
   }
   /// A draw that is a bitmap or an image.
   void push_draw(int tile, std::uint32_t draw) {
-    Tail& tail = tail_of(tile);
-    mark(tail, draw);
+    TileList& list = list_of(tile);
+    push_draw_marker(list, draw);
     ++triangles_[index_of(tile)];
     ++counts.entries;
   }
   /// The first block of a tile, or kNone. @pre !overflowed()
-  std::uint32_t first(int tile) const { return tail_of(tile).first; }
+  std::uint32_t first(int tile) const { return list_of(tile).first; }
   /// How many triangles a tile's bin holds, bitmaps and images counted as one each; 0: there are no entries.
   /// @pre !overflowed()
   std::uint32_t triangles(int tile) const { return *triangles_from(tile); }
@@ -127,52 +127,52 @@ class Bins {
   const std::uint32_t* triangles_from(int tile) const { return triangles_.data() + index_of(tile); }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
   /// first() of a tile is asked for soon.
-  void fetch_first(int tile) const { __builtin_prefetch(&tail_of(tile)); }
+  void prefetch_first(int tile) const { __builtin_prefetch(&list_of(tile)); }
   /// That block is read soon, unless it is kNone.
-  void fetch_block(std::uint32_t index) const {
+  void prefetch_block(std::uint32_t index) const {
     if (index == kNone) return;
     const auto* const bytes = reinterpret_cast<const char*>(&blocks_[index]);
     for (std::size_t i = 0; i < sizeof(Block); i += kLineBytes) __builtin_prefetch(bytes + i);
   }
 
-  /// A new piece at the end of the list, with room for the attributes of its corners. After an overflow it is
+  /// A new derived primitive at the end of the list, with room for the attributes of its corners. After an overflow it is
   /// the only one. Throws std::bad_alloc.
-  Piece& add_piece(std::uint32_t source, int corners, int attribute_count);
-  void drop_last_piece();
-  const Piece& last_piece() const { return pieces_.back(); }
-  std::uint32_t id_of_last_piece() const { return kPiece | static_cast<std::uint32_t>(pieces_.size() - 1); }
-  const Piece& piece(std::uint32_t id) const { return pieces_[id & ~kPiece]; }
-  /// Attributes of a piece, corner by corner; behind the last one kAttributePadding more floats may be read.
-  float* attributes(const Piece& piece) { return attributes_.data() + piece.first_attribute; }
-  const float* attributes(const Piece& piece) const { return attributes_.data() + piece.first_attribute; }
+  DerivedPrimitive& add_derived(std::uint32_t source, int corners, int attribute_count);
+  void drop_last_derived();
+  const DerivedPrimitive& last_derived() const { return derived_.back(); }
+  std::uint32_t last_derived_id() const { return kDerivedBit | static_cast<std::uint32_t>(derived_.size() - 1); }
+  const DerivedPrimitive& derived(std::uint32_t id) const { return derived_[id & ~kDerivedBit]; }
+  /// Attributes of a derived primitive, corner by corner; behind the last one kAttributePadding more floats may be read.
+  float* attributes(const DerivedPrimitive& derived) { return attributes_.data() + derived.first_attribute; }
+  const float* attributes(const DerivedPrimitive& derived) const { return attributes_.data() + derived.first_attribute; }
 
   BinCounts counts;
   ClippedBoundary boundary;  ///< memory for one polygon after the other
 
  private:
-  struct Tail {
+  struct TileList {
     std::uint32_t first, last, draw;
   };
   std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_) & tile_mask_; }
-  Tail& tail_of(int tile) { return tails_[index_of(tile)]; }
-  const Tail& tail_of(int tile) const { return tails_[index_of(tile)]; }
-  Block& block_with_room(Tail& tail) {
-    if (tail.last == kNone || blocks_[tail.last].count == kBlockEntries) add_block(tail);
-    return blocks_[tail.last];
+  TileList& list_of(int tile) { return tile_lists_[index_of(tile)]; }
+  const TileList& list_of(int tile) const { return tile_lists_[index_of(tile)]; }
+  Block& block_with_room(TileList& list) {
+    if (list.last == kNone || blocks_[list.last].count == kBlockEntries) add_block(list);
+    return blocks_[list.last];
   }
-  void mark(Tail& tail, std::uint32_t draw) {
-    Block& block = block_with_room(tail);
+  void push_draw_marker(TileList& list, std::uint32_t draw) {
+    Block& block = block_with_room(list);
     block.entries[block.count++] = kDrawMarker | draw;
-    tail.draw = draw;
+    list.draw = draw;
   }
-  void add_block(Tail& tail);
+  void add_block(TileList& list);
   void overflow();
   template <class T>
-  bool reserve(std::vector<T>& items, std::size_t count, std::size_t least = 16384);
+  bool reserve(std::vector<T>& items, std::size_t count, std::size_t min_bytes = 16384);
 
-  std::vector<Piece> pieces_;
-  std::vector<float> attributes_;  // of the pieces, and padding
-  std::vector<Tail> tails_;
+  std::vector<DerivedPrimitive> derived_;
+  std::vector<float> attributes_;  // of the derived primitives, and padding
+  std::vector<TileList> tile_lists_;
   std::vector<std::uint32_t>
       triangles_;  // of each tile: beside each other, for those who look at some of many batches
   std::vector<Block> blocks_;
@@ -189,22 +189,22 @@ class BinBatches {
   /// Batches of tiles first_tile, first_tile + 1, ..., which stay where they are. Throws std::bad_alloc.
   void set(std::span<const Bins> bins, int tile_count, int first_tile = 0);
   /// Notes what the batches hold of `count` tiles, before anything else is asked of these: often few batches
-  /// hold anything, and the others need not be read. Different tiles may be looked through at the same time.
-  void look_through(int first_tile, int count);
+  /// hold anything, and the others need not be read. Different tiles may be indexed at the same time.
+  void index_batches(int first_tile, int count);
   /// One after the other in one and the same place: `fill(b)` puts batch b there. For a single tile, whose
-  /// batches together take too much. Nothing is to be looked through.
-  void set_one_by_one(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
+  /// batches together take too much. index_batches() is not called then.
+  void set_streamed(const Bins& place, std::uint32_t count, std::function<void(std::uint32_t)> fill);
 
   std::uint32_t count() const { return count_; }
-  bool one_by_one() const { return fill_ != nullptr; }
+  bool is_streamed() const { return fill_ != nullptr; }
   /// How many triangles a tile's bins hold, bitmaps and images counted as one each; 0 one by one.
-  std::uint64_t triangles(int tile) const { return one_by_one() ? 0 : triangles_[index_of(tile)]; }
+  std::uint64_t triangles(int tile) const { return is_streamed() ? 0 : triangles_[index_of(tile)]; }
   /// True where a tile has no entries, and that is known.
-  bool untouched(int tile) const { return !one_by_one() && triangles(tile) == 0; }
+  bool known_empty(int tile) const { return !is_streamed() && triangles(tile) == 0; }
   /// The first batch from `batch` on that may hold something of a tile, or count().
   std::uint32_t next(int tile, std::uint32_t batch) const {
-    if (one_by_one() || batch >= count_) return std::min(batch, count_);
-    const std::uint64_t* const words = holding_.data() + index_of(tile) * words_;
+    if (is_streamed() || batch >= count_) return std::min(batch, count_);
+    const std::uint64_t* const words = batch_mask_.data() + index_of(tile) * words_;
     std::uint32_t word = batch / 64;
     std::uint64_t left = words[word] & ~std::uint64_t{0} << batch % 64;
     while (left == 0 && ++word < words_) left = words[word];
@@ -218,7 +218,7 @@ class BinBatches {
   }
   /// Batch b, if it is there already and may be read beside the one that was read last; otherwise null, as
   /// for count().
-  const Bins* ahead(std::uint32_t b) const { return one_by_one() || b >= count_ ? nullptr : bins_ + b; }
+  const Bins* peek(std::uint32_t b) const { return is_streamed() || b >= count_ ? nullptr : bins_ + b; }
 
  private:
   std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_); }
@@ -228,7 +228,7 @@ class BinBatches {
   int first_tile_ = 0;
   std::vector<std::uint64_t> triangles_;  // of each tile
   std::vector<std::uint64_t>
-      holding_;  // words_ for each tile: a bit for each batch that holds something of it
+      batch_mask_;  // words_ for each tile: a bit for each batch that holds something of it
   std::function<void(std::uint32_t)> fill_;
 };
 

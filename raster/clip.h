@@ -21,13 +21,13 @@ struct ClipVertex {
   std::optional<std::array<float, 4>> object{};  ///< a mesh's own vertex, of which the position is the
                                                  ///< rounded transform, times 2^object_exponent
   int object_exponent = 0;
-  bool is_rough = false;  ///< see TransformedVertex
+  bool needs_exact = false;  ///< see TransformedVertex
   float attributes[kMaxAttributes] = {};
 };
 
 inline constexpr int kMaxClippedVertices = 3 + 6;
 
-/// The part of the triangle inside every plane in `codes` (the three vertices' codes or-ed), as a convex
+/// The part of the triangle inside every plane in `outcodes` (the three vertices' outcodes or-ed), as a convex
 /// polygon of at most kMaxClippedVertices vertices in the triangle's own order; empty if nothing is left.
 /// Whatever else has been cut off before, an edge is cut between the triangle's own vertices, and either way
 /// round alike, so neighbours that share it get the very same point. In double; exactly where doubles have
@@ -38,31 +38,31 @@ struct ClippedPolygon {
   int count = 0;
 };
 ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex (&triangle)[3],
-                             std::uint8_t codes, int attribute_count);
+                             std::uint8_t outcodes, int attribute_count);
 
 /// A vertex of what is left, and what the edge from it to the next lies on.
 struct ClipCorner {
   ClipVertex vertex;
   int edge = 0;         ///< the polygon's own, from its vertex of that number on; or
-  ClipCode plane = {};  ///< if that is below 0
+  Outcode plane = {};  ///< if that is below 0
 };
 /// The same of convex polygons of any number of vertices. Its memory is used for one after the other.
 class PolygonClipper {
  public:
   /// What is left is found in `polygon`. Throws std::bad_alloc.
-  void clip(const VertexTransform& transform, std::vector<ClipVertex>& polygon, std::uint8_t codes,
+  void clip(const VertexTransform& transform, std::vector<ClipVertex>& polygon, std::uint8_t outcodes,
             int attribute_count);
 
  private:
   std::vector<ClipCorner> corners_, kept_;
 };
-/// Shortens a line to its part inside every plane in `codes`, with the same points where an edge of a
+/// Shortens a line to its part inside every plane in `outcodes`, with the same points where an edge of a
 /// triangle is cut. False if nothing is left.
-bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t codes,
+bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uint8_t outcodes,
                int attribute_count);
 /// Whether a point is inside the view volume, its border included. Infinite far planes have no outside.
 bool is_in_view(const VertexTransform& transform, const ClipPosition& position);
 /// The same without a look at the near and far planes.
-bool is_between_sides(const ClipPosition& position);
+bool is_inside_side_planes(const ClipPosition& position);
 
 }  // namespace tessera

@@ -20,29 +20,29 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Sets up the narrow edges of lane i for coverage.
-HWY_INLINE void set_tile_edges(TileEdges& t, const TriangleGroup& g, int i) {
+/// Sets up the 32-bit edges of lane i for coverage.
+HWY_INLINE void set_tile_edges32(Edges32& t, const TriangleGroup& g, int i) {
   for (int k = 0; k < 3; ++k) t.a[k] = g.a[k][i], t.b[k] = g.b[k][i], t.e[k] = g.e[k][i];
 }
-HWY_INLINE TileEdges tile_edges(const TriangleGroup& g, int i) {
-  TileEdges t;
-  set_tile_edges(t, g, i);
+HWY_INLINE Edges32 tile_edges32(const TriangleGroup& g, int i) {
+  Edges32 t;
+  set_tile_edges32(t, g, i);
   return t;
 }
 
-/// The same for a wide triangle: an edge that the whole tile is inside of is dropped, any other fits 32 bits
-/// in the tile. False if the tile is outside. `wide` gets the undivided edges.
-inline HWY_NOINLINE bool tile_edges_of_wide(const TriangleGroup& g, int i, int tile_x, int tile_y,
-                                            int tile_size, TileEdges& edges, WideEdges& wide) {
+/// The same for a triangle whose edges need 64 bits: an edge that the whole tile is inside of is dropped, any other fits 32 bits
+/// in the tile. False if the tile is outside. `edges64` gets the undivided edges.
+inline HWY_NOINLINE bool tile_edges64(const TriangleGroup& g, int i, int tile_x, int tile_y,
+                                            int tile_size, Edges32& edges, Edges64& edges64) {
   bool touched = true;
   for (int k = 0; k < 3; ++k) {
     const int p = (k + 1) % 3;
     const std::int64_t a = g.a[k][i], b = g.b[k][i];
     const std::int64_t at_tile = a * (std::int64_t{tile_x} * kSubpixelScale + kHalfPixel - g.x[p][i]) +
                                  b * (std::int64_t{tile_y} * kSubpixelScale + kHalfPixel - g.y[p][i]);
-    wide.a[k] = static_cast<double>(a * kSubpixelScale);
-    wide.b[k] = static_cast<double>(b * kSubpixelScale);
-    wide.e[k] = static_cast<double>(at_tile);
+    edges64.a[k] = static_cast<double>(a * kSubpixelScale);
+    edges64.b[k] = static_cast<double>(b * kSubpixelScale);
+    edges64.e[k] = static_cast<double>(at_tile);
     const bool top_left = a > 0 || (a == 0 && b > 0);
     const std::int64_t e = (at_tile - (top_left ? 0 : 1)) >> kSubpixelBits;
     const std::int64_t reach = tile_size - 1;
@@ -60,7 +60,7 @@ inline HWY_NOINLINE bool tile_edges_of_wide(const TriangleGroup& g, int i, int t
 /// Offsets of the edges at the pixels of a block from its first pixel.
 struct BlockOffsets {
   alignas(64) std::int32_t edge[3][16];
-  HWY_INLINE explicit BlockOffsets(const TileEdges& t) {
+  HWY_INLINE explicit BlockOffsets(const Edges32& t) {
     for (int k = 0; k < 3; ++k) {
       const Int a = splat(t.a[k]), b = splat(t.b[k]);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
@@ -82,7 +82,7 @@ struct BlockEdges {
     return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1));
   }
   /// To the block below.
-  HWY_INLINE void step_down(const TileEdges& t) {
+  HWY_INLINE void step_down(const Edges32& t) {
     for (int k = 0; k < 3; ++k) start[k] += 4 * t.b[k];
   }
 };
@@ -90,7 +90,7 @@ struct BlockEdges {
 /// The same of blocks side by side, one after another.
 struct RowEdges {
   Int edge[3][kChunksPerBlock], to_right[3];
-  HWY_INLINE RowEdges(const TileEdges& t, const BlockEdges& first) {
+  HWY_INLINE RowEdges(const Edges32& t, const BlockEdges& first) {
     for (int k = 0; k < 3; ++k) {
       to_right[k] = splat(4 * t.a[k]);
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) edge[k][chunk] = first.at(k, chunk);
@@ -116,7 +116,7 @@ HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
 
 /// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their
 /// first. Each sum is the edge's value at one of those pixels, so that it fits (fixed_point.h).
-HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns,
+HWY_INLINE std::int32_t min_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns,
                                            int rows) {
   return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
 }
@@ -127,7 +127,7 @@ HWY_INLINE std::int32_t lowest_over_blocks(std::int32_t first, std::int32_t a, s
 /// whole rows of the bounds where all are full. Lanes are blocks: those of a row, or of several short rows;
 /// where all blocks are full nothing is sorted. @pre the offsets are those of the edges
 template <class BlockFunction>
-HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, int x0, int y0, int x1,
+HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, int x0, int y0, int x1,
                                int y1, BlockFunction& block) {
   const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1,
             rows = ((y1 - first_y) >> 2) + 1;
@@ -143,7 +143,7 @@ HWY_INLINE void for_each_block(const TileEdges& t, const BlockOffsets& offsets, 
     to_lane[k] = is_box ? hn::ShiftLeft<2>(hn::Load(kInt, offsets.edge[k]))
                         : hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
     down[k] = splat(4 * t.b[k]);
-    is_whole &= lowest_over_blocks(t.at(k, first_x, first_y), t.a[k], t.b[k], columns, rows) >= 0;
+    is_whole &= min_over_blocks(t.at(k, first_x, first_y), t.a[k], t.b[k], columns, rows) >= 0;
   }
   for (int column = 0; column < columns; column += in_row) {
     const int left = first_x + 4 * column;
@@ -199,9 +199,9 @@ inline HWY_NOINLINE std::uint32_t small_triangles(const TriangleGroup& g) {
   for (int first = 0; first < kGroupSize; first += kLanes) {
     const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first)),
               height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));
-    const auto narrow = hn::Eq(hn::Load(kInt, g.wide + first), hn::Zero(kInt)),
+    const auto fits_edges32 = hn::Eq(hn::Load(kInt, g.needs_edges64 + first), hn::Zero(kInt)),
                fits = hn::And(hn::Lt(width, splat(4)), hn::Lt(height, splat(4)));
-    bits |= mask_bits(kInt, hn::And(narrow, fits)) << first;
+    bits |= mask_bits(kInt, hn::And(fits_edges32, fits)) << first;
   }
   return bits & g.mask;
 }

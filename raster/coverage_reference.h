@@ -13,7 +13,7 @@ __extension__ using Exact = __int128;
 /// One edge of a triangle, positive inside: value at a pixel's centre and its steps to the next pixel, exact.
 struct EdgeReference {
   Exact at_origin = 0, dx = 0, dy = 0;  ///< at pixel (0, 0); for one pixel to the right, one down
-  bool owns_border = false;             ///< pixel centres on the edge belong to the triangle
+  bool is_top_left = false;             ///< pixel centres on the edge belong to the triangle
   Exact at(int x, int y) const { return at_origin + dx * x + dy * y; }
 };
 
@@ -34,7 +34,7 @@ struct TriangleReference {
       edge[k].dy = along_x * kSubpixelScale;
       // The fill rule: a centre on an edge counts as if it lay a hair to the right, and a hair of a hair
       // below.
-      edge[k].owns_border = edge[k].dx > 0 || (edge[k].dx == 0 && edge[k].dy > 0);
+      edge[k].is_top_left = edge[k].dx > 0 || (edge[k].dx == 0 && edge[k].dy > 0);
     }
   }
 
@@ -42,7 +42,7 @@ struct TriangleReference {
     if (area == 0) return false;
     for (const EdgeReference& e : edge) {
       const Exact value = e.at(x, y);
-      if (value < 0 || (value == 0 && !e.owns_border)) return false;
+      if (value < 0 || (value == 0 && !e.is_top_left)) return false;
     }
     return true;
   }
@@ -54,7 +54,7 @@ struct TriangleReference {
     // A border that does not belong to the triangle is moved inwards by the smallest difference that there
     // is.
     Exact row[3];
-    for (int k = 0; k < 3; ++k) row[k] = edge[k].at(x0, y0) - (edge[k].owns_border ? 0 : 1);
+    for (int k = 0; k < 3; ++k) row[k] = edge[k].at(x0, y0) - (edge[k].is_top_left ? 0 : 1);
     for (int y = y0; y < y1; ++y) {
       Exact e[3] = {row[0], row[1], row[2]};
       for (int x = x0; x < x1; ++x) {

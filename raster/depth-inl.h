@@ -125,7 +125,7 @@ struct UnormDepth {
   }
 };
 
-/// 32 bits: see kUnorm32Lift.
+/// 32 bits: see kUnorm32RangeBias.
 struct Unorm32Depth : UnormDepth {
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind) {
     shift = 0;
@@ -134,9 +134,9 @@ struct Unorm32Depth : UnormDepth {
     dy = g.fixed_dy[i];
   }
   static HWY_INLINE std::int32_t key_of(std::uint64_t value) {
-    constexpr std::int64_t kTop = kUnorm32Lift + 0xffffffff;
-    const std::int64_t lifted = static_cast<std::int64_t>(value >> kUnorm32Fraction);
-    const std::int64_t cut = lifted < kUnorm32Lift ? kUnorm32Lift : lifted > kTop ? kTop : lifted;
+    constexpr std::int64_t kTop = kUnorm32RangeBias + 0xffffffff;
+    const std::int64_t biased = static_cast<std::int64_t>(value >> kUnorm32Fraction);
+    const std::int64_t cut = biased < kUnorm32RangeBias ? kUnorm32RangeBias : biased > kTop ? kTop : biased;
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(cut) ^ 0x80000000u);
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }

@@ -24,29 +24,29 @@ HWY_INLINE double slope_of(const TriangleGroup& g, int i) {
 /// Unorm of any size: on the plane of draws without an offset, so that one unit is one level for whoever
 /// draws the same triangle.
 struct OffsetUnormDepth : UnormDepth {
-  int fraction = kUnormFraction;
-  std::int64_t lift = 0, moved = 0;
+  int fraction_bits = kUnormFraction;
+  std::int64_t range_bias = 0, polygon_offset = 0;
   std::uint32_t flip = 0;
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind kind) {
     shift = 32 - depth_bits(kind);
     if (kind == DepthKind::unorm32) {
-      fraction = kUnorm32Fraction;
-      lift = kUnorm32Lift;
+      fraction_bits = kUnorm32Fraction;
+      range_bias = kUnorm32RangeBias;
       flip = 0x80000000u;
     }
     base = g.fixed_base[i];
     dx = g.fixed_dx[i];
     dy = g.fixed_dy[i];
   }
-  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
-    move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift));
+  HWY_INLINE void set_polygon_offset(const TriangleGroup& g, int i, float factor, float units) {
+    set_polygon_offset_value(double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift));
   }
-  HWY_INLINE void move_by(double words) {
+  HWY_INLINE void set_polygon_offset_value(double words) {
     constexpr double kWhole = 0x1p32;  // nothing is further away
-    moved = static_cast<std::int64_t>(std::floor(std::clamp(words, -kWhole, kWhole) + 0.5));
+    polygon_offset = static_cast<std::int64_t>(std::floor(std::clamp(words, -kWhole, kWhole) + 0.5));
   }
   HWY_INLINE std::int32_t key_of(std::uint64_t value) const {
-    const std::int64_t word = static_cast<std::int64_t>(value >> fraction) - lift + moved;
+    const std::int64_t word = static_cast<std::int64_t>(value >> fraction_bits) - range_bias + polygon_offset;
     const std::int64_t cut = word < 0 ? 0 : word > 0xffffffff ? 0xffffffff : word;
     return static_cast<std::int32_t>((static_cast<std::uint32_t>(cut) >> shift) ^ flip);
   }
@@ -62,15 +62,15 @@ struct OffsetUnormDepth : UnormDepth {
 };
 
 struct OffsetFloat32Depth : Float32Depth {
-  float moved = 0;
-  HWY_INLINE void offset_by(const TriangleGroup& g, int i, float factor, float units) {
+  float polygon_offset = 0;
+  HWY_INLINE void set_polygon_offset(const TriangleGroup& g, int i, float factor, float units) {
     const int exponent = std::max(high > 0 ? std::ilogb(high) : -126,
                                   -126);  // of the largest depth; the smallest normal float's
-    move_by(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
+    set_polygon_offset_value(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
   }
-  HWY_INLINE void move_by(double depth) { moved = static_cast<float>(depth); }
+  HWY_INLINE void set_polygon_offset_value(double depth) { polygon_offset = static_cast<float>(depth); }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
-    const Float z = hn::Add(hn::BitCast(kFloat, Float32Depth::keys(block, chunk)), splat(moved));
+    const Float z = hn::Add(hn::BitCast(kFloat, Float32Depth::keys(block, chunk)), splat(polygon_offset));
     return hn::BitCast(kInt, lesser_of(greater_of(z, hn::Zero(kFloat)), splat(1.0f)));
   }
 };

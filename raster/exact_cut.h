@@ -9,10 +9,10 @@
 namespace tessera {
 
 /// The point of an edge on a plane. Absent if there is not just one. Attributes are within those of the ends.
-std::optional<ClipVertex> exact_cut(const VertexTransform& transform, ClipCode plane, const ClipVertex& a,
+std::optional<ClipVertex> exact_edge_intersection(const VertexTransform& transform, Outcode plane, const ClipVertex& a,
                                     const ClipVertex& b, int attribute_count);
 /// The point of a triangle on two planes, likewise.
-std::optional<ClipVertex> exact_crossing(const VertexTransform& transform, ClipCode plane, ClipCode other,
+std::optional<ClipVertex> exact_two_plane_intersection(const VertexTransform& transform, Outcode plane, Outcode other,
                                          const ClipVertex& a, const ClipVertex& b, const ClipVertex& c,
                                          int attribute_count);
 

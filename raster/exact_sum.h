@@ -12,7 +12,7 @@ namespace tessera {
 class ExactSum {
  public:
   void add(double term) {
-    if (count_ == kMostParts) compress();
+    if (count_ == kMaxParts) compress();
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
       const double sum = term + parts_[i], of_term = sum - parts_[i],
@@ -33,12 +33,12 @@ class ExactSum {
   }
   /// a b 2^exponent, which alone has to be within a double's range.
   void add_product(double a, double b, int exponent) {
-    int of_a, of_b;
-    a = std::frexp(a, &of_a);
-    b = std::frexp(b, &of_b);
+    int exponent_a, exponent_b;
+    a = std::frexp(a, &exponent_a);
+    b = std::frexp(b, &exponent_b);
     const double product = a * b;
-    add(std::scalbn(std::fma(a, b, -product), of_a + of_b + exponent));
-    add(std::scalbn(product, of_a + of_b + exponent));
+    add(std::scalbn(std::fma(a, b, -product), exponent_a + exponent_b + exponent));
+    add(std::scalbn(product, exponent_a + exponent_b + exponent));
   }
   void add_product(const ExactSum& a, double b) {
     for (int i = 0; i < a.count_; ++i) add_product(a.parts_[i], b);
@@ -56,7 +56,7 @@ class ExactSum {
 
  private:
   // Compressed parts have all 53 bits, so 40 of them hold those from 2^1023 to 2^-1074.
-  static constexpr int kMostParts = 64;
+  static constexpr int kMaxParts = 64;
 
   void compress() {
     double sum = parts_[count_ - 1];
@@ -78,7 +78,7 @@ class ExactSum {
     count_ = top;
   }
 
-  double parts_[kMostParts];
+  double parts_[kMaxParts];
   int count_ = 0;
 };
 

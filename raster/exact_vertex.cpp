@@ -15,7 +15,7 @@ ExactVertex::ExactVertex(const ClipPosition& position, int exponent) {
   for (std::size_t row = 0; row < 4; ++row) coordinates_[row].add(std::scalbn(given[row], exponent));
 }
 
-ExactSum ExactVertex::distance(const VertexTransform& t, ClipCode plane) const {
+ExactSum ExactVertex::distance(const VertexTransform& t, Outcode plane) const {
   const auto& [x, y, z, w] = coordinates_;
   ExactSum sum;
   switch (plane) {
@@ -34,12 +34,12 @@ ClipPosition ExactVertex::position() const {
   return {coordinates_[0].value(), coordinates_[1].value(), coordinates_[2].value(), coordinates_[3].value()};
 }
 
-std::uint8_t ExactVertex::code(const VertexTransform& t) const {
-  std::uint8_t code = coordinates_[3].value() > 0 ? 0 : kNoPositiveW;
-  for (const ClipCode plane :
+std::uint8_t ExactVertex::outcode(const VertexTransform& t) const {
+  std::uint8_t outcode = coordinates_[3].value() > 0 ? 0 : kNonPositiveW;
+  for (const Outcode plane :
        {kLeftOfGuardBand, kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand, kBeforeNear, kBehindFar})
-    if (distance(t, plane).value() < 0) code |= plane;
-  return code;
+    if (distance(t, plane).value() < 0) outcode |= plane;
+  return outcode;
 }
 
 }  // namespace tessera

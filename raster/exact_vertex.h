@@ -18,11 +18,11 @@ class ExactVertex {
 
   const ExactSum& coordinate(std::size_t i) const { return coordinates_[i]; }  ///< x y z w
   /// How far inside of a plane it lies; negative outside.
-  ExactSum distance(const VertexTransform& transform, ClipCode plane) const;
+  ExactSum distance(const VertexTransform& transform, Outcode plane) const;
   /// Each coordinate off by 2^-52 of itself.
   ClipPosition position() const;
-  /// As clip_code() has it.
-  std::uint8_t code(const VertexTransform& transform) const;
+  /// As compute_outcode() has it.
+  std::uint8_t outcode(const VertexTransform& transform) const;
 
  private:
   ExactSum coordinates_[4];

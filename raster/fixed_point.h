@@ -29,8 +29,8 @@ static_assert((std::int64_t{kGuardBandPixels} + kMaxViewportPixels / 2 + kMaxVie
               "a coordinate fits 24 bits and a sign");
 
 /// Largest extent, in pixels, of a triangle between any two vertices after clipping.
-inline constexpr std::int64_t kWidestExtent = 2 * kGuardBandPixels;
-static_assert((kWidestExtent + kMaxTileSize + 1) * kSubpixelScale <= (1 << 24),
+inline constexpr std::int64_t kMaxTriangleExtent = 2 * kGuardBandPixels;
+static_assert((kMaxTriangleExtent + kMaxTileSize + 1) * kSubpixelScale <= (1 << 24),
               "from a vertex to a pixel of a tile that the triangle touches is exact in a float");
 
 // An edge function is E(p) = A (px - vx) + B (py - vy), with A and B differences of coordinates. Divided by
@@ -39,24 +39,24 @@ static_assert((kWidestExtent + kMaxTileSize + 1) * kSubpixelScale <= (1 << 24),
 // Narrow triangles: at a pixel within `extent` + one tile of the triangle, |A|, |B| <= 256 extent, so
 // |E / 256| <= 2 * 256 extent * (extent + one tile). A sample, less than a pixel from the centre, adds less
 // than 2 * 256 extent.
-inline constexpr std::int64_t kNarrowExtent = 1984;
-constexpr std::int64_t narrow_bound(std::int64_t extent) {
+inline constexpr std::int64_t kMaxEdges32Extent = 1984;
+constexpr std::int64_t edges32_bound(std::int64_t extent) {
   return 2 * kSubpixelScale * extent * (extent + kMaxTileSize + 1);
 }
-static_assert(narrow_bound(kNarrowExtent) <= INT32_MAX && narrow_bound(kNarrowExtent + 1) > INT32_MAX,
+static_assert(edges32_bound(kMaxEdges32Extent) <= INT32_MAX && edges32_bound(kMaxEdges32Extent + 1) > INT32_MAX,
               "the widest that fits, and not a pixel more");
 // All others: an edge that crosses a tile is smaller in the whole tile than its own span from the first
 // pixel's centre to the last one's.
-static_assert((kMaxTileSize - 1) * 2 * kWidestExtent * kSubpixelScale <= INT32_MAX,
+static_assert((kMaxTileSize - 1) * 2 * kMaxTriangleExtent * kSubpixelScale <= INT32_MAX,
               "an edge that crosses a tile fits 32 bits in it");
 // Twice a triangle's area is exact in a double.
-static_assert(2 * (kWidestExtent * kSubpixelScale) * (kWidestExtent * kSubpixelScale) <
+static_assert(2 * (kMaxTriangleExtent * kSubpixelScale) * (kMaxTriangleExtent * kSubpixelScale) <
               (std::int64_t{1} << 53));
 // Binning looks at the undivided edges at the corners of tiles, in 64 bits.
-static_assert(2 * (kWidestExtent * kSubpixelScale) * ((kWidestExtent + 2 * kMaxTileSize) * kSubpixelScale) <
+static_assert(2 * (kMaxTriangleExtent * kSubpixelScale) * ((kMaxTriangleExtent + 2 * kMaxTileSize) * kSubpixelScale) <
               INT64_MAX / 4);
 // The numerators of a depth plane: two products of a coordinate's difference and a depth word's.
-static_assert(2 * kWidestExtent * kSubpixelScale * std::int64_t{0xffffffff} < (std::int64_t{1} << 57));
+static_assert(2 * kMaxTriangleExtent * kSubpixelScale * std::int64_t{0xffffffff} < (std::int64_t{1} << 57));
 
 /// A vertex after projection and snapping.
 struct WindowVertex {
@@ -69,11 +69,11 @@ struct WindowVertex {
 static_assert(sizeof(WindowVertex) == 16);
 
 // By value, unlike std::min and max, of whose references no lanes are made.
-constexpr std::int32_t least(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
-constexpr std::int32_t least(std::int32_t a, std::int32_t b, std::int32_t c) { return least(a, least(b, c)); }
-constexpr std::int32_t greatest(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
-constexpr std::int32_t greatest(std::int32_t a, std::int32_t b, std::int32_t c) {
-  return greatest(a, greatest(b, c));
+constexpr std::int32_t min_of(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
+constexpr std::int32_t min_of(std::int32_t a, std::int32_t b, std::int32_t c) { return min_of(a, min_of(b, c)); }
+constexpr std::int32_t max_of(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
+constexpr std::int32_t max_of(std::int32_t a, std::int32_t b, std::int32_t c) {
+  return max_of(a, max_of(b, c));
 }
 
 // Pixels whose centres lie in [low, high], in 1/256 pixel.

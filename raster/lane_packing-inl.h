@@ -15,18 +15,18 @@ namespace HWY_NAMESPACE {
 
 /// Not IndicesFromVec itself: where that checks, it wants Highway's library, which nothing else does.
 template <class Tag>
-HWY_INLINE auto lane_indices(Tag tag, const LaneNumbers& numbers) {
+HWY_INLINE auto lane_indices(Tag tag, const LaneShuffle& numbers) {
   const Int lanes = hn::PromoteTo(kInt, hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), numbers.byte));
   return decltype(hn::IndicesFromVec(tag, lanes)){lanes.raw};
 }
 
 template <class Tag>
-HWY_INLINE auto packing_of(Tag tag, std::uint32_t bits) {
-  return lane_indices(tag, packing_numbers<kLanes>(bits));
+HWY_INLINE auto compress_indices(Tag tag, std::uint32_t bits) {
+  return lane_indices(tag, compress_lanes<kLanes>(bits));
 }
 template <class Tag>
-HWY_INLINE auto unpacking_of(Tag tag, std::uint32_t bits) {
-  return lane_indices(tag, unpacking_numbers<kLanes>(bits));
+HWY_INLINE auto expand_indices(Tag tag, std::uint32_t bits) {
+  return lane_indices(tag, expand_lanes<kLanes>(bits));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -34,15 +34,15 @@ inline constexpr LaneTable kBitRanks = [] {
 }();
 
 /// Which lane each lane takes, for up to 16; the bytes after those are never looked at.
-struct LaneNumbers {
+struct LaneShuffle {
   std::uint8_t byte[24] = {};
 };
 
 /// What the table says of the second eight lanes goes to byte `second_at`, and counts from `offset`.
 template <int kLanes>
-LaneNumbers lane_numbers(const LaneTable& table, std::uint32_t bits, int second_at, int offset) {
+LaneShuffle lane_shuffle(const LaneTable& table, std::uint32_t bits, int second_at, int offset) {
   static_assert(kLanes <= 16);
-  LaneNumbers numbers;
+  LaneShuffle numbers;
   std::memcpy(numbers.byte, &table[bits & 255], 8);
   if constexpr (kLanes > 8) {
     const std::uint64_t second =
@@ -54,13 +54,13 @@ LaneNumbers lane_numbers(const LaneTable& table, std::uint32_t bits, int second_
 
 /// The lanes whose bit is set come first, in their order; what follows them is any lane.
 template <int kLanes>
-LaneNumbers packing_numbers(std::uint32_t bits) {
-  return lane_numbers<kLanes>(kSetBits, bits, std::popcount(bits & 255), 8);
+LaneShuffle compress_lanes(std::uint32_t bits) {
+  return lane_shuffle<kLanes>(kSetBits, bits, std::popcount(bits & 255), 8);
 }
 /// Takes packed lanes back to those whose bit is set; the others get any lane.
 template <int kLanes>
-LaneNumbers unpacking_numbers(std::uint32_t bits) {
-  return lane_numbers<kLanes>(kBitRanks, bits, 8, std::popcount(bits & 255));
+LaneShuffle expand_lanes(std::uint32_t bits) {
+  return lane_shuffle<kLanes>(kBitRanks, bits, 8, std::popcount(bits & 255));
 }
 
 }  // namespace tessera

@@ -136,7 +136,7 @@ HWY_INLINE LaneMask mask_from_bits(std::uint32_t bits) {
 }
 
 /// A bit for each of the first `count`, fewer than 32.
-HWY_INLINE std::uint32_t of_first(int count) { return (1u << count) - 1; }
+HWY_INLINE std::uint32_t low_bits_mask(int count) { return (1u << count) - 1; }
 
 /// The bits of one chunk's lanes, of a block's 16.
 HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) {
@@ -146,7 +146,7 @@ HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) {
 #if HWY_TARGET == HWY_AVX3
 /// The lanes that hold what a lane before them holds. In assembly, because Highway's AVX3 does not name
 /// AVX512CD, which all processors have that have the rest.
-HWY_INLINE LaneMask repeated(Int v) {
+HWY_INLINE LaneMask duplicate_lanes(Int v) {
   __m512i earlier;  // a bit for each lane that is equal
   asm("vpconflictd %1, %0" : "=v"(earlier) : "v"(v.raw));
   return hn::Ne(Int{earlier}, hn::Zero(kInt));

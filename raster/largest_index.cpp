@@ -8,13 +8,13 @@ namespace {
 // Several maxima side by side, which become lanes.
 template <class Index>
 Index largest(std::span<const Index> indices) {
-  constexpr std::size_t kApart = 64 / sizeof(Index);
-  Index most[kApart] = {};
+  constexpr std::size_t kAccumulators = 64 / sizeof(Index);
+  Index largest_of[kAccumulators] = {};
   std::size_t i = 0;
-  for (; i + kApart <= indices.size(); i += kApart)
-    for (std::size_t k = 0; k < kApart; ++k) most[k] = std::max(most[k], indices[i + k]);
-  for (; i < indices.size(); ++i) most[0] = std::max(most[0], indices[i]);
-  return *std::max_element(most, most + kApart);
+  for (; i + kAccumulators <= indices.size(); i += kAccumulators)
+    for (std::size_t k = 0; k < kAccumulators; ++k) largest_of[k] = std::max(largest_of[k], indices[i + k]);
+  for (; i < indices.size(); ++i) largest_of[0] = std::max(largest_of[0], indices[i]);
+  return *std::max_element(largest_of, largest_of + kAccumulators);
 }
 
 }  // namespace

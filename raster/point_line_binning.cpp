@@ -22,9 +22,9 @@ bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v
 }
 
 PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
-  if (draw.samples == 1) return intersect(point_square(at, whole_size(draw.size)), draw.rect);
+  if (draw.samples == 1) return intersect(point_square(at, rounded_size(draw.size)), draw.rect);
   const std::int32_t reach =
-      (whole_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
+      (rounded_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
   return intersect(pixels_near(at, at, reach), draw.rect);
 }
 
@@ -54,11 +54,11 @@ bool bin_line(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint a
   }
   const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y,
                      half = std::int64_t{size} * kHalfPixel;
-  const std::int64_t most = (std::abs(dx) + std::abs(dy)) * (half + reach);
+  const std::int64_t max_across = (std::abs(dx) + std::abs(dy)) * (half + reach);
   for (int ty = y0; ty <= y1; ++ty)
     for (int tx = x0; tx <= x1; ++tx) {
       const std::int64_t across = dx * ((2 * ty + 1) * half - a.y) - dy * ((2 * tx + 1) * half - a.x);
-      if (std::abs(across) <= most) bins.push(ty * tiles.columns + tx, draw.draw, id);
+      if (std::abs(across) <= max_across) bins.push(ty * tiles.columns + tx, draw.draw, id);
     }
   return true;
 }
@@ -72,28 +72,28 @@ bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint
   return true;
 }
 
-// Clips a line that has codes. False if nothing is left, else its piece stands last.
-bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t codes) {
+// Clips a line that has outcodes. False if nothing is left, else its derived primitive stands last.
+bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t outcodes) {
   ClipVertex ends[2] = {clip_vertex(draw, vertex_index<2>(draw, line, 0), draw.attribute_count),
                         clip_vertex(draw, vertex_index<2>(draw, line, 1), draw.attribute_count)};
-  if (!clip_line(*draw.transform, ends, codes, draw.attribute_count)) return false;
-  Piece& piece = bins.add_piece(line, 2, draw.attribute_count);
+  if (!clip_line(*draw.transform, ends, outcodes, draw.attribute_count)) return false;
+  DerivedPrimitive& derived = bins.add_derived(line, 2, draw.attribute_count);
   for (int k = 0; k < 2; ++k) {
-    piece.vertices[k] = project(*draw.transform, ends[k].position);
-    std::copy_n(ends[k].attributes, draw.attribute_count, bins.attributes(piece) + k * draw.attribute_count);
+    derived.vertices[k] = project(*draw.transform, ends[k].position);
+    std::copy_n(ends[k].attributes, draw.attribute_count, bins.attributes(derived) + k * draw.attribute_count);
   }
   return true;
 }
 
 }  // namespace
 
-bool bin_point_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
-  return bin_square(bins, grid, draw, point_of(bins.last_piece().vertices[0]), bins.id_of_last_piece());
+bool bin_derived_point(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
+  return bin_square(bins, grid, draw, point_of(bins.last_derived().vertices[0]), bins.last_derived_id());
 }
-bool bin_line_piece(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
-  const Piece& piece = bins.last_piece();
-  return bin_line(bins, grid, draw, point_of(piece.vertices[0]), point_of(piece.vertices[1]),
-                  bins.id_of_last_piece());
+bool bin_derived_line(Bins& bins, const TileGrid& grid, const BinDraw& draw) {
+  const DerivedPrimitive& derived = bins.last_derived();
+  return bin_line(bins, grid, draw, point_of(derived.vertices[0]), point_of(derived.vertices[1]),
+                  bins.last_derived_id());
 }
 
 void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
@@ -102,13 +102,13 @@ void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint
   counts.triangles_in += last - first;
   for (std::uint32_t point = first; point < last; ++point) {
     const std::uint32_t vertex = vertex_index<1>(draw, point, 0);
-    const std::uint8_t codes = draw.any_code ? draw.codes[vertex] : 0;
-    if ((codes & kNonFinite) != 0) {
+    const std::uint8_t outcodes = draw.any_outcode ? draw.outcodes[vertex] : 0;
+    if ((outcodes & kNonFinite) != 0) {
       ++counts.non_finite;
       continue;
     }
     const WindowVertex& v = draw.vertices[vertex];
-    ++(codes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point)
+    ++(outcodes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point)
            ? counts.binned
            : counts.outside);
   }
@@ -120,7 +120,7 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
   counts.triangles_in += last - first;
   for (std::uint32_t line = first; line < last; ++line) {
     const std::uint32_t i0 = vertex_index<2>(draw, line, 0), i1 = vertex_index<2>(draw, line, 1);
-    const std::uint8_t c0 = draw.any_code ? draw.codes[i0] : 0, c1 = draw.any_code ? draw.codes[i1] : 0;
+    const std::uint8_t c0 = draw.any_outcode ? draw.outcodes[i0] : 0, c1 = draw.any_outcode ? draw.outcodes[i1] : 0;
     if (((c0 | c1) & kNonFinite) != 0) {
       ++counts.non_finite;
       continue;
@@ -128,9 +128,9 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
     bool is_left = (c0 & c1) == 0;
     if (is_left && (c0 | c1) != 0) {
       ++counts.clipped;
-      const bool has_piece = clip_to_window(bins, draw, line, c0 | c1);
-      is_left = has_piece && bin_line_piece(bins, grid, draw);
-      if (has_piece && !is_left) bins.drop_last_piece();
+      const bool has_derived = clip_to_window(bins, draw, line, c0 | c1);
+      is_left = has_derived && bin_derived_line(bins, grid, draw);
+      if (has_derived && !is_left) bins.drop_last_derived();
     } else if (is_left) {
       is_left = bin_line(bins, grid, draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1]), line);
     }

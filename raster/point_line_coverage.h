@@ -16,7 +16,7 @@ namespace tessera {
 inline constexpr float kMaxPointLineSize = 65536;
 
 /// The size in pixels where pixels have one sample: rounded, halves up, at least 1 [GL 2.1, 3.3 and 3.4].
-inline int whole_size(float size) {
+inline int rounded_size(float size) {
   return std::max(1, static_cast<int>(std::floor(std::min(size, kMaxPointLineSize) + 0.5f)));
 }
 /// In 1/256 pixel, where they have several: sizes are snapped as positions are.
@@ -29,7 +29,7 @@ inline std::int32_t snapped_size(float size) {
 /// Of others too: a sample is less than half a pixel from the centre, and by less whole sizes differ from
 /// snapped ones.
 inline std::int32_t line_reach(float width, int samples) {
-  return samples == 1 ? whole_size(width) * kHalfPixel : (snapped_size(width) + 1) / 2 + kHalfPixel;
+  return samples == 1 ? rounded_size(width) * kHalfPixel : (snapped_size(width) + 1) / 2 + kHalfPixel;
 }
 
 /// The pixels whose centres are within `reach` of a line along each axis.

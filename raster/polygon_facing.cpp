@@ -5,19 +5,19 @@
 namespace tessera {
 namespace {
 
-std::uint8_t codes_of(const BinDraw& draw, std::uint32_t triangle, bool of_all) {
-  const std::uint8_t c[3] = {draw.codes[vertex_index<3>(draw, triangle, 0)],
-                             draw.codes[vertex_index<3>(draw, triangle, 1)],
-                             draw.codes[vertex_index<3>(draw, triangle, 2)]};
+std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle, bool of_all) {
+  const std::uint8_t c[3] = {draw.outcodes[vertex_index<3>(draw, triangle, 0)],
+                             draw.outcodes[vertex_index<3>(draw, triangle, 1)],
+                             draw.outcodes[vertex_index<3>(draw, triangle, 2)]};
   return of_all ? c[0] & c[1] & c[2] : c[0] | c[1] | c[2];
 }
 
 // Doubled area of what of a triangle is inside the view volume.
 double visible_area(const BinDraw& draw, std::uint32_t triangle) {
-  if (draw.any_code) {
-    if (codes_of(draw, triangle, true) != 0) return 0;
-    if (const std::uint8_t codes = codes_of(draw, triangle, false); codes != 0)
-      return clip_to_window(draw, triangle, codes, 0).area;
+  if (draw.any_outcode) {
+    if (outcodes_of(draw, triangle, true) != 0) return 0;
+    if (const std::uint8_t outcodes = outcodes_of(draw, triangle, false); outcodes != 0)
+      return clip_to_window(draw, triangle, outcodes, 0).area;
   }
   return doubled_area(draw.vertices[vertex_index<3>(draw, triangle, 0)],
                       draw.vertices[vertex_index<3>(draw, triangle, 1)],
@@ -28,7 +28,7 @@ Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {
   double area = 0;
   for (std::size_t t = begin; t < end; ++t) {
     const auto triangle = static_cast<std::uint32_t>(t);
-    if (draw.any_code && (codes_of(draw, triangle, false) & kNonFinite) != 0) return Facing::dropped;
+    if (draw.any_outcode && (outcodes_of(draw, triangle, false) & kNonFinite) != 0) return Facing::dropped;
     area += visible_area(draw, triangle);
   }
   return area == 0 || is_front(area, draw.front_is_clockwise) ? Facing::front : Facing::back;
@@ -36,11 +36,11 @@ Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {
 
 }  // namespace
 
-void face_polygons(const BinDraw& draw, std::size_t each, std::size_t first, std::size_t last,
+void classify_polygon_facing(const BinDraw& draw, std::size_t per_polygon, std::size_t first, std::size_t last,
                    Facing* facing) {
-  for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
-    const Facing of_polygon = facing_of(draw, begin, begin + each);
-    for (std::size_t t = begin; t < begin + each; ++t) facing[t] = of_polygon;
+  for (std::size_t begin = (first + per_polygon - 1) / per_polygon * per_polygon; begin < last; begin += per_polygon) {
+    const Facing of_polygon = facing_of(draw, begin, begin + per_polygon);
+    for (std::size_t t = begin; t < begin + per_polygon; ++t) facing[t] = of_polygon;
   }
 }
 

@@ -17,7 +17,7 @@ double depth_of(DepthKind kind, std::uint32_t z) {
   return depth;
 }
 
-// max(|dz/dx|, |dz/dy|), for each pixel. `area` is doubled.
+// max(|dz/dx|, |dz/dy|), per pixel. `area` is doubled.
 double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c,
                 double area) {
   const double z = depth_of(kind, a.z), to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
@@ -25,16 +25,16 @@ double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, co
   return std::max(std::abs(by_x), std::abs(by_y)) * kSubpixelScale / area;
 }
 
-std::uint8_t codes_of(const BinDraw& draw, std::uint32_t triangle) {
-  std::uint8_t codes = 0;
-  for (std::uint32_t k = 0; draw.any_code && k < 3; ++k)
-    codes |= draw.codes[vertex_index<3>(draw, triangle, k)];
-  return codes;
+std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle) {
+  std::uint8_t outcodes = 0;
+  for (std::uint32_t k = 0; draw.any_outcode && k < 3; ++k)
+    outcodes |= draw.outcodes[vertex_index<3>(draw, triangle, k)];
+  return outcodes;
 }
 
 WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
-  const std::uint8_t codes = codes_of(draw, triangle);
-  if (codes != 0) return clip_to_window(draw, triangle, codes, 0);
+  const std::uint8_t outcodes = outcodes_of(draw, triangle);
+  if (outcodes != 0) return clip_to_window(draw, triangle, outcodes, 0);
   return WindowPolygon(draw.vertices[vertex_index<3>(draw, triangle, 0)],
                        draw.vertices[vertex_index<3>(draw, triangle, 1)],
                        draw.vertices[vertex_index<3>(draw, triangle, 2)]);
@@ -72,18 +72,18 @@ double offset_of(const BinDraw& draw, float factor, float units, std::size_t fir
 
 }  // namespace
 
-void offset_polygons(const BinDraw& draw, std::size_t each, float factor, float units, std::size_t first,
+void offset_polygons(const BinDraw& draw, std::size_t per_polygon, float factor, float units, std::size_t first,
                      std::size_t last, double* offsets) {
-  for (std::size_t begin = (first + each - 1) / each * each; begin < last; begin += each) {
+  for (std::size_t begin = (first + per_polygon - 1) / per_polygon * per_polygon; begin < last; begin += per_polygon) {
     if (draw.facing == nullptr) {
-      const std::uint8_t codes = codes_of(draw, static_cast<std::uint32_t>(begin));
-      const bool is_cut = codes != 0 && (codes & kNonFinite) == 0;
+      const std::uint8_t outcodes = outcodes_of(draw, static_cast<std::uint32_t>(begin));
+      const bool is_cut = outcodes != 0 && (outcodes & kNonFinite) == 0;
       offsets[begin] = is_cut ? offset_of(draw, factor, units, begin, begin + 1)
                               : std::numeric_limits<double>::quiet_NaN();
     } else {
       std::fill_n(
-          offsets + begin, each,
-          draw.facing[begin] != Facing::dropped ? offset_of(draw, factor, units, begin, begin + each) : 0.0);
+          offsets + begin, per_polygon,
+          draw.facing[begin] != Facing::dropped ? offset_of(draw, factor, units, begin, begin + per_polygon) : 0.0);
     }
   }
 }

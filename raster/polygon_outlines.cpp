@@ -15,27 +15,27 @@ bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_
       draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
   vertices.clear();
   window.clear();
-  std::uint8_t codes = 0, shared = draw.any_code ? 0xff : 0;
+  std::uint8_t outcodes = 0, shared = draw.any_outcode ? 0xff : 0;
   for (std::size_t i = 0; i < corners; ++i) {
-    if (draw.any_code) {
-      codes |= draw.codes[polygon[i]];
-      shared &= draw.codes[polygon[i]];
+    if (draw.any_outcode) {
+      outcodes |= draw.outcodes[polygon[i]];
+      shared &= draw.outcodes[polygon[i]];
     }
     vertices.push_back(clip_vertex(draw, polygon[i], draw.attribute_count));
     window.push_back(draw.vertices[polygon[i]]);
   }
-  if (codes == 0) return false;
-  clipper.clip(*draw.transform, vertices, codes, draw.attribute_count);
+  if (outcodes == 0) return false;
+  clipper.clip(*draw.transform, vertices, outcodes, draw.attribute_count);
   window.clear();
   for (const ClipVertex& v : vertices) window.push_back(project(*draw.transform, v.position));
   return shared == 0;
 }
 
-void add_corner(Bins& bins, const BinDraw& draw, Piece& piece, int k, const ClippedBoundary& boundary,
+void add_corner(Bins& bins, const BinDraw& draw, DerivedPrimitive& derived, int k, const ClippedBoundary& boundary,
                 std::size_t corner) {
-  piece.vertices[k] = boundary.window[corner];
+  derived.vertices[k] = boundary.window[corner];
   std::copy_n(boundary.vertices[corner].attributes, draw.attribute_count,
-              bins.attributes(piece) + k * draw.attribute_count);
+              bins.attributes(derived) + k * draw.attribute_count);
 }
 
 // Of triangle `source`'s polygon. Returns whether any of it is seen.
@@ -43,11 +43,11 @@ bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Clip
                std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
-    Piece& piece = bins.add_piece(source, 2, draw.attribute_count);
-    add_corner(bins, draw, piece, 0, boundary, i);
-    add_corner(bins, draw, piece, 1, boundary, i + 1 == boundary.vertices.size() ? 0 : i + 1);
-    const bool is_seen = bin_line_piece(bins, grid, draw);
-    if (!is_seen) bins.drop_last_piece();
+    DerivedPrimitive& derived = bins.add_derived(source, 2, draw.attribute_count);
+    add_corner(bins, draw, derived, 0, boundary, i);
+    add_corner(bins, draw, derived, 1, boundary, i + 1 == boundary.vertices.size() ? 0 : i + 1);
+    const bool is_seen = bin_derived_line(bins, grid, draw);
+    if (!is_seen) bins.drop_last_derived();
     any |= is_seen;
   }
   return any;
@@ -56,10 +56,10 @@ bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Cl
                  std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
-    if (!is_between_sides(boundary.vertices[i].position)) continue;
-    add_corner(bins, draw, bins.add_piece(source, 1, draw.attribute_count), 0, boundary, i);
-    const bool is_seen = bin_point_piece(bins, grid, draw);
-    if (!is_seen) bins.drop_last_piece();
+    if (!is_inside_side_planes(boundary.vertices[i].position)) continue;
+    add_corner(bins, draw, bins.add_derived(source, 1, draw.attribute_count), 0, boundary, i);
+    const bool is_seen = bin_derived_point(bins, grid, draw);
+    if (!is_seen) bins.drop_last_derived();
     any |= is_seen;
   }
   return any;
@@ -70,7 +70,7 @@ bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Cl
 void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                   std::uint32_t last, Isa isa) {
   const PolygonModes& modes = *draw.modes;
-  const auto each = static_cast<std::uint32_t>(modes.triangles);
+  const auto per_polygon = static_cast<std::uint32_t>(modes.triangles);
   BinDraw filled = draw, lines = draw, corners = draw;
   filled.draw = modes.draw[static_cast<int>(PolygonStyle::fill)];
   lines.draw = modes.draw[static_cast<int>(PolygonStyle::line)];
@@ -78,24 +78,24 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
   corners.draw = modes.draw[static_cast<int>(PolygonStyle::point)];
   corners.size = modes.point_size;
   BinCounts& counts = bins.counts;
-  for (std::uint32_t t = (first + each - 1) / each * each; t < last; t += each) {
+  for (std::uint32_t t = (first + per_polygon - 1) / per_polygon * per_polygon; t < last; t += per_polygon) {
     const Facing facing = draw.facing[t];
     const bool front = facing == Facing::front;
     const PolygonStyle style = modes.style[front ? 0 : 1];
     if (facing == Facing::dropped) {
-      counts.non_finite += each;
+      counts.non_finite += per_polygon;
     } else if (!(front ? draw.keep_front : draw.keep_back)) {
-      counts.culled += each;
+      counts.culled += per_polygon;
     } else if (style == PolygonStyle::fill) {
-      bin_triangles(bins, grid, filled, t, t + each, isa);
+      bin_triangles(bins, grid, filled, t, t + per_polygon, isa);
       continue;
     } else {
-      if (set_up(bins.boundary, draw, t)) counts.clipped += each;
+      if (set_up(bins.boundary, draw, t)) counts.clipped += per_polygon;
       const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, bins.boundary, t)
                                                        : bin_corners(bins, grid, corners, bins.boundary, t);
-      (is_seen ? counts.binned : counts.outside) += each;
+      (is_seen ? counts.binned : counts.outside) += per_polygon;
     }
-    counts.triangles_in += each;
+    counts.triangles_in += per_polygon;
   }
 }
 

@@ -27,7 +27,7 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// A bit for each triangle of a group whose number is not 0.
-HWY_INLINE std::uint32_t bits_of(const std::int32_t (&numbers)[kGroupSize]) {
+HWY_INLINE std::uint32_t nonzero_mask(const std::int32_t (&numbers)[kGroupSize]) {
   std::uint32_t bits = 0;
   for (int first = 0; first < kGroupSize; first += kLanes)
     bits |= mask_bits(kInt, hn::Ne(hn::Load(kInt, numbers + first), hn::Zero(kInt))) << first;
@@ -62,11 +62,11 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
           static_cast<std::int32_t>(ua * static_cast<std::uint32_t>(kHalfPixel - (px[i] & 255)) +
                                     ub * static_cast<std::uint32_t>(kHalfPixel - (py[i] & 255)));
       const std::int32_t e = (at_anchor + (top_left ? 0 : -1)) >> kSubpixelBits;
-      g.rest[k][i] = static_cast<float>(at_anchor - e * kSubpixelScale);
+      g.edge_fraction[k][i] = static_cast<float>(at_anchor - e * kSubpixelScale);
       g.a[k][i] = a;
       g.b[k][i] = b;
       // Steps from the anchor's pixel to the tile's first one; wraps where that is far away, and comes right
-      // again at the pixels that count (kNarrowExtent).
+      // again at the pixels that count (kMaxEdges32Extent).
       g.e[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(e) +
                                             ua * static_cast<std::uint32_t>(tile_x - (px[i] >> 8)) +
                                             ub * static_cast<std::uint32_t>(tile_y - (py[i] >> 8)));
@@ -75,21 +75,21 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   alignas(64) std::int32_t visible[kGroupSize];
   const PixelRect bounds = rect;
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::int32_t low_x = least(g.x[0][i], g.x[1][i], g.x[2][i]),
-                       high_x = greatest(g.x[0][i], g.x[1][i], g.x[2][i]);
-    const std::int32_t low_y = least(g.y[0][i], g.y[1][i], g.y[2][i]),
-                       high_y = greatest(g.y[0][i], g.y[1][i], g.y[2][i]);
-    g.x0[i] = greatest(first_pixel(low_x - reach) - tile_x, bounds.x0);
-    g.y0[i] = greatest(first_pixel(low_y - reach) - tile_y, bounds.y0);
-    g.x1[i] = least(last_pixel(high_x + reach) - tile_x, bounds.x1 - 1);
-    g.y1[i] = least(last_pixel(high_y + reach) - tile_y, bounds.y1 - 1);
-    g.wide[i] =
-        greatest(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kNarrowExtent) * kSubpixelScale
+    const std::int32_t low_x = min_of(g.x[0][i], g.x[1][i], g.x[2][i]),
+                       high_x = max_of(g.x[0][i], g.x[1][i], g.x[2][i]);
+    const std::int32_t low_y = min_of(g.y[0][i], g.y[1][i], g.y[2][i]),
+                       high_y = max_of(g.y[0][i], g.y[1][i], g.y[2][i]);
+    g.x0[i] = max_of(first_pixel(low_x - reach) - tile_x, bounds.x0);
+    g.y0[i] = max_of(first_pixel(low_y - reach) - tile_y, bounds.y0);
+    g.x1[i] = min_of(last_pixel(high_x + reach) - tile_x, bounds.x1 - 1);
+    g.y1[i] = min_of(last_pixel(high_y + reach) - tile_y, bounds.y1 - 1);
+    g.needs_edges64[i] =
+        max_of(high_x - low_x, high_y - low_y) > static_cast<std::int32_t>(kMaxEdges32Extent) * kSubpixelScale
             ? 1
             : 0;
     visible[i] = ((g.x0[i] <= g.x1[i]) & (g.y0[i] <= g.y1[i])) ? 1 : 0;
   }
-  g.mask = bits_of(visible) & of_first(g.count);
+  g.mask = nonzero_mask(visible) & low_bits_mask(g.count);
 }
 
 /// `value` * 2^kFraction modulo 2^64, to the nearest: whole and broken part each by the bits of a double,
@@ -112,8 +112,8 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
 /// What depth 0 is in a plane.
 template <int kFraction>
 inline constexpr std::uint64_t kPlaneZero =
-    kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32Lift} << kUnorm32Fraction) + kUnorm32FractionLift
-                                  : std::uint64_t{kUnormLift};
+    kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32RangeBias} << kUnorm32Fraction) + kUnorm32RoundingBias
+                                  : std::uint64_t{kUnormRoundingBias};
 
 /// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the
 /// anchor's pixel.
@@ -178,9 +178,9 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGrou
   // on, whose pixel's centre is less than two away. Fixed point rounds by half of its last place for each
   // pixel. In places of fixed point, and times the area:
   constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21, kSteps = 1.0 / (2 * kSubpixelScale),
-                   kLift = kFraction == 32 ? kUnormLift : kUnorm32FractionLift;
+                   kRoundingBias = kFraction == 32 ? kUnormRoundingBias : kUnorm32RoundingBias;
   alignas(64) double off[kGroupSize];
-  alignas(64) std::int32_t rough[kGroupSize];
+  alignas(64) std::int32_t exceeds_bias[kGroupSize];
   for (int i = 0; i < kGroupSize; ++i) {
     double terms = 0, extents = 0;
     for (int k = 0; k < 3; ++k) {
@@ -193,24 +193,24 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGrou
         0.5 * extents +
         4 * kSubpixelScale;  // in 1/256 pixel; the three edges go once there and once back, in x and in y
     off[i] = (terms * kGradients + g.area[i] * kSteps) * reach;
-    rough[i] = off[i] > kLift * g.area[i] ? 1 : 0;
+    exceeds_bias[i] = off[i] > kRoundingBias * g.area[i] ? 1 : 0;
   }
   constexpr double kTolerated = kFraction == 32 ? 0x1p24 : 0x1p22;  // 2^-8 of a word
-  g.rough = bits_of(rough) & g.mask;
-  g.steep = 0;
-  for (std::uint32_t left = g.rough; left != 0; left &= left - 1) {
+  g.extra_bias_mask = nonzero_mask(exceeds_bias) & g.mask;
+  g.exact_depth_mask = 0;
+  for (std::uint32_t left = g.extra_bias_mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     if (off[i] <= kTolerated * g.area[i]) {
-      g.further[i] = static_cast<std::uint64_t>(off[i] / g.area[i]);
-      g.fixed_base[i] += g.further[i];
+      g.extra_bias[i] = static_cast<std::uint64_t>(off[i] / g.area[i]);
+      g.fixed_base[i] += g.extra_bias[i];
       continue;
     }
-    g.steep |= 1u << i;
-    g.further[i] = std::uint64_t{1} << 17;  // the steps alone, of the widest triangle
+    g.exact_depth_mask |= 1u << i;
+    g.extra_bias[i] = std::uint64_t{1} << 17;  // the steps alone, of the widest triangle
     const ExactDepth exact = exact_depth<kFraction>(g, i, {0, 0}, tile_x, tile_y);
     g.fixed_dx[i] = exact.dx;
     g.fixed_dy[i] = exact.dy;
-    g.fixed_base[i] = exact.base + g.further[i];
+    g.fixed_base[i] = exact.base + g.extra_bias[i];
   }
 }
 
@@ -272,20 +272,20 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
     alignas(64) std::int32_t highest[kGroupSize], at_center[kGroupSize];
     for (int i = 0; i < kGroupSize; ++i) {
       const std::int32_t a = g.a[k][i], b = g.b[k][i], bias = a > 0 || (a == 0 && b > 0) ? 0 : -1;
-      at_center[i] = static_cast<std::int32_t>(g.rest[k][i]) + bias;
+      at_center[i] = static_cast<std::int32_t>(g.edge_fraction[k][i]) + bias;
       highest[i] = std::numeric_limits<std::int32_t>::min();
     }
     for (int s = 0; s < samples; ++s)
       for (int i = 0; i < kGroupSize; ++i) {
         const std::int32_t moved =
             (at_center[i] + g.a[k][i] * positions[s].x + g.b[k][i] * positions[s].y) >> kSubpixelBits;
-        to.below[s][k][i] = moved;
+        to.edge_delta[s][k][i] = moved;
         highest[i] = std::max(highest[i], moved);
       }
     for (int s = 0; s < samples; ++s)
-      for (int i = 0; i < kGroupSize; ++i) to.below[s][k][i] -= highest[i];
+      for (int i = 0; i < kGroupSize; ++i) to.edge_delta[s][k][i] -= highest[i];
     for (int i = 0; i < kGroupSize; ++i)
-      to.highest[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(g.e[k][i]) +
+      to.max_edge[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(g.e[k][i]) +
                                                    static_cast<std::uint32_t>(highest[i]));
   }
   for (int s = 0; s < samples; ++s) {
@@ -300,14 +300,14 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
             fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
     }
     if (kind == DepthKind::none || kind == DepthKind::float32) continue;
-    for (std::uint32_t left = g.rough; left != 0; left &= left - 1) {
+    for (std::uint32_t left = g.extra_bias_mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      if ((g.steep >> i & 1) != 0)
+      if ((g.exact_depth_mask >> i & 1) != 0)
         to.fixed_base[s][i] =
             (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y)
                                         : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y))
                 .base;
-      to.fixed_base[s][i] += g.further[i];
+      to.fixed_base[s][i] += g.extra_bias[i];
     }
   }
 }
@@ -324,10 +324,10 @@ inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
     const float inverse = static_cast<float>(1.0 / g.area[i]);
     for (int k = 0; k < 3; ++k) {
       const float share = (affine ? 1.0f : g.rw[k][i]) / divisor,
-                  relative = share > kLeastWeight ? share : kLeastWeight;
+                  relative = share > kMinWeight ? share : kMinWeight;
       g.unit_scale[k][i] = inverse * relative;
       g.scale[k][i] = 256.0f * (inverse * relative);
-      g.shift[k][i] = g.rest[k][i] * (inverse * relative);
+      g.shift[k][i] = g.edge_fraction[k][i] * (inverse * relative);
     }
   }
 }

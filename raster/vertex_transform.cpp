@@ -63,7 +63,7 @@ HWY_INLINE void gather_positions(StridedFloats positions, int components, std::s
 }
 
 std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
-                                      std::size_t count, WindowVertex* vertices, std::uint8_t* codes) {
+                                      std::size_t count, WindowVertex* vertices, std::uint8_t* outcodes) {
   PositionBatch p;
   gather_positions(positions, components, count, p);
   alignas(64) double cx[kVertexBatch], cy[kVertexBatch], cz[kVertexBatch], cw[kVertexBatch];
@@ -74,9 +74,9 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     cz[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
     cw[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
   }
-  // Numbers of one width become lanes: codes are sums of their bits, in doubles.
-  alignas(64) double code[kVertexBatch], rough[kVertexBatch];
-  const auto bit = [](ClipCode plane) HWY_ATTR { return static_cast<double>(std::uint8_t{plane}); };
+  // Numbers of one width become lanes: outcodes are sums of their bits, in doubles.
+  alignas(64) double outcode[kVertexBatch], inexact[kVertexBatch];
+  const auto bit = [](Outcode plane) HWY_ATTR { return static_cast<double>(std::uint8_t{plane}); };
   // Branches do not: what depends on the depth's direction is a factor of 1, -1 or 0.
   const double near_of_z = t.reversed ? -1 : 1, far_of_z = -near_of_z, far_of_w = t.reversed ? 0 : 1;
   for (int i = 0; i < kVertexBatch; ++i) {
@@ -90,35 +90,35 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     c += cy[i] > gy ? bit(kAboveGuardBand) : 0.0;
     c += near_z < 0 ? bit(kBeforeNear) : 0.0;
     c += far_z < 0 ? bit(kBehindFar) : 0.0;
-    c += cw[i] > 0 ? 0.0 : bit(kNoPositiveW);
+    c += cw[i] > 0 ? 0.0 : bit(kNonPositiveW);
     c += probe == 0 ? 0.0 : bit(kNonFinite);
-    code[i] = c;
+    outcode[i] = c;
     const double xyz = larger(larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), __builtin_fabs(p.z[i]));
-    const double size = __builtin_fma(t.largest_linear, xyz, t.largest_offset * __builtin_fabs(p.w[i]));
-    double r = __builtin_fabs(near_z) <= t.rough_near * size ? 1.0 : 0.0;
-    r += __builtin_fabs(far_z) <= t.rough_far * size ? 1.0 : 0.0;
-    r += __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.rough_x * size ? 1.0 : 0.0;
-    r += __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.rough_y * size ? 1.0 : 0.0;
-    r += __builtin_fabs(cw[i]) <= t.rough_w * size ? 1.0 : 0.0;
-    rough[i] = r;
+    const double size = __builtin_fma(t.max_row_norm_xyz, xyz, t.max_abs_translation * __builtin_fabs(p.w[i]));
+    double r = __builtin_fabs(near_z) <= t.near_error * size ? 1.0 : 0.0;
+    r += __builtin_fabs(far_z) <= t.far_error * size ? 1.0 : 0.0;
+    r += __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.guard_x_error * size ? 1.0 : 0.0;
+    r += __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.guard_y_error * size ? 1.0 : 0.0;
+    r += __builtin_fabs(cw[i]) <= t.w_error * size ? 1.0 : 0.0;
+    inexact[i] = r;
   }
-  std::int32_t any_rough = 0;
-  for (int i = 0; i < kVertexBatch; ++i) any_rough |= static_cast<std::int32_t>(rough[i]);
-  for (std::size_t i = 0; any_rough != 0 && i < count; ++i) {
-    if (rough[i] == 0) continue;
+  std::int32_t any_inexact = 0;
+  for (int i = 0; i < kVertexBatch; ++i) any_inexact |= static_cast<std::int32_t>(inexact[i]);
+  for (std::size_t i = 0; any_inexact != 0 && i < count; ++i) {
+    if (inexact[i] == 0) continue;
     const TransformedVertex exact =
         transform_vertex(t, {static_cast<float>(p.x[i]), static_cast<float>(p.y[i]),
                              static_cast<float>(p.z[i]), static_cast<float>(p.w[i])});
     cx[i] = exact.position.x, cy[i] = exact.position.y, cz[i] = exact.position.z, cw[i] = exact.position.w;
-    code[i] = exact.code;
+    outcode[i] = exact.outcode;
   }
   alignas(64) std::int32_t sx[kVertexBatch], sy[kVertexBatch];
   alignas(64) float rw[kVertexBatch];
   alignas(64) double depth[kVertexBatch];
   const double unit_of_z = t.reversed ? 1 : 0.5, first_unit = t.reversed ? 0 : 0.5;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double w = code[i] == 0 ? cw[i] : 1.0, x = code[i] == 0 ? cx[i] : 0.0,
-                 y = code[i] == 0 ? cy[i] : 0.0, z = code[i] == 0 ? cz[i] : 0.0;
+    const double w = outcode[i] == 0 ? cw[i] : 1.0, x = outcode[i] == 0 ? cx[i] : 0.0,
+                 y = outcode[i] == 0 ? cy[i] : 0.0, z = outcode[i] == 0 ? cz[i] : 0.0;
     const double inverse_w = 1.0 / w;
     sx[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
     sy[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
@@ -162,14 +162,14 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
         hn::Load(ints, reinterpret_cast<const std::int32_t*>(sz) + i),
         hn::BitCast(ints, hn::Load(hn::RebindToFloat<decltype(ints)>(), rw + i)), ints, rows + 4 * i);
   if (rows == rest) std::memcpy(vertices, rest, count * sizeof *vertices);
-  int all_codes = 0;
+  int all_outcodes = 0;
   alignas(64) std::int32_t bits[kVertexBatch];
-  for (int i = 0; i < kVertexBatch; ++i) bits[i] = static_cast<std::int32_t>(code[i]);
+  for (int i = 0; i < kVertexBatch; ++i) bits[i] = static_cast<std::int32_t>(outcode[i]);
   for (std::size_t i = 0; i < count; ++i) {
-    codes[i] = static_cast<std::uint8_t>(bits[i]);
-    all_codes |= bits[i];
+    outcodes[i] = static_cast<std::uint8_t>(bits[i]);
+    all_outcodes |= bits[i];
   }
-  return static_cast<std::uint8_t>(all_codes);
+  return static_cast<std::uint8_t>(all_outcodes);
 }
 
 void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int components, std::size_t count,
@@ -212,11 +212,11 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
     });
     return;
   }
-  const double least = shortest * shortest, most = longest * longest, per_shortest = 1 / shortest,
+  const double min_squared = shortest * shortest, max_squared = longest * longest, per_shortest = 1 / shortest,
                per_longest = 1 / longest;
   carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
     const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
-    const bool is_short = squared > 0 && squared<least, is_long = squared> most;
+    const bool is_short = squared > 0 && squared<min_squared, is_long = squared> max_squared;
     const double length =
         is_short || is_long ? __builtin_sqrt(squared) * (is_short ? per_shortest : per_longest) : 1.0;
     x[i] = static_cast<float>(ex / length);
@@ -244,18 +244,18 @@ ClipPosition clip_position(const VertexTransform& t, double x, double y, double 
   return {row(0), row(1), row(2), row(3)};
 }
 
-std::uint8_t clip_code(const VertexTransform& t, const ClipPosition& p) {
+std::uint8_t compute_outcode(const VertexTransform& t, const ClipPosition& p) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w))
     return kNonFinite;
-  std::uint8_t code = 0;
-  if (p.x < -(t.guard_x * p.w)) code |= kLeftOfGuardBand;
-  if (p.x > t.guard_x * p.w) code |= kRightOfGuardBand;
-  if (p.y < -(t.guard_y * p.w)) code |= kBelowGuardBand;
-  if (p.y > t.guard_y * p.w) code |= kAboveGuardBand;
-  if ((t.reversed ? p.w - p.z : p.z + p.w) < 0) code |= kBeforeNear;
-  if ((t.reversed ? p.z : p.w - p.z) < 0) code |= kBehindFar;
-  if (!(p.w > 0)) code |= kNoPositiveW;
-  return code;
+  std::uint8_t outcode = 0;
+  if (p.x < -(t.guard_x * p.w)) outcode |= kLeftOfGuardBand;
+  if (p.x > t.guard_x * p.w) outcode |= kRightOfGuardBand;
+  if (p.y < -(t.guard_y * p.w)) outcode |= kBelowGuardBand;
+  if (p.y > t.guard_y * p.w) outcode |= kAboveGuardBand;
+  if ((t.reversed ? p.w - p.z : p.z + p.w) < 0) outcode |= kBeforeNear;
+  if ((t.reversed ? p.z : p.w - p.z) < 0) outcode |= kBehindFar;
+  if (!(p.w > 0)) outcode |= kNonPositiveW;
+  return outcode;
 }
 
 // Whether all of a row's products with floats, and their sum, are exact: one product, of no more than 29
@@ -277,12 +277,12 @@ static bool is_exact(const double* row) {
 // twice as much. A distance of two exact coordinates has the right sign; that of equal rows is 0 as it should
 // be. A w that is off by 2^-20 of itself moves what is seen by no more than that share of a guard band's
 // width.
-void VertexTransform::set_roughness() {
+void VertexTransform::set_error_bounds() {
   const double* const m = clip_from_object;
-  largest_linear = largest_offset = 0;
+  max_row_norm_xyz = max_abs_translation = 0;
   for (int row = 0; row < 16; row += 4) {
-    largest_linear = std::max(largest_linear, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
-    largest_offset = std::max(largest_offset, std::abs(m[row + 3]));
+    max_row_norm_xyz = std::max(max_row_norm_xyz, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
+    max_abs_translation = std::max(max_abs_translation, std::abs(m[row + 3]));
   }
   constexpr double kOfDepth = 0x1p-48, kNever = -1;
   const bool has_exact_z = is_exact(m + 8), has_exact_both = has_exact_z && is_exact(m + 12);
@@ -290,32 +290,32 @@ void VertexTransform::set_roughness() {
     return std::equal(m + 8, m + 12, m + 12,
                       [sign](double of_z, double of_w) { return of_z == sign * of_w; });
   };
-  rough_near = has_exact_both || alike(reversed ? 1 : -1) ? kNever : kOfDepth;
-  rough_far = has_exact_both || (reversed ? has_exact_z : alike(1)) ? kNever : kOfDepth;
-  rough_x = (1 + guard_x) * 0x1p-49;
-  rough_y = (1 + guard_y) * 0x1p-49;
-  rough_w = 0x1p-30;
+  near_error = has_exact_both || alike(reversed ? 1 : -1) ? kNever : kOfDepth;
+  far_error = has_exact_both || (reversed ? has_exact_z : alike(1)) ? kNever : kOfDepth;
+  guard_x_error = (1 + guard_x) * 0x1p-49;
+  guard_y_error = (1 + guard_y) * 0x1p-49;
+  w_error = 0x1p-30;
 }
 
-static bool is_rough(const VertexTransform& t, const ClipPosition& p, double size) {
+static bool needs_exact(const VertexTransform& t, const ClipPosition& p, double size) {
   const double near_z = t.reversed ? p.w - p.z : p.z + p.w, far_z = t.reversed ? p.z : p.w - p.z;
-  return std::abs(near_z) <= t.rough_near * size || std::abs(far_z) <= t.rough_far * size ||
-         std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.rough_x * size ||
-         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.rough_y * size ||
-         std::abs(p.w) <= t.rough_w * size;
+  return std::abs(near_z) <= t.near_error * size || std::abs(far_z) <= t.far_error * size ||
+         std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.guard_x_error * size ||
+         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.guard_y_error * size ||
+         std::abs(p.w) <= t.w_error * size;
 }
 
 // Whether doubles hold a position: with all digits of what others are divided by.
-static bool is_held(const ClipPosition& p, bool has_w) {
+static bool is_representable(const ClipPosition& p, bool has_w) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) &&
          (!has_w || std::abs(p.w) >= std::numeric_limits<double>::min());
 }
 
 TransformedVertex transform_vertex(const VertexTransform& t, const std::array<float, 4>& object) {
   TransformedVertex v{.position = clip_position(t, object[0], object[1], object[2], object[3])};
-  v.code = clip_code(t, v.position);
-  if (v.code == kNonFinite ||
-      !is_rough(t, v.position, t.size_of_terms(object[0], object[1], object[2], object[3])))
+  v.outcode = compute_outcode(t, v.position);
+  if (v.outcode == kNonFinite ||
+      !needs_exact(t, v.position, t.term_magnitude(object[0], object[1], object[2], object[3])))
     return v;
   const double size = std::max(
       {std::abs(v.position.x), std::abs(v.position.y), std::abs(v.position.z), std::abs(v.position.w)});
@@ -325,8 +325,8 @@ TransformedVertex transform_vertex(const VertexTransform& t, const std::array<fl
   const ExactVertex exact(t, object, -exponent);
   const ClipPosition p = exact.position(), scaled{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
                                                   std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
-  if (!is_held(scaled, p.w != 0)) return v;
-  return {.position = scaled, .code = exact.code(t), .is_rough = true};
+  if (!is_representable(scaled, p.w != 0)) return v;
+  return {.position = scaled, .outcode = exact.outcode(t), .needs_exact = true};
 }
 
 // 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what
@@ -349,7 +349,7 @@ WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   const double z =
       ranged > 0 ? std::min(ranged, 1.0) : 0;  // also where an infinite quotient met a range of no depth
   if (t.depth == DepthKind::float32) {
-    v.z = depth_word(DepthKind::float32, z);
+    v.z = quantize_depth(DepthKind::float32, z);
   } else if (t.depth != DepthKind::none) {
     const int bits = depth_bits(t.depth);
     const double levels = std::ldexp(1.0, bits) - 1;

@@ -19,14 +19,14 @@ inline constexpr int kVertexBatch = 64;  ///< vertices transformed at a time
 
 /// Why a vertex cannot be used as it is. A triangle whose vertices share one of the planes' bits is outside;
 /// one with any bit set is clipped; kNonFinite drops it.
-enum ClipCode : std::uint8_t {
+enum Outcode : std::uint8_t {
   kLeftOfGuardBand = 1,
   kRightOfGuardBand = 2,
   kBelowGuardBand = 4,
   kAboveGuardBand = 8,
   kBeforeNear = 16,
   kBehindFar = 32,
-  kNoPositiveW = 64,
+  kNonPositiveW = 64,
   kNonFinite = 128
 };
 
@@ -56,43 +56,43 @@ struct VertexTransform {
   DepthKind depth = DepthKind::none;
   /// Distances from the near and far planes, from the guard band's, and w, that roundings may have made, of a
   /// vertex whose terms have a size of 1. Negative: they make none.
-  double rough_near = 0, rough_far = 0, rough_x = 0, rough_y = 0, rough_w = 0;
+  double near_error = 0, far_error = 0, guard_x_error = 0, guard_y_error = 0, w_error = 0;
   /// Of the matrix's rows the largest: the sizes of x's, y's and z's elements together, and that of w's.
-  double largest_linear = 0, largest_offset = 0;
+  double max_row_norm_xyz = 0, max_abs_translation = 0;
 
   /// Once the matrix and the guard band are there.
-  void set_roughness();
+  void set_error_bounds();
   /// No sum of sizes that a coordinate of a vertex comes from is larger.
-  double size_of_terms(double x, double y, double z, double w) const {
-    return std::fma(largest_linear, std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)),
-                    largest_offset * std::abs(w));
+  double term_magnitude(double x, double y, double z, double w) const {
+    return std::fma(max_row_norm_xyz, std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)),
+                    max_abs_translation * std::abs(w));
   }
 };
 
 /// A vertex in clip space. Each coordinate is rounded four times, beside sums of sizes that may be far larger
 /// than itself; where that might be on the wrong side of a plane, or w too small beside them for the place in
-/// the window, `is_rough`: then coordinates are rounded once, and the code is that of the exact ones; but not
+/// the window, `needs_exact`: then coordinates are rounded once, and the outcode is that of the exact ones; but not
 /// where those leave the range of doubles with all their digits, or their terms do.
 struct TransformedVertex {
   ClipPosition position;
-  std::uint8_t code = 0;
-  bool is_rough = false;
+  std::uint8_t outcode = 0;
+  bool needs_exact = false;
 };
 TransformedVertex transform_vertex(const VertexTransform& transform, const std::array<float, 4>& object);
 
 /// The four roundings.
 ClipPosition clip_position(const VertexTransform& transform, double x, double y, double z, double w);
-std::uint8_t clip_code(const VertexTransform& transform, const ClipPosition& position);
+std::uint8_t compute_outcode(const VertexTransform& transform, const ClipPosition& position);
 /// The scalar twin of the kernel, and the way for single vertices that clipping makes; what lies beyond the
 /// guard band is put onto its border.
 /// @pre position.w > 0, all are finite
 WindowVertex project(const VertexTransform& transform, const ClipPosition& position);
 
 /// Transforms `count` vertices, at most kVertexBatch. `positions` holds x y z or x y z w; `components` is 3
-/// or 4. Vertices with a code are left at the viewport's centre. Returns all codes or-ed together.
+/// or 4. Vertices with a outcode are left at the viewport's centre. Returns all outcodes or-ed together.
 using TransformVertices = std::uint8_t(const VertexTransform& transform, StridedFloats positions,
                                        int components, std::size_t count, WindowVertex* vertices,
-                                       std::uint8_t* codes);
+                                       std::uint8_t* outcodes);
 TransformVertices* transform_vertices(Isa isa);
 
 /// Which lengths normals may have in eye space; those that are shorter or longer become as long as this, but
@@ -101,10 +101,10 @@ struct NormalLengths {
   double shortest = 1, longest = 1;
 };
 inline constexpr NormalLengths kUnitNormals{1, 1};
-inline constexpr NormalLengths kNormalsAsTheyAre{0, std::numeric_limits<double>::infinity()};
+inline constexpr NormalLengths kUnscaledNormals{0, std::numeric_limits<double>::infinity()};
 /// Of normals that will be interpolated and then normalized: the squares of these, and of what cancelling to
 /// the last bit leaves of them, are normal floats.
-inline constexpr NormalLengths kMeasurableNormals{0x1p-32, 0x1p32};
+inline constexpr NormalLengths kNormalizableNormals{0x1p-32, 0x1p32};
 
 /// Carries vectors into eye space: 4 rows of 4 for points (x y z [w] -> x y z, each over w) and 3 rows of 3
 /// for normals.

@@ -19,7 +19,7 @@ WindowPolygon::WindowPolygon(const WindowVertex& a, const WindowVertex& b, const
 }
 
 // Positive for triangles that turn as the whole does.
-double WindowPolygon::turn_of(const Corners& c) const {
+double WindowPolygon::oriented_area(const Corners& c) const {
   const double turn = doubled_area(window[c[0]], window[c[1]], window[c[2]]);
   return area < 0 ? -turn : turn;
 }
@@ -31,7 +31,7 @@ bool WindowPolygon::is_before(int a, int b) const {
 }
 
 void WindowPolygon::add(const Corners& corners) {
-  if (turn_of(corners) != 0) triangles_[static_cast<std::size_t>(count_++)] = corners;
+  if (oriented_area(corners) != 0) triangles_[static_cast<std::size_t>(count_++)] = corners;
 }
 
 // Around the topmost corner. False if a triangle is turned over: snapping has dented the polygon, and the
@@ -43,7 +43,7 @@ bool WindowPolygon::add_fan() {
   bool turned = false;
   for (int i = 2; i < clipped.count; ++i) {
     const Corners corners{first, (first + i - 1) % clipped.count, (first + i) % clipped.count};
-    turned |= turn_of(corners) < 0;
+    turned |= oriented_area(corners) < 0;
     add(corners);
   }
   if (turned) count_ = 0;
@@ -65,11 +65,11 @@ void WindowPolygon::add_ears() {
         const bool is_corner = std::any_of(ear.begin(), ear.end(), [&](int c) {
           return window[c].x == window[other].x && window[c].y == window[other].y;
         });
-        return !is_corner && turn_of({ear[0], ear[1], other}) >= 0 && turn_of({ear[1], ear[2], other}) >= 0 &&
-               turn_of({ear[2], ear[0], other}) >= 0;
+        return !is_corner && oriented_area({ear[0], ear[1], other}) >= 0 && oriented_area({ear[1], ear[2], other}) >= 0 &&
+               oriented_area({ear[2], ear[0], other}) >= 0;
       };
-      return turn_of(ear) == 0 ||
-             (turn_of(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
+      return oriented_area(ear) == 0 ||
+             (oriented_area(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
     };
     int best = 0;
     bool found = false;

@@ -32,7 +32,7 @@ struct WindowPolygon {
   std::span<const Corners> triangles() const { return {triangles_.data(), static_cast<std::size_t>(count_)}; }
 
  private:
-  double turn_of(const Corners& corners) const;
+  double oriented_area(const Corners& corners) const;
   bool is_before(int a, int b) const;
   void add(const Corners& corners);
   bool add_fan();

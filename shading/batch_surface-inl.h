@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "shading/texture_coordinates-inl.h"
-#include "shading/tile_run-inl.h"
+#include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -23,7 +23,7 @@ struct BatchSurface {
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
   bool adjacent = false;                 // the arrays follow each other
-  bool keeps_range = false;              // of the triangles' vertices
+  bool clamps_to_range = false;              // of the triangles' vertices
   const DrawTexture* texture = nullptr;  // or none
   TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
 
@@ -44,14 +44,14 @@ HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) {
 /// Whether a draw's attributes stay within those of a triangle's vertices: where pixels' centres may be
 /// outside; and colours, unless they keep away from the borders of levels already (scaled_colors). What lies
 /// beyond a line's end is as equation 3.6 has it.
-HWY_INLINE bool attributes_keep_range(const TileRun& run, const TileDraw& draw) {
+HWY_INLINE bool attributes_clamp_to_range(const TileContext& context, const TileDraw& draw) {
   return draw.topology != Topology::lines &&
-         (run.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
+         (context.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
 }
 
 /// Makes the batch one of another surface. @pre it is empty
-HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle) {
-  const TileDraw& draw = run.frame.draws[triangle.draw];
+HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface, const ShadedTriangle& triangle) {
+  const TileDraw& draw = context.frame.draws[triangle.draw];
   const bool per_pixel = draw.source == ColorSource::per_pixel, back = triangle.back;
   surface.draw = triangle.draw;
   surface.back = back;
@@ -62,20 +62,20 @@ HWY_INLINE void begin_surface(const TileRun& run, BatchSurface& surface, const S
                                                                    : 3;
   surface.adjacent = true;
   for (int j = 0; j < surface.attribute_count; ++j) {
-    surface.target[j] = run.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
+    surface.target[j] = context.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
     surface.adjacent &= surface.target[j] == surface.target[0] + j * kBatchPoints;
   }
-  surface.keeps_range = attributes_keep_range(run, draw);
+  surface.clamps_to_range = attributes_clamp_to_range(context, draw);
   surface.texture = texture_of(draw, back);
   surface.coordinates.triangle = nullptr;
 }
 
 /// Of a texture with levels: what its coordinates in a triangle are made of.
-HWY_INLINE const TextureCoordinates& coordinates_in(const TileRun& run, BatchSurface& surface,
+HWY_INLINE const TextureCoordinates& coordinates_in(const TileContext& context, BatchSurface& surface,
                                                     const ShadedTriangle& triangle) {
   if (surface.coordinates.triangle != &triangle)
-    surface.coordinates.set_up(triangle, run.memory.wide.data(), *surface.texture,
-                               run.frame.draws[surface.draw].topology == Topology::lines, run.samples);
+    surface.coordinates.set_up(triangle, context.memory.edges64.data(), *surface.texture,
+                               context.frame.draws[surface.draw].topology == Topology::lines, context.samples);
   return surface.coordinates;
 }
 HWY_INLINE bool has_coordinates(const BatchSurface& surface) {
@@ -83,42 +83,42 @@ HWY_INLINE bool has_coordinates(const BatchSurface& surface) {
 }
 
 /// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
-inline HWY_NOINLINE void gather_coordinates(const TileRun& run, BatchSurface& surface,
+inline HWY_NOINLINE void gather_coordinates(const TileContext& context, BatchSurface& surface,
                                             const ShadedTriangle& triangle, const Barycentric& at,
                                             LaneMask mask, int point) {
   const auto lanes = hn::RebindMask(kFloat, mask);
-  coordinates_in(run, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR {
-    store_where(lanes, value, kFloat, run.memory.batch.field[field] + point);
+  coordinates_in(context, surface, triangle).at(at, [&](int field, Float value) HWY_ATTR {
+    store_where(lanes, value, kFloat, context.memory.batch.field[field] + point);
   });
 }
 
 /// How many attributes a surface has, where they stand in adjacent arrays and are not kept within a range,
-/// where there are no texture coordinates, and where the number is one that gather_piece() is made for; else
+/// where there are no texture coordinates, and where the number is one that gather_block_span() is made for; else
 /// 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
-  return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.keeps_range &&
+  return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.clamps_to_range &&
                  !has_coordinates(surface)
              ? count
              : 0;
 }
-/// Calls run(known_count()) with a constant.
+/// Calls body(known_count()) with a constant.
 template <class Run>
-HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& run) {
+HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& body) {
   switch (known_count(surface)) {
-    case 1: return run(std::integral_constant<int, 1>());
-    case 3: return run(std::integral_constant<int, 3>());
-    case 6: return run(std::integral_constant<int, 6>());
-    default: return run(std::integral_constant<int, 0>());
+    case 1: return body(std::integral_constant<int, 1>());
+    case 3: return body(std::integral_constant<int, 3>());
+    case 6: return body(std::integral_constant<int, 6>());
+    default: return body(std::integral_constant<int, 0>());
   }
 }
 
 /// Adds what is seen of one triangle in one block to the points from `first` on; what other lanes hold stays.
 /// @param kCount  known_count(), or 0 for any
-/// @param values  TriangleCorners or CornerArrays of the surface's attributes
+/// @param values  TriangleInterpolants or InterpolantArrays of the surface's attributes
 /// @param at      Barycentric of a chunk
 template <int kCount, class Values, class At>
-HWY_INLINE void gather_values(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle,
+HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface, const ShadedTriangle& triangle,
                               const Values& values, const At& at, std::uint32_t covered, int first) {
   const int count = kCount > 0 ? kCount : surface.attribute_count;
   float* const adjacent = kCount > 0 ? surface.target[0] : nullptr;
@@ -130,34 +130,34 @@ HWY_INLINE void gather_values(const TileRun& run, BatchSurface& surface, const S
     const int point = first + chunk * kLanes;
     for (int j = 0; j < count; ++j) {
       const Float value =
-          kCount == 0 && surface.keeps_range
-              ? interpolate_within(weights, corners(triangle, surface.first_attribute + j, true))
+          kCount == 0 && surface.clamps_to_range
+              ? interpolate_clamped(weights, make_interpolant(triangle, surface.first_attribute + j, true))
               : interpolate(weights, values, j);
       store_where(hn::RebindMask(kFloat, mask), value, kFloat,
                   (kCount > 0 ? adjacent + j * kBatchPoints : surface.target[j]) + point);
     }
     if (kCount == 0 && has_coordinates(surface))
-      gather_coordinates(run, surface, triangle, weights, mask, point);
+      gather_coordinates(context, surface, triangle, weights, mask, point);
   }
 }
 /// Compiled once: few triangles are wide, but points and lines all are.
-inline HWY_NOINLINE void gather_wide(const TileRun& run, BatchSurface& surface,
+inline HWY_NOINLINE void gather_edges64(const TileContext& context, BatchSurface& surface,
                                      const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                      int first) {
-  const WideEdges& edges = run.memory.wide[static_cast<std::size_t>(triangle.wide)];
-  const CornerArrays values(triangle, surface.first_attribute, surface.attribute_count);
+  const Edges64& edges = context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)];
+  const InterpolantArrays values(triangle, surface.first_attribute, surface.attribute_count);
   gather_values<0>(
-      run, surface, triangle, values,
-      [&](int chunk) HWY_ATTR { return barycentric_wide(triangle, edges, bx, by, chunk); }, covered, first);
+      context, surface, triangle, values,
+      [&](int chunk) HWY_ATTR { return barycentric_edges64(triangle, edges, bx, by, chunk); }, covered, first);
 }
 /// gather_values() in the block at (bx, by).
 template <int kCount, class Values>
-HWY_INLINE void gather_piece(const TileRun& run, BatchSurface& surface, const ShadedTriangle& triangle,
+HWY_INLINE void gather_block_span(const TileContext& context, BatchSurface& surface, const ShadedTriangle& triangle,
                              const Values& values, int bx, int by, std::uint32_t covered, int first) {
-  if (HWY_UNLIKELY(triangle.wide >= 0)) return gather_wide(run, surface, triangle, bx, by, covered, first);
-  const NarrowEdges edges(triangle, bx, by);
+  if (HWY_UNLIKELY(triangle.edges64_index >= 0)) return gather_edges64(context, surface, triangle, bx, by, covered, first);
+  const BlockEdges32 edges(triangle, bx, by);
   gather_values<kCount>(
-      run, surface, triangle, values, [&](int chunk) HWY_ATTR { return edges.barycentric(chunk); }, covered,
+      context, surface, triangle, values, [&](int chunk) HWY_ATTR { return edges.barycentric(chunk); }, covered,
       first);
 }
 

@@ -17,22 +17,22 @@
 #include "raster/depth-inl.h"
 #include "shading/draw_kinds-inl.h"
 #include "shading/interpolate-inl.h"
-#include "shading/tile_run-inl.h"
+#include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// Which draws have them, where no rectangle cuts through blocks.
-template <Test kTest>
-inline constexpr bool kHasBoxes = kLanes > 1 && kTest == Test::less;
+template <DepthTestPath kDepthTest>
+inline constexpr bool kHasBoxes = kLanes > 1 && kDepthTest == DepthTestPath::less_write;
 
 /// What is known of a group's triangles before one of them is drawn: so early that the ways that drawing them
 /// takes are foretold in time.
 struct BoxGroup {
   /// So many beside, and so many below each other: beyond that most blocks are full, and rows of those are
   /// faster. With few registers more than one is no gain.
-  static constexpr int kMostBoxes = kLanes == 16 ? 3 : 1;
+  static constexpr int kMaxBoxes = kLanes == 16 ? 3 : 1;
   std::uint32_t triangles = 0;                // those in boxes, a bit each
   std::uint32_t singles = 0;                  // and those of them in one
   alignas(64) std::int32_t to_block[kLanes];  // from the index of a box's first pixel to that of each block's
@@ -49,10 +49,10 @@ struct BoxGroup {
 
   /// Compiled once for all depths and colours.
   /// @param among  triangles that are drawn by blocks
-  HWY_NOINLINE void set_up(const TileRun& run, const TriangleGroup& g, std::uint32_t among) {
+  HWY_NOINLINE void set_up(const TileContext& context, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first)
                         HWY_ATTR { return hn::Load(kInt, array + first); };
-    hn::Store(run.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt,
+    hn::Store(context.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt,
               to_block);
     for (int first = 0; first < kGroupSize; first += kLanes) {
       const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)),
@@ -70,7 +70,7 @@ struct BoxGroup {
         hn::Store(at_first, kInt, e[k] + first);
         hn::Store(hn::Mul(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), splat(3)), kInt,
                   to_highest[k] + first);
-        // As lowest_over_blocks() has it.
+        // As min_over_blocks() has it.
         const auto to_last = [&](Int blocks) HWY_ATTR { return hn::Sub(hn::ShiftLeft<2>(blocks), one); };
         lowest = hn::Or(lowest, hn::Add(at_first, hn::Add(hn::Mul(to_last(across), hn::Min(a, zero)),
                                                           hn::Mul(to_last(down), hn::Min(b, zero)))));
@@ -79,9 +79,9 @@ struct BoxGroup {
         return mask_bits(
             kInt, hn::And(hn::Lt(across, splat(4 * boxes + 1)), hn::Lt(down, splat(kBoxRows * boxes + 1))));
       };
-      const std::uint32_t narrow = mask_bits(kInt, hn::Eq(at(g.wide, first), zero)),
+      const std::uint32_t narrow = mask_bits(kInt, hn::Eq(at(g.needs_edges64, first), zero)),
                           has_borders = mask_bits(kInt, hn::Lt(lowest, zero));
-      triangles |= (fit_in(kMostBoxes) & narrow & has_borders) << first;
+      triangles |= (fit_in(kMaxBoxes) & narrow & has_borders) << first;
       singles |= fit_in(1) << first;
     }
     triangles &= among;
@@ -121,35 +121,35 @@ struct BoxGroup {
 
 /// A triangle in boxes, of a draw that nothing but the test `less` stops, and that its rectangle does not
 /// cut.
-template <class Depth, Seen kSeen>
+template <class Depth, ColorWrite kColorWrite>
 struct BoxPixels {
-  TileRun& run;
+  TileContext& context;
   const BoxGroup& boxes;
   const int i;  // which of the group
   Depth depth;
   WeightLanes weights;
-  ScaledColor color;
+  GouraudColorEval color;
   std::int32_t value;  // the colour's word, or the number of a triangle that is collected
   Int writable;
   Int offset[3][kChunksPerBlock];  // of the edges at a block's pixels
-  std::uint32_t seen = 0;          // how many pixels, or whether any that wait for their colour
+  std::uint32_t visible = 0;          // how many pixels, or whether any that wait for their colour
 
-  HWY_INLINE BoxPixels(TileRun& tile_run, const TileDraw& draw, const BoxGroup& group_boxes, int triangle,
+  HWY_INLINE BoxPixels(TileContext& tile_context, const TileDraw& draw, const BoxGroup& group_boxes, int triangle,
                        std::int32_t word_or_number, bool back)
-      : run(tile_run),
+      : context(tile_context),
         boxes(group_boxes),
         i(triangle),
         value(word_or_number),
         writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
-    const TriangleGroup& g = run.memory.group;
-    if constexpr (kSeen == Seen::interpolate) {
+    const TriangleGroup& g = context.memory.group;
+    if constexpr (kColorWrite == ColorWrite::interpolated) {
       weights.set_up(g, i);
       const auto from = [&](int corner) {
-        return run.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0];
+        return context.memory.attributes[corner][i] + draw.color_attribute[back ? 1 : 0];
       };
-      color.set_up(from(0), from(1), from(2), run.frame.layout);
+      color.set_up(from(0), from(1), from(2), context.frame.layout);
     }
-    depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+    depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
     depth.prepare_blocks();
   }
 
@@ -161,7 +161,7 @@ struct BoxPixels {
     draw_blocks(boxes.touched[i], boxes.x[i], boxes.y[i], boxes.start[i]);
   }
   HWY_INLINE void draw_boxes() {
-    const TriangleGroup& g = run.memory.group;
+    const TriangleGroup& g = context.memory.group;
     Int in_row[3];
     for (int k = 0; k < 3; ++k) in_row[k] = boxes.at_blocks(g, i, k, offset[k]);
     for (int row = 0; row < boxes.rows[i]; row += kBoxRows) {
@@ -181,9 +181,9 @@ struct BoxPixels {
   /// Those blocks of the box at (x, y) whose bit is set. @param start  the edges at their first pixels
   HWY_INLINE void draw_blocks(std::uint32_t touched, int x, int y, const std::int32_t (&start)[3][kLanes]) {
     const auto box_depth = depth.box(x, y);
-    for (const int index = run.block_index(x, y); touched != 0; touched &= touched - 1) {
+    for (const int index = context.block_index(x, y); touched != 0; touched &= touched - 1) {
       const int block = std::countr_zero(touched);
-      TESSERA_ASSERT(index + boxes.to_block[block] <= run.tile_size * run.tile_size - kBlockPixels);
+      TESSERA_ASSERT(index + boxes.to_block[block] <= context.tile_size * context.tile_size - kBlockPixels);
       draw_block(index + boxes.to_block[block], depth.block(box_depth, block), start[0][block],
                  start[1][block], start[2][block]);
     }
@@ -195,49 +195,49 @@ struct BoxPixels {
       const Int edge[3] = {hn::Add(offset[0][chunk], splat(start0)), hn::Add(offset[1][chunk], splat(start1)),
                            hn::Add(offset[2][chunk], splat(start2))};
       const auto covered = hn::Gt(hn::Or(hn::Or(edge[0], edge[1]), edge[2]), splat(-1));
-      std::int32_t* const depth_at = run.memory.depth + index;
+      std::int32_t* const depth_at = context.memory.depth + index;
       const Int stored = hn::Load(kInt, depth_at), key = depth.keys(block_depth, chunk);
       const auto mask = hn::And(covered, hn::Lt(key, stored));
       hn::Store(hn::IfThenElse(mask, key, stored), kInt, depth_at);
-      if constexpr (kSeen != Seen::nothing) color_pixels(index, edge, mask);
+      if constexpr (kColorWrite != ColorWrite::none) color_pixels(index, edge, mask);
     }
   }
   template <class Mask>
   HWY_INLINE void color_pixels(int index, const Int (&edge)[3], Mask mask) {
     const std::uint32_t bits = mask_bits(kInt, mask);
-    if constexpr (kSeen == Seen::collect) {
-      auto* const id_at = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
+    if constexpr (kColorWrite == ColorWrite::deferred) {
+      auto* const id_at = reinterpret_cast<std::int32_t*>(context.memory.visibility) + index;
       hn::Store(hn::IfThenElse(mask, splat(value), hn::Load(kInt, id_at)), kInt, id_at);
-      seen |= bits;
+      visible |= bits;
     } else {
-      if (kSeen == Seen::interpolate && bits == 0)
-        return;  // words are stored without a look at the mask: a branch on it could not be foretold
-      seen += static_cast<std::uint32_t>(std::popcount(bits));
-      Int words = splat(value);
-      if constexpr (kSeen == Seen::interpolate) words = color.words(weights.at(edge[0], edge[1], edge[2]));
-      store_words(run.color + index, words, mask, writable);
+      if (kColorWrite == ColorWrite::interpolated && bits == 0)
+        return;  // packed colors are stored without a look at the mask: a branch on it could not be foretold
+      visible += static_cast<std::uint32_t>(std::popcount(bits));
+      Int packed = splat(value);
+      if constexpr (kColorWrite == ColorWrite::interpolated) packed = color.packed(weights.at(edge[0], edge[1], edge[2]));
+      store_packed(context.color + index, packed, mask, writable);
     }
   }
 };
 
-template <class Depth, Seen kSeen, bool kSingle>
-HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i,
+template <class Depth, ColorWrite kColorWrite, bool kSingle>
+HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileContext& context, const TileDraw& draw, const BoxGroup& boxes, int i,
                                             std::int32_t value, bool back) {
-  BoxPixels<Depth, kSeen> pixels(run, draw, boxes, i, value, back);
+  BoxPixels<Depth, kColorWrite> pixels(context, draw, boxes, i, value, back);
   if constexpr (kSingle) pixels.draw_single_box();
   else pixels.draw_boxes();
-  return pixels.seen;
+  return pixels.visible;
 }
 /// Draws triangle i of the group, one of those in boxes.
 /// @param value  the colour's word, or the number of a triangle that is collected
-/// @return how many pixels were seen; if they wait for their colour, whether any was
-template <class Depth, Seen kSeen>
-HWY_INLINE std::uint32_t draw_in_boxes(TileRun& run, const TileDraw& draw, const BoxGroup& boxes, int i,
+/// @return how many pixels were visible; if they wait for their colour, whether any was
+template <class Depth, ColorWrite kColorWrite>
+HWY_INLINE std::uint32_t draw_in_boxes(TileContext& context, const TileDraw& draw, const BoxGroup& boxes, int i,
                                        std::int32_t value, bool back) {
-  if constexpr (BoxGroup::kMostBoxes > 1) {
-    if (!boxes.is_single(i)) return draw_in_boxes_of<Depth, kSeen, false>(run, draw, boxes, i, value, back);
+  if constexpr (BoxGroup::kMaxBoxes > 1) {
+    if (!boxes.is_single(i)) return draw_in_boxes_of<Depth, kColorWrite, false>(context, draw, boxes, i, value, back);
   }
-  return draw_in_boxes_of<Depth, kSeen, true>(run, draw, boxes, i, value, back);
+  return draw_in_boxes_of<Depth, kColorWrite, true>(context, draw, boxes, i, value, back);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -30,10 +30,10 @@ HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t elem
 }
 
 /// The word of triangle i of the group, where it has one.
-HWY_INLINE std::uint32_t triangle_word(const TileRun& run, const TileDraw& draw, int i, bool back) {
-  if (draw.source == ColorSource::triangle_word) return draw.words[back ? 1 : 0][run.memory.source[i]];
-  if (draw.source != ColorSource::vertex_word) return draw.word;
-  return draw.words[back ? 1 : 0][provoking_vertex(draw, run.memory.source[i])];
+HWY_INLINE std::uint32_t packed_color_of(const TileContext& context, const TileDraw& draw, int i, bool back) {
+  if (draw.source == ColorSource::per_triangle_packed) return draw.packed_colors[back ? 1 : 0][context.memory.source[i]];
+  if (draw.source != ColorSource::per_vertex_packed) return draw.packed_color;
+  return draw.packed_colors[back ? 1 : 0][provoking_vertex(draw, context.memory.source[i])];
 }
 
 /// The colour of a flat triangle: its own, or that of its provoking vertex.
@@ -45,108 +45,108 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
 }
 
 /// Everything but pixels of triangle i of the group.
-template <class Depth, Test kTest, Seen kSeen>
-HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kTest, kSeen>& pixels, TileRun& run, const TileDraw& draw,
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kDepthTest, kColorWrite>& pixels, TileContext& context, const TileDraw& draw,
                               int i, bool back) {
-  const TriangleGroup& g = run.memory.group;
-  pixels.depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
-  if constexpr (kSeen == Seen::interpolate)
-    pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], run.frame.layout);
-  if constexpr (kSeen == Seen::mix)
+  const TriangleGroup& g = context.memory.group;
+  pixels.depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
+  if constexpr (kColorWrite == ColorWrite::interpolated)
+    pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], context.frame.layout);
+  if constexpr (kColorWrite == ColorWrite::blended)
     pixels.color.set_up(pixels.triangle, draw,
-                        draw.flat ? flat_color(draw, run.memory.source[i], back) : nullptr);
-  if constexpr (kSeen == Seen::collect) pixels.id = static_cast<std::int32_t>(run.memory.triangles.size());
-  if constexpr (kSeen == Seen::word)
-    pixels.word = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
+                        draw.flat ? flat_color(draw, context.memory.source[i], back) : nullptr);
+  if constexpr (kColorWrite == ColorWrite::deferred) pixels.id = static_cast<std::int32_t>(context.memory.visible_triangles.size());
+  if constexpr (kColorWrite == ColorWrite::constant)
+    pixels.packed_color = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
 }
 
 /// The triangle as shading sees it.
-inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileRun& run, std::uint32_t draw,
+inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileContext& context, std::uint32_t draw,
                                               int i, bool back) {
-  const TriangleGroup& g = run.memory.group;
-  set_tile_edges(t.edges, g, i);  // in place: a copy would have to wait for each of its parts
+  const TriangleGroup& g = context.memory.group;
+  set_tile_edges32(t.edges, g, i);  // in place: a copy would have to wait for each of its parts
   for (int k = 0; k < 3; ++k) {
-    t.scale[k] = g.wide[i] != 0 ? g.unit_scale[k][i] : g.scale[k][i];
+    t.scale[k] = g.needs_edges64[i] != 0 ? g.unit_scale[k][i] : g.scale[k][i];
     t.shift[k] = g.shift[k][i];
-    t.attributes[k] = run.memory.attributes[k][i];
+    t.attributes[k] = context.memory.attributes[k][i];
   }
   t.affine = g.affine[i] != 0;
   t.back = back;
   t.draw = draw;
-  t.wide = -1;
+  t.edges64_index = -1;
 }
 
-HWY_INLINE void keep_wide_edges(ShadedTriangle& triangle, TileWorkspace::Memory& memory,
-                                const WideEdges& edges) {
-  triangle.wide = static_cast<std::int32_t>(memory.wide.size());
-  memory.wide.push_back(edges);
+HWY_INLINE void store_edges64(ShadedTriangle& triangle, TileWorkspace::Memory& memory,
+                                const Edges64& edges) {
+  triangle.edges64_index = static_cast<std::int32_t>(memory.edges64.size());
+  memory.edges64.push_back(edges);
 }
 
 /// The small triangles that were added, whose colours are interpolated.
-template <class Depth, Test kTest>
-HWY_NOINLINE void draw_small_pixels(TileRun& run, const TileDraw& draw, SmallPixels& pixels) {
-  const TriangleGroup& g = run.memory.group;
-  std::uint32_t* const color = run.color;
-  std::int32_t* const stored_depth = run.memory.depth;
-  pixels.set_up(run, draw);
+template <class Depth, DepthTestPath kDepthTest>
+HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& draw, SmallTrianglePixels& pixels) {
+  const TriangleGroup& g = context.memory.group;
+  std::uint32_t* const color = context.color;
+  std::int32_t* const stored_depth = context.memory.depth;
+  pixels.set_up(context, draw);
   const std::uint32_t mask = draw.write_mask;
-  const bool tests_stencil = has_stencil_test<kTest>(draw);
+  const bool tests_stencil = has_stencil_test<kDepthTest>(draw);
   PixelStencil stencil[2];
   if (tests_stencil)
-    for (const bool back : {false, true}) stencil[back ? 1 : 0] = pixel_stencil(run, draw, back);
-  std::uint64_t seen = 0;
-  constexpr bool kHasKeys = SmallPixels::kHasKeys<Depth>;
-  if constexpr (kHasKeys) pixels.set_up_keys(g, run.frame.depth_kind);
+    for (const bool back : {false, true}) stencil[back ? 1 : 0] = pixel_stencil(context, draw, back);
+  std::uint64_t visible = 0;
+  constexpr bool kHasKeys = SmallTrianglePixels::kHasKeys<Depth>;
+  if constexpr (kHasKeys) pixels.set_up_keys(g, context.frame.depth_kind);
   Depth depth;
   for (int p = 0; p < pixels.count; ++p) {
     const int i = pixels.triangle(p), index = pixels.index[p];
-    const std::size_t face = tests_stencil && is_back(run, draw, i) ? 1 : 0;
+    const std::size_t face = tests_stencil && is_back(context, draw, i) ? 1 : 0;
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
-      if constexpr (!kHasKeys) depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+      if constexpr (!kHasKeys) depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
       const std::int32_t key = kHasKeys ? pixels.key[p]
                                         : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255),
                          stored = stored_depth[index];
-      const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
+      const bool passes = kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
       if (tests_stencil) stencil[face].store_after_depth(index, passes);
       if (!passes) continue;
-      if (kTest == Test::less || draw.depth_write) stored_depth[index] = key;
+      if (kDepthTest == DepthTestPath::less_write || draw.depth_write) stored_depth[index] = key;
     } else if (tests_stencil) {
       stencil[face].store_after_depth(index, true);
     }
-    const auto word = static_cast<std::uint32_t>(pixels.word[p]);
-    color[index] = (word & mask) | (color[index] & ~mask);
-    ++seen;
+    const auto packed = static_cast<std::uint32_t>(pixels.packed[p]);
+    color[index] = (packed & mask) | (color[index] & ~mask);
+    ++visible;
   }
-  run.counts.shaded_pixels += seen;
+  context.counts.shaded_pixels += visible;
   pixels.count = 0;
   pixels.triangles = 0;
 }
 
-/// Keeps triangle i of the group, some of whose pixels were seen, until these are shaded.
+/// Keeps triangle i of the group, some of whose pixels were visible, until these are shaded.
 /// @param wide_edges  of a wide triangle; else null
-inline HWY_NOINLINE void collect_triangle(TileRun& run, std::uint32_t draw_number, int i, bool back,
-                                          const WideEdges* wide_edges) {
-  TileWorkspace::Memory& memory = run.memory;
-  ShadedTriangle& triangle = memory.triangles.emplace_back();
-  fill_shaded_triangle(triangle, run, draw_number, i, back);
-  if (wide_edges != nullptr) keep_wide_edges(triangle, memory, *wide_edges);
-  if (!run.frame.shade_at_once) return;
+inline HWY_NOINLINE void defer_triangle(TileContext& context, std::uint32_t draw_number, int i, bool back,
+                                          const Edges64* wide_edges) {
+  TileWorkspace::Memory& memory = context.memory;
+  ShadedTriangle& triangle = memory.visible_triangles.emplace_back();
+  fill_shaded_triangle(triangle, context, draw_number, i, back);
+  if (wide_edges != nullptr) store_edges64(triangle, memory, *wide_edges);
+  if (!context.frame.shade_immediately) return;
   const TriangleGroup& g = memory.group;
-  shade_collected(run, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
-  memory.triangles.clear();
-  memory.wide.clear();
+  shade_visible(context, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
+  memory.visible_triangles.clear();
+  memory.edges64.clear();
 }
 
-template <class Depth, Test kTest, Seen kSeen>
-void draw_group(TileRun& run, std::uint32_t draw_number) {
-  TileWorkspace::Memory& memory = run.memory;
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+void draw_group(TileContext& context, std::uint32_t draw_number) {
+  TileWorkspace::Memory& memory = context.memory;
   TriangleGroup& g = memory.group;
-  const TileDraw& draw = run.frame.draws[draw_number];
-  set_up_edges(g, run.tile_x, run.tile_y, run.rect);
+  const TileDraw& draw = context.frame.draws[draw_number];
+  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
   if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
-  if constexpr (is_interpolated(kSeen) || kSeen == Seen::collect) set_up_weights(g);
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_kind, context.tile_x, context.tile_y);
+  if constexpr (is_interpolated(kColorWrite) || kColorWrite == ColorWrite::deferred) set_up_weights(g);
 
   alignas(64) std::uint32_t hits[kGroupSize];
   const std::uint32_t small_ones = small_triangles(g);
@@ -160,66 +160,66 @@ void draw_group(TileRun& run, std::uint32_t draw_number) {
           << first;
     }
   [[maybe_unused]] BoxGroup boxes;
-  if constexpr (kHasBoxes<kTest>) {
+  if constexpr (kHasBoxes<kDepthTest>) {
     const std::uint32_t by_blocks = g.mask & ~small_ones;
-    if (by_blocks != 0 && !run.cut) boxes.set_up(run, g, by_blocks);
+    if (by_blocks != 0 && !context.needs_scissor) boxes.set_up(context, g, by_blocks);
   }
-  [[maybe_unused]] SmallPixels small_pixels;
+  [[maybe_unused]] SmallTrianglePixels small_pixels;
   for (std::uint32_t left = g.mask & ~(small_ones & without_pixel); left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    const bool wide = g.wide[i] != 0, small = (small_ones >> i & 1) != 0;
-    if constexpr (kSeen == Seen::interpolate) {
+    const bool wide = g.needs_edges64[i] != 0, small = (small_ones >> i & 1) != 0;
+    if constexpr (kColorWrite == ColorWrite::interpolated) {
       if (small) {
         small_pixels.add(g, i, hits[i]);
         continue;
       }
       if (small_pixels.count != 0)
-        draw_small_pixels<Depth, kTest>(run, draw, small_pixels);  // that come before
+        draw_small_triangles<Depth, kDepthTest>(context, draw, small_pixels);  // that come before
     }
-    const bool back = is_back(run, draw, i);
-    if constexpr (kHasBoxes<kTest>) {
+    const bool back = is_back(context, draw, i);
+    if constexpr (kHasBoxes<kDepthTest>) {
       if ((boxes.triangles >> i & 1) != 0) {
         std::int32_t value = 0;
-        if constexpr (kSeen == Seen::word)
-          value = static_cast<std::int32_t>(triangle_word(run, draw, i, back));
-        if constexpr (kSeen == Seen::collect) value = static_cast<std::int32_t>(memory.triangles.size());
-        const std::uint32_t seen = draw_in_boxes<Depth, kSeen>(run, draw, boxes, i, value, back);
-        if constexpr (kSeen != Seen::collect) run.counts.shaded_pixels += seen;
-        else if (seen != 0) collect_triangle(run, draw_number, i, back, nullptr);
+        if constexpr (kColorWrite == ColorWrite::constant)
+          value = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
+        if constexpr (kColorWrite == ColorWrite::deferred) value = static_cast<std::int32_t>(memory.visible_triangles.size());
+        const std::uint32_t visible = draw_in_boxes<Depth, kColorWrite>(context, draw, boxes, i, value, back);
+        if constexpr (kColorWrite != ColorWrite::deferred) context.counts.shaded_pixels += visible;
+        else if (visible != 0) defer_triangle(context, draw_number, i, back, nullptr);
         continue;
       }
     }
-    TileEdges edges = tile_edges(g, i);
-    WideEdges wide_edges;
-    if (wide && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges)) continue;
+    Edges32 edges = tile_edges32(g, i);
+    Edges64 wide_edges;
+    if (wide && !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges)) continue;
 
     ShadedTriangle triangle;
-    if constexpr (is_interpolated(kSeen)) {
-      fill_shaded_triangle(triangle, run, draw_number, i, back);
-      if (wide) keep_wide_edges(triangle, memory, wide_edges);
+    if constexpr (is_interpolated(kColorWrite)) {
+      fill_shaded_triangle(triangle, context, draw_number, i, back);
+      if (wide) store_edges64(triangle, memory, wide_edges);
     }
-    TrianglePixels<Depth, kTest, kSeen> pixels(run, draw, edges, triangle, back);
-    set_up_pixels(pixels, run, draw, i, back);
-    if (kSeen != Seen::interpolate && small) {
+    TrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, edges, triangle, back);
+    set_up_pixels(pixels, context, draw, i, back);
+    if (kColorWrite != ColorWrite::interpolated && small) {
       for (std::uint32_t hit = hits[i]; hit != 0; hit &= hit - 1) {
         const int p = std::countr_zero(hit);
         pixels.pixel(g.x0[i] + (p & 3), g.y0[i] + (p >> 2));
       }
     } else {
       if constexpr (kHasDepth<Depth>) pixels.depth.prepare_blocks();
-      if constexpr (kSeen == Seen::mix) pixels.color.prepare_lanes();
+      if constexpr (kColorWrite == ColorWrite::blended) pixels.color.prepare_lanes();
       for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
-    if constexpr (kSeen == Seen::collect) {
-      if (!hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt))))
-        collect_triangle(run, draw_number, i, back, wide ? &wide_edges : nullptr);
+    if constexpr (kColorWrite == ColorWrite::deferred) {
+      if (!hn::AllTrue(kInt, hn::Eq(pixels.visible, hn::Zero(kInt))))
+        defer_triangle(context, draw_number, i, back, wide ? &wide_edges : nullptr);
     }
-    if constexpr (is_interpolated(kSeen)) memory.wide.clear();
-    if constexpr (is_interpolated(kSeen) || kSeen == Seen::word)
-      run.counts.shaded_pixels += pixels.seen_pixels;
+    if constexpr (is_interpolated(kColorWrite)) memory.edges64.clear();
+    if constexpr (is_interpolated(kColorWrite) || kColorWrite == ColorWrite::constant)
+      context.counts.shaded_pixels += pixels.visible_pixels;
   }
-  if constexpr (kSeen == Seen::interpolate) {
-    if (small_pixels.count != 0) draw_small_pixels<Depth, kTest>(run, draw, small_pixels);
+  if constexpr (kColorWrite == ColorWrite::interpolated) {
+    if (small_pixels.count != 0) draw_small_triangles<Depth, kDepthTest>(context, draw, small_pixels);
   }
 }
 

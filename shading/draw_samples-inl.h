@@ -1,10 +1,10 @@
 // Draws without operations where pixels have several samples: what a sample sees of a triangle is what the
 // pixel's centre sees of the triangle moved the other way (raster/sample_positions.h).
-#if defined(TESSERA_SHADING_DRAW_SAMPLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DRAW_SAMPLES_INL_H_
-#undef TESSERA_SHADING_DRAW_SAMPLES_INL_H_
+#if defined(TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
+#undef TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
 #else
-#define TESSERA_SHADING_DRAW_SAMPLES_INL_H_
+#define TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
 #endif
 
 #include <limits>
@@ -16,211 +16,211 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// Blocks in which nothing of a triangle can be seen are passed over. Only `less` does so, and keeps the
-/// blocks' farthest depths exact.
-template <class Depth, Test kTest>
-inline constexpr bool kCulls = kHasDepth<Depth>&& kTest == Test::less;
+/// Blocks in which nothing of a triangle can be visible are passed over. Only `less_write` does so, and keeps the
+/// blocks' hiz_max exact.
+template <class Depth, DepthTestPath kDepthTest>
+inline constexpr bool kUsesHiz = kHasDepth<Depth>&& kDepthTest == DepthTestPath::less_write;
 
-/// A block holds nothing that is farther than `nearest`.
-HWY_INLINE bool is_hidden(const TileRun& run, std::int32_t nearest, int bx, int by) {
-  return nearest >= run.memory.samples->farthest[run.block_index(bx, by) / kBlockPixels];
+/// A block holds nothing that is farther than `min_depth_key`.
+HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int bx, int by) {
+  return min_depth_key >= context.memory.samples->hiz_max[context.block_index(bx, by) / kBlockPixels];
 }
 /// Nor do all blocks of these bounds.
-HWY_INLINE bool is_hidden(const TileRun& run, std::int32_t nearest, int x0, int y0, int x1, int y1) {
+HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int x0, int y0, int x1, int y1) {
   for (int by = y0 & ~3; by <= y1; by += 4)
     for (int bx = x0 & ~3; bx <= x1; bx += 4)
-      if (!is_hidden(run, nearest, bx, by)) return false;
+      if (!hiz_culls(context, min_depth_key, bx, by)) return false;
   return true;
 }
 
 /// Colours of a triangle that are interpolated at once, at the pixels' centres.
-struct SampledColor {
+struct SampledColorEval {
   const ShadedTriangle* triangle = nullptr;
   const ColorLayout* layout = nullptr;
-  Corners r, g, b;
+  Interpolant r, g, b;
   Int to_center[3];  // from the edges that the blocks are found by
 
-  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw, const ShadedTriangle& shaded, int i) {
+  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, const ShadedTriangle& shaded, int i) {
     triangle = &shaded;
-    layout = &run.frame.layout;
+    layout = &context.frame.layout;
     const int attribute = draw.color_attribute[shaded.back ? 1 : 0];
-    r = corners(shaded, attribute, true), g = corners(shaded, attribute + 1, true),
-    b = corners(shaded, attribute + 2, true);
+    r = make_interpolant(shaded, attribute, true), g = make_interpolant(shaded, attribute + 1, true),
+    b = make_interpolant(shaded, attribute + 2, true);
     for (int k = 0; k < 3; ++k)
-      to_center[k] = hn::Sub(splat(shaded.edges.e[k]), splat(run.memory.samples->narrow.highest[k][i]));
+      to_center[k] = hn::Sub(splat(shaded.edges.e[k]), splat(context.memory.samples->samples32.max_edge[k][i]));
   }
-  HWY_NOINLINE Int words(Int e0, Int e1, Int e2) const {
+  HWY_NOINLINE Int packed(Int e0, Int e1, Int e2) const {
     const Barycentric at = barycentric_from_edges(*triangle, hn::Add(e0, to_center[0]),
                                                   hn::Add(e1, to_center[1]), hn::Add(e2, to_center[2]));
-    return words_of(
+    return pack_colors(
         *layout,
-        {{interpolate_within(at, r), interpolate_within(at, g), interpolate_within(at, b), splat(1.0f)}},
+        {{interpolate_clamped(at, r), interpolate_clamped(at, g), interpolate_clamped(at, b), splat(1.0f)}},
         splat(0.5f));
   }
 };
 
 /// One narrow triangle's way through the blocks of a tile, at all samples of a pixel.
-template <class Depth, Test kTest, Seen kSeen>
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 struct SampledTrianglePixels {
-  TileRun& run;
+  TileContext& context;
   const TileDraw& draw;
   Depth depth;
   typename Depth::Anchor anchors[kMaxSamples];
-  TileEdges edges;            // those that the blocks are found by: never below any sample's
+  Edges32 edges;            // those that the blocks are found by: never below any sample's
   Int below[kMaxSamples][3];  // what a sample's edges are more than those
   std::int32_t *stored_depth[kMaxSamples],
-      *stored[kMaxSamples];   // of the sample: depth; the words or triangles' numbers that it writes
-  Int value;                  // the word, or the triangle's number
-  const SampledColor* color;  // collect: words in place of numbers, all of their bits; or null
+      *stored[kMaxSamples];   // of the sample: depth; the packed colors or triangle ids that it writes
+  Int value;                  // the packed color, or the triangle id
+  const SampledColorEval* color;  // deferred: packed colors in place of triangle numbers; or null
   Int writable, depth_writable;
-  std::int32_t nearest;       // no sample of the triangle has a smaller depth key
-  Int seen = hn::Zero(kInt);  // minus the number of pixels that passed at any sample, in each lane
+  std::int32_t min_depth_key;       // no sample of the triangle has a smaller depth key
+  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed at any sample, in each lane
 
-  HWY_INLINE SampledTrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, int i,
-                                   std::uint32_t new_value, const SampledColor* interpolated,
+  HWY_INLINE SampledTrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, int i,
+                                   std::uint32_t new_value, const SampledColorEval* interpolated,
                                    std::int32_t nearest_key)
-      : run(tile_run),
+      : context(tile_context),
         draw(tile_draw),
-        edges(tile_edges(tile_run.memory.group, i)),
+        edges(tile_edges32(tile_context.memory.group, i)),
         value(splat(static_cast<std::int32_t>(new_value))),
         color(interpolated),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))),
         depth_writable(splat(tile_draw.depth_write ? -1 : 0)),
-        nearest(nearest_key) {
-    const TriangleGroup& g = run.memory.group;
-    const SampleGroup& samples = run.memory.samples->narrow;
+        min_depth_key(nearest_key) {
+    const TriangleGroup& g = context.memory.group;
+    const SampleGroup& samples = context.memory.samples->samples32;
     for (int k = 0; k < 3; ++k) {
-      edges.e[k] = samples.highest[k][i];
-      for (int s = 0; s < run.samples; ++s) below[s][k] = splat(samples.below[s][k][i]);
+      edges.e[k] = samples.max_edge[k][i];
+      for (int s = 0; s < context.samples; ++s) below[s][k] = splat(samples.edge_delta[s][k][i]);
     }
     if constexpr (kHasDepth<Depth>) {
-      depth.set_up(g, i, run.tile_x, run.tile_y, run.frame.depth_kind);
+      depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
       depth.prepare_blocks();
     }
-    for (int s = 0; s < run.samples; ++s) {
-      stored_depth[s] = run.sample[s].depth;
+    for (int s = 0; s < context.samples; ++s) {
+      stored_depth[s] = context.sample[s].depth;
       stored[s] = reinterpret_cast<std::int32_t*>(
-          kSeen == Seen::word || color != nullptr ? run.sample[s].color : run.sample[s].ids);
+          kColorWrite == ColorWrite::constant || color != nullptr ? context.sample[s].color : context.sample[s].visibility);
     }
-    for (int s = 0; s < run.samples; ++s)
-      anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(run.samples)[s], run.tile_x, run.tile_y);
+    for (int s = 0; s < context.samples; ++s)
+      anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(context.samples)[s], context.tile_x, context.tile_y);
   }
 
   // Whether the block is full is known of the edges that dominate, not of each sample's.
   template <bool>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
-    if (kCulls<Depth, kTest> && is_hidden(run, nearest, bx, by)) return;
-    if (run.samples == 4) draw_block<4>(bx, by, block_edges);
+    if (kUsesHiz<Depth, kDepthTest> && hiz_culls(context, min_depth_key, bx, by)) return;
+    if (context.samples == 4) draw_block<4>(bx, by, block_edges);
     else draw_block<kMaxSamples>(bx, by, block_edges);
   }
 
   // Once for all: it is long.
   template <int kSamples>
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
-    const int block = run.block_index(bx, by);
+    const int block = context.block_index(bx, by);
     const auto step = depth.step_to(bx, by);
-    const bool cut = run.cut;  // in registers: stores to the tile might change members
+    const bool needs_scissor = context.needs_scissor;  // in registers: stores to the tile might change members
     const Int writes_depth = depth_writable;
-    Int farthest = splat(std::numeric_limits<std::int32_t>::min());
+    Int hiz_max = splat(std::numeric_limits<std::int32_t>::min());
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
       const Int e0 = block_edges.at(0, chunk), e1 = block_edges.at(1, chunk), e2 = block_edges.at(2, chunk);
       if (hn::AllTrue(kInt, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(kInt)))) {  // outside at every sample
-        if constexpr (kCulls<Depth, kTest>)
+        if constexpr (kUsesHiz<Depth, kDepthTest>)
           for (int s = 0; s < kSamples; ++s)
-            farthest = hn::Max(farthest, hn::Load(kInt, stored_depth[s] + index));
+            hiz_max = hn::Max(hiz_max, hn::Load(kInt, stored_depth[s] + index));
         continue;
       }
-      const Int new_value = kSeen == Seen::collect && color != nullptr ? color->words(e0, e1, e2) : value;
-      Int chunk_seen = hn::Zero(kInt);
+      const Int new_value = kColorWrite == ColorWrite::deferred && color != nullptr ? color->packed(e0, e1, e2) : value;
+      Int chunk_visible = hn::Zero(kInt);
       for (int s = 0; s < kSamples; ++s) {
         auto mask = hn::Gt(
             hn::Or(hn::Or(hn::Add(e0, below[s][0]), hn::Add(e1, below[s][1])), hn::Add(e2, below[s][2])),
             splat(-1));
-        if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+        if (needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
         if constexpr (kHasDepth<Depth>) {
           std::int32_t* const at = stored_depth[s] + index;
           const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(anchors[s], step), chunk);
           mask = hn::And(mask,
-                         kTest == Test::less ? hn::Lt(key, before) : comparing(key, draw.depth_test, before));
+                         kDepthTest == DepthTestPath::less_write ? hn::Lt(key, before) : compare_lanes(key, draw.depth_test, before));
           const Int after = hn::IfThenElse(
-              kTest == Test::less ? mask : hn::And(mask, hn::MaskFromVec(writes_depth)), key, before);
+              kDepthTest == DepthTestPath::less_write ? mask : hn::And(mask, hn::MaskFromVec(writes_depth)), key, before);
           hn::Store(after, kInt, at);
-          if constexpr (kCulls<Depth, kTest>) farthest = hn::Max(farthest, after);
+          if constexpr (kUsesHiz<Depth, kDepthTest>) hiz_max = hn::Max(hiz_max, after);
         }
-        chunk_seen = hn::Or(chunk_seen, hn::VecFromMask(kInt, mask));
-        if constexpr (kSeen == Seen::word)
-          store_words(reinterpret_cast<std::uint32_t*>(stored[s]) + index, new_value, mask, writable);
-        if constexpr (kSeen == Seen::collect) {
+        chunk_visible = hn::Or(chunk_visible, hn::VecFromMask(kInt, mask));
+        if constexpr (kColorWrite == ColorWrite::constant)
+          store_packed(reinterpret_cast<std::uint32_t*>(stored[s]) + index, new_value, mask, writable);
+        if constexpr (kColorWrite == ColorWrite::deferred) {
           std::int32_t* const at = stored[s] + index;
           hn::Store(hn::IfThenElse(mask, new_value, hn::Load(kInt, at)), kInt, at);
         }
       }
-      if constexpr (kSeen != Seen::nothing) seen = hn::Add(seen, chunk_seen);
+      if constexpr (kColorWrite != ColorWrite::none) visible = hn::Add(visible, chunk_visible);
     }
-    if constexpr (kCulls<Depth, kTest>)
-      run.memory.samples->farthest[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, farthest));
+    if constexpr (kUsesHiz<Depth, kDepthTest>)
+      context.memory.samples->hiz_max[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, hiz_max));
   }
 };
 
 /// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of
 /// them waits for its colour, by numbers from `id` on.
 /// @pre set up, with the samples' reach
-template <class Depth, Test kTest, Seen kSeen>
-HWY_INLINE bool draw_narrow_samples(TileRun& run, std::uint32_t draw_number, std::uint32_t id) {
-  const TriangleGroup& g = run.memory.group;
-  const TileDraw& draw = run.frame.draws[draw_number];
-  set_up_samples(g, run.memory.samples->narrow, run.samples,
-                 kHasDepth<Depth> ? run.frame.depth_kind : DepthKind::none, run.tile_x, run.tile_y);
-  bool any_seen = false;
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+HWY_INLINE bool draw_edges32_msaa(TileContext& context, std::uint32_t draw_number, std::uint32_t id) {
+  const TriangleGroup& g = context.memory.group;
+  const TileDraw& draw = context.frame.draws[draw_number];
+  set_up_samples(g, context.memory.samples->samples32, context.samples,
+                 kHasDepth<Depth> ? context.frame.depth_kind : DepthKind::none, context.tile_x, context.tile_y);
+  bool any_visible = false;
   for (std::uint32_t left = g.mask; left != 0; left &= left - 1, ++id) {
     const int i = std::countr_zero(left);
-    std::int32_t nearest = 0;
-    if constexpr (kCulls<Depth, kTest>) {
-      nearest = Depth::nearest_key(g, i, run.frame.depth_kind);
-      if (is_hidden(run, nearest, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
+    std::int32_t min_depth_key = 0;
+    if constexpr (kUsesHiz<Depth, kDepthTest>) {
+      min_depth_key = Depth::nearest_key(g, i, context.frame.depth_kind);
+      if (hiz_culls(context, min_depth_key, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
     }
-    const std::uint32_t value = kSeen == Seen::word ? triangle_word(run, draw, i, is_back(run, draw, i)) : id;
-    const bool at_once = kSeen == Seen::collect && !draw.deferred && draw.source == ColorSource::interpolated;
-    SampledColor color;
-    if (at_once) color.set_up(run, draw, run.memory.triangles[id], i);
-    SampledTrianglePixels<Depth, kTest, kSeen> pixels(run, draw, i, value, at_once ? &color : nullptr,
-                                                      nearest);
+    const std::uint32_t value = kColorWrite == ColorWrite::constant ? packed_color_of(context, draw, i, is_back(context, draw, i)) : id;
+    const bool immediate = kColorWrite == ColorWrite::deferred && !draw.deferred && draw.source == ColorSource::interpolated;
+    SampledColorEval color;
+    if (immediate) color.set_up(context, draw, context.memory.visible_triangles[id], i);
+    SampledTrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, i, value, immediate ? &color : nullptr,
+                                                      min_depth_key);
     const BlockOffsets offsets(pixels.edges);
     for_each_block(pixels.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
-    if (kSeen == Seen::word || at_once) run.counts.shaded_pixels += count_of(pixels.seen);
-    else if constexpr (kSeen == Seen::collect)
-      any_seen |= !hn::AllTrue(kInt, hn::Eq(pixels.seen, hn::Zero(kInt)));
+    if (kColorWrite == ColorWrite::constant || immediate) context.counts.shaded_pixels += count_of(pixels.visible);
+    else if constexpr (kColorWrite == ColorWrite::deferred)
+      any_visible |= !hn::AllTrue(kInt, hn::Eq(pixels.visible, hn::Zero(kInt)));
   }
-  return any_seen;
+  return any_visible;
 }
 
-template <class Depth, Test kTest, Seen kSeen>
-void draw_group_samples(TileRun& run, std::uint32_t draw_number) {
-  TileWorkspace::Memory& memory = run.memory;
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+void draw_group_msaa(TileContext& context, std::uint32_t draw_number) {
+  TileWorkspace::Memory& memory = context.memory;
   TriangleGroup& g = memory.group;
-  set_up_edges(g, run.tile_x, run.tile_y, run.rect, sample_reach(run.samples));
+  set_up_edges(g, context.tile_x, context.tile_y, context.rect, sample_reach(context.samples));
   if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_kind, context.tile_x, context.tile_y);
   bool any_wide = false;
-  for (int i = 0; i < g.count; ++i) any_wide |= g.wide[i] != 0;
-  if (any_wide) return draw_fragments_samples(run, draw_number);
-  const std::size_t first_id = memory.triangles.size();
-  if constexpr (kSeen == Seen::collect) {
+  for (int i = 0; i < g.count; ++i) any_wide |= g.needs_edges64[i] != 0;
+  if (any_wide) return draw_fragments_msaa(context, draw_number);
+  const std::size_t first_id = memory.visible_triangles.size();
+  if constexpr (kColorWrite == ColorWrite::deferred) {
     set_up_weights(g);
     for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      fill_shaded_triangle(memory.triangles.emplace_back(), run, draw_number, i,
-                           is_back(run, run.frame.draws[draw_number], i));
+      fill_shaded_triangle(memory.visible_triangles.emplace_back(), context, draw_number, i,
+                           is_back(context, context.frame.draws[draw_number], i));
     }
   }
-  const bool any_seen =
-      draw_narrow_samples<Depth, kTest, kSeen>(run, draw_number, static_cast<std::uint32_t>(first_id));
-  if constexpr (kSeen == Seen::collect) {
-    if (!any_seen) {
-      memory.triangles.resize(first_id);
-    } else if (run.frame.shade_at_once) {
-      shade_whole_tile(run);
+  const bool any_visible =
+      draw_edges32_msaa<Depth, kDepthTest, kColorWrite>(context, draw_number, static_cast<std::uint32_t>(first_id));
+  if constexpr (kColorWrite == ColorWrite::deferred) {
+    if (!any_visible) {
+      memory.visible_triangles.resize(first_id);
+    } else if (context.frame.shade_immediately) {
+      shade_whole_tile(context);
     }
   }
 }

@@ -49,17 +49,17 @@ float squared_chord(float degrees) {
 /// attenuation. No more than there are powers for, which end at 2^-126: what is multiplied by still more
 /// loses the foot of its highlight.
 float bits_above_one(const LightTerm& term) {
-  constexpr double kMost = 94;
-  if (!is_black(term.tracked_specular)) return kMost;  // whatever vertices have
+  constexpr double kMaxBits = 94;
+  if (!is_black(term.tracked_specular)) return kMaxBits;  // whatever vertices have
   double most =
       std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
   if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
     const auto [constant, linear, quadratic] = term.attenuation;
     if (!(constant > 0 && linear >= 0 && quadratic >= 0))
-      return kMost;  // with the distance it may come to any
+      return kMaxBits;  // with the distance it may come to any
     most /= constant;
   }
-  return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMost)) : 0.0f;
+  return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMaxBits)) : 0.0f;
 }
 
 const char* kind_name(LightKind kind) {
@@ -94,12 +94,12 @@ LightKind kind_of(const EyeLight& light) {
 
 // What no float holds is the largest one: where no light arrives, nothing times it is still nothing.
 Rgb finite(Rgb color) {
-  for (float& component : color) component = std::clamp(component, -kLargestFloat, kLargestFloat);
+  for (float& component : color) component = std::clamp(component, -kMaxFloat, kMaxFloat);
   return color;
 }
 
-EyeLight as_it_is(const EyeLight& light) { return light; }
-EyeLight as_grey(const EyeLight& light) {
+EyeLight unchanged(const EyeLight& light) { return light; }
+EyeLight to_luminance(const EyeLight& light) {
   const auto grey = [](const Rgb& c) {
     const float luminance = std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]));
     return Rgb{luminance, luminance, luminance};
@@ -111,12 +111,12 @@ EyeLight as_grey(const EyeLight& light) {
   return changed;
 }
 
-/// @param seen  what counts of each light
+/// @param convert  applied to each light: identity, or its luminance
 LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked,
-                           const std::vector<EyeLight>& lights, EyeLight (&seen)(const EyeLight&),
-                           const LightingModel& model, std::string* reasons, std::vector<LightTerm> room) {
+                           const std::vector<EyeLight>& lights, EyeLight (&convert)(const EyeLight&),
+                           const LightingModel& model, std::string* reasons, std::vector<LightTerm> term_storage) {
   LightingProgram program;
-  program.terms = std::move(room);
+  program.terms = std::move(term_storage);
   program.terms.clear();
   program.tracked = tracked.any();
   const Rgb white{1, 1, 1};
@@ -126,7 +126,7 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
   if (!tracked.ambient) program.base = program.base + model.scene_ambient * material.ambient;
 
   for (std::size_t number = 0; number < lights.size(); ++number) {
-    const EyeLight light = seen(lights[number]);
+    const EyeLight light = convert(lights[number]);
     const auto note = [&](const auto&... parts) {
       if (!reasons) return;
       *reasons += "  light " + std::to_string(number) + ": ";
@@ -169,22 +169,22 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
     term.spot_direction = light.spot_direction;
     term.attenuation = light.attenuation;
-    term.spot_power = power_with(light.spot_exponent);
+    term.spot_power = make_power(light.spot_exponent);
     term.spot_cosine = static_cast<float>(sin_cos_degrees(light.spot_cutoff).cosine);
     if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone)
-      term.spot_apart = squared_chord(light.spot_cutoff);
+      term.spot_chord_squared = squared_chord(light.spot_cutoff);
     term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
     const bool half_varies =
         term.highlight == HighlightKind::blinn_local ||
         (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
-    const float bits_seen = 32 + bits_above_one(term);  // a power is not below 2^-bits_seen, where it is seen
+    const float visible_bits = 32 + bits_above_one(term);  // a power is not below 2^-visible_bits, where it is seen
     // No square is below 2^-126, no cosine by squares below 2^-63.
-    term.squared = half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= bits_seen;
+    term.squared = half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= visible_bits;
     const float exponent = term.squared ? material.shininess / 2 : material.shininess;
-    term.highlight_power = power_with(exponent);
+    term.highlight_power = make_power(exponent);
     // x^s < 2^-b where x < 2^(-b / s): most of a shiny surface, which then needs no power at all.
     term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                         : exp2_reference(std::max(-bits_seen / exponent, -126.0f));
+                                         : exp2_reference(std::max(-visible_bits / exponent, -126.0f));
     program.needs_normal = true;
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |=
@@ -203,13 +203,13 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
 
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
                               const std::vector<EyeLight>& lights, const LightingModel& model,
-                              std::string* reasons, std::vector<LightTerm> room) {
-  return plan_terms(material, tracked, lights, as_it_is, model, reasons, std::move(room));
+                              std::string* reasons, std::vector<LightTerm> term_storage) {
+  return plan_terms(material, tracked, lights, unchanged, model, reasons, std::move(term_storage));
 }
 
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
                                     const LightingModel& model, std::string* reasons,
-                                    std::vector<LightTerm> room) {
+                                    std::vector<LightTerm> term_storage) {
   const auto [ambient, diffuse, specular] = material.indexes;
   // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not
   // matter.
@@ -219,7 +219,7 @@ LightingProgram plan_index_lighting(const IndexMaterial& material, const std::ve
   if (diffuse != ambient || specular != ambient) surface.specular = {0, 1, 0};
   LightingModel dark = model;
   dark.scene_ambient = {};
-  LightingProgram program = plan_terms(surface, {}, lights, as_grey, dark, reasons, std::move(room));
+  LightingProgram program = plan_terms(surface, {}, lights, to_luminance, dark, reasons, std::move(term_storage));
   program.index = true;
   program.indexes = material.indexes;
   program.index_modulus = material.modulus;

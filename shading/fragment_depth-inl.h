@@ -26,18 +26,18 @@ class FragmentDepth {
   HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i,
                            std::uint32_t source, int tile_x, int tile_y) {
     if (!has_depth(frame, draw)) return;
-    const bool moved = draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
+    const bool has_offset = draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
     const auto move = [&](auto& depth) HWY_ATTR {
       if (draw.depth_offsets != nullptr && !std::isnan(draw.depth_offsets[source]))
-        depth.move_by(draw.depth_offsets[source]);
-      else if (moved) depth.offset_by(g, i, draw.offset_factor, draw.offset_units);
+        depth.set_polygon_offset_value(draw.depth_offsets[source]);
+      else if (has_offset) depth.set_polygon_offset(g, i, draw.offset_factor, draw.offset_units);
     };
     if (frame.depth_kind == DepthKind::float32) {
-      format_ = moved ? Format::moved_float32 : Format::float32;
+      format_ = has_offset ? Format::offset_float32 : Format::float32;
       float32_.set_up(g, i, tile_x, tile_y, frame.depth_kind);
       move(float32_);
     } else {
-      format_ = moved || frame.depth_kind == DepthKind::unorm32 ? Format::moved_unorm : Format::unorm;
+      format_ = has_offset || frame.depth_kind == DepthKind::unorm32 ? Format::offset_unorm : Format::unorm;
       unorm_.set_up(g, i, tile_x, tile_y, frame.depth_kind);
       move(unorm_);
       unorm_.prepare_blocks();
@@ -48,15 +48,15 @@ class FragmentDepth {
     switch (format_) {
       case Format::none: return;
       case Format::unorm: return fill(static_cast<const UnormDepth&>(unorm_), bx, by, keys);
-      case Format::moved_unorm: return fill(unorm_, bx, by, keys);
+      case Format::offset_unorm: return fill(unorm_, bx, by, keys);
       case Format::float32: return fill(static_cast<const Float32Depth&>(float32_), bx, by, keys);
-      case Format::moved_float32: return fill(float32_, bx, by, keys);
+      case Format::offset_float32: return fill(float32_, bx, by, keys);
     }
   }
 
  private:
-  // moved_unorm: 32 bits always, whose keys are found in the same way, by an offset of 0.
-  enum class Format : std::uint8_t { none, unorm, moved_unorm, float32, moved_float32 };
+  // offset_unorm: 32 bits always, whose keys are found in the same way, by an offset of 0.
+  enum class Format : std::uint8_t { none, unorm, offset_unorm, float32, offset_float32 };
 
   template <class Depth>
   static HWY_INLINE void fill(const Depth& depth, int bx, int by, Int* keys) {

@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 HWY_INLINE LaneMask no_lanes() { return hn::Gt(hn::Zero(kInt), hn::Zero(kInt)); }
 
 template <class Vector>
-HWY_INLINE auto comparing(Vector a, CompareOp op, Vector b) {
+HWY_INLINE auto compare_lanes(Vector a, CompareOp op, Vector b) {
   const auto less = hn::Lt(a, b), equal = hn::Eq(a, b), greater = hn::Lt(b, a);
   switch (op) {
     case CompareOp::never: return hn::And(less, greater);
@@ -33,26 +33,26 @@ HWY_INLINE auto comparing(Vector a, CompareOp op, Vector b) {
 }
 
 /// What passes the stencil test.
-HWY_INLINE LaneMask stencil_passes(const StencilSteps& stencil, Int stored) {
+HWY_INLINE LaneMask stencil_passes(const StencilTestConstants& stencil, Int stored) {
   const auto first = splat(static_cast<std::int32_t>(stencil.passing.first)),
              count = splat(static_cast<std::int32_t>(stencil.passing.count));
   return hn::RebindMask(kInt, hn::Lt(hn::BitCast(kUint, hn::Sub(hn::And(stored, splat(stencil.mask)), first)),
                                      hn::BitCast(kUint, count)));
 }
 
-HWY_INLINE Int stencil_after(const StencilStep& step, Int stored) {
+HWY_INLINE Int stencil_op_lanes(const StencilOpConstants& step, Int stored) {
   const Int value = hn::Add(hn::Xor(hn::And(stored, splat(step.keep)), splat(step.flip)), splat(step.add));
-  return hn::Min(hn::Max(value, splat(step.least)), splat(step.most));
+  return hn::Min(hn::Max(value, splat(step.min_value)), splat(step.max_value));
 }
 
 /// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what
 /// passed both.
-HWY_INLINE Int stencil_result(const StencilSteps& stencil, Int stored, LaneMask failed, LaneMask zfailed,
+HWY_INLINE Int stencil_result(const StencilTestConstants& stencil, Int stored, LaneMask failed, LaneMask zfailed,
                               LaneMask zpassed) {
   Int value = stored;
-  if (stencil.fail_writes) value = hn::IfThenElse(failed, stencil_after(stencil.fail, stored), value);
-  if (stencil.zfail_writes) value = hn::IfThenElse(zfailed, stencil_after(stencil.zfail, stored), value);
-  if (stencil.zpass_writes) value = hn::IfThenElse(zpassed, stencil_after(stencil.zpass, stored), value);
+  if (stencil.fail_writes) value = hn::IfThenElse(failed, stencil_op_lanes(stencil.fail, stored), value);
+  if (stencil.zfail_writes) value = hn::IfThenElse(zfailed, stencil_op_lanes(stencil.zfail, stored), value);
+  if (stencil.zpass_writes) value = hn::IfThenElse(zpassed, stencil_op_lanes(stencil.zpass, stored), value);
   const Int mask = splat(stencil.write_mask);
   return hn::Or(hn::AndNot(mask, stored), hn::And(value, mask));
 }
@@ -69,25 +69,25 @@ HWY_INLINE Float clamped_unit(Float c) {
 /// At least 0; 0 for a NaN.
 HWY_INLINE Float clamped_below(Float c) { return hn::Max(c, hn::Zero(kFloat)); }
 
-HWY_INLINE Float component_from(Int words, int shift, int bits) {
+HWY_INLINE Float component_from(Int packed, int shift, int bits) {
   if (bits == 0) return splat(1.0f);
-  const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, words), shift)),
+  const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, packed), shift)),
                             splat((1 << bits) - 1));
   return hn::Mul(hn::ConvertTo(kFloat, level), splat(1.0f / static_cast<float>((1 << bits) - 1)));
 }
 
-HWY_INLINE Colors stored_colors(const ColorLayout& layout, Int words) {
-  const Float a = component_from(words, layout.bits, layout.alpha_bits);
+HWY_INLINE Colors unpack_colors(const ColorLayout& layout, Int packed) {
+  const Float a = component_from(packed, layout.bits, layout.alpha_bits);
   if (layout.luminance) {
-    const Float l = component_from(words, 0, layout.bits);
+    const Float l = component_from(packed, 0, layout.bits);
     return {{l, l, l, a}};
   }
-  return {{component_from(words, layout.r_shift(), layout.r_bits),
-           component_from(words, layout.g_shift(), layout.g_bits), component_from(words, 0, layout.b_bits),
+  return {{component_from(packed, layout.r_shift(), layout.r_bits),
+           component_from(packed, layout.g_shift(), layout.g_bits), component_from(packed, 0, layout.b_bits),
            a}};
 }
 
-HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& d,
+HWY_INLINE Float blend_factor_lanes(Factor factor, int c, const Colors& s, const Colors& d,
                            const std::array<float, 4>& constant) {
   const Float one = splat(1.0f);
   switch (factor) {
@@ -112,11 +112,11 @@ HWY_INLINE Float factor_of(Factor factor, int c, const Colors& s, const Colors& 
   }
 }
 
-HWY_INLINE Colors blended_colors(const FragmentOps& ops, const Colors& s, const Colors& d) {
+HWY_INLINE Colors blend_lanes(const FragmentOps& ops, const Colors& s, const Colors& d) {
   Colors out;
   for (int c = 0; c < 4; ++c) {
-    const Float sf = factor_of(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
-                df = factor_of(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    const Float sf = blend_factor_lanes(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
+                df = blend_factor_lanes(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
     Float sum;
     switch (ops.equation) {
       case Equation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
@@ -130,31 +130,31 @@ HWY_INLINE Colors blended_colors(const FragmentOps& ops, const Colors& s, const 
   return out;
 }
 
-/// Clamped colours to words of an RGB or luminance layout.
-HWY_INLINE Int words_of(const ColorLayout& layout, const Colors& colors, Float threshold) {
+/// Packs clamped colors of an RGB or luminance layout.
+HWY_INLINE Int pack_colors(const ColorLayout& layout, const Colors& colors, Float threshold) {
   const auto level = [&](Float x, int bits) HWY_ATTR {
     return truncate(mul_add(x, splat(static_cast<float>((1 << bits) - 1)), threshold));
   };
-  Int words = hn::Zero(kInt);
-  if (layout.alpha_bits != 0) words = hn::ShiftLeftSame(level(colors.c[3], layout.alpha_bits), layout.bits);
+  Int packed = hn::Zero(kInt);
+  if (layout.alpha_bits != 0) packed = hn::ShiftLeftSame(level(colors.c[3], layout.alpha_bits), layout.bits);
   if (layout.luminance) {
     const Float l = mul_add(splat(kLumaR), colors.c[0],
                             mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
-    return hn::Or(words, level(clamped_unit(l), layout.bits));
+    return hn::Or(packed, level(clamped_unit(l), layout.bits));
   }
-  words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
-  words = hn::Or(words, hn::ShiftLeftSame(level(colors.c[1], layout.g_bits), layout.g_shift()));
-  return hn::Or(words, level(colors.c[2], layout.b_bits));
+  packed = hn::Or(packed, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
+  packed = hn::Or(packed, hn::ShiftLeftSame(level(colors.c[1], layout.g_bits), layout.g_shift()));
+  return hn::Or(packed, level(colors.c[2], layout.b_bits));
 }
 
 /// The same for 8 bits each and halves that are rounded up.
-HWY_INLINE Int words_of_rgb8(const Colors& colors) {
+HWY_INLINE Int pack_rgb8(const Colors& colors) {
   const auto level = [&](int c)
                          HWY_ATTR { return truncate(mul_add(colors.c[c], splat(255.0f), splat(0.5f))); };
   return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
 }
 
-HWY_INLINE Int logic_words(Logic logic, Int s, Int d) {
+HWY_INLINE Int logic_op_lanes(Logic logic, Int s, Int d) {
   switch (logic) {
     case Logic::clear: return hn::Zero(kInt);
     case Logic::and_: return hn::And(s, d);

@@ -74,7 +74,7 @@ struct FragmentOps {
 
   bool stencil = false;
   StencilSide faces[2];              ///< front, back
-  std::int32_t stencil_most = 0xff;  ///< 2^bits - 1
+  std::int32_t stencil_max = 0xff;  ///< 2^bits - 1
 
   bool blend = false;
   Factor src_color = Factor::src_alpha, dst_color = Factor::one_minus_src_alpha,

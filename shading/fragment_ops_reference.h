@@ -8,13 +8,13 @@
 
 namespace tessera {
 
-constexpr std::int32_t stencil_after(StencilAction action, std::int32_t stored, const StencilSide& face,
-                                     std::int32_t most) {
+constexpr std::int32_t stencil_op_reference(StencilAction action, std::int32_t stored, const StencilSide& face,
+                                     std::int32_t max_value) {
   const auto value = [&] {
     switch (action) {
       case StencilAction::zero: return 0;
       case StencilAction::replace: return face.reference;
-      case StencilAction::incr: return stored < most ? stored + 1 : most;
+      case StencilAction::incr: return stored < max_value ? stored + 1 : max_value;
       case StencilAction::decr: return stored > 0 ? stored - 1 : 0;
       case StencilAction::invert: return ~stored;
       case StencilAction::incr_wrap: return stored + 1;
@@ -22,11 +22,11 @@ constexpr std::int32_t stencil_after(StencilAction action, std::int32_t stored, 
       default: return stored;
     }
   };
-  const std::int32_t mask = face.write_mask & most;
+  const std::int32_t mask = face.write_mask & max_value;
   return (stored & ~mask) | (value() & mask);
 }
 
-constexpr std::uint32_t logic_word(Logic logic, std::uint32_t s, std::uint32_t d) {
+constexpr std::uint32_t logic_op_reference(Logic logic, std::uint32_t s, std::uint32_t d) {
   switch (logic) {
     case Logic::clear: return 0;
     case Logic::and_: return s & d;
@@ -55,7 +55,7 @@ inline float component_of(std::uint32_t level, int bits) {
 }
 
 /// The colour that a stored word stands for.
-inline Rgba stored_components(const ColorLayout& layout, std::uint32_t word) {
+inline Rgba unpack_color_reference(const ColorLayout& layout, std::uint32_t word) {
   const auto field = [&](int shift, int bits) {
     return component_of(word >> shift & ((1u << bits) - 1), bits);
   };
@@ -68,7 +68,7 @@ inline Rgba stored_components(const ColorLayout& layout, std::uint32_t word) {
           field(0, layout.b_bits), a};
 }
 
-inline float blend_factor(Factor factor, std::size_t c, const Rgba& s, const Rgba& d, const Rgba& constant) {
+inline float blend_factor_reference(Factor factor, std::size_t c, const Rgba& s, const Rgba& d, const Rgba& constant) {
   switch (factor) {
     case Factor::zero: return 0;
     case Factor::one: return 1;
@@ -89,11 +89,11 @@ inline float blend_factor(Factor factor, std::size_t c, const Rgba& s, const Rgb
 }
 
 /// Clamped to 0..1.
-inline Rgba blended(const FragmentOps& ops, const Rgba& s, const Rgba& d) {
+inline Rgba blend_reference(const FragmentOps& ops, const Rgba& s, const Rgba& d) {
   Rgba out;
   for (std::size_t c = 0; c < 4; ++c) {
-    const float sf = blend_factor(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
-                df = blend_factor(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    const float sf = blend_factor_reference(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
+                df = blend_factor_reference(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
     const float sum = ops.equation == Equation::add                ? std::fma(s[c], sf, d[c] * df)
                       : ops.equation == Equation::subtract         ? std::fma(s[c], sf, -(d[c] * df))
                       : ops.equation == Equation::reverse_subtract ? std::fma(-s[c], sf, d[c] * df)

@@ -30,7 +30,7 @@ using Rgba = std::array<float, 4>;
 inline float clamp_unit(float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
 
 /// The word of a clamped colour: each component floor(c (2^b - 1) + t). RGB and luminance layouts.
-inline std::uint32_t stored_word(const ColorLayout& layout, const Rgba& c, float t) {
+inline std::uint32_t pack_color(const ColorLayout& layout, const Rgba& c, float t) {
   const auto level = [&](float x, int bits) {
     return static_cast<std::uint32_t>(
         static_cast<std::int32_t>(std::fma(x, static_cast<float>((1 << bits) - 1), t)));

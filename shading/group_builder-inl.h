@@ -24,75 +24,75 @@ constexpr bool may_raise_depth(CompareOp test) {
 
 /// Collects elements of one draw until a group is full.
 struct GroupBuilder {
-  TileRun& run;
+  TileContext& context;
   std::uint32_t draw_number = 0;
   const TileDraw* draw = nullptr;
-  DrawGroup draw_group_function = nullptr;
-  // Points and lines are so small that waiting for their vertices would be most of the work: while a group is
+  DrawGroupFunction draw_group_function = nullptr;
+  // Points and lines are so small that cache misses of their vertices would be most of the work: while a group is
   // drawn, those of the next come.
-  std::uint32_t fetched[2 * kGroupSize];
-  int fetched_count = 0;
-  std::uint32_t waiting[kGroupSize];  // triangles
-  int waiting_count = 0;
+  std::uint32_t prefetched[2 * kGroupSize];
+  int prefetched_count = 0;
+  std::uint32_t pending[kGroupSize];  // triangles
+  int pending_count = 0;
 
   HWY_INLINE bool is_in(std::uint32_t number) const { return draw != nullptr && draw_number == number; }
   HWY_INLINE void begin_draw(std::uint32_t number) {
-    const TileFrame& frame = run.frame;
+    const TileFrame& frame = context.frame;
     const TileDraw& next = frame.draws[number];
     // Pixels that wait for their colour keep it only from draws that write the same planes.
-    if (draw != nullptr && !run.memory.triangles.empty() &&
+    if (draw != nullptr && !context.memory.visible_triangles.empty() &&
         (next.write_mask != draw->write_mask || !next.deferred))
-      shade_whole_tile(run);
+      shade_whole_tile(context);
     draw_number = number;
     draw = &next;
-    if (next.texels == nullptr) draw_group_function = pick_draw_group(frame, next);
-    if (run.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
-      set_farthest(run, kFarthestKey);
+    if (next.texels == nullptr) draw_group_function = select_draw_group(frame, next);
+    if (context.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
+      reset_hiz(context, kMaxDepthKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
-    run.rect = intersect({next.rect.x0 - run.tile_x, next.rect.y0 - run.tile_y, next.rect.x1 - run.tile_x,
-                          next.rect.y1 - run.tile_y},
-                         {0, 0, run.tile_size, run.tile_size});
-    run.cut = ((run.rect.x0 | run.rect.y0 | run.rect.x1 | run.rect.y1) & 3) != 0;
-    if (next.texels != nullptr) draw_pixel_rectangle(run, number);
+    context.rect = intersect({next.rect.x0 - context.tile_x, next.rect.y0 - context.tile_y, next.rect.x1 - context.tile_x,
+                          next.rect.y1 - context.tile_y},
+                         {0, 0, context.tile_size, context.tile_size});
+    context.needs_scissor = ((context.rect.x0 | context.rect.y0 | context.rect.x1 | context.rect.y1) & 3) != 0;
+    if (next.texels != nullptr) draw_pixel_rectangle(context, number);
   }
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
-    if (draw->topology != Topology::triangles) return add_small(bins, id);
-    if ((id & kPiece) == 0) {
-      waiting[waiting_count++] = id;
+    if (draw->topology != Topology::triangles) return add_point_or_line(bins, id);
+    if ((id & kDerivedBit) == 0) {
+      pending[pending_count++] = id;
     } else {
-      load_waiting();
+      load_pending();
       load<3>(bins, id);
     }
-    if (run.memory.group.count + waiting_count < kGroupSize) return;
-    load_waiting();
+    if (context.memory.group.count + pending_count < kGroupSize) return;
+    load_pending();
     draw_all();
   }
   /// Those of the entries that stand before the first one that is no triangle of the mesh's own, but no more
   /// than fill a group: how many were added.
-  HWY_INLINE std::uint32_t add_own(const std::uint32_t* entries, std::uint32_t count) {
+  HWY_INLINE std::uint32_t add_mesh_triangles(const std::uint32_t* entries, std::uint32_t count) {
     if (draw == nullptr || draw->topology != Topology::triangles) return 0;
-    const auto room = static_cast<std::uint32_t>(kGroupSize - run.memory.group.count - waiting_count),
+    const auto room = static_cast<std::uint32_t>(kGroupSize - context.memory.group.count - pending_count),
                most = std::min(count, room);
     std::uint32_t added = 0;
-    while (added < most && (entries[added] & (kDrawMarker | kPiece)) == 0)
-      waiting[waiting_count + static_cast<int>(added)] = entries[added], ++added;
-    waiting_count += static_cast<int>(added);
+    while (added < most && (entries[added] & (kDrawMarker | kDerivedBit)) == 0)
+      pending[pending_count + static_cast<int>(added)] = entries[added], ++added;
+    pending_count += static_cast<int>(added);
     if (added == room) {
-      load_waiting();
+      load_pending();
       draw_all();
     }
     return added;
   }
   /// What was added needs these bins no longer, but for pieces' attributes.
-  HWY_INLINE void leave(const Bins& bins) { draw_fetched(bins, 0); }
+  HWY_INLINE void release_bins(const Bins& bins) { draw_prefetched(bins, 0); }
   /// Draws what was added; `bins` held the last of it.
   HWY_INLINE void flush(const Bins& bins) {
-    leave(bins);
+    release_bins(bins);
     finish();
   }
   /// Draws what is left.
   HWY_INLINE void finish() {
-    load_waiting();
+    load_pending();
     draw_all();
   }
 
@@ -101,51 +101,51 @@ struct GroupBuilder {
     return draw->indices ? draw->indices[corner] : corner;
   }
 
-  HWY_NOINLINE void add_small(const Bins& bins, std::uint32_t id) {
-    if ((id & kPiece) == 0) {
+  HWY_NOINLINE void add_point_or_line(const Bins& bins, std::uint32_t id) {
+    if ((id & kDerivedBit) == 0) {
       const std::size_t corners = draw->topology == Topology::lines ? 2 : 1;
       for (std::size_t k = 0; k < corners; ++k) fetch(vertex_of(id * corners + k));
     }
-    fetched[fetched_count++] = id;
-    if (fetched_count == 2 * kGroupSize) draw_fetched(bins, kGroupSize);
+    prefetched[prefetched_count++] = id;
+    if (prefetched_count == 2 * kGroupSize) draw_prefetched(bins, kGroupSize);
   }
   HWY_INLINE void fetch(std::size_t vertex) const {
     __builtin_prefetch(draw->vertices + vertex);
-    if (draw->source == ColorSource::vertex_word) __builtin_prefetch(draw->words[0] + vertex);
+    if (draw->source == ColorSource::per_vertex_packed) __builtin_prefetch(draw->packed_colors[0] + vertex);
     else __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
   }
   /// All but the last `kept` of them.
-  HWY_NOINLINE void draw_fetched(const Bins& bins, int kept) {
-    const int drawn = fetched_count - kept;
+  HWY_NOINLINE void draw_prefetched(const Bins& bins, int kept) {
+    const int drawn = prefetched_count - kept;
     if (drawn <= 0) return;
     for (int i = 0; i < drawn; ++i) {
-      draw->topology == Topology::lines ? load<2>(bins, fetched[i]) : load<1>(bins, fetched[i]);
-      if (run.memory.group.count == kGroupSize) draw_all();
+      draw->topology == Topology::lines ? load<2>(bins, prefetched[i]) : load<1>(bins, prefetched[i]);
+      if (context.memory.group.count == kGroupSize) draw_all();
     }
-    std::copy_n(fetched + drawn, kept, fetched);
-    fetched_count = kept;
+    std::copy_n(prefetched + drawn, kept, prefetched);
+    prefetched_count = kept;
   }
   HWY_INLINE void draw_all() {
-    TriangleGroup& g = run.memory.group;
+    TriangleGroup& g = context.memory.group;
     if (g.count == 0) return;
     // Lanes without a triangle repeat the first one and have no bit in the mask.
     for (int i = g.count; i < kGroupSize; ++i)
       for (int k = 0; k < 3; ++k)
         g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
-    draw_group_function(run, draw_number);
+    draw_group_function(context, draw_number);
     g.count = 0;
-    if (run.memory.triangles.size() >= kMaxCollected) shade_whole_tile(run);
+    if (context.memory.visible_triangles.size() >= kMaxVisibleTriangles) shade_whole_tile(context);
   }
-  HWY_NOINLINE void load_waiting() {
-    if (waiting_count == 0) return;  // there may be no draw yet
+  HWY_NOINLINE void load_pending() {
+    if (pending_count == 0) return;  // there may be no draw yet
     int loaded = 0;
     const DrawArrays arrays{.indices = draw->indices,
                             .vertices = draw->vertices,
                             .attributes = draw->attributes,
                             .stride = static_cast<std::size_t>(draw->attribute_stride)};
-    for (; loaded + 4 <= waiting_count; loaded += 4) load_four(arrays, waiting + loaded);
-    for (; loaded < waiting_count; ++loaded) load_own<3>(waiting[loaded]);
-    waiting_count = 0;
+    for (; loaded + 4 <= pending_count; loaded += 4) load_four(arrays, pending + loaded);
+    for (; loaded < pending_count; ++loaded) load_mesh_primitive<3>(pending[loaded]);
+    pending_count = 0;
   }
   /// What of a draw says where its vertices are. A copy: it stays in registers while groups are written.
   struct DrawArrays {
@@ -155,7 +155,7 @@ struct GroupBuilder {
     std::size_t stride;
   };
   HWY_INLINE void load_four(const DrawArrays& arrays, const std::uint32_t* ids) {
-    TileWorkspace::Memory& memory = run.memory;
+    TileWorkspace::Memory& memory = context.memory;
     const int i = memory.group.count;
     memory.group.count += 4;
     std::size_t first[4];  // corner
@@ -184,7 +184,7 @@ struct GroupBuilder {
   HWY_INLINE void load_four_vertices(int i, int k, const WindowVertex* const (&v)[4]) {
     constexpr hn::CappedTag<std::int32_t, 4> four;
     constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
-    TriangleGroup& g = run.memory.group;
+    TriangleGroup& g = context.memory.group;
     const auto row = [&](int t)
                          HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const std::int32_t*>(v[t])); };
     const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
@@ -203,30 +203,30 @@ struct GroupBuilder {
 #endif
   template <int kCorners>
   HWY_INLINE void load(const Bins& bins, std::uint32_t id) {
-    if ((id & kPiece) == 0) return load_own<kCorners>(id);
-    const int i = run.memory.group.count++;
-    const Piece& piece = bins.piece(id);
-    const float* const attributes = bins.attributes(piece);
+    if ((id & kDerivedBit) == 0) return load_mesh_primitive<kCorners>(id);
+    const int i = context.memory.group.count++;
+    const DerivedPrimitive& derived = bins.derived(id);
+    const float* const attributes = bins.attributes(derived);
     for (int k = 0; k < kCorners; ++k) {
-      load_vertex(i, k, piece.vertices[k]);
-      run.memory.attributes[k][i] = attributes + k * draw->attribute_stride;
+      load_vertex(i, k, derived.vertices[k]);
+      context.memory.attributes[k][i] = attributes + k * draw->attribute_stride;
     }
-    run.memory.source[i] = piece.source;
+    context.memory.source[i] = derived.source;
   }
   /// One of the mesh's own.
   template <int kCorners>
-  HWY_INLINE void load_own(std::uint32_t id) {
-    const int i = run.memory.group.count++;
+  HWY_INLINE void load_mesh_primitive(std::uint32_t id) {
+    const int i = context.memory.group.count++;
     for (int k = 0; k < kCorners; ++k) {
       const std::size_t vertex = vertex_of(std::size_t{id} * kCorners + static_cast<std::size_t>(k));
       load_vertex(i, k, draw->vertices[vertex]);
-      run.memory.attributes[k][i] =
+      context.memory.attributes[k][i] =
           draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride);
     }
-    run.memory.source[i] = id;
+    context.memory.source[i] = id;
   }
   HWY_INLINE void load_vertex(int i, int k, const WindowVertex& v) {
-    TriangleGroup& g = run.memory.group;
+    TriangleGroup& g = context.memory.group;
     g.x[k][i] = v.x;
     g.y[k][i] = v.y;
     g.z[k][i] = v.z;

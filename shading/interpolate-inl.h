@@ -66,11 +66,11 @@ HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, I
 }
 
 /// The exact edges of a narrow triangle at the pixels of a block. Chunks are whole rows, or single pixels.
-struct NarrowEdges {
+struct BlockEdges32 {
   const ShadedTriangle& triangle;
   Int first[3];  // at the first chunk
 
-  HWY_INLINE NarrowEdges(const ShadedTriangle& t, int bx, int by) : triangle(t) {
+  HWY_INLINE BlockEdges32(const ShadedTriangle& t, int bx, int by) : triangle(t) {
     const Int x = hn::Add(splat(bx), block_columns(0)), y = hn::Add(splat(by), block_rows(0));
     for (int k = 0; k < 3; ++k)
       first[k] = hn::Add(splat(t.edges.e[k]),
@@ -85,15 +85,15 @@ struct NarrowEdges {
   }
 };
 
-inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const WideEdges& wide, int bx,
+inline HWY_NOINLINE Barycentric barycentric_edges64(const ShadedTriangle& t, const Edges64& edges64, int bx,
                                                  int by, int chunk) {
   alignas(64) float w[3][kLanes];
   for (int k = 0; k < 3; ++k) {
-    const double start = wide.e[k] + wide.a[k] * bx + wide.b[k] * by;  // exact, as all of it
+    const double start = edges64.e[k] + edges64.a[k] * bx + edges64.b[k] * by;  // exact, as all of it
     for (int l = 0; l < kLanes; ++l) {
       const int p = chunk * kLanes + l;
       w[k][l] =
-          static_cast<float>(start + wide.a[k] * kBlockColumn[p] + wide.b[k] * kBlockRow[p]) * t.scale[k];
+          static_cast<float>(start + edges64.a[k] * kBlockColumn[p] + edges64.b[k] * kBlockRow[p]) * t.scale[k];
     }
   }
   const Barycentric found =
@@ -105,83 +105,83 @@ inline HWY_NOINLINE Barycentric barycentric_wide(const ShadedTriangle& t, const 
           hn::IfThenElseZero(known, found.inverse)};
 }
 
-HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const WideEdges* wide, int bx, int by,
+HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const Edges64* edges64, int bx, int by,
                                    int chunk) {
-  return HWY_LIKELY(t.wide < 0) ? NarrowEdges(t, bx, by).barycentric(chunk)
-                                : barycentric_wide(t, wide[t.wide], bx, by, chunk);
+  return HWY_LIKELY(t.edges64_index < 0) ? BlockEdges32(t, bx, by).barycentric(chunk)
+                                : barycentric_edges64(t, edges64[t.edges64_index], bx, by, chunk);
 }
 
 /// One attribute at the three vertices, and what it is kept within.
-struct Corners {
+struct Interpolant {
   float first, to_second, to_third;
   float low = -std::numeric_limits<float>::infinity(), high = std::numeric_limits<float>::infinity();
 };
-/// `keeps_range`: within the vertices' own.
-HWY_INLINE Corners corners(const ShadedTriangle& t, int attribute, bool keeps_range = false) {
+/// `clamps_to_range`: within the vertices' own.
+HWY_INLINE Interpolant make_interpolant(const ShadedTriangle& t, int attribute, bool clamps_to_range = false) {
   const float a = t.attributes[0][attribute], b = t.attributes[1][attribute], c = t.attributes[2][attribute];
-  Corners corners{a, b - a, c - a};
-  if (!keeps_range) return corners;
-  corners.low = std::min(std::min(a, b), c);
-  corners.high = std::max(std::max(a, b), c);
-  return corners;
+  Interpolant interpolant{a, b - a, c - a};
+  if (!clamps_to_range) return interpolant;
+  interpolant.low = std::min(std::min(a, b), c);
+  interpolant.high = std::max(std::max(a, b), c);
+  return interpolant;
 }
-HWY_INLINE Float interpolate(const Barycentric& b, const Corners& c) {
+HWY_INLINE Float interpolate(const Barycentric& b, const Interpolant& c) {
   return mul_add(b.b1, splat(c.to_second), mul_add(b.b2, splat(c.to_third), splat(c.first)));
 }
-/// Corners in all lanes, for triangles of many pixels.
-struct CornerLanes {
+/// Interpolant in all lanes, for triangles of many pixels.
+struct InterpolantLanes {
   Float first, to_second, to_third;
-  HWY_INLINE void set(const Corners& c) {
+  HWY_INLINE void set(const Interpolant& c) {
     first = splat(c.first);
     to_second = splat(c.to_second);
     to_third = splat(c.to_third);
   }
 };
 /// And what it is kept within.
-struct RangeLanes {
-  CornerLanes corner;
+struct ClampedInterpolantLanes {
+  InterpolantLanes interpolant;
   Float low, high;
-  HWY_INLINE void set(const Corners& c) {
-    corner.set(c);
+  HWY_INLINE void set(const Interpolant& c) {
+    interpolant.set(c);
     low = splat(c.low);
     high = splat(c.high);
   }
 };
-HWY_INLINE Float interpolate(const Barycentric& b, const CornerLanes& c) {
+HWY_INLINE Float interpolate(const Barycentric& b, const InterpolantLanes& c) {
   return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first));
 }
 /// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of
 /// the triangle.
-HWY_INLINE Float interpolate_within(const Barycentric& b, const RangeLanes& c) {
-  return lesser_of(greater_of(interpolate(b, c.corner), c.low), c.high);
+HWY_INLINE Float interpolate_clamped(const Barycentric& b, const ClampedInterpolantLanes& c) {
+  return lesser_of(greater_of(interpolate(b, c.interpolant), c.low), c.high);
 }
-HWY_INLINE Float interpolate_within(const Barycentric& b, const Corners& c) {
-  RangeLanes lanes;
+HWY_INLINE Float interpolate_clamped(const Barycentric& b, const Interpolant& c) {
+  ClampedInterpolantLanes lanes;
   lanes.set(c);
-  return interpolate_within(b, lanes);
+  return interpolate_clamped(b, lanes);
 }
 
 /// Keeps attributes from `attribute` on: as many as there is room for; what is read beyond the surface's own
 /// means nothing.
-HWY_INLINE void keep_corners(const ShadedTriangle& t, int attribute, TriangleCorners& corners) {
-  static_assert(TriangleCorners::kMost <= kAttributePadding);
-  constexpr hn::CappedTag<float, TriangleCorners::kMost> some;
-  for (int j = 0; j < TriangleCorners::kMost; j += static_cast<int>(hn::MaxLanes(some))) {
+HWY_INLINE void store_interpolants(const ShadedTriangle& t, int attribute, TriangleInterpolants& interpolants) {
+  static_assert(TriangleInterpolants::kCapacity <= kAttributePadding);
+  constexpr hn::CappedTag<float, TriangleInterpolants::kCapacity> some;
+  for (int j = 0; j < TriangleInterpolants::kCapacity; j += static_cast<int>(hn::MaxLanes(some))) {
     const auto a0 = hn::LoadU(some, t.attributes[0] + attribute + j);
-    hn::Store(a0, some, corners.first + j);
-    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[1] + attribute + j), a0), some, corners.to_second + j);
-    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[2] + attribute + j), a0), some, corners.to_third + j);
+    hn::Store(a0, some, interpolants.first + j);
+    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[1] + attribute + j), a0), some, interpolants.to_second + j);
+    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[2] + attribute + j), a0), some, interpolants.to_third + j);
   }
 }
-HWY_INLINE Float interpolate(const Barycentric& b, const TriangleCorners& c, int j) {
-  return interpolate(b, Corners{c.first[j], c.to_second[j], c.to_third[j]});
+HWY_INLINE Float interpolate(const Barycentric& b, const TriangleInterpolants& c, int j) {
+  return interpolate(b, Interpolant{c.first[j], c.to_second[j], c.to_third[j]});
 }
 
 /// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` means
 /// nothing.
-struct CornerArrays {
+struct InterpolantArrays {
   alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
-  HWY_INLINE CornerArrays(const ShadedTriangle& t, int attribute, int count) {
+  HWY_INLINE InterpolantArrays(const ShadedTriangle& t, int attribute, int count) {
     for (int j = 0; j < count; j += kLanes) {
       const Float a0 = hn::LoadU(kFloat, t.attributes[0] + attribute + j);
       hn::Store(a0, kFloat, first + j);
@@ -189,9 +189,9 @@ struct CornerArrays {
       hn::Store(hn::Sub(hn::LoadU(kFloat, t.attributes[2] + attribute + j), a0), kFloat, to_third + j);
     }
   }
-  HWY_INLINE Corners operator[](int j) const { return {first[j], to_second[j], to_third[j]}; }
+  HWY_INLINE Interpolant operator[](int j) const { return {first[j], to_second[j], to_third[j]}; }
 };
-HWY_INLINE Float interpolate(const Barycentric& b, const CornerArrays& c, int j) {
+HWY_INLINE Float interpolate(const Barycentric& b, const InterpolantArrays& c, int j) {
   return interpolate(b, c[j]);
 }
 

@@ -24,7 +24,7 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
   const TriangleReference exact(v);
   const auto [low_x, high_x] = std::minmax({v[0].x, v[1].x, v[2].x});
   const auto [low_y, high_y] = std::minmax({v[0].y, v[1].y, v[2].y});
-  const bool wide = std::max(high_x - low_x, high_y - low_y) > kNarrowExtent * kSubpixelScale;
+  const bool wide = std::max(high_x - low_x, high_y - low_y) > kMaxEdges32Extent * kSubpixelScale;
   const float largest = std::max({v[0].rw, v[1].rw, v[2].rw});
   const bool affine =
       (v[0].rw == v[1].rw && v[1].rw == v[2].rw) || !(largest > 0x1p-120f && largest < 0x1p120f);
@@ -33,13 +33,13 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
   float weight[3];
   for (int k = 0; k < 3; ++k) {
     const Exact edge = exact.edge[k].at(x, y);
-    const float unit = inverse_area * (affine ? 1.0f : std::max(v[k].rw / largest, kLeastWeight));
+    const float unit = inverse_area * (affine ? 1.0f : std::max(v[k].rw / largest, kMinWeight));
     if (wide) {
       weight[k] = static_cast<float>(static_cast<double>(edge)) * unit;
     } else {
       // Narrow edges are kept in units of 256, rounded down; what is lost is the same at every pixel.
       const auto whole =
-          static_cast<std::int64_t>((edge - (exact.edge[k].owns_border ? 0 : 1)) >> kSubpixelBits);
+          static_cast<std::int64_t>((edge - (exact.edge[k].is_top_left ? 0 : 1)) >> kSubpixelBits);
       const auto rest = static_cast<std::int64_t>(edge - (static_cast<Exact>(whole) << kSubpixelBits));
       weight[k] = std::fma(static_cast<float>(whole), 256.0f * unit, static_cast<float>(rest) * unit);
     }

@@ -71,7 +71,7 @@ struct alignas(64) Incidence {
   }
 };
 
-HWY_INLINE Float cut(Float amount) { return lesser_of(amount, splat(kLargestFloat)); }
+HWY_INLINE Float clamp_finite(Float amount) { return lesser_of(amount, splat(kMaxFloat)); }
 
 /// Where the light comes from, and how much of it; of a spot without the power that its cone has. Returns
 /// whether any point faces it.
@@ -83,8 +83,8 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
   // Read before the loop: a compiler must assume that stores change `term`.
   const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation),
                spot_direction = splat_vector(term.spot_direction);
-  const Float spot_cosine = splat(term.spot_cosine), spot_apart = splat(term.spot_apart);
-  const bool narrow = term.spot_apart > 0;
+  const Float spot_cosine = splat(term.spot_cosine), spot_chord_squared = splat(term.spot_chord_squared);
+  const bool narrow = term.spot_chord_squared > 0;
   auto any = hn::Gt(zero, zero);
   for (int point = 0; point < count; point += kLanes) {
     Vector to_light = from;
@@ -97,8 +97,8 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
       if constexpr (kAttenuated) {
         const Float denominator =
-            mul_add(attenuation.z, cut(squared), mul_add(attenuation.y, cut(distance), attenuation.x));
-        factor = hn::IfThenElse(hn::Gt(denominator, zero), cut(hn::Div(one, denominator)), splat(1.0e6f));
+            mul_add(attenuation.z, clamp_finite(squared), mul_add(attenuation.y, clamp_finite(distance), attenuation.x));
+        factor = hn::IfThenElse(hn::Gt(denominator, zero), clamp_finite(hn::Div(one, denominator)), splat(1.0e6f));
       }
     }
     const Float n_dot_l = dot(load_vector(batch, kNormalX, point), to_light);
@@ -107,7 +107,7 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       const Float cosine = hn::Sub(zero, dot(to_light, spot_direction));
       auto reached = hn::Ge(cosine, spot_cosine);
       if (HWY_UNLIKELY(narrow))
-        reached = hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_apart);
+        reached = hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_chord_squared);
       reached = hn::And(reached, hn::Gt(cosine, zero));
       hn::Store(cosine, kFloat, light.cosine + point);
       factor = hn::IfThenElseZero(reached, factor);
@@ -117,7 +117,7 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
     hn::Store(to_light.x, kFloat, light.to_light[0] + point);
     hn::Store(to_light.y, kFloat, light.to_light[1] + point);
     hn::Store(to_light.z, kFloat, light.to_light[2] + point);
-    hn::Store(hn::IfThenElseZero(facing, cut(n_dot_l)), kFloat, light.n_dot_l + point);
+    hn::Store(hn::IfThenElseZero(facing, clamp_finite(n_dot_l)), kFloat, light.n_dot_l + point);
     hn::Store(factor, kFloat, light.factor + point);
   }
   return !hn::AllFalse(kFloat, any);
@@ -152,7 +152,7 @@ HWY_INLINE void for_each_power(const Power& power, const float* x, int count, co
 /// What a spot's cone leaves of its light.
 void apply_cone(const LightTerm& term, int count, Incidence& light) {
   for_each_power(term.spot_power, light.cosine, count, [&](int point, Float share) HWY_ATTR {
-    hn::Store(cut(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
+    hn::Store(clamp_finite(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
   });
 }
 
@@ -241,7 +241,7 @@ HWY_INLINE void add_products(const Incidence& light, int point, const Vector& di
                              const Vector& specular_color, const Sums& sums, ShadingBatch& batch,
                              Highlight... highlight) {
   const Float diffuse =
-      cut(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
+      clamp_finite(hn::Mul(hn::Load(kFloat, light.n_dot_l + point), hn::Load(kFloat, light.factor + point)));
   Vector sum = sums.load(batch, point);
   accumulate(sum, diffuse, diffuse_color);
   (accumulate(sum, highlight, specular_color), ...);
@@ -264,7 +264,7 @@ void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int co
   if (highlights) {
     for_each_power(term.highlight_power, light.highlight, count,
                    [&, add, floor](int point, Float power) HWY_ATTR {
-                     const Float highlight = cut(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
+                     const Float highlight = clamp_finite(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
                      add(point, hn::IfThenElseZero(is_shiny(floor, light, point), highlight));
                    });
   } else {
@@ -303,7 +303,7 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
 /// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out
 /// as the lowest.
 HWY_INLINE Float finite(Float c) {
-  return lesser_of(greater_of(c, splat(-kLargestFloat)), splat(kLargestFloat));
+  return lesser_of(greater_of(c, splat(-kMaxFloat)), splat(kMaxFloat));
 }
 /// 0..1; a NaN becomes 0.
 HWY_INLINE Float clamped(Float c) {

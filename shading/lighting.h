@@ -46,7 +46,7 @@ enum BatchField : std::uint8_t {
   kTrackedB,  // the sum of what the vertex colour multiplies
   kTextureS,
   kTextureT,       // texture coordinates
-  kTexelsSquared,  // the larger square of how many texels of level 0 one goes by, by pixels to the right and
+  kFootprintSquared,  // the larger square of how many texels of level 0 one goes by, by pixels to the right and
                    // up
   kTexelR,
   kTexelG,
@@ -103,7 +103,7 @@ inline constexpr float kNarrowCone = 1;
 
 /// What a light brings to a point is cut here, and what that is made of: n.L, distance, attenuation, cone,
 /// highlight; and its colours, and vertex colours. Times black it is nothing then, and not NaN.
-inline constexpr float kLargestFloat = std::numeric_limits<float>::max();
+inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
 enum class HighlightKind : std::uint8_t { none, blinn_infinite, blinn_local, phong_infinite, phong_local };
@@ -125,7 +125,7 @@ struct LightTerm {
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
   float spot_cosine = 0;
-  float spot_apart = 0;  ///< of a cone below kNarrowCone: the square of how far -L and its direction may be
+  float spot_chord_squared = 0;  ///< of a cone below kNarrowCone: the square of how far -L and its direction may be
                          ///< apart; 0: spot_cosine counts
   Power spot_power, highlight_power;  ///< of the cosine to the axis; of S.n, its square or R.E
   /// Up to here these make no highlight: their power, times what it is multiplied by, is below 2^-32, or they
@@ -152,10 +152,10 @@ struct LightingProgram {
 /// Plans a surface: what its lights and material cannot need is not in the program. `reasons`, if given,
 /// receives a line for each term and each thing left out.
 ///
-/// @param room  where the terms will stand; what it holds goes
+/// @param term_storage  where the terms will stand; what it holds goes
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
                               const std::vector<EyeLight>& lights, const LightingModel& model,
-                              std::string* reasons, std::vector<LightTerm> room = {});
+                              std::string* reasons, std::vector<LightTerm> term_storage = {});
 
 /// The material of a surface whose colour is an index.
 struct IndexMaterial {
@@ -166,7 +166,7 @@ struct IndexMaterial {
 /// The same for indices.
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
                                     const LightingModel& model, std::string* reasons,
-                                    std::vector<LightTerm> room = {});
+                                    std::vector<LightTerm> term_storage = {});
 
 /// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names,
 /// leaves the colour or index. Points that nobody looks at may hold any bits. Bit-identical to

@@ -32,9 +32,9 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   const auto cosine_of_units = [&](const Vec& a, const Vec& b, float s) {
     return std::fma(-0.5f, squared_distance(a, b, s), 1.0f);
   };
-  const auto cut = [](float amount) { return amount < kLargestFloat ? amount : kLargestFloat; };
+  const auto clamp_finite = [](float amount) { return amount < kMaxFloat ? amount : kMaxFloat; };
   const auto finite = [](float value) {
-    return std::isnan(value) ? -kLargestFloat : std::clamp(value, -kLargestFloat, kLargestFloat);
+    return std::isnan(value) ? -kMaxFloat : std::clamp(value, -kMaxFloat, kMaxFloat);
   };
   const auto accumulate = [](Rgb& sum, float intensity, const Rgb& color) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] = std::fma(intensity, color[c], sum[c]);
@@ -57,20 +57,20 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
         reached =
-            (term.spot_apart > 0 ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_apart
+            (term.spot_chord_squared > 0 ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_chord_squared
                                  : cosine >= term.spot_cosine) &&
             cosine > 0;
         factor = reached ? power_of_reference(cosine, term.spot_power.exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
-        const float denominator = std::fma(term.attenuation[2], cut(squared),
-                                           std::fma(term.attenuation[1], cut(distance), term.attenuation[0]));
-        factor = cut(factor * (denominator > 0 ? cut(1.0f / denominator) : 1.0e6f));
+        const float denominator = std::fma(term.attenuation[2], clamp_finite(squared),
+                                           std::fma(term.attenuation[1], clamp_finite(distance), term.attenuation[0]));
+        factor = clamp_finite(factor * (denominator > 0 ? clamp_finite(1.0f / denominator) : 1.0e6f));
       }
     }
     const float incidence = dot(normal, to_light);
     const bool facing = reached && incidence > 0;
-    const float n_dot_l = facing ? cut(incidence) : 0.0f, diffuse = cut(n_dot_l * factor);
+    const float n_dot_l = facing ? clamp_finite(incidence) : 0.0f, diffuse = clamp_finite(n_dot_l * factor);
     float highlight = 0;
     if (facing && term.highlight != HighlightKind::none) {
       const bool local =
@@ -94,7 +94,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       }
       highlight = base <= term.highlight_floor
                       ? 0.0f
-                      : cut(power_of_reference(base, term.highlight_power.exponent) * factor);
+                      : clamp_finite(power_of_reference(base, term.highlight_power.exponent) * factor);
     }
     accumulate(color, factor, term.ambient);
     accumulate(tracked, factor, term.tracked_ambient);

@@ -15,33 +15,33 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// A draw that is a bitmap or an image, in one tile.
-inline HWY_NOINLINE void draw_pixel_rectangle(TileRun& run, std::uint32_t draw_number) {
-  const TileDraw& draw = run.frame.draws[draw_number];
+inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number) {
+  const TileDraw& draw = context.frame.draws[draw_number];
   const PixelRectangle& texels = *draw.texels;
-  const PixelRect& rect = run.rect;
+  const PixelRect& rect = context.rect;
   ShadedTriangle face{};  // its front; nothing else is looked at
-  FragmentTriangle fragments{.run = run,
+  FragmentTriangle fragments{.context = context,
                              .draw = draw,
                              .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
                              .triangle = face,
-                             .has_depth = draw.uses_depth && run.frame.depth_kind != DepthKind::none,
+                             .has_depth = draw.uses_depth && context.frame.depth_kind != DepthKind::none,
                              .surface = {}};
   if (fragments.ops.stencil)
-    fragments.stencil = stencil_steps(fragments.ops.faces[0], fragments.ops.stencil_most);
-  fragments.has_word = draw.number != TileDraw::Number::none || (draw.ops == nullptr && has_words(draw));
+    fragments.stencil = stencil_test_constants(fragments.ops.faces[0], fragments.ops.stencil_max);
+  fragments.is_packed = draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
   const bool is_first_primitive =
-      draw.number == TileDraw::Number::primitive || draw.source == ColorSource::triangle_word;
-  fragments.word = is_first_primitive ? 0 : draw.word;
+      draw.id_output == TileDraw::IdOutput::primitive || draw.source == ColorSource::per_triangle_packed;
+  fragments.packed_color = is_first_primitive ? 0 : draw.packed_color;
   alignas(64) float colors[4 * kBlockPixels];
   const bool has_colors =
       texels.channels != 0 &&
-      ((!fragments.has_word && draw.source == ColorSource::texels) || fragments.ops.alpha_test);
+      ((!fragments.is_packed && draw.source == ColorSource::texels) || fragments.ops.alpha_test);
   if (has_colors) fragments.colors_given = colors;
 
   TexelPlaces places[kMaxSamples];
-  const int apart = texels.channels != 0 ? run.samples : 1;  // bits cover whole pixels
+  const int apart = texels.channels != 0 ? context.samples : 1;  // bits cover whole pixels
   for (int s = 0; s < apart; ++s)
-    places[s].set_up({texels, run.frame.grid, run.tile_x, run.tile_y, rect}, run.samples, s);
+    places[s].set_up({texels, context.frame.grid, context.tile_x, context.tile_y, rect}, context.samples, s);
   BlockFragments blocks[kMaxSamples];
   const auto cover = [&](int s, std::uint32_t bits) HWY_ATTR {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
@@ -54,10 +54,10 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileRun& run, std::uint32_t draw_n
       bool alike = true;
       for (int s = 1; s < apart; ++s) alike &= places[s].same_in_block(places[0], bx, by);
       // Where samples of a pixel see different texels, each is a fragment of its own.
-      for (int turn = 0; turn < (alike ? 1 : run.samples); ++turn) {
+      for (int turn = 0; turn < (alike ? 1 : context.samples); ++turn) {
         const std::uint32_t bits = places[turn].covered(texels, bx, by);
         if (bits == 0) continue;
-        for (int s = 0; s < run.samples; ++s) cover(s, alike || s == turn ? bits : 0);
+        for (int s = 0; s < context.samples; ++s) cover(s, alike || s == turn ? bits : 0);
         if (has_colors) places[turn].fetch(texels, bx, by, bits, colors);
         fragments(bx, by, blocks);
       }

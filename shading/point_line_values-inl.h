@@ -16,7 +16,7 @@
 #include "raster/double_lanes-inl.h"
 #include "raster/sample_positions.h"
 #include "shading/fragment_ops-inl.h"
-#include "shading/tile_run-inl.h"
+#include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -42,20 +42,20 @@ class LineDepth {
     const double scale = kind == DepthKind::unorm16 ? 0x1p-16 : kind == DepthKind::unorm24 ? 0x1p-8 : 1;
     first_ = scale * (z0 + whole_offset(offset));
     change_ = scale * (static_cast<double>(z1) - z0);
-    most_ = scale * 4294967295.0;
+    max_depth_ = scale * 4294967295.0;
     if (kind == DepthKind::unorm32) first_ += 0.5;
   }
 
   /// The keys where the line has come as far as `t` of its length; no depth leaves 0..1.
   HWY_INLINE Int keys(const Doubles& t) const {
-    const Doubles depth = clamped(plus(times(t, change_), first_), 0, most_);
+    const Doubles depth = clamped(plus(times(t, change_), first_), 0, max_depth_);
     if (kind_ == DepthKind::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
     return kind_ == DepthKind::unorm32 ? truncate(plus(floor(depth), -0x1p31)) : truncate(depth);
   }
 
  private:
   DepthKind kind_;
-  double first_, change_, most_ = 1;
+  double first_, change_, max_depth_ = 1;
 };
 
 /// The key of a point: as LineDepth has it at the first vertex, without lanes.
@@ -67,7 +67,7 @@ HWY_INLINE std::int32_t point_key(DepthKind kind, std::uint32_t z, double offset
         static_cast<float>(std::clamp(std::bit_cast<float>(z) + offset, 0.0, 1.0)) + 0.0f);
   const auto word = static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(z + static_cast<std::int64_t>(whole_offset(offset)), 0, 0xffffffff));
-  return depth_key_from_word(kind, word >> (32 - depth_bits(kind)));
+  return depth_key_from_stored(kind, word >> (32 - depth_bits(kind)));
 }
 
 /// Where pixels stand along a line. What lies aside has the values of where it is projected onto the line; a
@@ -78,11 +78,11 @@ struct LineValues {
   LineDepth depth;
 
   /// Of the first vertex of element i to the one `second`: 1 of a line, 0 of a point.
-  HWY_INLINE LineValues(const TileRun& run, int i, int second, double depth_offset)
-      : depth(run.frame.depth_kind, run.memory.group.z[0][i], run.memory.group.z[second][i], depth_offset) {
-    const TriangleGroup& g = run.memory.group;
-    first_x = run.tile_x * kSubpixelScale + kHalfPixel - g.x[0][i];
-    first_y = run.tile_y * kSubpixelScale + kHalfPixel - g.y[0][i];
+  HWY_INLINE LineValues(const TileContext& context, int i, int second, double depth_offset)
+      : depth(context.frame.depth_kind, context.memory.group.z[0][i], context.memory.group.z[second][i], depth_offset) {
+    const TriangleGroup& g = context.memory.group;
+    first_x = context.tile_x * kSubpixelScale + kHalfPixel - g.x[0][i];
+    first_y = context.tile_y * kSubpixelScale + kHalfPixel - g.y[0][i];
     dx = g.x[second][i] - g.x[0][i];
     dy = g.y[second][i] - g.y[0][i];
     const double squared_length = dx * dx + dy * dy;
@@ -113,37 +113,37 @@ struct RelativeRw {
 };
 
 /// Colours of an RGB buffer, interpolated along a line.
-struct LineColors {
-  float first[3], change[3], most[3], rw[2];
+struct LineColorEval {
+  float first[3], change[3], max_level[3], rw[2];
   int shift[3];
 
-  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw, int i, bool back) {
-    const ColorLayout& layout = run.frame.layout;
+  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, int i, bool back) {
+    const ColorLayout& layout = context.frame.layout;
     const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits},
               shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
     for (int c = 0; c < 3; ++c) {
       const int attribute = draw.color_attribute[back ? 1 : 0] + c;
-      first[c] = run.memory.attributes[0][i][attribute];
-      change[c] = run.memory.attributes[1][i][attribute] - first[c];
-      most[c] = static_cast<float>((1 << bits[c]) - 1);
+      first[c] = context.memory.attributes[0][i][attribute];
+      change[c] = context.memory.attributes[1][i][attribute] - first[c];
+      max_level[c] = static_cast<float>((1 << bits[c]) - 1);
       shift[c] = shifts[c];
     }
-    const RelativeRw relative(run.memory.group, i, 1);
+    const RelativeRw relative(context.memory.group, i, 1);
     for (int k = 0; k < 2; ++k) rw[k] = relative.of[k];
   }
   /// Equation 3.6
-  HWY_INLINE Int words(const Doubles& parameters) const {
+  HWY_INLINE Int packed(const Doubles& parameters) const {
     Float t = to_floats(parameters);
     if (rw[0] != rw[1]) {
       const Float far = hn::Mul(t, splat(rw[1])),
                   sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
       t = hn::Div(far, sum);
-      t = hn::IfThenElseZero(hn::IsFinite(t), t);  // as barycentric_wide
+      t = hn::IfThenElseZero(hn::IsFinite(t), t);  // as barycentric_edges64
     }
     Int word = hn::Zero(kInt);
     for (int c = 0; c < 3; ++c) {
       const Float color = clamped_unit(mul_add(t, splat(change[c]), splat(first[c])));
-      word = hn::Or(word, hn::ShiftLeftSame(truncate(mul_add(color, splat(most[c]), splat(0.5f))), shift[c]));
+      word = hn::Or(word, hn::ShiftLeftSame(truncate(mul_add(color, splat(max_level[c]), splat(0.5f))), shift[c]));
     }
     return word;
   }

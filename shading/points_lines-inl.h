@@ -22,31 +22,31 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// The centre of a pixel of the tile.
-HWY_INLINE LinePoint center_of(const TileRun& run, int x, int y) {
-  return {(run.tile_x + x) * kSubpixelScale + kHalfPixel, (run.tile_y + y) * kSubpixelScale + kHalfPixel};
+HWY_INLINE LinePoint center_of(const TileContext& context, int x, int y) {
+  return {(context.tile_x + x) * kSubpixelScale + kHalfPixel, (context.tile_y + y) * kSubpixelScale + kHalfPixel};
 }
 HWY_INLINE LinePoint moved(LinePoint p, SamplePosition by) { return {p.x + by.x, p.y + by.y}; }
 HWY_INLINE LinePoint vertex_of(const TriangleGroup& g, int i, int k) { return {g.x[k][i], g.y[k][i]}; }
-HWY_INLINE PixelRect in_tile(const TileRun& run, const PixelRect& rect) {
-  return intersect({rect.x0 - run.tile_x, rect.y0 - run.tile_y, rect.x1 - run.tile_x, rect.y1 - run.tile_y},
-                   run.rect);
+HWY_INLINE PixelRect in_tile(const TileContext& context, const PixelRect& rect) {
+  return intersect({rect.x0 - context.tile_x, rect.y0 - context.tile_y, rect.x1 - context.tile_x, rect.y1 - context.tile_y},
+                   context.rect);
 }
 
 /// Of edges and corners of polygons.
-HWY_INLINE double depth_offset_of(const TileRun& run, const TileDraw& draw, int i) {
-  return draw.depth_offsets != nullptr ? draw.depth_offsets[run.memory.source[i]] : 0.0;
+HWY_INLINE double depth_offset_of(const TileContext& context, const TileDraw& draw, int i) {
+  return draw.depth_offsets != nullptr ? draw.depth_offsets[context.memory.source[i]] : 0.0;
 }
 
 /// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
-HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::uint32_t draw, int i,
+HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileContext& context, std::uint32_t draw, int i,
                                           bool back) {
-  const TriangleGroup& g = run.memory.group;
-  const bool is_line = run.frame.draws[draw].topology == Topology::lines;
+  const TriangleGroup& g = context.memory.group;
+  const bool is_line = context.frame.draws[draw].topology == Topology::lines;
   const int second = is_line ? 1 : 0;
   const double dx = g.x[second][i] - g.x[0][i], dy = g.y[second][i] - g.y[0][i],
                squared_length = dx * dx + dy * dy;
-  const LinePoint first = center_of(run, 0, 0);
-  WideEdges wide{};
+  const LinePoint first = center_of(context, 0, 0);
+  Edges64 wide{};
   wide.a[1] = kSubpixelScale * dx;
   wide.b[1] = kSubpixelScale * dy;
   wide.e[1] = dx * (first.x - g.x[0][i]) + dy * (first.y - g.y[0][i]);
@@ -60,21 +60,21 @@ HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileRun& run, std::
     const int vertex = k == 1 ? second : 0;
     t.scale[k] = k == 2 ? 0.0f : rw.of[k] * scale;
     t.shift[k] = 0;
-    t.attributes[k] = run.memory.attributes[vertex][i];
+    t.attributes[k] = context.memory.attributes[vertex][i];
   }
   t.edges = {};
   t.back = back;
   t.draw = draw;
-  keep_wide_edges(t, run.memory, wide);
+  store_edges64(t, context.memory, wide);
 }
 
 /// Blocks with bits of the pixels that are covered, in each sample.
-struct BlockBits {
-  TileRun& run;
+struct BlockCoverage {
+  TileContext& context;
   TouchedBlocks& blocks;
 
   HWY_INLINE void add(int x, int y, std::uint32_t samples) {
-    const int block = run.block_index(x, y) / kBlockPixels;
+    const int block = context.block_index(x, y) / kBlockPixels;
     if (blocks.samples[block] == 0) blocks.list[blocks.count++] = static_cast<std::uint16_t>(block);
     blocks.samples[block] |= samples;
     const std::uint32_t bit = 1u << ((y & 3) * 4 + (x & 3));
@@ -84,18 +84,18 @@ struct BlockBits {
 
   /// Runs them through `fragments`, and forgets them.
   HWY_INLINE void draw(FragmentTriangle& fragments, const LineValues& values) {
-    const int columns = run.tile_size >> 2;
+    const int columns = context.tile_size >> 2;
     for (int n = 0; n < blocks.count; ++n) {
       const int block = blocks.list[n], bx = block % columns * 4, by = block / columns * 4;
       BlockFragments covered[kMaxSamples];
-      for (int s = 0; s < run.samples; ++s) {
+      for (int s = 0; s < context.samples; ++s) {
         const std::uint32_t bits = blocks.bits[s][block];
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
           covered[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
           covered[s].keys[chunk] = hn::Zero(kInt);
         }
         if (fragments.has_depth)
-          block_keys(bx, by, run.samples > 1 ? sample_positions(run.samples)[s] : SamplePosition{}, values,
+          block_keys(bx, by, context.samples > 1 ? sample_positions(context.samples)[s] : SamplePosition{}, values,
                      covered[s].keys);
         blocks.bits[s][block] = 0;
       }
@@ -116,39 +116,39 @@ struct BlockBits {
 
 /// The samples of `shape` in the pixels of a rectangle.
 template <class Shape>
-HWY_INLINE void cover_samples(BlockBits& bits, const Shape& shape, const PixelRect& pixels) {
-  const TileRun& run = bits.run;
+HWY_INLINE void cover_samples(BlockCoverage& bits, const Shape& shape, const PixelRect& pixels) {
+  const TileContext& context = bits.context;
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {
-      const LinePoint center = center_of(run, x, y);
+      const LinePoint center = center_of(context, x, y);
       std::uint32_t samples = 0;
-      for (int s = 0; s < run.samples; ++s)
-        samples |= shape.covers(moved(center, sample_positions(run.samples)[s])) ? 1u << s : 0u;
+      for (int s = 0; s < context.samples; ++s)
+        samples |= shape.covers(moved(center, sample_positions(context.samples)[s])) ? 1u << s : 0u;
       if (samples != 0) bits.add(x, y, samples);
     }
 }
 
 struct PointShape {
-  const TileRun& run;
+  const TileContext& context;
   LinePoint at;
   float size;
 
   /// Calls pixel(x, y) for each, of one sample.
   template <class Pixel>
   HWY_INLINE void for_each(const Pixel& pixel) const {
-    const PixelRect square = in_tile(run, point_square(at, whole_size(size)));
+    const PixelRect square = in_tile(context, point_square(at, rounded_size(size)));
     for (int y = square.y0; y < square.y1; ++y)
       for (int x = square.x0; x < square.x1; ++x) pixel(x, y);
   }
-  HWY_INLINE void cover(BlockBits& bits) const {
+  HWY_INLINE void cover(BlockCoverage& bits) const {
     const PointDisc disc(at, snapped_size(size));
     const std::int32_t reach = disc.reach() + kHalfPixel;
-    cover_samples(bits, disc, in_tile(run, pixels_near(at, at, reach)));
+    cover_samples(bits, disc, in_tile(context, pixels_near(at, at, reach)));
   }
 };
 
 struct LineShape {
-  const TileRun& run;
+  const TileContext& context;
   const LineSteps& steps;  // of the group
   int i;                   // of the line
   float width;
@@ -156,10 +156,10 @@ struct LineShape {
   /// Calls pixels(x, y, inside), of one sample.
   template <class Pixels>
   HWY_INLINE void for_each_vector(const Pixels& pixels) const {
-    const PixelRect& r = run.rect;
-    steps.for_each(i, {r.x0 + run.tile_x, r.y0 + run.tile_y, r.x1 + run.tile_x, r.y1 + run.tile_y},
+    const PixelRect& r = context.rect;
+    steps.for_each(i, {r.x0 + context.tile_x, r.y0 + context.tile_y, r.x1 + context.tile_x, r.y1 + context.tile_y},
                    [&](Int x, Int y, LaneMask inside) HWY_ATTR {
-                     pixels(hn::Sub(x, splat(run.tile_x)), hn::Sub(y, splat(run.tile_y)), inside);
+                     pixels(hn::Sub(x, splat(context.tile_x)), hn::Sub(y, splat(context.tile_y)), inside);
                    });
   }
   template <class Pixel>
@@ -172,14 +172,14 @@ struct LineShape {
         pixel(columns[std::countr_zero(left)], rows[std::countr_zero(left)]);
     });
   }
-  HWY_INLINE void cover(BlockBits& bits) const {
-    const LinePoint a = vertex_of(run.memory.group, i, 0), b = vertex_of(run.memory.group, i, 1);
+  HWY_INLINE void cover(BlockCoverage& bits) const {
+    const LinePoint a = vertex_of(context.memory.group, i, 0), b = vertex_of(context.memory.group, i, 1);
     const LineRectangle rectangle(a, b, snapped_size(width));
-    const PixelRect pixels = in_tile(run, pixels_near(a, b, line_reach(width, run.samples)));
+    const PixelRect pixels = in_tile(context, pixels_near(a, b, line_reach(width, context.samples)));
     for (int by = pixels.y0 & ~3; by < pixels.y1; by += 4)
       for (int bx = pixels.x0 & ~3; bx < pixels.x1; bx += 4) {
-        const LinePoint center{(run.tile_x + bx + 2) * kSubpixelScale,
-                               (run.tile_y + by + 2) * kSubpixelScale};
+        const LinePoint center{(context.tile_x + bx + 2) * kSubpixelScale,
+                               (context.tile_y + by + 2) * kSubpixelScale};
         if (rectangle.may_touch(center, 2 * kSubpixelScale))
           cover_samples(bits, rectangle, intersect(pixels, {bx, by, bx + 4, by + 4}));
       }
@@ -187,132 +187,132 @@ struct LineShape {
 };
 
 /// Words that are just stored, where that is all there is to do.
-class PlainPixels {
+class PackedPixelWriter {
  public:
-  HWY_INLINE PlainPixels(TileRun& run, const TileDraw& draw)
-      : run_(run), draw_(draw), uses_depth_(has_depth(run.frame, draw)) {}
+  HWY_INLINE PackedPixelWriter(TileContext& context, const TileDraw& draw)
+      : context_(context), draw_(draw), uses_depth_(has_depth(context.frame, draw)) {}
 
   HWY_INLINE bool uses_depth() const { return uses_depth_; }
-  HWY_INLINE void store_one(int x, int y, std::int32_t key, std::uint32_t word) const {
-    const int index = run_.pixel_index(x, y);
+  HWY_INLINE void store_one(int x, int y, std::int32_t key, std::uint32_t packed_color) const {
+    const int index = context_.pixel_index(x, y);
     if (uses_depth_) {
-      std::int32_t& stored = run_.memory.depth[index];
+      std::int32_t& stored = context_.memory.depth[index];
       if (!compares(key, draw_.depth_test, stored)) return;
       if (draw_.depth_write) stored = key;
     }
-    std::uint32_t& color = run_.color[index];
-    color ^= (color ^ word) & draw_.write_mask;
-    ++run_.counts.shaded_pixels;
+    std::uint32_t& color = context_.color[index];
+    color ^= (color ^ packed_color) & draw_.write_mask;
+    ++context_.counts.shaded_pixels;
   }
   /// Pixels none of which is there twice; of those that are not `inside` nothing is seen. Neither that nor
   /// whether a depth passes could be foretold: nothing branches on it.
-  HWY_INLINE void store(Int x, Int y, LaneMask inside, Int keys, Int words) const {
-    const Int index = hn::IfThenElse(inside, run_.pixel_indices(x, y), splat(kNoPixel));
+  HWY_INLINE void store(Int x, Int y, LaneMask inside, Int keys, Int packed) const {
+    const Int index = hn::IfThenElse(inside, context_.pixel_indices(x, y), splat(kDiscardPixel));
     Int passed = hn::VecFromMask(kInt, inside);
     if (uses_depth_)
       passed = hn::And(
           passed,
           hn::VecFromMask(
-              kInt, comparing(keys, draw_.depth_test,
-                              load_words(reinterpret_cast<const std::uint32_t*>(run_.memory.depth), index))));
+              kInt, compare_lanes(keys, draw_.depth_test,
+                              load_words(reinterpret_cast<const std::uint32_t*>(context_.memory.depth), index))));
     const auto stays = hn::MaskFromVec(passed);
     if (draw_.write_mask != 0xffffffffu) {
-      const Int stored = load_words(run_.color, index);
-      words = hn::Xor(stored,
-                      hn::And(hn::Xor(stored, words), splat(static_cast<std::int32_t>(draw_.write_mask))));
+      const Int stored = load_words(context_.color, index);
+      packed = hn::Xor(stored,
+                      hn::And(hn::Xor(stored, packed), splat(static_cast<std::int32_t>(draw_.write_mask))));
     }
-    alignas(64) std::int32_t at[kLanes], key[kLanes], word[kLanes];
-    hn::Store(hn::IfThenElse(stays, index, splat(kNoPixel)), kInt, at);
+    alignas(64) std::int32_t at[kLanes], key[kLanes], packed_color[kLanes];
+    hn::Store(hn::IfThenElse(stays, index, splat(kDiscardPixel)), kInt, at);
     hn::Store(keys, kInt, key);
-    hn::Store(words, kInt, word);
+    hn::Store(packed, kInt, packed_color);
     if (uses_depth_ && draw_.depth_write)
-      for (int l = 0; l < kLanes; ++l) run_.memory.depth[at[l]] = key[l];
-    for (int l = 0; l < kLanes; ++l) run_.color[at[l]] = static_cast<std::uint32_t>(word[l]);
-    run_.counts.shaded_pixels += hn::CountTrue(kInt, stays);
+      for (int l = 0; l < kLanes; ++l) context_.memory.depth[at[l]] = key[l];
+    for (int l = 0; l < kLanes; ++l) context_.color[at[l]] = static_cast<std::uint32_t>(packed_color[l]);
+    context_.counts.shaded_pixels += hn::CountTrue(kInt, stays);
   }
 
  private:
-  TileRun& run_;
+  TileContext& context_;
   const TileDraw& draw_;
   bool uses_depth_;
 };
 
-/// Element i of a plain draw of points, each of one word.
-HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i,
+/// Element i of a plain draw of points, each of one packed color.
+HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context, const TileDraw& draw, int i,
                             const PointShape& point, bool back) {
-  const std::int32_t key = pixels.uses_depth() ? point_key(run.frame.depth_kind, run.memory.group.z[0][i],
-                                                           depth_offset_of(run, draw, i))
+  const std::int32_t key = pixels.uses_depth() ? point_key(context.frame.depth_kind, context.memory.group.z[0][i],
+                                                           depth_offset_of(context, draw, i))
                                                : 0;
-  const std::uint32_t word = triangle_word(run, draw, i, back);
-  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, word); });
+  const std::uint32_t packed_color = packed_color_of(context, draw, i, back);
+  point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, packed_color); });
 }
 
-/// And of lines, of one word or with colours along them.
-HWY_INLINE void store_plain(const PlainPixels& pixels, const TileRun& run, const TileDraw& draw, int i,
+/// And of lines, of one packed color or with colors along them.
+HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context, const TileDraw& draw, int i,
                             const LineShape& line, bool back) {
-  const LineValues values(run, i, 1, depth_offset_of(run, draw, i));
-  const bool one_word = has_words(draw);
-  LineColors colors;
-  if (!one_word) colors.set_up(run, draw, i, back);
-  const Int word = splat(static_cast<std::int32_t>(one_word ? triangle_word(run, draw, i, back) : 0));
+  const LineValues values(context, i, 1, depth_offset_of(context, draw, i));
+  const bool is_packed = has_packed_color(draw);
+  LineColorEval colors;
+  if (!is_packed) colors.set_up(context, draw, i, back);
+  const Int packed_color = splat(static_cast<std::int32_t>(is_packed ? packed_color_of(context, draw, i, back) : 0));
   line.for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
     Doubles t{};
-    if (pixels.uses_depth() || !one_word) t = values.parameters(x, y);
+    if (pixels.uses_depth() || !is_packed) t = values.parameters(x, y);
     pixels.store(x, y, inside, pixels.uses_depth() ? values.depth.keys(t) : hn::Zero(kInt),
-                 one_word ? word : colors.words(t));
+                 is_packed ? packed_color : colors.packed(t));
   });
 }
 
 /// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles
 /// go through.
-inline HWY_NOINLINE void draw_covered_blocks(BlockBits& bits, std::uint32_t draw_number, int i,
+inline HWY_NOINLINE void draw_covered_blocks(BlockCoverage& bits, std::uint32_t draw_number, int i,
                                              const LineValues& values, bool back) {
-  TileRun& run = bits.run;
+  TileContext& context = bits.context;
   if (bits.blocks.count == 0) return;
   ShadedTriangle shaded;
-  fill_shaded_point_or_line(shaded, run, draw_number, i, back);
-  draw_fragments_of(run, draw_number, i, shaded,
+  fill_shaded_point_or_line(shaded, context, draw_number, i, back);
+  draw_fragments_of(context, draw_number, i, shaded,
                     [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
 /// All of a group. Points need no set-up; what lines need is made by `shape_of`.
 /// @param second  see LineValues
 template <class Shape>
-HWY_INLINE void draw_points_or_lines(TileRun& run, std::uint32_t draw_number, int second,
+HWY_INLINE void draw_points_or_lines(TileContext& context, std::uint32_t draw_number, int second,
                                      const Shape& shape_of) {
-  const TriangleGroup& g = run.memory.group;
-  const TileDraw& draw = run.frame.draws[draw_number];
+  const TriangleGroup& g = context.memory.group;
+  const TileDraw& draw = context.frame.draws[draw_number];
   const bool interpolated =
       draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
-  const bool plain = draw.ops == nullptr && run.samples == 1 &&
-                     (interpolated || has_words(draw));  // nothing is to be done but storing
-  const PlainPixels pixels(run, draw);
+  const bool plain = draw.ops == nullptr && context.samples == 1 &&
+                     (interpolated || has_packed_color(draw));  // nothing is to be done but storing
+  const PackedPixelWriter pixels(context, draw);
   for (int i = 0; i < g.count; ++i) {
     const auto shape = shape_of(i);
-    const bool back = draw.facing != nullptr && draw.facing[run.memory.source[i]] == Facing::back;
+    const bool back = draw.facing != nullptr && draw.facing[context.memory.source[i]] == Facing::back;
     if (plain) {
-      store_plain(pixels, run, draw, i, shape, back);
+      write_packed(pixels, context, draw, i, shape, back);
       continue;
     }
-    BlockBits bits{run, run.memory.touched};
-    if (run.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
+    BlockCoverage bits{context, context.memory.touched};
+    if (context.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
     else shape.cover(bits);
-    draw_covered_blocks(bits, draw_number, i, LineValues(run, i, second, depth_offset_of(run, draw, i)),
+    draw_covered_blocks(bits, draw_number, i, LineValues(context, i, second, depth_offset_of(context, draw, i)),
                         back);
   }
 }
 
-inline void draw_points(TileRun& run, std::uint32_t draw_number) {
-  const float size = run.frame.draws[draw_number].size;
-  draw_points_or_lines(run, draw_number, 0, [&](int i) {
-    return PointShape{run, vertex_of(run.memory.group, i, 0), size};
+inline void draw_points(TileContext& context, std::uint32_t draw_number) {
+  const float size = context.frame.draws[draw_number].size;
+  draw_points_or_lines(context, draw_number, 0, [&](int i) {
+    return PointShape{context, vertex_of(context.memory.group, i, 0), size};
   });
 }
-inline void draw_lines(TileRun& run, std::uint32_t draw_number) {
-  const float width = run.frame.draws[draw_number].size;
+inline void draw_lines(TileContext& context, std::uint32_t draw_number) {
+  const float width = context.frame.draws[draw_number].size;
   LineSteps steps;
-  if (run.samples == 1) steps.set_up(run.memory.group, whole_size(width));
-  draw_points_or_lines(run, draw_number, 1, [&](int i) { return LineShape{run, steps, i, width}; });
+  if (context.samples == 1) steps.set_up(context.memory.group, rounded_size(width));
+  draw_points_or_lines(context, draw_number, 1, [&](int i) { return LineShape{context, steps, i, width}; });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -44,21 +44,21 @@ HWY_INLINE Float exp2_lanes(Float x) {
 /// x^y for y > 0; 0 for x <= 0 or NaN. Results below 2^-126 come out as 2^-126, above 2^96 as that.
 HWY_INLINE Float power_lanes(Float x, float y) {
   const auto positive = hn::Gt(x, hn::Zero(kFloat));
-  const Float safe = greater_of(x, splat(kSmallestNormal));
+  const Float safe = greater_of(x, splat(kMinNormal));
   Float product = hn::Mul(log2_lanes(safe), splat(y));
-  product = lesser_of(greater_of(product, splat(-126.0f)), splat(kLargestLog2));
+  product = lesser_of(greater_of(product, splat(-126.0f)), splat(kMaxLog2));
   return hn::IfThenElseZero(positive, exp2_lanes(product));
 }
 
-/// x^n for n = 1 .. kLargestWholePower, by products of squares: off by what n - 1 roundings come to. 0 for x
-/// <= 0 or NaN; x below `least` counts as that, and what is above 2^96 comes out as that. The x in place,
+/// x^n for n = 1 .. kMaxIntegerExponent, by products of squares: off by what n - 1 roundings come to. 0 for x
+/// <= 0 or NaN; x below `min_base` counts as that, and what is above 2^96 comes out as that. The x in place,
 /// beside each other: the way through n is the same for all.
-/// @param least  2^least_log2(n)
+/// @param min_base  2^min_base_log2(n)
 template <std::size_t kCount>
-HWY_INLINE void raise_to_whole(Float (&x)[kCount], int n, float least) {
+HWY_INLINE void integer_power_lanes(Float (&x)[kCount], int n, float min_base) {
   Float square[kCount], product[kCount];
   for (std::size_t i = 0; i < kCount; ++i)
-    square[i] = greater_of(x[i], splat(least)), product[i] = splat(1.0f);
+    square[i] = greater_of(x[i], splat(min_base)), product[i] = splat(1.0f);
   for (int rest = n;;) {
     if ((rest & 1) != 0)
       for (std::size_t i = 0; i < kCount; ++i) product[i] = hn::Mul(product[i], square[i]);
@@ -67,7 +67,7 @@ HWY_INLINE void raise_to_whole(Float (&x)[kCount], int n, float least) {
     for (std::size_t i = 0; i < kCount; ++i) square[i] = hn::Mul(square[i], square[i]);
   }
   for (std::size_t i = 0; i < kCount; ++i)
-    x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kLargestPower)));
+    x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kMaxPower)));
 }
 
 /// Calls run(raise), where raise(x), of an array, takes its x to that power in place: how is chosen once for
@@ -76,7 +76,7 @@ template <class Run>
 HWY_INLINE void with_power(const Power& power, const Run& run) {
   if (power.whole != 0)
     run([power]<std::size_t kCount>(Float(&x)[kCount])
-            HWY_ATTR { raise_to_whole(x, power.whole, power.least); });
+            HWY_ATTR { integer_power_lanes(x, power.whole, power.min_base); });
   else if (power.exponent == 0)
     run([]<std::size_t kCount>(Float(&x)[kCount]) HWY_ATTR {
       for (Float& one : x) one = splat(1.0f);

@@ -7,26 +7,26 @@ namespace tessera {
 
 inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< of sqrt(1/2) as a float
 inline constexpr float kRoundingBias = 0x1.8p23f;
-inline constexpr float kSmallestNormal = 0x1p-126f;
+inline constexpr float kMinNormal = 0x1p-126f;
 /// Powers are cut at 2^96.
-inline constexpr float kLargestLog2 = 96.0f, kLargestPower = 0x1p96f;
+inline constexpr float kMaxLog2 = 96.0f, kMaxPower = 0x1p96f;
 
 /// Up to here whole exponents are products of squares.
-inline constexpr int kLargestWholePower = 64;
+inline constexpr int kMaxIntegerExponent = 64;
 /// The exponent, if it is one of those; else 0.
-constexpr int whole_power(float exponent) {
-  const int whole = exponent >= 1 && exponent <= kLargestWholePower ? static_cast<int>(exponent) : 0;
+constexpr int integer_exponent(float exponent) {
+  const int whole = exponent >= 1 && exponent <= kMaxIntegerExponent ? static_cast<int>(exponent) : 0;
   return static_cast<float>(whole) == exponent ? whole : 0;
 }
 /// The logarithm of what smaller numbers count as under a whole exponent: a hair above 2^(-126 / n), so that
 /// no product is subnormal.
-constexpr float least_log2(int whole) { return -125.99f / static_cast<float>(whole); }
+constexpr float min_base_log2(int whole) { return -125.99f / static_cast<float>(whole); }
 
 /// How a power of many numbers is worked out. By default: x^0.
 struct Power {
   float exponent = 0;
-  int whole = 0;    ///< whole_power(exponent)
-  float least = 0;  ///< 2^least_log2(whole): what smaller numbers count as
+  int whole = 0;    ///< integer_exponent(exponent)
+  float min_base = 0;  ///< 2^min_base_log2(whole): what smaller numbers count as
 };
 
 inline constexpr int kLog2Terms = 10;

@@ -32,30 +32,30 @@ inline float exp2_reference(float x) {
 
 inline float power_reference(float x, float y) {
   if (!(x > 0.0f)) return 0.0f;
-  const float safe = x > kSmallestNormal ? x : kSmallestNormal;
+  const float safe = x > kMinNormal ? x : kMinNormal;
   const float product = log2_reference(safe) * y;
   const float low = product > -126.0f ? product : -126.0f;
-  return exp2_reference(low < kLargestLog2 ? low : kLargestLog2);
+  return exp2_reference(low < kMaxLog2 ? low : kMaxLog2);
 }
 
-inline float whole_power_reference(float x, int n) {
+inline float integer_power_reference(float x, int n) {
   if (!(x > 0.0f)) return 0.0f;
-  const float least = exp2_reference(least_log2(n));
-  float square = x > least ? x : least, product = 1;
+  const float min_base = exp2_reference(min_base_log2(n));
+  float square = x > min_base ? x : min_base, product = 1;
   for (int rest = n; rest != 0; rest >>= 1, square *= square)
     if ((rest & 1) != 0) product *= square;
-  return product < kLargestPower ? product : kLargestPower;
+  return product < kMaxPower ? product : kMaxPower;
 }
 
-/// How kernels work out x^exponent: planned once, where they would work out `least` again for each batch.
-inline Power power_with(float exponent) {
-  const int whole = whole_power(exponent);
-  return {exponent, whole, whole != 0 ? exp2_reference(least_log2(whole)) : 0};
+/// How kernels work out x^exponent: planned once, where they would work out `min_base` again for each batch.
+inline Power make_power(float exponent) {
+  const int whole = integer_exponent(exponent);
+  return {exponent, whole, whole != 0 ? exp2_reference(min_base_log2(whole)) : 0};
 }
 
 /// x^0 is 1 whatever x is.
 inline float power_of_reference(float x, float exponent) {
-  if (const int whole = whole_power(exponent); whole != 0) return whole_power_reference(x, whole);
+  if (const int whole = integer_exponent(exponent); whole != 0) return integer_power_reference(x, whole);
   return exponent == 0 ? 1.0f : power_reference(x, exponent);
 }
 

@@ -7,16 +7,16 @@
 #define TESSERA_SHADING_RESOLVE_INL_H_
 #endif
 
-#include "shading/tile_run-inl.h"
+#include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// The components of a stored word.
-struct WordFields {
+/// The components of a packed color.
+struct PackedFields {
   int count = 0, shift[4], bits[4];
-  explicit WordFields(const ColorLayout& layout) {
+  explicit PackedFields(const ColorLayout& layout) {
     const auto add = [this](int at, int width) {
       if (width == 0) return;
       shift[count] = at;
@@ -30,29 +30,29 @@ struct WordFields {
 };
 
 /// The workspace's colour becomes that of its samples.
-inline HWY_NOINLINE void resolve_samples(TileRun& run) {
-  const WordFields fields(run.frame.layout);
-  const int shift = run.samples == 8 ? 3 : 2;
-  for (int i = 0; i < run.tile_size * run.tile_size; i += kLanes) {
-    const auto word = [&](int s) HWY_ATTR {
-      return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(run.sample[s].color) + i);
+inline HWY_NOINLINE void resolve_samples(TileContext& context) {
+  const PackedFields fields(context.frame.layout);
+  const int shift = context.samples == 8 ? 3 : 2;
+  for (int i = 0; i < context.tile_size * context.tile_size; i += kLanes) {
+    const auto packed = [&](int s) HWY_ATTR {
+      return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(context.sample[s].color) + i);
     };
-    Int mean = word(0), differing = hn::Zero(kInt);
-    for (int s = 1; s < run.samples; ++s) differing = hn::Or(differing, hn::Xor(word(s), mean));
+    Int mean = packed(0), differing = hn::Zero(kInt);
+    for (int s = 1; s < context.samples; ++s) differing = hn::Or(differing, hn::Xor(packed(s), mean));
     if (!hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)))) {
       mean = hn::Zero(kInt);
       for (int f = 0; f < fields.count; ++f) {
         const Int mask = splat((1 << fields.bits[f]) - 1);
-        Int sum = splat(run.samples / 2);
-        for (int s = 0; s < run.samples; ++s)
+        Int sum = splat(context.samples / 2);
+        for (int s = 0; s < context.samples; ++s)
           sum = hn::Add(
               sum,
-              hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, word(s)), fields.shift[f])),
+              hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, packed(s)), fields.shift[f])),
                       mask));
         mean = hn::Or(mean, hn::ShiftLeftSame(hn::ShiftRightSame(sum, shift), fields.shift[f]));
       }
     }
-    hn::Store(mean, kInt, reinterpret_cast<std::int32_t*>(run.color) + i);
+    hn::Store(mean, kInt, reinterpret_cast<std::int32_t*>(context.color) + i);
   }
 }
 

@@ -6,10 +6,10 @@
 namespace tessera {
 
 /// The mean of the samples' levels, each component rounded to the nearest, halves up. @param samples  4 or 8
-inline std::uint32_t resolved_word(const ColorLayout& layout, const std::uint32_t* words, int samples) {
+inline std::uint32_t resolve_reference(const ColorLayout& layout, const std::uint32_t* packed, int samples) {
   const auto mean = [&](int shift, int bits) {
     std::uint32_t sum = static_cast<std::uint32_t>(samples) / 2;
-    for (int s = 0; s < samples; ++s) sum += words[s] >> shift & ((1u << bits) - 1);
+    for (int s = 0; s < samples; ++s) sum += packed[s] >> shift & ((1u << bits) - 1);
     return sum / static_cast<std::uint32_t>(samples) << shift;
   };
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : mean(layout.bits, layout.alpha_bits);

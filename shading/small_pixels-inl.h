@@ -1,10 +1,10 @@
 // Pixels of triangles so small that each has but a few: those of a whole group stand side by side in lanes,
 // and are stored one after the other.
-#if defined(TESSERA_SHADING_SMALL_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_SMALL_PIXELS_INL_H_
-#undef TESSERA_SHADING_SMALL_PIXELS_INL_H_
+#if defined(TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
+#undef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
 #else
-#define TESSERA_SHADING_SMALL_PIXELS_INL_H_
+#define TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
 #endif
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 #include "raster/depth-inl.h"
 #include "raster/lanes-inl.h"
-#include "shading/tile_run-inl.h"
+#include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
@@ -48,30 +48,30 @@ struct PickByTriangle {
 };
 
 /// Colours at the vertices of a group's triangles, as arrays.
-struct SmallColors {
+struct SmallTriangleColorEval {
   alignas(64) float component[3][3][kGroupSize];  // red, green and blue of each vertex
   int r_shift, g_shift;
 
   /// @param triangles  those that have pixels, a bit each; what others get means nothing
-  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw, std::uint32_t triangles) {
-    r_shift = run.frame.layout.r_shift();
-    g_shift = run.frame.layout.g_shift();
+  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, std::uint32_t triangles) {
+    r_shift = context.frame.layout.r_shift();
+    g_shift = context.frame.layout.g_shift();
     const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1];
     for (int first = 0; first < kGroupSize; first += 4) {
       if ((triangles >> first & 15) == 0) continue;
       int triangle[4], attribute[4];
       for (int t = 0; t < 4; ++t) {
-        triangle[t] = std::min(first + t, run.memory.group.count - 1);
-        attribute[t] = draw.color_attribute[has_faces && is_back(run, draw, triangle[t]) ? 1 : 0];
+        triangle[t] = std::min(first + t, context.memory.group.count - 1);
+        attribute[t] = draw.color_attribute[has_faces && is_back(context, draw, triangle[t]) ? 1 : 0];
       }
       for (int k = 0; k < 3; ++k) {
-        const auto of = [&](int t) HWY_ATTR { return run.memory.attributes[k][triangle[t]] + attribute[t]; };
+        const auto of = [&](int t) HWY_ATTR { return context.memory.attributes[k][triangle[t]] + attribute[t]; };
         set_up_four(of(0), of(1), of(2), of(3), component[k], first);
       }
     }
   }
-  /// ScaledColor's words, of pixels of several triangles.
-  HWY_INLINE Int words(const PickByTriangle& pick, Float b1, Float b2) const {
+  /// GouraudColorEval::packed(), of pixels of several triangles.
+  HWY_INLINE Int packed(const PickByTriangle& pick, Float b1, Float b2) const {
     const auto level = [&](int c) HWY_ATTR {
       const Float at_first = pick(component[0][c]);
       const Float to_second = hn::Sub(pick(component[1][c]), at_first),
@@ -109,14 +109,14 @@ struct SmallColors {
 };
 
 /// Pixels of a group's small triangles, in the order in which they are drawn, and their colours.
-struct SmallPixels {
-  static constexpr int kMost = kGroupSize * kBlockPixels;
+struct SmallTrianglePixels {
+  static constexpr int kCapacity = kGroupSize * kBlockPixels;
   int count = 0;
   alignas(64) std::int32_t
-      place[kMost + kLanes];  // the triangle's number in the group, and y and x in the tile: 8 bits each
-  alignas(64) std::int32_t index[kMost + kLanes];  // of the pixel
-  alignas(64) std::int32_t key[kMost + kLanes];    // of its depth, where kHasKeys
-  alignas(64) std::int32_t word[kMost + kLanes];   // of its colour
+      place[kCapacity + kLanes];  // the triangle's number in the group, and y and x in the tile: 8 bits each
+  alignas(64) std::int32_t index[kCapacity + kLanes];  // of the pixel
+  alignas(64) std::int32_t key[kCapacity + kLanes];    // of its depth, where kHasKeys
+  alignas(64) std::int32_t packed[kCapacity + kLanes];   // of its colour
   std::uint32_t triangles = 0;                     // that have pixels
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
@@ -138,16 +138,16 @@ struct SmallPixels {
 #endif
   }
   /// Words at barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
-  HWY_INLINE void set_up(const TileRun& run, const TileDraw& draw) {
-    const TriangleGroup& g = run.memory.group;
-    SmallColors colors;
-    colors.set_up(run, draw, triangles);
+  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw) {
+    const TriangleGroup& g = context.memory.group;
+    SmallTriangleColorEval colors;
+    colors.set_up(context, draw, triangles);
     hn::StoreU(hn::Zero(kInt), kInt, place + count);
     for (int first = 0; first < count; first += kLanes) {
       const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at),
                 at_y = y_of(at);
       const PickByTriangle pick(of_triangle);
-      hn::StoreU(run.pixel_indices(at_x, at_y), kInt, index + first);
+      hn::StoreU(context.pixel_indices(at_x, at_y), kInt, index + first);
       Float w[3];
       for (int k = 0; k < 3; ++k) {
         const Int edge =
@@ -161,7 +161,7 @@ struct SmallPixels {
         w[1] = hn::Mul(w[1], inverse);
         w[2] = hn::Mul(w[2], inverse);
       }
-      hn::Store(colors.words(pick, w[1], w[2]), kInt, word + first);
+      hn::Store(colors.packed(pick, w[1], w[2]), kInt, packed + first);
     }
   }
   /// Whether keys come in lanes: of a depth format that they do for, and where products of 64 bits do.

@@ -9,24 +9,24 @@
 
 namespace tessera {
 
-/// An action: min(max(((stored & keep) ^ flip) + add, least), most), of which the bits that may be written
+/// An action: min(max(((stored & keep) ^ flip) + add, min_value), max_value), of which the bits that may be written
 /// are stored.
-struct StencilStep {
+struct StencilOpConstants {
   std::int32_t keep = -1, flip = 0, add = 0;
-  std::int32_t least = std::numeric_limits<std::int32_t>::min(),
-               most = std::numeric_limits<std::int32_t>::max();
+  std::int32_t min_value = std::numeric_limits<std::int32_t>::min(),
+               max_value = std::numeric_limits<std::int32_t>::max();
 
   constexpr std::int32_t operator()(std::int32_t stored) const {
-    return std::min(std::max(((stored & keep) ^ flip) + add, least), most);
+    return std::min(std::max(((stored & keep) ^ flip) + add, min_value), max_value);
   }
 };
 
-constexpr StencilStep stencil_step(StencilAction action, std::int32_t reference, std::int32_t most) {
+constexpr StencilOpConstants stencil_op_constants(StencilAction action, std::int32_t reference, std::int32_t max_value) {
   switch (action) {
     case StencilAction::zero: return {.keep = 0};
     case StencilAction::replace: return {.keep = 0, .flip = reference};
-    case StencilAction::incr: return {.add = 1, .most = most};
-    case StencilAction::decr: return {.add = -1, .least = 0};
+    case StencilAction::incr: return {.add = 1, .max_value = max_value};
+    case StencilAction::decr: return {.add = -1, .min_value = 0};
     case StencilAction::invert: return {.flip = -1};
     case StencilAction::incr_wrap: return {.add = 1};
     case StencilAction::decr_wrap: return {.add = -1};
@@ -54,11 +54,11 @@ constexpr PassingValues passing_values(CompareOp func, std::int32_t reference) {
   }
 }
 
-struct StencilSteps {
+struct StencilTestConstants {
   PassingValues passing;
   std::int32_t mask = 0;
   std::int32_t write_mask = 0;
-  StencilStep fail, zfail, zpass;
+  StencilOpConstants fail, zfail, zpass;
   bool fail_writes = false, zfail_writes = false, zpass_writes = false;  ///< else nothing changes then
 
   constexpr bool writes() const { return fail_writes || zfail_writes || zpass_writes; }
@@ -67,16 +67,16 @@ struct StencilSteps {
   }
 };
 
-/// @param most  of the buffer: 2^bits - 1
-constexpr StencilSteps stencil_steps(const StencilSide& face, std::int32_t most) {
-  const std::int32_t write_mask = face.write_mask & most;
+/// @param max_value  of the buffer: 2^bits - 1
+constexpr StencilTestConstants stencil_test_constants(const StencilSide& face, std::int32_t max_value) {
+  const std::int32_t write_mask = face.write_mask & max_value;
   const auto writes = [&](StencilAction action) { return action != StencilAction::keep && write_mask != 0; };
   return {.passing = passing_values(face.func, face.reference & face.mask),
           .mask = face.mask,
           .write_mask = write_mask,
-          .fail = stencil_step(face.fail, face.reference, most),
-          .zfail = stencil_step(face.zfail, face.reference, most),
-          .zpass = stencil_step(face.zpass, face.reference, most),
+          .fail = stencil_op_constants(face.fail, face.reference, max_value),
+          .zfail = stencil_op_constants(face.zfail, face.reference, max_value),
+          .zpass = stencil_op_constants(face.zpass, face.reference, max_value),
           .fail_writes = writes(face.fail),
           .zfail_writes = writes(face.zfail),
           .zpass_writes = writes(face.zpass)};

@@ -1,4 +1,4 @@
-// Texels of a batch of points: loaded, mixed, and as colours. Components are levels with 8 fraction bits, two
+// Texels of a batch of points: loaded, interpolated, and as colors. Components are levels with 8 fraction bits, two
 // in each lane.
 #if defined(TESSERA_SHADING_TEXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXELS_INL_H_
@@ -31,7 +31,7 @@ HWY_INLINE Int upper_bytes_down(Int words) {
 /// Each lane's lower 16 bits, twice.
 HWY_INLINE Int twice(Int lower) { return hn::Or(hn::And(lower, splat(0xffff)), hn::ShiftLeft<16>(lower)); }
 /// a - (a f >> 16) + (b f >> 16) for each 16 bits: exactly a where b is the same.
-HWY_INLINE Int mixed(Int a, Int b, Int f) {
+HWY_INLINE Int lerp_texels(Int a, Int b, Int f) {
   const auto part = [](std::uint32_t x, std::uint32_t y) {
     return ((x & 0xffff) * (y & 0xffff) >> 16) | ((x >> 16) * (y >> 16) & 0xffff0000u);
   };
@@ -51,7 +51,7 @@ HWY_INLINE Int twice(Int lower) {
   return hn::BitCast(
       kInt, hn::OddEven(hn::BitCast(kHalves, hn::ShiftLeft<16>(lower)), hn::BitCast(kHalves, lower)));
 }
-HWY_INLINE Int mixed(Int a, Int b, Int f) {
+HWY_INLINE Int lerp_texels(Int a, Int b, Int f) {
   const auto x = hn::BitCast(kHalves, a), y = hn::BitCast(kHalves, b), share = hn::BitCast(kHalves, f);
   return hn::BitCast(kInt, hn::Add(hn::Sub(x, hn::MulHigh(x, share)), hn::MulHigh(y, share)));
 }
@@ -60,8 +60,8 @@ HWY_INLINE Int mixed(Int a, Int b, Int f) {
 HWY_INLINE Texels texels_of(Int words) {
   return {lower_bytes_up(words), hn::And(words, splat(static_cast<std::int32_t>(0xff00ff00u)))};
 }
-HWY_INLINE Texels mixed(const Texels& a, const Texels& b, Int f) {
-  return {mixed(a.br, b.br, f), mixed(a.ga, b.ga, f)};
+HWY_INLINE Texels lerp_texels(const Texels& a, const Texels& b, Int f) {
+  return {lerp_texels(a.br, b.br, f), lerp_texels(a.ga, b.ga, f)};
 }
 
 /// The words at an index and after it.
@@ -125,7 +125,7 @@ HWY_INLINE Colors colors_of(const Texels& texels) {
 
 /// Words of 8 bits a component, none of alpha: a component's level, floor(255 c + 0.5), is that of its 16
 /// bits rounded to 8.
-HWY_INLINE Int words_of_texels(const Texels& texels) {
+HWY_INLINE Int pack_texels(const Texels& texels) {
   const Int g = hn::And(hn::Add(texels.ga, splat(0x80)), splat(0xff00));
   return hn::Or(upper_bytes_down(hn::Add(texels.br, splat(0x00800080))), g);
 }

@@ -43,7 +43,7 @@ struct TextureLevel {
 inline constexpr int kTexelShift[4] = {16, 8, 0, 24};
 
 /// How a draw's texels are found, asked once: as nearly all textures have it, or in any way there is.
-enum class TexelFilter : std::uint8_t { nearest, linear, linear_levels, any };
+enum class TexelFilter : std::uint8_t { nearest, linear, linear_mipmapped, any };
 
 struct TextureLevels {
   const std::uint32_t* words = nullptr;  ///< of all levels; rows from the bottom
@@ -52,17 +52,17 @@ struct TextureLevels {
   bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
   bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
-  bool gathers_pairs = false;  ///< of texels: see machine_gathers_pairs()
+  bool gathers_pairs = false;  ///< of texels: see machine_has_fast_gather()
 
   /// How many texels a pixel spans decides something.
   bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }
   TexelFilter filter() const {
     if (!needs_footprint()) return mag_linear ? TexelFilter::linear : TexelFilter::nearest;
-    return mag_linear && min_linear ? TexelFilter::linear_levels : TexelFilter::any;
+    return mag_linear && min_linear ? TexelFilter::linear_mipmapped : TexelFilter::any;
   }
   /// Squared texels a pixel up to which a texture is magnified: GL 2.1, 3.8.9, c is 0, or 0.5 where
   /// magnification is the sharper filter.
-  float most_magnified = 1;
+  float magnification_limit = 1;
 };
 
 /// What a draw does with its texture.
@@ -83,8 +83,8 @@ struct DrawTexture {
 inline constexpr float kTexelOne = 65280.0f;
 
 /// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of
-/// textured_lanes().
-inline std::array<float, 4> textured_color(const DrawTexture& texture, const std::array<float, 4>& f,
+/// texture_env_lanes().
+inline std::array<float, 4> texture_env_reference(const DrawTexture& texture, const std::array<float, 4>& f,
                                            const std::array<float, 4>& t) {
   std::array<float, 4> c = f;
   for (std::size_t k = 0; k < 3; ++k) {

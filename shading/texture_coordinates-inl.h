@@ -23,15 +23,15 @@ namespace HWY_NAMESPACE {
 
 /// One coordinate and its slopes, in texels of level 0.
 struct TextureAxis {
-  Corners corner;
+  Interpolant interpolant;
   float dx, dy;          // of the sum of weighted differences
   float sum_dx, sum_dy;  // of the weights' sum
 
-  HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, bool keeps_range, float texels,
+  HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, bool clamps_to_range, float texels,
                          const float (&weight_dx)[3], const float (&weight_dy)[3]) {
-    corner = corners(t, attribute, keeps_range);
-    dx = texels * std::fma(weight_dx[1], corner.to_second, weight_dx[2] * corner.to_third);
-    dy = texels * std::fma(weight_dy[1], corner.to_second, weight_dy[2] * corner.to_third);
+    interpolant = make_interpolant(t, attribute, clamps_to_range);
+    dx = texels * std::fma(weight_dx[1], interpolant.to_second, weight_dx[2] * interpolant.to_third);
+    dy = texels * std::fma(weight_dy[1], interpolant.to_second, weight_dy[2] * interpolant.to_third);
     sum_dx = t.affine ? 0.0f : texels * (weight_dx[0] + weight_dx[1] + weight_dx[2]);
     sum_dy = t.affine ? 0.0f : texels * (weight_dy[0] + weight_dy[1] + weight_dy[2]);
   }
@@ -42,24 +42,24 @@ struct TextureCoordinates {
   TextureAxis s, t;
   bool has_slopes = false, is_line = false;
 
-  HWY_NOINLINE void set_up(const ShadedTriangle& of, const WideEdges* wide, const DrawTexture& texture,
+  HWY_NOINLINE void set_up(const ShadedTriangle& of, const Edges64* edges64, const DrawTexture& texture,
                            bool of_line, int samples) {
     triangle = &of;
     // Of nearest texels a hair beyond the vertices is another one; and with several samples centres may be
     // far beyond.
-    const bool keeps_range =
+    const bool clamps_to_range =
         !of_line && (samples > 1 || !(texture.levels->mag_linear && texture.levels->min_linear));
     is_line = of_line;
     float weight_dx[3], weight_dy[3];
     for (int k = 0; k < 3; ++k) {
-      weight_dx[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.a[k])
-                                                : static_cast<float>(wide[of.wide].a[k]));
-      weight_dy[k] = of.scale[k] * (of.wide < 0 ? static_cast<float>(of.edges.b[k])
-                                                : static_cast<float>(wide[of.wide].b[k]));
+      weight_dx[k] = of.scale[k] * (of.edges64_index < 0 ? static_cast<float>(of.edges.a[k])
+                                                : static_cast<float>(edges64[of.edges64_index].a[k]));
+      weight_dy[k] = of.scale[k] * (of.edges64_index < 0 ? static_cast<float>(of.edges.b[k])
+                                                : static_cast<float>(edges64[of.edges64_index].b[k]));
     }
     const TextureLevel& level = texture.levels->level[0];
-    s.set_up(of, texture.attribute, keeps_range, static_cast<float>(level.width), weight_dx, weight_dy);
-    t.set_up(of, texture.attribute + 1, keeps_range,
+    s.set_up(of, texture.attribute, clamps_to_range, static_cast<float>(level.width), weight_dx, weight_dy);
+    t.set_up(of, texture.attribute + 1, clamps_to_range,
              level.height > 1 ? static_cast<float>(level.height) : 0.0f, weight_dx,
              weight_dy);  // of a single row t has no say
     has_slopes = texture.levels->needs_footprint();
@@ -70,17 +70,17 @@ struct TextureCoordinates {
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     has_slopes ? at<true, true>(where, store) : at<false, true>(where, store);
   }
-  /// kKeepsRange: where set_up() has found that they are to be kept.
-  template <bool kHasSlopes, bool kKeepsRange, class Store>
+  /// kClampsToRange: where set_up() has found that they are to be kept.
+  template <bool kHasSlopes, bool kClampsToRange, class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     const auto coordinate = [&](const TextureAxis& axis) HWY_ATTR {
-      return kKeepsRange ? interpolate_within(where, axis.corner) : interpolate(where, axis.corner);
+      return kClampsToRange ? interpolate_clamped(where, axis.interpolant) : interpolate(where, axis.interpolant);
     };
     const Float at_s = coordinate(s), at_t = coordinate(t);
     store(kTextureS, at_s);
     store(kTextureT, at_t);
     if constexpr (!kHasSlopes) return;
-    const Float from_s = hn::Sub(at_s, splat(s.corner.first)), from_t = hn::Sub(at_t, splat(t.corner.first));
+    const Float from_s = hn::Sub(at_s, splat(s.interpolant.first)), from_t = hn::Sub(at_t, splat(t.interpolant.first));
     const auto squared = [&](float ds, float s_sum, float dt, float t_sum) HWY_ATTR {
       const Float along_s = neg_mul_add(from_s, splat(s_sum), splat(ds)),
                   along_t = neg_mul_add(from_t, splat(t_sum), splat(dt));
@@ -88,7 +88,7 @@ struct TextureCoordinates {
     };
     const Float x = squared(s.dx, s.sum_dx, t.dx, t.sum_dx), y = squared(s.dy, s.sum_dy, t.dy, t.sum_dy);
     const Float longest = is_line ? hn::Add(x, y) : greater_of(y, x);
-    store(kTexelsSquared, hn::Mul(hn::Mul(longest, where.inverse), where.inverse));
+    store(kFootprintSquared, hn::Mul(hn::Mul(longest, where.inverse), where.inverse));
   }
 };
 

@@ -1,4 +1,4 @@
-// Colours of a chunk of pixels under their texels. Twin: textured_color() in texture.h.
+// Colours of a chunk of pixels under their texels. Twin: texture_env_reference() in texture.h.
 #if defined(TESSERA_SHADING_TEXTURE_ENV_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_ENV_INL_H_
 #undef TESSERA_SHADING_TEXTURE_ENV_INL_H_
@@ -18,7 +18,7 @@ HWY_INLINE Colors modulated(const Colors& f, const Colors& t) {
   return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}};
 }
 
-inline HWY_NOINLINE Colors textured_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
+inline HWY_NOINLINE Colors texture_env_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   const auto each = [&](auto component) HWY_ATTR {
     const Float alpha = !texture.changes_alpha()                       ? f.c[3]
                         : texture.function == TextureFunction::replace ? t.c[3]

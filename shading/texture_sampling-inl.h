@@ -32,10 +32,10 @@ HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) {
 
 /// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the
 /// next, twice.
-struct TexelPlace {
+struct TexelPosition {
   Int texel, fraction;
 };
-HWY_INLINE TexelPlace linear_place(Float unit, const TexelAxis& axis, Wrap wrap) {
+HWY_INLINE TexelPosition bilinear_position(Float unit, const TexelAxis& axis, Wrap wrap) {
   Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
   if (wrap == Wrap::repeat)  // left of the first centre one is behind the last: what is below 0 is large
                              // without a sign
@@ -53,16 +53,16 @@ HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLeve
   return texels_of(nearest_words(texture.words + level.first, level, s, t));
 }
 
-/// Which four texels of a level are mixed, and by how much.
-struct LinearTexels {
+/// Which four texels of a level are interpolated, and by how much.
+struct BilinearTexels {
   const std::uint32_t* words;
   std::int32_t stride;
   bool gathers_pairs;
   Int index, to_right, to_next_row;
 
   HWY_INLINE void place(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-    const TexelPlace column = linear_place(s, level.columns, texture.wrap_s),
-                     row = linear_place(t, level.rows, texture.wrap_t);
+    const TexelPosition column = bilinear_position(s, level.columns, texture.wrap_s),
+                     row = bilinear_position(t, level.rows, texture.wrap_t);
     words = texture.words + level.first;
     stride = level.stride;
     gathers_pairs = texture.gathers_pairs;
@@ -70,21 +70,21 @@ struct LinearTexels {
     to_right = column.fraction;
     to_next_row = row.fraction;
   }
-  HWY_INLINE Texels mix() const {
-    const Texels lower = mix_of(words);
-    return mixed(lower, mix_of(words + stride), to_next_row);
+  HWY_INLINE Texels filtered() const {
+    const Texels lower = lerp_row(words);
+    return lerp_texels(lower, lerp_row(words + stride), to_next_row);
   }
 
  private:
-  HWY_INLINE Texels mix_of(const std::uint32_t* row) const {
+  HWY_INLINE Texels lerp_row(const std::uint32_t* row) const {
     const TexelPairs pairs = load_pairs(row, index, gathers_pairs);
-    return mixed(texels_of(pairs.left), texels_of(pairs.right), to_right);
+    return lerp_texels(texels_of(pairs.left), texels_of(pairs.right), to_right);
   }
 };
-HWY_INLINE Texels linear_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-  LinearTexels texels;
+HWY_INLINE Texels bilinear_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
+  BilinearTexels texels;
   texels.place(texture, level, s, t);
-  return texels.mix();
+  return texels.filtered();
 }
 
 /// Half of log2(m) / (m - 1) with 16 fraction bits, for m in [sqrt(1/2), sqrt(2)): a Remez fit, off by less
@@ -112,57 +112,57 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
     level = hn::ShiftLeft<16>(hn::ShiftRight<1>(hn::Add(exponent, splat(1))));
   }
   const Int within = hn::Max(hn::Min(level, splat(texture.last << 16)), hn::Zero(kInt));
-  return hn::IfThenElseZero(hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.most_magnified))), within);
+  return hn::IfThenElseZero(hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.magnification_limit))), within);
 }
 
 /// Chunks all of whose points are at one level, or between it and the next smaller one.
 template <int kChunks>
-HWY_INLINE void linear_texels_from(const TextureLevels& texture, int level, const Int (&level_of)[kChunks],
+HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level, const Int (&level_of)[kChunks],
                                    const Float (&s)[kChunks], const Float (&t)[kChunks],
                                    Texels (&texels)[kChunks]) {
-  LinearTexels linear[2][kChunks];
+  BilinearTexels linear[2][kChunks];
   for (int i = 0; i < kChunks; ++i) linear[0][i].place(texture, texture.level[level], s[i], t[i]);
   if (!texture.blends_levels || level == texture.last) {
-    for (int i = 0; i < kChunks; ++i) texels[i] = linear[0][i].mix();
+    for (int i = 0; i < kChunks; ++i) texels[i] = linear[0][i].filtered();
     return;
   }
   for (int i = 0; i < kChunks; ++i) linear[1][i].place(texture, texture.level[level + 1], s[i], t[i]);
   for (int i = 0; i < kChunks; ++i) {
-    const Texels larger = linear[0][i].mix();
-    texels[i] = mixed(larger, linear[1][i].mix(), twice(level_of[i]));
+    const Texels larger = linear[0][i].filtered();
+    texels[i] = lerp_texels(larger, linear[1][i].filtered(), twice(level_of[i]));
   }
 }
-HWY_INLINE Texels linear_texels_from(const TextureLevels& texture, int level, Int level_of, Float s,
+HWY_INLINE Texels mipmapped_linear_texels(const TextureLevels& texture, int level, Int level_of, Float s,
                                      Float t) {
   Texels texels[1];
-  linear_texels_from<1>(texture, level, {level_of}, {s}, {t}, texels);
+  mipmapped_linear_texels<1>(texture, level, {level_of}, {s}, {t}, texels);
   return texels[0];
 }
-HWY_INLINE Texels nearest_texels_from(const TextureLevels& texture, int level, Int level_of, Float s,
+HWY_INLINE Texels mipmapped_nearest_texels(const TextureLevels& texture, int level, Int level_of, Float s,
                                       Float t) {
   const Texels larger = nearest_texels(texture, texture.level[level], s, t);
   return texture.blends_levels && level < texture.last
-             ? mixed(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of))
+             ? lerp_texels(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of))
              : larger;
 }
 
 /// Points of one chunk at whatever levels they have: one pass for each of those, nearly always one or two.
 inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Float s, Float t,
                                               Float footprint) {
-  const auto minified = hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.most_magnified)));
+  const auto minified = hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.magnification_limit)));
   // Magnified points are points of level 0 like others, unless they have a filter of their own.
   const bool apart = texture.mag_linear != texture.min_linear;
   Texels all{hn::Zero(kInt), hn::Zero(kInt)};
   if (apart && !hn::AllTrue(kInt, minified))
-    all = texture.mag_linear ? linear_texels(texture, texture.level[0], s, t)
+    all = texture.mag_linear ? bilinear_texels(texture, texture.level[0], s, t)
                              : nearest_texels(texture, texture.level[0], s, t);
   const Int level_of = level_of_detail(texture, footprint), whole = hn::ShiftRight<16>(level_of);
   alignas(64) std::int32_t levels[kLanes];
   hn::Store(whole, kInt, levels);
   for (std::uint32_t left = apart ? mask_bits(kInt, minified) : (1u << kLanes) - 1; left != 0;) {
     const int level = levels[std::countr_zero(left)];
-    const Texels here = texture.min_linear ? linear_texels_from(texture, level, level_of, s, t)
-                                           : nearest_texels_from(texture, level, level_of, s, t);
+    const Texels here = texture.min_linear ? mipmapped_linear_texels(texture, level, level_of, s, t)
+                                           : mipmapped_nearest_texels(texture, level, level_of, s, t);
     auto same = hn::Eq(whole, splat(level));
     if (apart) same = hn::And(same, minified);
     all = {hn::IfThenElse(same, here.br, all.br), hn::IfThenElse(same, here.ga, all.ga)};
@@ -182,17 +182,17 @@ HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], 
   if constexpr (kFilter == TexelFilter::nearest) {
     for (int i = 0; i < kChunks; ++i) texels[i] = nearest_texels(texture, texture.level[0], s[i], t[i]);
   } else if constexpr (kFilter == TexelFilter::linear) {
-    LinearTexels linear[kChunks];
+    BilinearTexels linear[kChunks];
     for (int i = 0; i < kChunks; ++i) linear[i].place(texture, texture.level[0], s[i], t[i]);
-    for (int i = 0; i < kChunks; ++i) texels[i] = linear[i].mix();
-  } else if constexpr (kFilter == TexelFilter::linear_levels) {
+    for (int i = 0; i < kChunks; ++i) texels[i] = linear[i].filtered();
+  } else if constexpr (kFilter == TexelFilter::linear_mipmapped) {
     Int level_of[kChunks];
     for (int i = 0; i < kChunks; ++i) level_of[i] = level_of_detail(texture, footprint[i]);
     const int level = hn::GetLane(hn::ShiftRight<16>(level_of[0]));
     auto same = hn::Eq(hn::ShiftRight<16>(level_of[0]), splat(level));
     for (int i = 1; i < kChunks; ++i)
       same = hn::And(same, hn::Eq(hn::ShiftRight<16>(level_of[i]), splat(level)));
-    if (hn::AllTrue(kInt, same)) return linear_texels_from(texture, level, level_of, s, t, texels);
+    if (hn::AllTrue(kInt, same)) return mipmapped_linear_texels(texture, level, level_of, s, t, texels);
     for (int i = 0; i < kChunks; ++i) texels[i] = texels_from_levels(texture, s[i], t[i], footprint[i]);
   } else {
     for (int i = 0; i < kChunks; ++i) texels[i] = texels_from_levels(texture, s[i], t[i], footprint[i]);
@@ -205,7 +205,7 @@ HWY_INLINE void with_filter(const TextureLevels& texture, const Run& run) {
   switch (texture.filter()) {
     case TexelFilter::nearest: return run.template operator()<TexelFilter::nearest>();
     case TexelFilter::linear: return run.template operator()<TexelFilter::linear>();
-    case TexelFilter::linear_levels: return run.template operator()<TexelFilter::linear_levels>();
+    case TexelFilter::linear_mipmapped: return run.template operator()<TexelFilter::linear_mipmapped>();
     case TexelFilter::any: return run.template operator()<TexelFilter::any>();
   }
 }
@@ -220,7 +220,7 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
           return hn::Load(kFloat, batch.field[number] + first + chunk * kLanes);
         };
         at_s[chunk] = field(kTextureS), at_t[chunk] = field(kTextureT),
-        footprint[chunk] = field(kTexelsSquared);
+        footprint[chunk] = field(kFootprintSquared);
       }
       Texels texels[kChunksPerBlock];
       texels_where<kFilter>(texture, at_s, at_t, footprint, texels);

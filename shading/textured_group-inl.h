@@ -1,10 +1,10 @@
-// Draws of textured triangles where each pixel that is seen is shaded at once: coordinates, texels and
-// colours stay in registers. The same bits as where they wait (deferred-inl.h).
-#if defined(TESSERA_SHADING_TEXTURED_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_TEXTURED_GROUP_INL_H_
-#undef TESSERA_SHADING_TEXTURED_GROUP_INL_H_
+// Draws of textured triangles where each pixel that is visible is shaded at once: coordinates, texels and
+// colours stay in registers. The same bits as where they wait (deferred_shading-inl.h).
+#if defined(TESSERA_SHADING_DRAW_TEXTURED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
+#undef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
 #else
-#define TESSERA_SHADING_TEXTURED_GROUP_INL_H_
+#define TESSERA_SHADING_DRAW_TEXTURED_INL_H_
 #endif
 
 #include <bit>
@@ -17,8 +17,8 @@ namespace tessera {
 namespace HWY_NAMESPACE {
 
 /// Those without operations, into RGB buffers, of colours that are there already.
-HWY_INLINE bool textures_at_once(const TileFrame& frame, const TileDraw& draw) {
-  return frame.shade_at_once && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr &&
+HWY_INLINE bool can_texture_immediately(const TileFrame& frame, const TileDraw& draw) {
+  return frame.shade_immediately && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr &&
          draw.texture->levels != nullptr && !frame.layout.index && !frame.layout.luminance &&
          frame.layout.alpha_bits == 0 &&
          (draw.source == ColorSource::constant || draw.source == ColorSource::interpolated) &&
@@ -28,56 +28,56 @@ HWY_INLINE bool textures_at_once(const TileFrame& frame, const TileDraw& draw) {
 /// One triangle's way through the blocks of a tile.
 template <TexelFilter kFilter>
 struct TexturedBlocks {
-  TileRun& run;
+  TileContext& context;
   const TileDraw& draw;
   const ShadedTriangle& triangle;
-  bool uses_depth, is_rgb8, modulates, texels_alone, at_once, full;
+  bool uses_depth, is_rgb8, modulates, replaces_color, stores_full, full;
   FragmentDepth depth;
   TextureCoordinates coordinates;
-  Corners color[3];
-  Int seen = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
+  Interpolant color[3];
+  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
   std::uint64_t blocks = 0;   // drawn as a whole
 
   /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of
   /// their steps.
-  static constexpr int kBlocksAtOnce = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
+  static constexpr int kBlocksPerGroup = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
   struct FullBlock {
     int bx, by;
     BlockEdges edges;
   };
-  FullBlock waiting[kBlocksAtOnce];
-  int waits = 0;
+  FullBlock pending[kBlocksPerGroup];
+  int pending_count = 0;
 
   HWY_INLINE void set_up(int i) {
-    uses_depth = has_depth(run.frame, draw);
-    const ColorLayout& layout = run.frame.layout;
+    uses_depth = has_depth(context.frame, draw);
+    const ColorLayout& layout = context.frame.layout;
     is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
     modulates = draw.texture->function == TextureFunction::modulate;
-    texels_alone = is_rgb8 && draw.texture->function == TextureFunction::replace;
-    at_once = is_rgb8 && (texels_alone || modulates) && !uses_depth && !run.cut &&
+    replaces_color = is_rgb8 && draw.texture->function == TextureFunction::replace;
+    stores_full = is_rgb8 && (replaces_color || modulates) && !uses_depth && !context.needs_scissor &&
               (draw.write_mask & 0xffffff) == 0xffffff;
-    depth.set_up(run.frame, draw, run.memory.group, i, run.memory.source[i], run.tile_x, run.tile_y);
-    coordinates.set_up(triangle, run.memory.wide.data(), *draw.texture, false, 1);
+    depth.set_up(context.frame, draw, context.memory.group, i, context.memory.source[i], context.tile_x, context.tile_y);
+    coordinates.set_up(triangle, context.memory.edges64.data(), *draw.texture, false, 1);
     for (int c = 0; c < 3; ++c) {
       const std::size_t face = triangle.back ? 1 : 0;
       color[c] = draw.source == ColorSource::constant
-                     ? Corners{draw.color[face][static_cast<std::size_t>(c)], 0, 0}
-                     : corners(triangle, draw.color_attribute[face] + c, true);
+                     ? Interpolant{draw.color[face][static_cast<std::size_t>(c)], 0, 0}
+                     : make_interpolant(triangle, draw.color_attribute[face] + c, true);
     }
   }
   HWY_INLINE std::uint64_t shaded_pixels() const {
-    return std::uint64_t{kBlockPixels} * blocks + count_of(seen);
+    return std::uint64_t{kBlockPixels} * blocks + count_of(visible);
   }
 
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
-    if (kFull && kFilter != TexelFilter::any && at_once) {
+    if (kFull && kFilter != TexelFilter::any && stores_full) {
       const FullBlock block{bx, by, edges};
-      if constexpr (kBlocksAtOnce == 1) {
+      if constexpr (kBlocksPerGroup == 1) {
         draw_full_blocks<1>(&block);
       } else {
-        waiting[waits++] = block;
-        if (waits == kBlocksAtOnce) draw_full_blocks<kBlocksAtOnce>(waiting), waits = 0;
+        pending[pending_count++] = block;
+        if (pending_count == kBlocksPerGroup) draw_full_blocks<kBlocksPerGroup>(pending), pending_count = 0;
       }
       return;
     }
@@ -87,24 +87,24 @@ struct TexturedBlocks {
   /// Those that no more company comes for.
   HWY_INLINE void finish() {
     full = true;
-    for (int i = 0; i < waits; ++i) draw_block(waiting[i].bx, waiting[i].by, waiting[i].edges);
+    for (int i = 0; i < pending_count; ++i) draw_block(pending[i].bx, pending[i].by, pending[i].edges);
   }
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& edges) {
-    const int block = run.block_index(bx, by);
+    const int block = context.block_index(bx, by);
     Int keys[kChunksPerBlock], passed[kChunksPerBlock], any = hn::Zero(kInt);
     if (uses_depth) depth.block_keys(bx, by, keys);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       auto mask = full ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : edges.covered(chunk);
-      if (run.cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+      if (context.needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
       if (uses_depth) {
-        std::int32_t* const at = run.memory.depth + block + chunk * kLanes;
+        std::int32_t* const at = context.memory.depth + block + chunk * kLanes;
         const Int stored = hn::Load(kInt, at);
-        mask = hn::And(mask, comparing(keys[chunk], draw.depth_test, stored));
+        mask = hn::And(mask, compare_lanes(keys[chunk], draw.depth_test, stored));
         if (draw.depth_write) hn::Store(hn::IfThenElse(mask, keys[chunk], stored), kInt, at);
       }
       passed[chunk] = hn::VecFromMask(kInt, mask);
       any = hn::Or(any, passed[chunk]);
-      seen = hn::Add(seen, passed[chunk]);
+      visible = hn::Add(visible, passed[chunk]);
     }
     if (hn::AllFalse(kInt, hn::MaskFromVec(any))) return;
     Barycentric at[kChunksPerBlock];
@@ -112,7 +112,7 @@ struct TexturedBlocks {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) at[chunk] = barycentric_at(bx, by, edges, chunk);
     find_texels(at, texels);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      store_words(run.color + block + chunk * kLanes, words(at[chunk], texels[chunk]),
+      store_packed(context.color + block + chunk * kLanes, packed(at[chunk], texels[chunk]),
                   hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
   }
 
@@ -129,41 +129,41 @@ struct TexturedBlocks {
     find_texels(at, texels);
     for (int i = 0; i < kChunks; ++i) {
       const FullBlock& block = group[i / kChunksPerBlock];
-      auto* const stored = reinterpret_cast<std::int32_t*>(run.color + run.block_index(block.bx, block.by) +
+      auto* const stored = reinterpret_cast<std::int32_t*>(context.color + context.block_index(block.bx, block.by) +
                                                            i % kChunksPerBlock * kLanes);
-      hn::Store(texels_alone ? words_of_texels(texels[i]) : modulated_words(at[i], texels[i]), kInt, stored);
+      hn::Store(replaces_color ? pack_texels(texels[i]) : modulated_packed(at[i], texels[i]), kInt, stored);
     }
     blocks += kBlocks;
   }
   HWY_INLINE Barycentric barycentric_at(int bx, int by, const BlockEdges& edges, int chunk) const {
-    return HWY_UNLIKELY(triangle.wide >= 0)
-               ? barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by,
+    return HWY_UNLIKELY(triangle.edges64_index >= 0)
+               ? barycentric_edges64(triangle, context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)], bx, by,
                                   chunk)
                : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
   }
   template <int kChunks>
   HWY_INLINE void find_texels(const Barycentric (&at)[kChunks], Texels (&texels)[kChunks]) const {
-    constexpr bool kKeepsRange = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any;
-    constexpr bool kHasSlopes = kFilter == TexelFilter::linear_levels || kFilter == TexelFilter::any;
+    constexpr bool kClampsToRange = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any;
+    constexpr bool kHasSlopes = kFilter == TexelFilter::linear_mipmapped || kFilter == TexelFilter::any;
     Float s[kChunks], t[kChunks], footprint[kChunks];
     for (int i = 0; i < kChunks; ++i)
-      coordinates.at<kHasSlopes, kKeepsRange>(at[i], [&](int field, Float value) HWY_ATTR {
+      coordinates.at<kHasSlopes, kClampsToRange>(at[i], [&](int field, Float value) HWY_ATTR {
         (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value;
       });
     texels_where<kFilter>(*draw.texture->levels, s, t, footprint, texels);
   }
-  HWY_INLINE Int words(const Barycentric& at, const Texels& texels) const {
-    if (texels_alone) return words_of_texels(texels);
-    if (is_rgb8 && modulates) return modulated_words(at, texels);
-    return words_of(run.frame.layout, textured_lanes(*draw.texture, own_colors(at), colors_of(texels)),
+  HWY_INLINE Int packed(const Barycentric& at, const Texels& texels) const {
+    if (replaces_color) return pack_texels(texels);
+    if (is_rgb8 && modulates) return modulated_packed(at, texels);
+    return pack_colors(context.frame.layout, texture_env_lanes(*draw.texture, own_colors(at), colors_of(texels)),
                     splat(0.5f));
   }
-  HWY_INLINE Int modulated_words(const Barycentric& at, const Texels& texels) const {
-    return words_of_rgb8(modulated(own_colors(at), colors_of(texels)));
+  HWY_INLINE Int modulated_packed(const Barycentric& at, const Texels& texels) const {
+    return pack_rgb8(modulated(own_colors(at), colors_of(texels)));
   }
   HWY_INLINE Colors own_colors(const Barycentric& at) const {
-    return {{interpolate_within(at, color[0]), interpolate_within(at, color[1]),
-             interpolate_within(at, color[2]), splat(1.0f)}};
+    return {{interpolate_clamped(at, color[0]), interpolate_clamped(at, color[1]),
+             interpolate_clamped(at, color[2]), splat(1.0f)}};
   }
 };
 
@@ -172,8 +172,8 @@ struct TexturedBlocks {
 struct NearestRows {
   TexturedBlocks<TexelFilter::nearest>& blocks;
 
-  HWY_INLINE bool do_for_all() const {
-    return blocks.at_once && blocks.texels_alone && blocks.triangle.wide < 0;
+  HWY_INLINE bool applies() const {
+    return blocks.stores_full && blocks.replaces_color && blocks.triangle.edges64_index < 0;
   }
 
   template <bool kFull>
@@ -188,40 +188,40 @@ struct NearestRows {
     const Wrap wrap_s = levels.wrap_s, wrap_t = levels.wrap_t;
     WeightLanes weights;
     weights.set_up(blocks.triangle);
-    RangeLanes s, t;
-    s.set(blocks.coordinates.s.corner);
-    t.set(blocks.coordinates.t.corner);
+    ClampedInterpolantLanes s, t;
+    s.set(blocks.coordinates.s.interpolant);
+    t.set(blocks.coordinates.t.interpolant);
     RowEdges edges(blocks.triangle.edges, first);
-    auto* stored = reinterpret_cast<std::int32_t*>(blocks.run.color + blocks.run.block_index(bx, by));
+    auto* stored = reinterpret_cast<std::int32_t*>(blocks.context.color + blocks.context.block_index(bx, by));
     for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
         const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
-        const Int texels = nearest_words(words, level, wrapped(interpolate_within(where, s), wrap_s),
-                                         wrapped(interpolate_within(where, t), wrap_t));
+        const Int texels = nearest_words(words, level, wrapped(interpolate_clamped(where, s), wrap_s),
+                                         wrapped(interpolate_clamped(where, t), wrap_t));
         hn::Store(hn::And(texels, splat(0xffffff)), kInt, stored);
       }
     blocks.blocks += static_cast<std::uint64_t>(count);
   }
 };
 
-inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
-  TriangleGroup& g = run.memory.group;
-  const TileDraw& draw = run.frame.draws[draw_number];
-  set_up_edges(g, run.tile_x, run.tile_y, run.rect);
+inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
+  TriangleGroup& g = context.memory.group;
+  const TileDraw& draw = context.frame.draws[draw_number];
+  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
   if (g.mask == 0) return;
-  if (has_depth(run.frame, draw)) set_up_depth(g, run.frame.depth_kind, run.tile_x, run.tile_y);
+  if (has_depth(context.frame, draw)) set_up_depth(g, context.frame.depth_kind, context.tile_x, context.tile_y);
   set_up_weights(g);
   for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    TileEdges edges = tile_edges(g, i);
-    WideEdges wide_edges;
-    if (g.wide[i] != 0 && !tile_edges_of_wide(g, i, run.tile_x, run.tile_y, run.tile_size, edges, wide_edges))
+    Edges32 edges = tile_edges32(g, i);
+    Edges64 wide_edges;
+    if (g.needs_edges64[i] != 0 && !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
       continue;
     ShadedTriangle triangle;
-    fill_shaded_triangle(triangle, run, draw_number, i, is_back(run, draw, i));
-    if (g.wide[i] != 0) keep_wide_edges(triangle, run.memory, wide_edges);
+    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i));
+    if (g.needs_edges64[i] != 0) store_edges64(triangle, context.memory, wide_edges);
     with_filter(*draw.texture->levels, [&]<TexelFilter kFilter>() HWY_ATTR {
-      TexturedBlocks<kFilter> blocks{.run = run, .draw = draw, .triangle = triangle};
+      TexturedBlocks<kFilter> blocks{.context = context, .draw = draw, .triangle = triangle};
       blocks.set_up(i);
       const BlockOffsets offsets(edges);
       const auto draw_by = [&](auto& drawn) HWY_ATTR {
@@ -230,14 +230,14 @@ inline void draw_textured(TileRun& run, std::uint32_t draw_number) {
       bool by_rows = false;
       if constexpr (kFilter == TexelFilter::nearest) {
         NearestRows rows{blocks};
-        by_rows = rows.do_for_all();
+        by_rows = rows.applies();
         if (by_rows) draw_by(rows);
       }
       if (!by_rows) draw_by(blocks);
       blocks.finish();
-      run.counts.shaded_pixels += blocks.shaded_pixels();
+      context.counts.shaded_pixels += blocks.shaded_pixels();
     });
-    run.memory.wide.clear();
+    context.memory.edges64.clear();
   }
 }
 

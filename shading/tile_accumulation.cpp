@@ -17,14 +17,14 @@ void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_
       const float threshold =
           command.dither.threshold[(tile_y + y) % kDitherSize][(tile_x + x) % kDitherSize];
       const std::uint32_t word =
-          command.arithmetic.word({levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
+          command.arithmetic.packed_color({levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
       color[at] = (color[at] & ~command.write_mask) | (word & command.write_mask);
     }
 }
 
 }  // namespace
 
-void run_on_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
+void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
                  int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
   if (command.arithmetic.op() == AccumulationOp::give_back)
     return give_back(command, rect, tile_x, tile_y, tile_size, color, levels);

@@ -21,7 +21,7 @@ struct TileAccumulation {
 /// @param rect    the pixels, tile-relative
 /// @param tile_x, tile_y  the tile's top left pixel, raster space
 /// @param color, levels   of the tile, in tile order
-void run_on_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
+void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
                  int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
 
 }  // namespace tessera

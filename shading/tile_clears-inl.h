@@ -1,9 +1,9 @@
 // What a tile does between draws: clears, and commands of the accumulation buffer.
-#if defined(TESSERA_SHADING_TILE_CLEARS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_TILE_CLEARS_INL_H_
-#undef TESSERA_SHADING_TILE_CLEARS_INL_H_
+#if defined(TESSERA_SHADING_TILE_COMMANDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_TILE_COMMANDS_INL_H_
+#undef TESSERA_SHADING_TILE_COMMANDS_INL_H_
 #else
-#define TESSERA_SHADING_TILE_CLEARS_INL_H_
+#define TESSERA_SHADING_TILE_COMMANDS_INL_H_
 #endif
 
 #include <algorithm>
@@ -39,44 +39,44 @@ inline PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int t
   return in_tile.empty() ? PixelRect{} : in_tile;
 }
 
-inline void clear_pixels(const TileRun& run, const TilePixels& pixels, const TileClear& clear,
+inline void clear_pixels(const TileContext& context, const TileAttachments& pixels, const TileClear& clear,
                          const PixelRect& rect) {
-  if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.color_word, rect, run.tile_size);
+  if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.packed_color, rect, context.tile_size);
   if (clear.color && clear.dithered) {
     for (int y = rect.y0; y < rect.y1; ++y)
       for (int x = rect.x0; x < rect.x1; ++x)
-        pixels.color[tile_index(x, y, run.tile_size)] = clear.pattern[static_cast<std::size_t>(
-            (run.tile_y + y) % kDitherSize * kDitherSize + (run.tile_x + x) % kDitherSize)];
+        pixels.color[tile_index(x, y, context.tile_size)] = clear.pattern[static_cast<std::size_t>(
+            (context.tile_y + y) % kDitherSize * kDitherSize + (context.tile_x + x) % kDitherSize)];
   }
-  if (clear.depth) fill_rect(pixels.depth, clear.depth_key, rect, run.tile_size);
-  if (clear.stencil) fill_rect(pixels.stencil, clear.stencil_value, rect, run.tile_size);
+  if (clear.depth) fill_rect(pixels.depth, clear.depth_key, rect, context.tile_size);
+  if (clear.stencil) fill_rect(pixels.stencil, clear.stencil_value, rect, context.tile_size);
 }
 
-inline HWY_NOINLINE void run_clear(TileRun& run, const TileClear& clear) {
-  shade_whole_tile(run);
-  const PixelRect rect = rect_in_tile(clear.rect, run.frame.grid, run.tile_x, run.tile_y);
-  for (int s = 0; s < run.samples; ++s) clear_pixels(run, run.sample[s], clear, rect);
-  if (run.samples > 1 && clear.depth)
-    set_farthest(run, rect == PixelRect{0, 0, run.tile_size, run.tile_size} ? clear.depth_key : kFarthestKey);
+inline HWY_NOINLINE void run_clear(TileContext& context, const TileClear& clear) {
+  shade_whole_tile(context);
+  const PixelRect rect = rect_in_tile(clear.rect, context.frame.grid, context.tile_x, context.tile_y);
+  for (int s = 0; s < context.samples; ++s) clear_pixels(context, context.sample[s], clear, rect);
+  if (context.samples > 1 && clear.depth)
+    reset_hiz(context, rect == PixelRect{0, 0, context.tile_size, context.tile_size} ? clear.depth_key : kMaxDepthKey);
   if (clear.accumulation)
     for (std::size_t c = 0; c < 4; ++c)
-      fill_rect(run.memory.accumulation->component[c], clear.accumulation_levels[c], rect, run.tile_size);
+      fill_rect(context.memory.accumulation->component[c], clear.accumulation_levels[c], rect, context.tile_size);
 }
 
-inline HWY_NOINLINE void run_accumulation(TileRun& run, const TileAccumulation& command) {
-  shade_whole_tile(run);
-  const PixelRect rect = rect_in_tile(command.rect, run.frame.grid, run.tile_x, run.tile_y);
+inline HWY_NOINLINE void run_accumulation(TileContext& context, const TileAccumulation& command) {
+  shade_whole_tile(context);
+  const PixelRect rect = rect_in_tile(command.rect, context.frame.grid, context.tile_x, context.tile_y);
   const auto run_on = [&](std::uint32_t* color) {
-    run_on_tile(command, rect, run.tile_x, run.tile_y, run.tile_size, color, run.memory.levels());
+    accumulate_tile(command, rect, context.tile_x, context.tile_y, context.tile_size, color, context.memory.levels());
   };
   if (command.arithmetic.op() == AccumulationOp::give_back) {
-    for (int s = 0; s < run.samples; ++s) run_on(run.sample[s].color);
+    for (int s = 0; s < context.samples; ++s) run_on(context.sample[s].color);
     return;
   }
   const bool reads_color = command.arithmetic.op() == AccumulationOp::accumulate ||
                            command.arithmetic.op() == AccumulationOp::load;
-  if (run.samples > 1 && reads_color) resolve_samples(run);
-  run_on(run.color);
+  if (context.samples > 1 && reads_color) resolve_samples(context);
+  run_on(context.color);
 }
 
 }  // namespace HWY_NAMESPACE

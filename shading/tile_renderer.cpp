@@ -18,55 +18,55 @@ namespace HWY_NAMESPACE {
 
 /// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all
 /// be the same: one does.
-void begin_samples(TileRun& run, int tile) {
-  TileWorkspace::Memory& memory = run.memory;
-  const TileFrame& frame = run.frame;
+void load_samples(TileContext& context, int tile) {
+  TileWorkspace::Memory& memory = context.memory;
+  const TileFrame& frame = context.frame;
   std::int32_t* const stencil = memory.stencil ? memory.stencil->value : nullptr;
-  run.sample[0] = {run.color, memory.depth, memory.ids, stencil};
-  run.samples = frame.samples > 1 && !frame.batches->untouched(tile) ? frame.samples : 1;
-  if (run.samples == 1) return;
+  context.sample[0] = {context.color, memory.depth, memory.visibility, stencil};
+  context.samples = frame.samples > 1 && !frame.batches->known_empty(tile) ? frame.samples : 1;
+  if (context.samples == 1) return;
   TileSamples& samples = *memory.samples;
-  set_farthest(run, kFarthestKey);
-  const int pixels = run.tile_size * run.tile_size;
-  run.sample[0].color = samples.color[0];
-  if (frame.loads_color) std::copy_n(run.color, pixels, samples.color[0]);
-  for (int s = 1; s < run.samples; ++s) {
-    run.sample[s] = samples.of(s, stencil != nullptr);
-    if (frame.loads_color) std::copy_n(run.color, pixels, run.sample[s].color);
-    if (frame.loads_depth) std::copy_n(memory.depth, pixels, run.sample[s].depth);
-    if (frame.loads_stencil) std::copy_n(stencil, pixels, run.sample[s].stencil);
+  reset_hiz(context, kMaxDepthKey);
+  const int pixels = context.tile_size * context.tile_size;
+  context.sample[0].color = samples.color[0];
+  if (frame.loads_color) std::copy_n(context.color, pixels, samples.color[0]);
+  for (int s = 1; s < context.samples; ++s) {
+    context.sample[s] = samples.of(s, stencil != nullptr);
+    if (frame.loads_color) std::copy_n(context.color, pixels, context.sample[s].color);
+    if (frame.loads_depth) std::copy_n(memory.depth, pixels, context.sample[s].depth);
+    if (frame.loads_stencil) std::copy_n(stencil, pixels, context.sample[s].stencil);
   }
-  if (samples.clean_samples >= run.samples && samples.clean_pixels >= pixels) return;
-  for (int s = 1; s < run.samples; ++s) std::fill_n(run.sample[s].ids, pixels, kNoTriangle);
-  samples.clean_samples = run.samples;
+  if (samples.clean_samples >= context.samples && samples.clean_pixels >= pixels) return;
+  for (int s = 1; s < context.samples; ++s) std::fill_n(context.sample[s].visibility, pixels, kNoTriangle);
+  samples.clean_samples = context.samples;
   samples.clean_pixels = pixels;
 }
 
 TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& workspace) {
   const TileGrid& grid = frame.grid;
-  TileRun run{.frame = frame,
+  TileContext context{.frame = frame,
               .memory = workspace.memory(),
               .color = workspace.color(),
               .tile_x = tile % grid.columns() * grid.tile_size,
               .tile_y = tile / grid.columns() * grid.tile_size,
               .tile_size = grid.tile_size,
               .rect = {},
-              .cut = false,
+              .needs_scissor = false,
               .counts = {},
               .sample = {}};
-  TileWorkspace::Memory& memory = run.memory;
+  TileWorkspace::Memory& memory = context.memory;
   memory.group.count = 0;
-  memory.triangles.clear();
-  memory.wide.clear();
-  if (!memory.ids_clean) std::fill(std::begin(memory.ids), std::end(memory.ids), kNoTriangle);
-  memory.ids_clean = false;  // until the end of the tile
-  begin_samples(run, tile);
+  memory.visible_triangles.clear();
+  memory.edges64.clear();
+  if (!memory.visibility_clean) std::fill(std::begin(memory.visibility), std::end(memory.visibility), kNoTriangle);
+  memory.visibility_clean = false;  // until the end of the tile
+  load_samples(context, tile);
 
   std::uint32_t next_clear = 0, next_accumulation = 0;
-  GroupBuilder builder{run};
+  GroupBuilder builder{context};
   const auto clears_before = [&](std::uint32_t draw, std::uint32_t end) {
     while (next_clear < end && frame.clears[next_clear].before_draw <= draw)
-      run_clear(run, frame.clears[next_clear++]);
+      run_clear(context, frame.clears[next_clear++]);
   };
   // All that was drawn before has been flushed.
   const auto commands_before = [&](std::uint32_t draw) {
@@ -74,26 +74,26 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
            frame.accumulations[next_accumulation].before_draw <= draw) {
       const TileAccumulation& command = frame.accumulations[next_accumulation++];
       clears_before(draw, command.after_clears);
-      run_accumulation(run, command);
+      run_accumulation(context, command);
     }
     clears_before(draw, frame.clear_count);
   };
   for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count();) {
-    if (frame.batches->one_by_one())
-      shade_whole_tile(run);  // triangles that were seen refer to the batch before
+    if (frame.batches->is_streamed())
+      shade_whole_tile(context);  // triangles that were seen refer to the batch before
     const Bins& bins = frame.batches->read(b);
     // Other cores binned most of the batches, and a list is a chain: what comes next is fetched while the
     // block before it is worked on.
     const std::uint32_t following = frame.batches->next(tile, b + 1);
-    const Bins* const ahead = frame.batches->ahead(following);
-    if (ahead != nullptr) ahead->fetch_first(tile);
+    const Bins* const ahead = frame.batches->peek(following);
+    if (ahead != nullptr) ahead->prefetch_first(tile);
     for (std::uint32_t index = bins.first(tile); index != Bins::kNone; index = bins.block(index).next) {
-      run.counts.touched = true;
+      context.counts.touched = true;
       const Bins::Block& block = bins.block(index);
-      if (block.next != Bins::kNone) bins.fetch_block(block.next);
-      else if (ahead != nullptr) ahead->fetch_block(ahead->first(tile));
+      if (block.next != Bins::kNone) bins.prefetch_block(block.next);
+      else if (ahead != nullptr) ahead->prefetch_block(ahead->first(tile));
       for (std::uint32_t e = 0; e < block.count; ++e) {
-        e += builder.add_own(block.entries + e, block.count - e);
+        e += builder.add_mesh_triangles(block.entries + e, block.count - e);
         if (e == block.count) break;
         const std::uint32_t entry = block.entries[e];
         if ((entry & kDrawMarker) != 0) {
@@ -108,15 +108,15 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
       }
     }
     // Groups go on in the next batch, if this one is still there.
-    frame.batches->one_by_one() ? builder.flush(bins) : builder.leave(bins);
+    frame.batches->is_streamed() ? builder.flush(bins) : builder.release_bins(bins);
     b = following;
   }
   builder.finish();
   commands_before(frame.draw_count);
-  shade_whole_tile(run);
-  if (run.samples > 1) resolve_samples(run);
-  memory.ids_clean = true;
-  return run.counts;
+  shade_whole_tile(context);
+  if (context.samples > 1) resolve_samples(context);
+  memory.visibility_clean = true;
+  return context.counts;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -130,15 +130,15 @@ RenderTile* render_tile(Isa isa) { return TESSERA_KERNEL(isa, render_tile_lanes)
 
 TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
   // A group is added before the next look at the limit. Rendering a tile allocates nothing.
-  memory_->triangles.reserve(kCollectedRoom);
-  memory_->wide.reserve(kCollectedRoom);
+  memory_->visible_triangles.reserve(kVisibleTriangleCapacity);
+  memory_->edges64.reserve(kVisibleTriangleCapacity);
   allocate_colors(1);
 }
 TileWorkspace::~TileWorkspace() = default;
 TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 std::uint32_t* TileWorkspace::color() { return memory_->color; }
 std::uint32_t* TileWorkspace::select_color(std::size_t tile) {
-  return memory_->color = memory_->colors[tile].word;
+  return memory_->color = memory_->colors[tile].packed;
 }
 std::int32_t* TileWorkspace::depth() { return memory_->depth; }
 std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
@@ -167,9 +167,9 @@ void TileWorkspace::allocate_accumulation() {
   if (!memory_->accumulation) memory_->accumulation = std::make_unique<TileLevels>();
 }
 
-std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
+std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
                          float a) {
-  if (layout.index) return search->nearest(r, g, b) & layout.word_mask();
+  if (layout.index) return search->nearest(r, g, b) & layout.value_mask();
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : quantize(a, layout.alpha_bits) << layout.bits;
   return quantize_rgb(layout, r, g, b) | alpha;
 }

@@ -25,8 +25,8 @@ namespace tessera {
 enum class ColorSource : std::uint8_t {
   none,           ///< no colour plane changes: depth alone
   constant,       ///< one word for the whole draw
-  vertex_word,    ///< a word for each vertex; a triangle has its provoking vertex's (flat)
-  triangle_word,  ///< a word for each triangle (flat, by face normals)
+  per_vertex_packed,    ///< a word for each vertex; a triangle has its provoking vertex's (flat)
+  per_triangle_packed,  ///< a word for each triangle (flat, by face normals)
   interpolated,   ///< colours interpolated from the vertices (Gouraud)
   per_pixel,      ///< lit at each pixel (Phong)
   texels          ///< an image's own
@@ -54,8 +54,8 @@ struct TileDraw {
 
   ColorSource source = ColorSource::constant;
   std::uint32_t write_mask = 0xffffffffu;  ///< of the colour word's bits
-  std::uint32_t word = 0;                  ///< constant
-  const std::uint32_t* words[2] = {};      ///< vertex_word, triangle_word: front, back
+  std::uint32_t packed_color = 0;          ///< constant
+  const std::uint32_t* packed_colors[2] = {};  ///< per_vertex_packed, per_triangle_packed: front, back
   /// interpolated: attribute of r, or of the index, for front and back faces; the next two are g and b.
   /// Already scaled to levels, with the half that rounds, if scaled_colors; else 0..1.
   int color_attribute[2] = {0, 0};
@@ -85,11 +85,11 @@ struct TileDraw {
   float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
   const double* depth_offsets = nullptr;      ///< what they come to of each triangle's polygon
                                           ///< (raster/polygon_offset.h); null, or NaN: a triangle has its own
-  enum class Number : std::uint8_t {
+  enum class IdOutput : std::uint8_t {
     none,
     draw,
     primitive
-  } number = Number::none;  ///< colour words are `word`, or the primitive's number
+  } id_output = IdOutput::none;  ///< packed colors are `packed_color`, or the primitive's number
 
   /// A bitmap or an image, in place of triangles: constant, texels, none, or a number's words. @pre not
   /// deferred, without offset
@@ -101,7 +101,7 @@ struct TileDraw {
 struct TileClear {
   std::uint32_t before_draw = 0;
   bool color = false, depth = false, stencil = false, accumulation = false;
-  std::uint32_t color_word = 0;
+  std::uint32_t packed_color = 0;
   bool dithered = false;                                         ///< the words of `pattern` in place of that
   std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;  ///< by raster row and column, repeated
   std::int32_t depth_key = 0, stencil_value = 0;
@@ -122,7 +122,7 @@ struct TileFrame {
   const TileAccumulation* accumulations = nullptr;
   std::uint32_t accumulation_count = 0;
   const BinBatches* batches = nullptr;  ///< @pre tiles are looked through there before they are rendered
-  bool shade_at_once = false;  ///< shade after each triangle, with several samples after each group of them
+  bool shade_immediately = false;  ///< shade after each triangle, with several samples after each group of them
   int samples = 1;             ///< 1, 4 or 8 coverage samples a pixel
   /// Samples start from what the workspace holds of the buffer; else a command replaces all of it before it
   /// is looked at.
@@ -130,7 +130,7 @@ struct TileFrame {
 };
 
 /// Words to the frame's layout from colours 0..1; alpha where it has planes.
-std::uint32_t color_word(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
+std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
                          float a = 1);
 
 struct TileCounts {

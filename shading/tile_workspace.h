@@ -15,9 +15,9 @@ namespace tessera {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 /// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
-inline constexpr std::size_t kMaxCollected = 1024;
-inline constexpr std::size_t kCollectedRoom =
-    kMaxCollected + kGroupSize;  ///< with the group in which it gets there
+inline constexpr std::size_t kMaxVisibleTriangles = 1024;
+inline constexpr std::size_t kVisibleTriangleCapacity =
+    kMaxVisibleTriangles + kGroupSize;  ///< with the group in which it gets there
 
 struct alignas(64) TileNormals {
   float component[3][kMaxTileSize * kMaxTileSize];
@@ -28,30 +28,30 @@ struct alignas(64) TileStencil {
 };
 
 /// The pixels that draws work on: of the tile, or of one of its samples.
-struct TilePixels {
+struct TileAttachments {
   std::uint32_t* color;
   std::int32_t* depth;
-  std::uint32_t* ids;     ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  std::uint32_t* visibility;     ///< triangles seen and not shaded yet; kNoTriangle elsewhere
   std::int32_t* stencil;  ///< null where the frame has none
 };
 
-/// What a tile's samples hold. Depth, ids and stencil of sample 0 are the tile's own.
+/// What a tile's samples hold. Depth, visibility and stencil of sample 0 are the tile's own.
 struct alignas(64) TileSamples {
   /// Five cache lines more than a tile: the same pixel of two samples falls into different sets of a cache.
   static constexpr int kStride = kMaxTileSize * kMaxTileSize + 80;
   std::uint32_t color[kMaxSamples][kStride];
   std::int32_t depth[kMaxSamples][kStride];
-  std::uint32_t ids[kMaxSamples][kStride];
+  std::uint32_t visibility[kMaxSamples][kStride];
   std::int32_t stencil[kMaxSamples][kStride];
   TriangleGroup
       group[kMaxSamples];  ///< moved the other way: of wide triangles, and for draws with operations
-  SampleGroup narrow;
-  std::int32_t farthest[kMaxTileSize * kMaxTileSize /
+  SampleGroup samples32;
+  std::int32_t hiz_max[kMaxTileSize * kMaxTileSize /
                         kBlockPixels];      ///< no depth key of a sample in the block is greater
-  int clean_samples = 0, clean_pixels = 0;  ///< so much of `ids` is kNoTriangle
+  int clean_samples = 0, clean_pixels = 0;  ///< so much of `visibility` is kNoTriangle
 
-  TilePixels of(int sample, bool has_stencil) {
-    return {color[sample], depth[sample], ids[sample], has_stencil ? stencil[sample] : nullptr};
+  TileAttachments of(int sample, bool has_stencil) {
+    return {color[sample], depth[sample], visibility[sample], has_stencil ? stencil[sample] : nullptr};
   }
 };
 
@@ -69,28 +69,28 @@ struct TouchedBlocks {
 };
 
 /// A pixel behind those of a tile: what is stored there nobody sees.
-inline constexpr int kNoPixel = kMaxTileSize * kMaxTileSize;
+inline constexpr int kDiscardPixel = kMaxTileSize * kMaxTileSize;
 
 struct alignas(64) TileColors {
-  std::uint32_t word[kNoPixel + 1];
+  std::uint32_t packed[kDiscardPixel + 1];
 };
 
 struct alignas(64) TileWorkspace::Memory {
   std::uint32_t* color = nullptr;  ///< of the tile that is rendered: one of `colors`
-  alignas(64) std::int32_t depth[kNoPixel + 1];
+  alignas(64) std::int32_t depth[kDiscardPixel + 1];
   alignas(64) std::uint32_t
-      ids[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
-  bool ids_clean = false;                ///< every id is kNoTriangle: shading leaves them so
-  std::vector<ShadedTriangle> triangles;
-  std::vector<WideEdges> wide;
+      visibility[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  bool visibility_clean = false;                ///< every id is kNoTriangle: shading leaves them so
+  std::vector<ShadedTriangle> visible_triangles;
+  std::vector<Edges64> edges64;
   TriangleGroup group;
   // Of the group's triangles.
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
   // Of the triangles that were collected, while they are shaded.
-  TriangleCorners corners[kCollectedRoom];
-  std::int32_t surfaces[kCollectedRoom];
+  TriangleInterpolants interpolants[kVisibleTriangleCapacity];
+  std::int32_t surfaces[kVisibleTriangleCapacity];
   TouchedBlocks touched;
   std::vector<TileColors> colors;
   std::unique_ptr<TileNormals> normals;      ///< only where a capture wants them

@@ -13,25 +13,25 @@
 #include "shading/draw_kinds-inl.h"
 #include "shading/fragment_ops-inl.h"
 #include "shading/fragment_word.h"
-#include "shading/tile_run-inl.h"
+#include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera {
 namespace HWY_NAMESPACE {
 
-/// The colour of a pixel that is seen, where it is interpolated.
-template <Seen kSeen>
-struct ColorOf {
-  using Type = ScaledColor;
+/// The colour of a pixel that is visible, where it is interpolated.
+template <ColorWrite kColorWrite>
+struct ColorEvalFor {
+  using Type = GouraudColorEval;
 };
 template <>
-struct ColorOf<Seen::mix> {
-  using Type = MixedColor;
+struct ColorEvalFor<ColorWrite::blended> {
+  using Type = BlendedColorEval;
 };
 
 /// The stencil test of one face's pixels, one by one.
 struct PixelStencil {
-  StencilSteps steps{};
+  StencilTestConstants steps{};
   std::int32_t* values = nullptr;
 
   /// Whether a pixel passes; what fails is stored.
@@ -45,77 +45,77 @@ struct PixelStencil {
   }
 
  private:
-  HWY_INLINE void store(int index, const StencilStep& step) const {
+  HWY_INLINE void store(int index, const StencilOpConstants& step) const {
     std::int32_t& stored = values[index];
     stored = (stored & ~steps.write_mask) | (step(stored) & steps.write_mask);
   }
 };
-template <Test kTest>
+template <DepthTestPath kDepthTest>
 HWY_INLINE bool has_stencil_test(const TileDraw& draw) {
-  return kTest == Test::any && draw.ops != nullptr && draw.ops->stencil;
+  return kDepthTest == DepthTestPath::generic && draw.ops != nullptr && draw.ops->stencil;
 }
-HWY_INLINE PixelStencil pixel_stencil(const TileRun& run, const TileDraw& draw, bool back) {
-  return {.steps = stencil_steps(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_most),
-          .values = run.sample[0].stencil};
+HWY_INLINE PixelStencil pixel_stencil(const TileContext& context, const TileDraw& draw, bool back) {
+  return {.steps = stencil_test_constants(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_max),
+          .values = context.sample[0].stencil};
 }
 
 /// One triangle's way through the blocks of a tile.
-template <class Depth, Test kTest, Seen kSeen>
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 struct TrianglePixels {
-  static constexpr bool kMayTestStencil = kTest == Test::any;
-  TileRun& run;
+  static constexpr bool kMayTestStencil = kDepthTest == DepthTestPath::generic;
+  TileContext& context;
   const TileDraw& draw;
-  const TileEdges& edges;
+  const Edges32& edges;
   BlockOffsets offsets;
   const ShadedTriangle& triangle;
   Depth depth;
-  typename ColorOf<kSeen>::Type color;
-  std::int32_t word = 0;
+  typename ColorEvalFor<kColorWrite>::Type color;
+  std::int32_t packed_color = 0;
   std::int32_t id = 0;
   const bool tests_stencil;
   PixelStencil stencil{};
-  std::uint32_t seen_pixels = 0;  // of those with a colour
-  Int seen = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
+  std::uint32_t visible_pixels = 0;  // of those with a colour
+  Int visible = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
   Int writable, depth_writable;   // masks, so that there is nothing to branch on
-  const bool cut;                 // the draw's rectangle cuts through blocks
+  const bool needs_scissor;                 // the draw's rectangle cuts through blocks
   const bool writes_all_planes;
   const bool stores_full;  // full blocks without any mask
 
-  HWY_INLINE TrianglePixels(TileRun& tile_run, const TileDraw& tile_draw, const TileEdges& tile_edges_,
+  HWY_INLINE TrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, const Edges32& tile_edges_,
                             const ShadedTriangle& shaded, bool back)
-      : run(tile_run),
+      : context(tile_context),
         draw(tile_draw),
         edges(tile_edges_),
         offsets(tile_edges_),
         triangle(shaded),
-        tests_stencil(has_stencil_test<kTest>(tile_draw)),
+        tests_stencil(has_stencil_test<kDepthTest>(tile_draw)),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))),
         depth_writable(splat(tile_draw.depth_write ? -1 : 0)),
-        cut(tile_run.cut),
+        needs_scissor(tile_context.needs_scissor),
         writes_all_planes(tile_draw.write_mask == 0xffffffffu),
-        stores_full(!kHasDepth<Depth> && !tile_run.cut && !tests_stencil && writes_all_planes) {
-    if (tests_stencil) stencil = pixel_stencil(run, draw, back);
+        stores_full(!kHasDepth<Depth> && !tile_context.needs_scissor && !tests_stencil && writes_all_planes) {
+    if (tests_stencil) stencil = pixel_stencil(context, draw, back);
   }
 
   /// A block that is not full.
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     static_assert(!kFull);  // those come by rows
-    if constexpr (kSeen == Seen::mix) rare_block(bx, by, block_edges);
-    else draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges);
+    if constexpr (kColorWrite == ColorWrite::blended) rare_block(bx, by, block_edges);
+    else draw_chunks<false>(bx, by, context.block_index(bx, by), depth.block(bx, by), block_edges);
   }
   /// Once, where code is long and such blocks are few.
   HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) {
-    draw_chunks<false>(bx, by, run.block_index(bx, by), depth.block(bx, by), block_edges);
+    draw_chunks<false>(bx, by, context.block_index(bx, by), depth.block(bx, by), block_edges);
   }
   /// Blocks side by side, all of whose pixels are inside.
   HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
-    int index = run.block_index(bx, by);
+    int index = context.block_index(bx, by);
     RowEdges row_edges(edges, first);
-    if constexpr (!kHasDepth<Depth> && (kSeen == Seen::word || is_interpolated(kSeen))) {
+    if constexpr (!kHasDepth<Depth> && (kColorWrite == ColorWrite::constant || is_interpolated(kColorWrite))) {
       if (stores_full) {
-        seen_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
-        if constexpr (kSeen == Seen::word) fill_blocks(index, count);
+        visible_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
+        if constexpr (kColorWrite == ColorWrite::constant) fill_blocks(index, count);
         else store_row(bx, by, index, count, row_edges);
         return;
       }
@@ -129,14 +129,14 @@ struct TrianglePixels {
   }
   // The same without any test or mask: one word, and whatever there is at each pixel.
   HWY_INLINE void fill_blocks(int index, int count) const {
-    auto* const first = reinterpret_cast<std::int32_t*>(run.color + index);
-    for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(word), kInt, first + i);
+    auto* const first = reinterpret_cast<std::int32_t*>(context.color + index);
+    for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(packed_color), kInt, first + i);
   }
   HWY_INLINE void store_row(int bx, int by, int index, int count, RowEdges& row_edges) {
-    auto* stored_at = reinterpret_cast<std::int32_t*>(run.color + index);
+    auto* stored_at = reinterpret_cast<std::int32_t*>(context.color + index);
     for (const int end = bx + 4 * count; bx < end; bx += 4, row_edges.step_right())
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored_at += kLanes)
-        hn::Store(words_at(row_edges, bx, by, chunk, stored_at), kInt, stored_at);
+        hn::Store(packed_at(row_edges, bx, by, chunk, stored_at), kInt, stored_at);
   }
   /// @param block  its index
   template <bool kFull, class Edges>
@@ -147,7 +147,7 @@ struct TrianglePixels {
       const int index = block + chunk * kLanes;
       auto mask = hn::Eq(hn::Zero(kInt), hn::Zero(kInt));
       if constexpr (!kFull) mask = block_edges.covered(chunk);
-      if (cut) mask = hn::And(mask, inside_rect(run.rect, bx, by, chunk));
+      if (needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
       [[maybe_unused]] Int stencil_before = hn::Zero(kInt);
       [[maybe_unused]] LaneMask failed = no_lanes(), passed = mask;
       if (kMayTestStencil && tests_stencil) {
@@ -157,13 +157,13 @@ struct TrianglePixels {
         mask = passed;
       }
       if constexpr (kHasDepth<Depth>) {
-        std::int32_t* stored_at = run.memory.depth + index;
+        std::int32_t* stored_at = context.memory.depth + index;
         const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
-        if constexpr (kTest == Test::less) {
+        if constexpr (kDepthTest == DepthTestPath::less_write) {
           mask = hn::And(mask, hn::Lt(key, stored));
           hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
         } else {
-          mask = hn::And(mask, comparing(key, draw.depth_test, stored));
+          mask = hn::And(mask, compare_lanes(key, draw.depth_test, stored));
           hn::Store(hn::IfThenElse(hn::And(mask, hn::MaskFromVec(depth_writable)), key, stored), kInt,
                     stored_at);
         }
@@ -172,38 +172,38 @@ struct TrianglePixels {
         hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt,
                   stencil.values + index);
       // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
-      if constexpr (kSeen == Seen::collect) {
-        auto* ids = reinterpret_cast<std::int32_t*>(run.memory.ids) + index;
-        hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
-        seen = hn::Or(seen, hn::VecFromMask(kInt, mask));
-      } else if constexpr (kSeen != Seen::nothing) {
+      if constexpr (kColorWrite == ColorWrite::deferred) {
+        auto* visibility = reinterpret_cast<std::int32_t*>(context.memory.visibility) + index;
+        hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, visibility)), kInt, visibility);
+        visible = hn::Or(visible, hn::VecFromMask(kInt, mask));
+      } else if constexpr (kColorWrite != ColorWrite::none) {
         const std::uint32_t bits = mask_bits(kInt, mask);
-        if (is_interpolated(kSeen) && bits == 0) continue;
-        seen_pixels += static_cast<std::uint32_t>(std::popcount(bits));
-        std::uint32_t* const stored_at = run.color + index;
-        const Int words =
-            words_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
-        kFull&& writes_all_planes ? store_whole_words(stored_at, words, mask)
-                                  : store_words(stored_at, words, mask, writable);
+        if (is_interpolated(kColorWrite) && bits == 0) continue;
+        visible_pixels += static_cast<std::uint32_t>(std::popcount(bits));
+        std::uint32_t* const stored_at = context.color + index;
+        const Int packed =
+            packed_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
+        kFull&& writes_all_planes ? store_packed_all_bits(stored_at, packed, mask)
+                                  : store_packed(stored_at, packed, mask, writable);
       }
     }
   }
   /// @param stored_at  what is there in the frame buffer, for what is mixed with it
   template <class Edges>
-  HWY_INLINE Int words_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx,
+  HWY_INLINE Int packed_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx,
                           [[maybe_unused]] int by, [[maybe_unused]] int chunk,
                           [[maybe_unused]] const std::int32_t* stored_at) const {
-    if constexpr (kSeen == Seen::word) return splat(word);
-    else if constexpr (kSeen == Seen::mix)
-      return color.words(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
-    else return color.words(barycentric_at(block_edges, bx, by, chunk));
+    if constexpr (kColorWrite == ColorWrite::constant) return splat(packed_color);
+    else if constexpr (kColorWrite == ColorWrite::blended)
+      return color.packed(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
+    else return color.packed(barycentric_at(block_edges, bx, by, chunk));
   }
 
   /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
   template <class Edges>
   HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
-    if (HWY_UNLIKELY(triangle.wide >= 0))
-      return barycentric_wide(triangle, run.memory.wide[static_cast<std::size_t>(triangle.wide)], bx, by,
+    if (HWY_UNLIKELY(triangle.edges64_index >= 0))
+      return barycentric_edges64(triangle, context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)], bx, by,
                               chunk);
     return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk),
                                   block_edges.at(2, chunk));
@@ -211,32 +211,32 @@ struct TrianglePixels {
 
   /// One pixel of a small triangle.
   HWY_INLINE void pixel(int x, int y) {
-    const int index = run.pixel_index(x, y);
+    const int index = context.pixel_index(x, y);
     const bool is_tested = kMayTestStencil && tests_stencil;
     if (is_tested && !stencil.passes(index)) return;
     if constexpr (kHasDepth<Depth>) {
-      const std::int32_t key = depth.key(x, y), stored = run.memory.depth[index];
-      const bool passes = kTest == Test::less ? key < stored : compares(key, draw.depth_test, stored);
+      const std::int32_t key = depth.key(x, y), stored = context.memory.depth[index];
+      const bool passes = kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
       if (is_tested) stencil.store_after_depth(index, passes);
       if (!passes) return;
-      if (kTest == Test::less || draw.depth_write) run.memory.depth[index] = key;
+      if (kDepthTest == DepthTestPath::less_write || draw.depth_write) context.memory.depth[index] = key;
     } else if (is_tested) {
       stencil.store_after_depth(index, true);
     }
-    if constexpr (kSeen == Seen::collect) {
-      run.memory.ids[index] = static_cast<std::uint32_t>(id);
-      seen = splat(-1);
-    } else if constexpr (kSeen != Seen::nothing) {
-      ++run.counts.shaded_pixels;
-      const std::uint32_t new_word = pixel_word(x, y, run.color[index]);
-      run.color[index] = (new_word & draw.write_mask) | (run.color[index] & ~draw.write_mask);
+    if constexpr (kColorWrite == ColorWrite::deferred) {
+      context.memory.visibility[index] = static_cast<std::uint32_t>(id);
+      visible = splat(-1);
+    } else if constexpr (kColorWrite != ColorWrite::none) {
+      ++context.counts.shaded_pixels;
+      const std::uint32_t new_color = packed_pixel_at(x, y, context.color[index]);
+      context.color[index] = (new_color & draw.write_mask) | (context.color[index] & ~draw.write_mask);
     }
   }
 
-  /// color.words() for a single pixel, step by step the same.
-  HWY_INLINE std::uint32_t pixel_word(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
-    if constexpr (kSeen != Seen::mix) {  // those that are interpolated and nothing else stand in SmallPixels
-      return static_cast<std::uint32_t>(word);
+  /// color.packed() for a single pixel, step by step the same.
+  HWY_INLINE std::uint32_t packed_pixel_at(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
+    if constexpr (kColorWrite != ColorWrite::blended) {  // those that are interpolated and nothing else stand in SmallTrianglePixels
+      return static_cast<std::uint32_t>(packed_color);
     } else {
       float w[3];
       for (int k = 0; k < 3; ++k) {
@@ -244,7 +244,7 @@ struct TrianglePixels {
       }
       const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
       const float b1 = w[1] * inverse, b2 = w[2] * inverse;
-      return color.word(b1, b2, stored);
+      return color.packed_pixel(b1, b2, stored);
     }
   }
 };

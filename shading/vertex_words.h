@@ -9,11 +9,11 @@
 
 namespace tessera {
 
-/// words[i] of the colour of point i, for i < count: as color_word() of a layout without a palette, at full
+/// packed[i]: the packed color of point i, for i < count: as pack_color_or_index() of a layout without a palette, at full
 /// alpha. Beyond `count` nothing is written.
-using VertexWords = void(const ColorLayout& layout, const ShadingBatch& batch, int count,
-                         std::uint32_t* words);
-VertexWords* vertex_words(Isa isa);
+using PackVertexColors = void(const ColorLayout& layout, const ShadingBatch& batch, int count,
+                         std::uint32_t* packed);
+PackVertexColors* pack_vertex_colors(Isa isa);
 
 /// Colours of 0..1 of the points i < count into the layout's levels with the half that rounds, in place, so
 /// that cutting off leaves the level; at least 2^-12 away from where that would be another one: an

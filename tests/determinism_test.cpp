@@ -50,7 +50,7 @@ Scene scene_of(const std::string& name) {
 std::string text(const RendererOptions& o) {
   return std::to_string(o.threads) + " threads, tiles of " + std::to_string(o.tile_size) + ", " +
          std::string(name(o.instruction_set)) + (o.defer_shading ? "" : ", shaded at once") +
-         (o.bin_memory == kLeastBinMemory ? ", in parts" : "") + (o.task_order != 0 ? ", shuffled" : "");
+         (o.bin_memory == kMinBinMemory ? ", in parts" : "") + (o.task_order != 0 ? ", shuffled" : "");
 }
 
 const std::vector<RendererOptions>& all_options() {
@@ -66,7 +66,7 @@ const std::vector<RendererOptions>& all_options() {
                          .tile_size = tile_size,
                          .instruction_set = set,
                          .defer_shading = place % 2 == 0,
-                         .bin_memory = place / 2 % 2 == 0 ? RendererOptions{}.bin_memory : kLeastBinMemory,
+                         .bin_memory = place / 2 % 2 == 0 ? RendererOptions{}.bin_memory : kMinBinMemory,
                          .task_order = threads % 3 == 0 ? 0u : 17u * static_cast<unsigned>(place)});
         }
     return all;
@@ -207,7 +207,7 @@ void expect_same_bits_of_operations(const FrameBufferFormat& format, std::size_t
   Frame frame(buffer);
   record(frame);
   renderer({1, 64, InstructionSet::scalar, true}).finish(frame);
-  const std::vector<std::uint32_t> words = color_words(buffer), levels = depth_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer), levels = stored_depths(buffer);
   const std::vector<std::uint8_t> values = stencil_values(buffer);
   EXPECT_GE(std::set<std::uint32_t>(words.begin(), words.end()).size(), colors);
   EXPECT_GE(std::set<std::uint8_t>(values.begin(), values.end()).size(), stencils);

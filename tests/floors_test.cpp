@@ -182,13 +182,13 @@ TEST(Floors, TheLibraryDoesNotIncludeTheProgram) {
 }
 
 TEST(Floors, OneFileIncludesOneTbb) {
-  EXPECT_THAT(offenders(kThreads, [](const std::string& file) { return file == "engine/parallel.cpp"; }),
+  EXPECT_THAT(offenders(kThreads, [](const std::string& file) { return file == "engine/worker_pool.cpp"; }),
               testing::IsEmpty());
   const auto in_parallel = [](const Include& i) {
-    return i.file == "engine/parallel.cpp" && starts_with_any(i.target, kThreads);
+    return i.file == "engine/worker_pool.cpp" && starts_with_any(i.target, kThreads);
   };
   EXPECT_TRUE(std::any_of(all_includes().begin(), all_includes().end(), in_parallel))
-      << "engine/parallel.cpp";
+      << "engine/worker_pool.cpp";
 }
 
 TEST(Floors, HighwayComesThroughLanes) {

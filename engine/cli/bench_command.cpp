@@ -10,7 +10,7 @@
 
 namespace tessera::cli {
 
-void become_bench(const std::vector<std::string>& arguments) {
+void exec_bench(const std::vector<std::string>& arguments) {
   namespace fs = std::filesystem;
   std::error_code no_program;
   const fs::path folder = fs::read_symlink("/proc/self/exe", no_program).parent_path();

@@ -8,6 +8,6 @@ namespace tessera::cli {
 
 /// Becomes that program. Returns only by throwing Error, where there is none beside this one or in
 /// ../libexec/tessera.
-[[noreturn]] void become_bench(const std::vector<std::string>& arguments);
+[[noreturn]] void exec_bench(const std::vector<std::string>& arguments);
 
 }  // namespace tessera::cli

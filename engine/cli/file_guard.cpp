@@ -25,7 +25,7 @@ void FileGuard::check_picture(const std::string& file) const {
   if (default_picture_.empty() || !fs::exists(file, error)) return;
   if (!fs::is_regular_file(file, error))
     throw Error("\"" + file + "\" is there already, and is no regular file; name another file with -o");
-  if (!is_own_png(file))
+  if (!is_tessera_png(file))
     throw Error("\"" + file + "\" is there already, and does not say that Tessera made it; -o \"" +
                 default_picture_ + "\" replaces it");
 }

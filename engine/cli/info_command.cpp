@@ -28,20 +28,20 @@ std::string count_of(std::vector<std::string> endings(), const char* what) {
 
 std::string info_text() {
   std::string text = machine_text();
-  text += "image module       " + count_of(module_endings, "written") + "\n";
-  return text + "import module      " + count_of(model_endings, "read") + "\n";
+  text += "image module       " + count_of(module_extensions, "written") + "\n";
+  return text + "import module      " + count_of(model_extensions, "read") + "\n";
 }
 
 std::string formats_text() {
   std::string text = "scenes    .json\nmodels    .obj\n";
   try {
-    text += "          by the import module: " + listed(model_endings()) + "\n";
+    text += "          by the import module: " + listed(model_extensions()) + "\n";
   } catch (const Error& missing) {
     text += "          " + std::string(missing.what()) + "\n";
   }
-  text += "pictures  " + listed(own_endings()) + "\n";
+  text += "pictures  " + listed(builtin_extensions()) + "\n";
   try {
-    text += "          by the image module: " + listed(module_endings()) + "\n";
+    text += "          by the image module: " + listed(module_extensions()) + "\n";
   } catch (const Error& missing) {
     text += "          " + std::string(missing.what()) + "\n";
   }

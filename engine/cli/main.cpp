@@ -65,16 +65,16 @@ CLI::Validator one_of(const Names& names) {
 }
 
 // Transforms what was typed, which CLI11 would take for octal where it begins with 0.
-CLI::Validator integer_from(int least, int most) {
-  const auto check = [least, most](std::string& value) -> std::string {
+CLI::Validator integer_from(int min_value, int max_value) {
+  const auto check = [min_value, max_value](std::string& value) -> std::string {
     int number = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error == std::errc() && end == value.data() + value.size() && number >= least && number <= most) {
+    if (error == std::errc() && end == value.data() + value.size() && number >= min_value && number <= max_value) {
       value = std::to_string(number);
       return "";
     }
-    return "found \"" + value + "\", expected an integer from " + std::to_string(least) + " to " +
-           std::to_string(most);
+    return "found \"" + value + "\", expected an integer from " + std::to_string(min_value) + " to " +
+           std::to_string(max_value);
   };
   return {check, ""};
 }
@@ -385,7 +385,7 @@ int run(int argument_count, char** arguments) {
     if (const std::string wrong = threads_of_environment(*threads); !wrong.empty())
       return usage_error("TESSERA_THREADS: " + wrong, program);
   if (selftest_command->parsed()) return selftest(selftest_request);
-  if (bench->parsed()) become_bench(bench->remaining());
+  if (bench->parsed()) exec_bench(bench->remaining());
   if (render_command->parsed()) {
     if (!request.stats_name.empty())
       request.stats = request.stats_name == "json" ? StatsFormat::json : StatsFormat::text;

@@ -17,8 +17,8 @@ constexpr std::string_view kFrame = "{frame}";
 
 int terminal_columns() {
   winsize size{};
-  constexpr int kUsual = 80;
-  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;
+  constexpr int kDefaultColumns = 80;
+  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kDefaultColumns;
 }
 
 using Mean = std::array<int, 3>;

@@ -36,8 +36,8 @@ Progress::~Progress() { clear(); }
 void Progress::show(double done, const std::string& what) {
   if (!enabled_) return;
   const auto now = std::chrono::steady_clock::now();
-  constexpr auto kPause = std::chrono::milliseconds(100);
-  if (now - start_ < wait_ || (shown_ && now - last_ < kPause)) return;
+  constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
+  if (now - start_ < wait_ || (shown_ && now - last_ < kRedrawInterval)) return;
   last_ = now;
   shown_ = true;
   constexpr int kWidth = 30;

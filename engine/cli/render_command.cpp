@@ -34,7 +34,7 @@ const char* buffer_name(Buffer buffer) {
 
 /// In any format, since an animation may change it: 24 bits of colour and 8 of alpha, 32 of depth, 8 of
 /// stencil, four accumulated components of 32.
-int most_planes(Buffer buffer) {
+int max_planes(Buffer buffer) {
   return buffer == Buffer::accumulation ? 128 : buffer == Buffer::stencil ? 8 : 32;
 }
 
@@ -42,16 +42,16 @@ int most_planes(Buffer buffer) {
 class Input {
  public:
   explicit Input(const RenderRequest& request) : overrides_(request.overrides) {
-    const auto go_on = [] { return !Interrupt::pressed(); };
+    const auto should_continue = [] { return !Interrupt::pressed(); };
     if (request.input.empty()) {
       scene_ = builtin_scene();
-    } else if (lower_case_ending(request.input) == ".json") {
-      file_.emplace(request.input, go_on);
+    } else if (lower_case_extension(request.input) == ".json") {
+      file_.emplace(request.input, should_continue);
       scene_ = file_->at(0);
       files_ = file_->files();
     } else {
       const FrameBufferFormat standard;
-      Model model = import_model(request.input, ModelUse::display, go_on);
+      Model model = import_model(request.input, ModelUse::display, should_continue);
       files_ = {model.files.begin(), model.files.end()};
       files_.insert(request.input);
       scene_ = model_scene(std::move(model), request.input, overrides_.width.value_or(standard.width),
@@ -119,7 +119,7 @@ void write_planes(const FrameBuffer& buffer, const fs::path& folder, const FileG
 /// Frames of at most 8 bits a pixel are PNG files of that many bits.
 bool is_indexed_png(const FrameBufferFormat& format, const std::string& path) {
   const bool few = format.color_mode == ColorMode::index ? format.color_bits <= 8 : format.color_bits <= 2;
-  return few && lower_case_ending(path) == ".png";
+  return few && lower_case_extension(path) == ".png";
 }
 
 IndexedPicture indexed_picture(const FrameBuffer& buffer) {
@@ -153,9 +153,9 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void print_log(LogLevel least, LogLevel level, std::string_view message) {
+void print_log(LogLevel min_level, LogLevel level, std::string_view message) {
   constexpr const char* kNames[] = {"debug", "info", "warning"};
-  if (level >= least)
+  if (level >= min_level)
     std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << printable(message) << "\n";
 }
 
@@ -191,7 +191,7 @@ void check_files(const RenderRequest& request, const std::string& path, const Fi
     std::error_code error;
     if (!fs::exists(fs::weakly_canonical(folder, error), error)) continue;
     for (const Buffer which : kBuffers)
-      for (int k = 0; k < most_planes(which); ++k) guard.check_plane(plane_path(folder, which, k));
+      for (int k = 0; k < max_planes(which); ++k) guard.check_plane(plane_path(folder, which, k));
   }
 }
 
@@ -242,9 +242,9 @@ int render(RenderRequest request) {
     return !Interrupt::pressed();
   };
   if (request.log)
-    request.options.log = [&progress, least = *request.log](LogLevel level, std::string_view message) {
+    request.options.log = [&progress, min_level = *request.log](LogLevel level, std::string_view message) {
       progress.clear();
-      print_log(least, level, message);
+      print_log(min_level, level, message);
     };
   Renderer renderer(request.options);
   run.options = renderer.options();

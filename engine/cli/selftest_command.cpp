@@ -25,9 +25,9 @@ struct SceneReport {
   std::string about;
   Scene scene;
   PictureHash expected;
-  std::optional<Fingerprint> found;  ///< by the first way
-  std::size_t wrong_ways = 0;
-  std::string first_wrong;
+  std::optional<Fingerprint> found;  ///< by the first configuration
+  std::size_t failed_configurations = 0;
+  std::string first_failure;
 };
 
 std::string count(std::size_t number, const char* what) {
@@ -60,7 +60,7 @@ std::vector<SceneReport> scenes_with(const PictureHashes& hashes, const std::str
                       .scene = parse_scene(each.json, std::string(each.name)),
                       .expected = expected->second,
                       .found = {},
-                      .first_wrong = {}});
+                      .first_failure = {}});
   }
   return scenes;
 }
@@ -74,16 +74,16 @@ Fingerprint rendered(const Scene& scene, Renderer& renderer) {
 }
 
 /// What is wrong with a fingerprint; empty: nothing. The list has no hashes of planes: they have to be as
-/// they were by the first way.
+/// they were by the first configuration.
 std::string difference(const Fingerprint& f, const SceneReport& scene) {
   const PictureHash hash = picture_hash(f);
   if (hash != scene.expected)
     return "colours, depths, stencil and accumulation come to " + to_text(hash) + ", expected " +
            to_text(scene.expected);
-  return f == scene.found ? "" : "planes are not what they were by the first way";
+  return f == scene.found ? "" : "planes are not what they were by the first configuration";
 }
 
-void render_by(const RendererOptions& way, Renderer& renderer, SceneReport& scene) {
+void render_with(const RendererOptions& configuration, Renderer& renderer, SceneReport& scene) {
   std::string wrong;
   try {
     const Fingerprint f = rendered(scene.scene, renderer);
@@ -92,7 +92,7 @@ void render_by(const RendererOptions& way, Renderer& renderer, SceneReport& scen
   } catch (const Error& error) {
     wrong = error.what();
   }
-  if (!wrong.empty() && scene.wrong_ways++ == 0) scene.first_wrong = wrong + ", by " + to_text(way);
+  if (!wrong.empty() && scene.failed_configurations++ == 0) scene.first_failure = wrong + ", by " + to_text(configuration);
 }
 
 /// How many of a kind are right.
@@ -101,35 +101,35 @@ struct Tally {
   std::string text(const char* kind) const { return std::to_string(right) + " of " + count(all, kind); }
 };
 
-Tally run_scenes(std::vector<SceneReport>& scenes, const Ways& ways) {
+Tally run_scenes(std::vector<SceneReport>& scenes, const Configurations& configurations) {
   Progress progress(ShowProgress::automatic);
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    progress.show(static_cast<double>(i) / static_cast<double>(ways.size()), "scenes");
-    Renderer renderer(ways[i]);
-    for (SceneReport& scene : scenes) render_by(ways[i], renderer, scene);
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    progress.show(static_cast<double>(i) / static_cast<double>(configurations.size()), "scenes");
+    Renderer renderer(configurations[i]);
+    for (SceneReport& scene : scenes) render_with(configurations[i], renderer, scene);
   }
   progress.clear();
   Tally tally{.all = scenes.size()};
   for (const SceneReport& each : scenes) {
-    const bool right = each.wrong_ways == 0;
+    const bool right = each.failed_configurations == 0;
     tally.right += right ? 1 : 0;
     std::cout << row(each.scene.name, each.found ? short_text(picture_hash(*each.found)) : "", right,
                      "DIFFERS");
     if (!right)
-      std::cout << "  " << each.about << ": " << wrong_text(each.wrong_ways, ways.size(), each.first_wrong);
+      std::cout << "  " << each.about << ": " << wrong_text(each.failed_configurations, configurations.size(), each.first_failure);
   }
   return tally;
 }
 
-Tally run_oracles(const Ways& ways) {
+Tally run_oracles(const Configurations& configurations) {
   Tally tally;
   for (const auto& check : {check_coverage, check_powers, check_levels}) {
-    const OracleReport report = check(ways);
-    const bool right = report.wrong_ways == 0;
+    const OracleReport report = check(configurations);
+    const bool right = report.failed_configurations == 0;
     ++tally.all;
     tally.right += right ? 1 : 0;
     std::cout << row(report.oracle, report.measured, right, "WRONG");
-    if (!right) std::cout << "  " << wrong_text(report.wrong_ways, ways.size(), report.first_wrong);
+    if (!right) std::cout << "  " << wrong_text(report.failed_configurations, configurations.size(), report.first_failure);
   }
   return tally;
 }
@@ -141,8 +141,8 @@ void print_hashes(const std::vector<SceneReport>& scenes) {
 }
 
 PictureHashes expected_hashes(const std::string& file) {
-  constexpr std::size_t kLongestList = 1 << 20;
-  return parse_picture_hashes(read_text_file(file, kLongestList), file);
+  constexpr std::size_t kMaxListBytes = 1 << 20;
+  return parse_picture_hashes(read_text_file(file, kMaxListBytes), file);
 }
 
 }  // namespace
@@ -157,18 +157,18 @@ int selftest(const SelftestRequest& request) {
     print_hashes(scenes);
     return 0;
   }
-  constexpr int kMostThreads = 1024;
-  const int threads = request.threads != 0 ? request.threads : std::clamp(available_cores(), 2, kMostThreads);
+  constexpr int kMaxThreads = 1024;
+  const int threads = request.threads != 0 ? request.threads : std::clamp(available_cores(), 2, kMaxThreads);
   std::optional<ThreadLimit> more_threads_than_cores;
   if (threads > available_cores()) more_threads_than_cores.emplace(threads);
-  const Ways ways = every_way(threads);
-  std::cout << machine_text() << "each scene         " << ways.size() << " times: by each set, "
+  const Configurations configurations = all_configurations(threads);
+  std::cout << machine_text() << "each scene         " << configurations.size() << " times: by each set, "
             << (threads == 1 ? "" : "1 and ") << count(static_cast<std::size_t>(threads), "thread")
             << ", tiles of 32, 64 and 128, shaded late and at once\n\n"
             << std::flush;
-  const Tally right_scenes = run_scenes(scenes, ways);
+  const Tally right_scenes = run_scenes(scenes, configurations);
   std::cout << "\n" << std::flush;
-  const Tally right_oracles = run_oracles(few_ways(threads));
+  const Tally right_oracles = run_oracles(few_configurations(threads));
 
   const bool good = right_scenes.right == right_scenes.all && right_oracles.right == right_oracles.all;
   const std::string verdict =

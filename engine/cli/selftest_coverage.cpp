@@ -20,7 +20,7 @@ using Corner = std::array<std::int32_t, 2>;  // raster space, 1/256 pixel
 using Triangles = std::vector<std::array<Corner, 3>>;
 using Counts = std::vector<std::uint32_t>;  // of each pixel, rows from the top
 
-struct Dice {
+struct Rng {
   std::mt19937 random;
   int between(int low, int high) {
     return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
@@ -33,36 +33,36 @@ std::int64_t doubled_area(const Corner& a, const Corner& b, const Corner& c) {
 
 // Of all sizes, as far as the guard band; corners anywhere, on pixels' centres, or on pixels' borders, some
 // of them tiles'.
-Triangles random_triangles(Dice& dice) {
-  constexpr int kFarthest = 16000 * 256;
+Triangles random_triangles(Rng& rng) {
+  constexpr int kMaxCoordinate = 16000 * 256;
   Triangles triangles;
   for (int i = 0; i < kTriangles; ++i) {
-    const int reach = 1 << dice.between(3, 22),
-              snap = std::array{1, 128, 256}[static_cast<std::size_t>(dice.between(0, 2))];
-    const Corner middle{dice.between(0, kSide * 256), dice.between(0, kSide * 256)};
+    const int reach = 1 << rng.between(3, 22),
+              snap = std::array{1, 128, 256}[static_cast<std::size_t>(rng.between(0, 2))];
+    const Corner middle{rng.between(0, kSide * 256), rng.between(0, kSide * 256)};
     auto& triangle = triangles.emplace_back();
     for (Corner& corner : triangle)
       for (std::size_t axis = 0; axis < 2; ++axis)
         corner[axis] =
-            std::clamp(middle[axis] + dice.between(-reach, reach), -kFarthest, kFarthest) / snap * snap;
+            std::clamp(middle[axis] + rng.between(-reach, reach), -kMaxCoordinate, kMaxCoordinate) / snap * snap;
   }
   return triangles;
 }
 
 // Two triangles beyond the frame, of which one is split at a point inside again and again: every edge in the
 // frame is shared.
-Triangles shared_edges(Dice& dice) {
+Triangles shared_edges(Rng& rng) {
   constexpr int kLow = -1000, kHigh = kSide * 256 + 1000;
   const Corner p{kLow, kLow}, q{kHigh, kLow}, r{kHigh, kHigh}, s{kLow, kHigh};
   Triangles triangles{{p, q, r}, {p, r, s}};
   for (int tries = 0; tries < 2 * kTriangles && triangles.size() + 2 <= kTriangles; ++tries) {
-    auto& split = triangles[dice.random() % triangles.size()];
+    auto& split = triangles[rng.random() % triangles.size()];
     const auto [a, b, c] = split;
-    const int along = dice.between(1, 255), across = dice.between(1, 256 - along);
+    const int along = rng.between(1, 255), across = rng.between(1, 256 - along);
     Corner inside;
     for (std::size_t axis = 0; axis < 2; ++axis)
       inside[axis] = a[axis] + ((b[axis] - a[axis]) * along + (c[axis] - a[axis]) * across) / 256;
-    if (dice.between(0, 3) == 0) inside = {inside[0] / 128 * 128, inside[1] / 128 * 128};
+    if (rng.between(0, 3) == 0) inside = {inside[0] / 128 * 128, inside[1] / 128 * 128};
     if (doubled_area(a, b, inside) <= 0 || doubled_area(b, c, inside) <= 0 || doubled_area(c, a, inside) <= 0)
       continue;
     split = {a, b, inside};
@@ -77,7 +77,7 @@ struct Expected {
   Counts counts = Counts(static_cast<std::size_t>(kSide) * kSide);  ///< of the triangles that cover it
   Counts last = counts;  ///< the number of the last of them, from 1 on; 0: none
 };
-Expected exactly(const Triangles& triangles) {
+Expected reference_coverage(const Triangles& triangles) {
   Expected expected;
   std::uint32_t number = 0;
   for (const auto& [a, b, c] : triangles) {
@@ -97,13 +97,13 @@ Expected exactly(const Triangles& triangles) {
 }
 
 /// In clip space, either winding, each nearer than the one before.
-std::vector<float> clip_positions(const Triangles& triangles, Dice& dice) {
+std::vector<float> clip_positions(const Triangles& triangles, Rng& rng) {
   std::vector<float> positions;
   float depth = 1;
   for (const auto& triangle : triangles) {
     depth -= 1.0f / (kTriangles + 1);
-    const bool turned = dice.between(0, 1) != 0;
-    for (const std::size_t k : {0, turned ? 2 : 1, turned ? 1 : 2}) {
+    const bool flips_winding = rng.between(0, 1) != 0;
+    for (const std::size_t k : {0, flips_winding ? 2 : 1, flips_winding ? 1 : 2}) {
       const Corner& corner = triangle[k];
       positions.insert(positions.end(), {static_cast<float>(corner[0]) / (128 * kSide) - 1,
                                          1 - static_cast<float>(corner[1]) / (128 * kSide), depth});
@@ -122,7 +122,7 @@ Counts drawn_counts(const std::vector<float>& positions, Renderer& renderer) {
   frame.clear({.color = Color{0, 0, 0, 1}});
   frame.draw({.positions = positions}, state);
   renderer.finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 /// The number of each pixel's triangle, as its colour.
@@ -135,13 +135,13 @@ Counts drawn_numbers(const std::vector<float>& positions, Shading shading, Rende
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   frame.draw({.positions = positions, .colors = colors}, {.shading = shading, .lighting = false});
   renderer.finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 }  // namespace
 
-OracleReport check_coverage(const Ways& ways) {
-  Dice dice{std::mt19937(1)};
+OracleReport check_coverage(const Configurations& configurations) {
+  Rng rng{std::mt19937(1)};
   struct Case {
     std::vector<float> positions;
     Expected exact;
@@ -151,16 +151,16 @@ OracleReport check_coverage(const Ways& ways) {
   std::size_t triangle_count = 0;
   for (int round = 0; round < kRounds; ++round)
     for (const bool shared : {false, true}) {
-      const Triangles triangles = shared ? shared_edges(dice) : random_triangles(dice);
+      const Triangles triangles = shared ? shared_edges(rng) : random_triangles(rng);
       triangle_count += triangles.size();
-      cases.push_back({clip_positions(triangles, dice), exactly(triangles),
+      cases.push_back({clip_positions(triangles, rng), reference_coverage(triangles),
                        round % 2 == 0 ? Shading::gouraud : Shading::flat});
       if (shared) cases.back().exact.counts.assign(cases.back().exact.counts.size(), 1);
     }
-  OracleReport report{.oracle = "coverage, 128-bit integers", .measured = {}, .first_wrong = {}};
+  OracleReport report{.oracle = "coverage, 128-bit integers", .measured = {}, .first_failure = {}};
   std::size_t wrong_pixels = 0;
-  for (const RendererOptions& way : ways) {
-    Renderer renderer(way);
+  for (const RendererOptions& configuration : configurations) {
+    Renderer renderer(configuration);
     std::size_t wrong = 0;
     std::string first;
     const auto compare = [&](const Counts& drawn, const Counts& exact, const char* before,
@@ -177,9 +177,9 @@ OracleReport check_coverage(const Ways& ways) {
       compare(drawn_numbers(each.positions, each.shading, renderer), each.exact.last, "shows triangle ", "");
     }
     wrong_pixels += wrong;
-    if (wrong != 0) report.add(first, way);
+    if (wrong != 0) report.add(first, configuration);
   }
-  report.measured = std::to_string(triangle_count * ways.size()) + " triangles, " +
+  report.measured = std::to_string(triangle_count * configurations.size()) + " triangles, " +
                     std::to_string(wrong_pixels) + " pixels wrong";
   return report;
 }

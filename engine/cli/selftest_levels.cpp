@@ -65,19 +65,19 @@ struct Points {
 
 }  // namespace
 
-OracleReport check_levels(const Ways& ways) {
+OracleReport check_levels(const Configurations& configurations) {
   const Points points;
-  OracleReport report{.oracle = "stored levels, exact products", .measured = {}, .first_wrong = {}};
+  OracleReport report{.oracle = "stored levels, exact products", .measured = {}, .first_failure = {}};
   long double largest = 0;
   std::size_t count = 0;
-  for (const RendererOptions& way : ways) {
-    Renderer renderer(way);
+  for (const RendererOptions& configuration : configurations) {
+    Renderer renderer(configuration);
     std::string off;
     const auto note = [&](const char* what) { off += (off.empty() ? "" : ", ") + std::string(what); };
     for (const Format& format : kFormats) {
       FrameBuffer buffer({.width = kSide, .height = kSide, .depth = format.depth, .stencil_bits = 0});
       points.draw(buffer, renderer);
-      const std::vector<std::uint32_t> words = color_words(buffer), depths = depth_words(buffer);
+      const std::vector<std::uint32_t> words = packed_colors(buffer), depths = stored_depths(buffer);
       long double color_error = 0, depth_error = 0;
       for (std::size_t i = 0; i < kPoints; ++i) {
         for (std::size_t c = 0; c < 3; ++c)
@@ -95,7 +95,7 @@ OracleReport check_levels(const Ways& ways) {
       largest = std::max({largest, color_error, depth_error});
       count += std::size_t{4} * kPoints;
     }
-    if (!off.empty()) report.add("not the nearest level: " + off, way);
+    if (!off.empty()) report.add("not the nearest level: " + off, configuration);
   }
   char error[32];
   std::snprintf(error, sizeof error, "%.4Lf", largest);

@@ -10,22 +10,22 @@ namespace tessera::cli {
 struct OracleReport {
   std::string oracle;  ///< what is held against what
   std::string measured;
-  std::size_t wrong_ways = 0;
-  std::string first_wrong;  ///< of the first such way
+  std::size_t failed_configurations = 0;
+  std::string first_failure;  ///< of the first such configuration
 
-  void add(const std::string& wrong, const RendererOptions& way) {
-    if (wrong_ways++ == 0) first_wrong = wrong + ", by " + to_text(way);
+  void add(const std::string& wrong, const RendererOptions& configuration) {
+    if (failed_configurations++ == 0) first_failure = wrong + ", by " + to_text(configuration);
   }
 };
 
-// Each draws the same frames in every one of the ways.
+// Each draws the same frames in every one of the configurations.
 
 /// Pixels that triangles cover, against edge functions in 128-bit integers; meshes whose triangles share
 /// their edges cover each pixel once.
-OracleReport check_coverage(const Ways& ways);
+OracleReport check_coverage(const Configurations& configurations);
 /// Highlights x^shininess, against the host's pow in double.
-OracleReport check_powers(const Ways& ways);
+OracleReport check_powers(const Configurations& configurations);
 /// Colours and depths as they are stored: at most half a level off.
-OracleReport check_levels(const Ways& ways);
+OracleReport check_levels(const Configurations& configurations);
 
 }  // namespace tessera::cli

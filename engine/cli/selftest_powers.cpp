@@ -16,11 +16,11 @@ namespace {
 constexpr int kSide = 64;  // of the frame: a point in each pixel
 constexpr int kPoints = kSide * kSide;
 constexpr int kOctaves = 8;             // results of at least 1/256
-constexpr double kSeenTo = 64 / 510.0;  // 1/510 of full colour, to which a stored level is known
+constexpr double kMeasurementUlps = 64 / 510.0;  // 1/510 of full colour, to which a stored level is known
 /// In ulp: of whole exponents up to 64, which are products, what so many roundings come to; of these few
 /// others what tests/shading/power_test.cpp holds them to, near what it measures, where what is promised of
 /// all is 15.6 (tests/numerics/README.md).
-double promised(float exponent) {
+double bound_ulps(float exponent) {
   return exponent == std::floor(exponent) && exponent <= 64 ? std::max(double{exponent} - 1, 1.0) : 14;
 }
 
@@ -63,7 +63,7 @@ struct Powers {
         {.primitive = Primitive::points, .positions = positions, .normals = normals, .colors = emissions},
         state);
     renderer.finish(frame);
-    return color_words(buffer);  // rows from the top
+    return packed_colors(buffer);  // rows from the top
   }
 
   double largest_error_ulps(Renderer& renderer) const {
@@ -88,24 +88,24 @@ std::string number(double value) {
 
 }  // namespace
 
-OracleReport check_powers(const Ways& ways) {
+OracleReport check_powers(const Configurations& configurations) {
   std::vector<Powers> powers;
   for (const float exponent : {0.5f, 2.0f, 20.0f, 128.0f, 10000.0f})
     for (int octave = 0; octave < kOctaves; ++octave) powers.emplace_back(exponent, octave);
-  OracleReport report{.oracle = "powers, pow() in double", .measured = {}, .first_wrong = {}};
+  OracleReport report{.oracle = "powers, pow() in double", .measured = {}, .first_failure = {}};
   double largest = 0, share = 0;  // of what is promised
-  for (const RendererOptions& way : ways) {
-    Renderer renderer(way);
+  for (const RendererOptions& configuration : configurations) {
+    Renderer renderer(configuration);
     for (const Powers& each : powers) {
       const double error = each.largest_error_ulps(renderer);
       // What is off by more than 31 ulp ends at black or white.
-      if (error > promised(each.exponent) + kSeenTo)
-        report.add("x^" + number(each.exponent) + " is off by " + number(error) + " ulp or more", way);
+      if (error > bound_ulps(each.exponent) + kMeasurementUlps)
+        report.add("x^" + number(each.exponent) + " is off by " + number(error) + " ulp or more", configuration);
       largest = std::max(largest, error);
-      share = std::max(share, (error - kSeenTo) / promised(each.exponent));
+      share = std::max(share, (error - kMeasurementUlps) / bound_ulps(each.exponent));
     }
   }
-  report.measured = std::to_string(powers.size() * kPoints * ways.size()) + " powers, at most " +
+  report.measured = std::to_string(powers.size() * kPoints * configurations.size()) + " powers, at most " +
                     number(largest) + " ulp and " + number(std::ceil(100 * share)) +
                     " % of what is promised off";
   return report;

@@ -1,4 +1,4 @@
-// The ways in which the self-test renders the same thing.
+// The configurations in which the self-test renders the same thing.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace tessera::cli {
 
-using Ways = std::vector<RendererOptions>;
+using Configurations = std::vector<RendererOptions>;
 
 /// Every instruction set of this machine, 1 and `threads` threads, every tile size, shaded late and at once.
-Ways every_way(int threads);
+Configurations all_configurations(int threads);
 /// Two of each instruction set.
-Ways few_ways(int threads);
+Configurations few_configurations(int threads);
 
 /// "avx2, 2 threads, tiles of 32, shaded at once"
-std::string to_text(const RendererOptions& way);
+std::string to_text(const RendererOptions& configuration);
 
 }  // namespace tessera::cli

@@ -37,11 +37,11 @@ std::vector<Count> counts_of(const FrameStats& s) {
   return {{"vertices", "vertices", s.vertices},
           {"triangles", "triangles_in", s.triangles_in},
           {"  dropped: not finite", "dropped_non_finite", s.dropped_non_finite},
-          {"  dropped: outside", "outside", s.outside},
+          {"  dropped: trivially rejected", "trivially_rejected", s.trivially_rejected},
           {"  dropped: culled by facing", "culled", s.culled},
           {"  dropped: no area", "zero_area", s.zero_area},
           {"  clipped", "clipped", s.clipped},
-          {"  drawn (pieces counted singly)", "binned", s.binned},
+          {"  binned, with derived primitives", "binned", s.binned},
           {"triangles summed over tiles", "bin_entries", s.bin_entries},
           {"passes over the triangles", "bin_passes", s.bin_passes},
           {"tiles", "tiles", s.tiles},
@@ -72,13 +72,13 @@ std::string stats_text(const RunStats& stats) {
                      std::string(name(stats.options.instruction_set)) + ", tiles of " +
                      std::to_string(stats.frame.tile_size) + " pixels\n";
   text += row("reading and setting up", milliseconds(stats.load_ms));
-  const auto [least, most] = std::minmax_element(stats.render_ms.begin(), stats.render_ms.end());
+  const auto [fastest, slowest] = std::minmax_element(stats.render_ms.begin(), stats.render_ms.end());
   if (stats.render_ms.size() == 1) {
-    text += row("rendering", milliseconds(*least));
+    text += row("rendering", milliseconds(*fastest));
   } else {
     text += row("rendering, median of " + std::to_string(stats.render_ms.size()),
                 milliseconds(median(stats.render_ms)));
-    text += row("  fastest", milliseconds(*least)) + row("  slowest", milliseconds(*most));
+    text += row("  fastest", milliseconds(*fastest)) + row("  slowest", milliseconds(*slowest));
   }
   for (const auto& [stage, seconds] : stages_of(stats.frame))
     text += row(std::string("  ") + stage + (stats.render_ms.size() > 1 ? ", of the last" : ""),

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
   throw Error("cannot write \"" + path + "\": " + reason);
 }
 
-void write_plainly(const std::string& path, const std::string& shown_path, std::string_view content) {
+void write_directly(const std::string& path, const std::string& shown_path, std::string_view content) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) fail(shown_path, std::strerror(errno));
   const bool is_written =
@@ -60,14 +60,14 @@ std::optional<fs::path> require_writable(const std::string& path) {
 
 void write_file_atomically(const std::string& path, std::string_view content) {
   const std::optional<fs::path> target = require_writable(path);
-  if (!target) return write_plainly(path, path, content);
+  if (!target) return write_directly(path, path, content);
 
   std::error_code error;
   std::string name = ".";
   name += target->filename().string() + ".part-" + std::to_string(::getpid());
   const std::string temporary = (folder_of(*target) / name).string();
   try {
-    write_plainly(temporary, path, content);
+    write_directly(temporary, path, content);
     fs::rename(temporary, *target);
   } catch (const fs::filesystem_error& failure) {
     fs::remove(temporary, error);

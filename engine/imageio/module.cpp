@@ -51,7 +51,7 @@ Bytes encode(const std::string& ending, const unsigned char* rgba, int width, in
 
 /// Width, height and channels, then RGBA.
 Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count,
-             int most_pixels_a_side) {
+             int max_side_px) {
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
   OIIO::ImageSpec asked;
   asked.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
@@ -61,10 +61,10 @@ Bytes decode(const std::string& ending, const unsigned char* file, std::size_t c
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, &asked, &memory);
   if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels_a_side ||
-      spec.height > most_pixels_a_side)
+  if (spec.width < 1 || spec.height < 1 || spec.width > max_side_px ||
+      spec.height > max_side_px)
     throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                  ", at most " + std::to_string(most_pixels_a_side) + " a side are read"};
+                  ", at most " + std::to_string(max_side_px) + " a side are read"};
   const int channels = spec.nchannels;
   if (spec.depth > 1 || channels < 1)  // read_image() gives every layer of a volume
     throw Failure{"the image has " + std::to_string(spec.depth) + " layers of " + std::to_string(channels) +
@@ -107,7 +107,7 @@ Bytes formats() {
 
 /// Runs make() and hands its bytes over; no exception leaves the module.
 template <class Make>
-int handed_over(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size,
+int deliver_bytes(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size,
                 const Make& make) {
   std::string reason;
   try {
@@ -130,7 +130,7 @@ extern "C" TESSERA_API int tessera_imageio_encode_2(const char* ending, const un
                                                     int height, std::ptrdiff_t stride_bytes, int compression,
                                                     tessera_imageio_take_function* take, void* user,
                                                     char* message, std::size_t message_size) {
-  return handed_over(take, user, message, message_size,
+  return deliver_bytes(take, user, message, message_size,
                      [&] { return encode(ending, rgba, width, height, stride_bytes, compression); });
 }
 
@@ -140,7 +140,7 @@ extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char*
                                                             int compression,
                                                             tessera_imageio_take_function* take, void* user,
                                                             char* message, std::size_t message_size) {
-  return handed_over(take, user, message, message_size, [&] {
+  return deliver_bytes(take, user, message, message_size, [&] {
     Bytes bytes;
     const std::string reason =
         tessera::encode_indexed_png(indices, width, height, bits, palette, palette_entries,
@@ -151,14 +151,14 @@ extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char*
 }
 
 extern "C" TESSERA_API int tessera_imageio_decode_2(const char* ending, const unsigned char* bytes,
-                                                    std::size_t count, int most_pixels_a_side,
+                                                    std::size_t count, int max_side_px,
                                                     tessera_imageio_take_function* take, void* user,
                                                     char* message, std::size_t message_size) {
-  return handed_over(take, user, message, message_size,
-                     [&] { return decode(ending, bytes, count, most_pixels_a_side); });
+  return deliver_bytes(take, user, message, message_size,
+                     [&] { return decode(ending, bytes, count, max_side_px); });
 }
 
 extern "C" TESSERA_API int tessera_imageio_formats_1(tessera_imageio_take_function* take, void* user,
                                                      char* message, std::size_t message_size) {
-  return handed_over(take, user, message, message_size, [] { return formats(); });
+  return deliver_bytes(take, user, message, message_size, [] { return formats(); });
 }

@@ -34,7 +34,7 @@ typedef int tessera_imageio_encode_indexed_function(const unsigned char* indices
    (of more the first), as three ints, then RGBA pixels, rows from the top: of one and two channels red =
    green = blue, alpha 255 where there is none. */
 typedef int tessera_imageio_decode_function(const char* ending, const unsigned char* bytes, size_t count,
-                                            int most_pixels_a_side, tessera_imageio_take_function* take,
+                                            int max_side_px, tessera_imageio_take_function* take,
                                             void* user, char* message, size_t message_size);
 
 /* The endings of the formats that can be written, with commas between. */

@@ -27,7 +27,7 @@ const unsigned char* bytes_of(const std::string& text) {
 std::string encode_by_module(const Picture& picture, const std::string& ending, int compression) {
   auto* const encode =
       function_of_module<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, ending);
-  return taken([&](auto* take, void* user, char* message, std::size_t size) {
+  return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return encode(ending.c_str(), picture.rgba.data(), picture.width, picture.height,
                   4 * std::ptrdiff_t{picture.width}, compression, take, user, message, size);
   });
@@ -36,7 +36,7 @@ std::string encode_by_module(const Picture& picture, const std::string& ending, 
 std::string encode_indexed_by_module(const IndexedPicture& picture, int compression) {
   auto* const encode = function_of_module<tessera_imageio_encode_indexed_function>(
       TESSERA_IMAGEIO_ENCODE_INDEXED_NAME, ".png");
-  return taken([&](auto* take, void* user, char* message, std::size_t size) {
+  return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return encode(picture.indices.data(), picture.width, picture.height, picture.bits, picture.palette.data(),
                   static_cast<int>(picture.palette.size() / 3), compression, take, user, message, size);
   });
@@ -45,7 +45,7 @@ std::string encode_indexed_by_module(const IndexedPicture& picture, int compress
 Picture decode_by_module(const std::string& file, const std::string& ending) {
   auto* const decode =
       function_of_module<tessera_imageio_decode_function>(TESSERA_IMAGEIO_DECODE_NAME, ending);
-  const std::string decoded = taken([&](auto* take, void* user, char* message, std::size_t size) {
+  const std::string decoded = collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return decode(ending.c_str(), bytes_of(file), file.size(), kMaxFrameBufferSize, take, user, message,
                   size);
   });
@@ -57,10 +57,10 @@ Picture decode_by_module(const std::string& file, const std::string& ending) {
   return picture;
 }
 
-std::vector<std::string> module_endings() {
+std::vector<std::string> module_extensions() {
   auto* const formats = function_of_module<tessera_imageio_formats_function>(TESSERA_IMAGEIO_FORMATS_NAME,
                                                                              "the list of formats");
-  std::istringstream list(taken([&](auto* take, void* user, char* message, std::size_t size) {
+  std::istringstream list(collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return formats(take, user, message, size);
   }));
   std::vector<std::string> endings;

@@ -70,7 +70,7 @@ std::string encode_ppm(const Picture& picture) {
   return file;
 }
 
-std::vector<std::string> own_endings() { return {".pbm (planes)", ".pfm", ".pgm", ".ppm", ".raw"}; }
+std::vector<std::string> builtin_extensions() { return {".pbm (planes)", ".pfm", ".pgm", ".ppm", ".raw"}; }
 
 namespace {
 
@@ -87,7 +87,7 @@ std::string encoded_for(const std::string& path, const Encode& encode) {
 // In the format of the path's ending.
 std::string encode_picture(const Picture& picture, const std::string& path, int compression) {
   return encoded_for(path, [&]() -> std::string {
-    const std::string ending = lower_case_ending(path);
+    const std::string ending = lower_case_extension(path);
     if (ending.empty())
       throw Error("its name has no ending to tell the format by; .png and .ppm are the usual ones");
     if (ending == ".pbm")
@@ -135,7 +135,7 @@ Picture decode_ppm(const std::string& file) {
 Picture read_picture(const std::string& path) {
   const std::string file = read_text_file(path);
   try {
-    const std::string ending = lower_case_ending(path);
+    const std::string ending = lower_case_extension(path);
     return ending == ".ppm" ? decode_ppm(file) : decode_by_module(file, ending);
   } catch (const Error& error) {
     throw Error("cannot read \"" + path + "\": " + error.what());
@@ -147,7 +147,7 @@ void write_indexed_png(const IndexedPicture& picture, const std::string& path, i
                         encoded_for(path, [&] { return encode_indexed_by_module(picture, compression); }));
 }
 
-bool is_own_png(const std::string& path) {
+bool is_tessera_png(const std::string& path) {
   constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n",
                              kText("Software\0" TESSERA_IMAGEIO_SOFTWARE,
                                    sizeof "Software\0" TESSERA_IMAGEIO_SOFTWARE - 1);

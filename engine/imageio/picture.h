@@ -49,7 +49,7 @@ void write_indexed_png(const IndexedPicture& picture, const std::string& path,
                        int compression = kDefaultCompression);
 
 /// Is it a PNG that says, before its pixels, that these functions wrote it?
-bool is_own_png(const std::string& path);
+bool is_tessera_png(const std::string& path);
 
 /// A file's bytes as binary PPM.
 std::string encode_ppm(const Picture& picture);
@@ -59,8 +59,8 @@ std::string encode_ppm(const Picture& picture);
 Picture read_picture(const std::string& path);
 
 /// The endings that are written without the module, and with it.
-std::vector<std::string> own_endings();
-std::vector<std::string> module_endings();
+std::vector<std::string> builtin_extensions();
+std::vector<std::string> module_extensions();
 
 /// Writes a plane as a binary PBM; a set bit is PBM's 1.
 void write_plane(const PlaneView& plane, const std::string& path);

@@ -13,8 +13,8 @@
 namespace tessera {
 namespace {
 
-constexpr float kMostShininess = 16384;
-constexpr float kDielectric = 0.04f;  // what glass and plastics reflect head-on
+constexpr float kMaxShininess = 16384;
+constexpr float kDielectricReflectance = 0.04f;  // what glass and plastics reflect head-on
 
 std::optional<Color> color(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
   aiColor4D c;
@@ -52,37 +52,37 @@ Material phong_material(const aiMaterial& from, int model) {
                              model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
   if (has_highlight) {
     material.specular = color(from, AI_MATKEY_COLOR_SPECULAR).value_or(material.specular);
-    material.shininess = std::min(shininess, kMostShininess);
+    material.shininess = std::min(shininess, kMaxShininess);
   }
   return material;
 }
 
-float spread(float roughness) { return 1 / (1 + 4 * roughness * roughness); }
+float roughness_attenuation(float roughness) { return 1 / (1 + 4 * roughness * roughness); }
 
 float blinn_exponent(float roughness) {
   const float alpha = roughness * roughness;
   return alpha > 0 ? std::clamp(2 / (alpha * alpha) - 2, 1.0f, 1024.0f) : 1024.0f;
 }
 
-Material physical_material(const aiMaterial& from, const Color& base) {
+Material metallic_roughness_material(const aiMaterial& from, const Color& base) {
   const auto factor = [&](std::optional<float> x) { return std::clamp(x.value_or(1), 0.0f, 1.0f); };
   const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)),
               rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
-  const auto mirrored = [&](float b) { return (kDielectric * (1 - metal) + b * metal) * spread(rough); };
+  const auto specular_reflectance = [&](float b) { return (kDielectricReflectance * (1 - metal) + b * metal) * roughness_attenuation(rough); };
   return {.ambient = base,
           .diffuse = base,
-          .specular = {mirrored(base.r), mirrored(base.g), mirrored(base.b), 1},
+          .specular = {specular_reflectance(base.r), specular_reflectance(base.g), specular_reflectance(base.b), 1},
           .emission = emission(from),
           .shininess = blinn_exponent(rough)};
 }
 
-Material glossy_material(const aiMaterial& from, float glossiness) {
+Material specular_glossiness_material(const aiMaterial& from, float glossiness) {
   const float rough = 1 - std::clamp(glossiness, 0.0f, 1.0f);
   const Color diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(Color{1, 1, 1, 1});
   return {
       .ambient = diffuse,
       .diffuse = diffuse,
-      .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}), spread(rough)),
+      .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}), roughness_attenuation(rough)),
       .emission = emission(from),
       .shininess = blinn_exponent(rough)};
 }
@@ -100,12 +100,12 @@ Material material_of(const aiMaterial& from) {
   from.Get(AI_MATKEY_SHADING_MODEL, model);
   if (base && model == aiShadingMode_Unlit) return unlit_material(*base);
   if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR))
-    return glossy_material(from, *glossiness);
-  if (base && number(from, AI_MATKEY_METALLIC_FACTOR)) return physical_material(from, *base);
+    return specular_glossiness_material(from, *glossiness);
+  if (base && number(from, AI_MATKEY_METALLIC_FACTOR)) return metallic_roughness_material(from, *base);
   return phong_material(from, model);
 }
 
-bool wants_texture(const aiMaterial& from) {
+bool has_color_texture(const aiMaterial& from) {
   constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR,
                                        aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
   return std::any_of(std::begin(kColors), std::end(kColors),
@@ -127,7 +127,7 @@ std::vector<std::string> textures_of(const aiMaterial& from) {
   return names;
 }
 
-bool wants_transparency(const aiMaterial& from) {
+bool is_transparent(const aiMaterial& from) {
   aiString mode;
   if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS)
     return std::string_view(mode.C_Str()) != "OPAQUE";

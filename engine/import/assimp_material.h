@@ -21,10 +21,10 @@ namespace tessera {
 Material material_of(const aiMaterial& from);
 
 /// Whether its colours are meant to come from a picture.
-bool wants_texture(const aiMaterial& from);
+bool has_color_texture(const aiMaterial& from);
 /// The names of all its pictures, whatever they are for.
 std::vector<std::string> textures_of(const aiMaterial& from);
 /// Whether something is meant to be seen through it.
-bool wants_transparency(const aiMaterial& from);
+bool is_transparent(const aiMaterial& from);
 
 }  // namespace tessera

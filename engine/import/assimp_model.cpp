@@ -12,10 +12,10 @@
 namespace tessera {
 namespace {
 
-constexpr int kDeepestNode = 500;
+constexpr int kMaxNodeDepth = 500;
 
 // Some readers leave colours at 0, or at -1, where a file has none.
-bool gives_colors(const aiMesh& mesh) {
+bool has_vertex_colors(const aiMesh& mesh) {
   bool gives = false;
   for (unsigned v = 0; v < mesh.mNumVertices && mesh.HasVertexColors(0); ++v) {
     const aiColor4D& c = mesh.mColors[0][v];
@@ -36,8 +36,8 @@ class Converter {
         camera_used_(scene.mNumCameras),
         light_used_(scene.mNumLights) {
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m)
-      gives_colors_.push_back(gives_colors(*scene_.mMeshes[m]));
-    has_colors_ = std::find(gives_colors_.begin(), gives_colors_.end(), true) != gives_colors_.end();
+      mesh_has_colors_.push_back(has_vertex_colors(*scene_.mMeshes[m]));
+    has_colors_ = std::find(mesh_has_colors_.begin(), mesh_has_colors_.end(), true) != mesh_has_colors_.end();
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) has_texcoords_ |= scene_.mMeshes[m]->HasTextureCoords(0);
     for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
       materials_.push_back(material_of(*scene_.mMaterials[m]));
@@ -50,8 +50,8 @@ class Converter {
       if (indices.empty()) continue;
       add_part(material, indices);
       if (material >= scene_.mNumMaterials) continue;
-      textures += wants_texture(*scene_.mMaterials[material]) ? 1 : 0;
-      transparent += wants_transparency(*scene_.mMaterials[material]) ? 1 : 0;
+      textures += has_color_texture(*scene_.mMaterials[material]) ? 1 : 0;
+      transparent += is_transparent(*scene_.mMaterials[material]) ? 1 : 0;
     }
     if (model_.parts.empty()) throw Error(std::string(kHoldsNoTriangle));
     for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
@@ -68,8 +68,8 @@ class Converter {
 
  private:
   void visit(const aiNode& node, const aiMatrix4x4& parent, int depth) {
-    if (depth > kDeepestNode)
-      throw Error("its nodes are nested deeper than " + std::to_string(kDeepestNode) + " levels");
+    if (depth > kMaxNodeDepth)
+      throw Error("its nodes are nested deeper than " + std::to_string(kMaxNodeDepth) + " levels");
     const aiMatrix4x4 world = parent * node.mTransformation;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
       if (node.mMeshes[m] >= scene_.mNumMeshes)
@@ -112,7 +112,7 @@ class Converter {
       aiVector3D n = mesh.HasNormals() ? normal_matrix * mesh.mNormals[v] : aiVector3D();
       n.NormalizeSafe();
       model_.mesh.normals.insert(model_.mesh.normals.end(), {n.x, n.y, n.z});
-      if (has_colors_) add_color(mesh, gives_colors_[number], v);
+      if (has_colors_) add_color(mesh, mesh_has_colors_[number], v);
       if (has_texcoords_) add_texcoords(mesh, v);
     }
     add_triangles(mesh, first, mirrors);
@@ -163,7 +163,7 @@ class Converter {
 
   const aiScene& scene_;
   bool with_view_, is_collada_, has_colors_ = false, has_texcoords_ = false;
-  std::vector<bool> gives_colors_, camera_used_, light_used_;  // of each mesh, camera, light
+  std::vector<bool> mesh_has_colors_, camera_used_, light_used_;  // of each mesh, camera, light
   std::vector<Material> materials_;
   std::map<unsigned, std::vector<std::uint32_t>> by_material_;
   Model model_;

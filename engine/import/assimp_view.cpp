@@ -86,7 +86,7 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, 
       const double cutoff = is_collada ? light.mAngleInnerCone : light.mAngleOuterCone;
       to.spot_cutoff =
           cutoff >= std::numbers::pi ? 180 : static_cast<float>(std::clamp(cutoff * kDegrees, 0.0, 90.0));
-      if (!is_collada) to.spot_exponent = exponent_of_ramp(light.mAngleInnerCone, light.mAngleOuterCone);
+      if (!is_collada) to.spot_exponent = spot_exponent_from_cone(light.mAngleInnerCone, light.mAngleOuterCone);
       [[fallthrough]];
     }
     case aiLightSource_POINT:

@@ -56,7 +56,7 @@ void limit_memory(std::size_t more_bytes) {
 void limit_memory(std::size_t) {}
 #endif
 
-[[noreturn]] void be_child(int to, pid_t parent, const ChildLimits& limits,
+[[noreturn]] void run_child(int to, pid_t parent, const ChildLimits& limits,
                            const std::function<std::string()>& work) {
   // Libraries may print; nobody asked them to.
   if (const int nowhere = ::open("/dev/null", O_RDWR); nowhere >= 0)
@@ -87,26 +87,26 @@ void limit_memory(std::size_t) {}
 }
 
 using Clock = std::chrono::steady_clock;
-enum class Read { all, ended, late, unwanted };
+enum class ReadStatus { all, ended, timed_out, cancelled };
 
-Read read_all(int from, Clock::time_point end, const std::function<bool()>& go_on, char* to,
+ReadStatus read_all(int from, Clock::time_point end, const std::function<bool()>& should_continue, char* to,
               std::size_t count) {
   constexpr std::chrono::milliseconds kPause(100);
   while (count > 0) {
-    if (go_on && !go_on()) return Read::unwanted;
+    if (should_continue && !should_continue()) return ReadStatus::cancelled;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    if (left.count() <= 0) return Read::late;
+    if (left.count() <= 0) return ReadStatus::timed_out;
     pollfd waiting{from, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, kPause).count()));
     if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-    if (ready < 0) return Read::ended;
+    if (ready < 0) return ReadStatus::ended;
     const ssize_t taken = ::read(from, to, count);
     if (taken < 0 && errno == EINTR) continue;
-    if (taken <= 0) return Read::ended;
+    if (taken <= 0) return ReadStatus::ended;
     to += taken;
     count -= static_cast<std::size_t>(taken);
   }
-  return Read::all;
+  return ReadStatus::all;
 }
 
 std::string mebibytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
@@ -159,7 +159,7 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
   const pid_t parent = ::getpid(), id = ::fork();
   if (id == 0) {
     ::close(ends[0]);
-    be_child(ends[1], parent, limits, work);
+    run_child(ends[1], parent, limits, work);
   }
   const int reason = errno;
   ::close(ends[1]);
@@ -169,19 +169,19 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
   const Clock::time_point end = Clock::now() + limits.time;
   Header header{};
   std::string bytes;
-  Read read = read_all(ends[0], end, limits.go_on, reinterpret_cast<char*>(&header), sizeof header);
-  if (read == Read::all) {
+  ReadStatus read = read_all(ends[0], end, limits.should_continue, reinterpret_cast<char*>(&header), sizeof header);
+  if (read == ReadStatus::all) {
     if (header.bytes > limits.result_bytes)
       throw Error(what + " gives " + mebibytes(header.bytes) + ", at most " + mebibytes(limits.result_bytes) +
                   " are taken");
     bytes.resize(header.bytes);
-    read = read_all(ends[0], end, limits.go_on, bytes.data(), bytes.size());
+    read = read_all(ends[0], end, limits.should_continue, bytes.data(), bytes.size());
   }
-  if (read == Read::unwanted) throw Cancelled(what + " was interrupted");
-  if (read == Read::late)
+  if (read == ReadStatus::cancelled) throw Cancelled(what + " was interrupted");
+  if (read == ReadStatus::timed_out)
     throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) +
                 " seconds; given up");
-  if (read == Read::ended) {
+  if (read == ReadStatus::ended) {
     const int status = child.wait(), signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGINT) throw Cancelled(what + " was interrupted");
     if (signal == SIGXCPU || signal == SIGKILL) throw Error(what + " took too much time or memory; given up");

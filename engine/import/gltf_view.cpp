@@ -22,8 +22,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr int kDeepestNode = 500;
-constexpr int kMostVisits = 1000000;
+constexpr int kMaxNodeDepth = 500;
+constexpr int kMaxNodeVisits = 1000000;
 
 // The text of a .gltf, or the first chunk of a .glb: "glTF", version, length, length of the chunk, "JSON".
 std::string json_text(const std::string& bytes) {
@@ -89,7 +89,7 @@ class ViewReader {
   }
 
   void visit(const Json& node, const Matrix& parent, int depth) {
-    if (depth > kDeepestNode || ++visits_ > kMostVisits)
+    if (depth > kMaxNodeDepth || ++visits_ > kMaxNodeVisits)
       throw Error("its nodes are too many, or nested too deeply");
     const Matrix world = parent * local_matrix(node);
     if (node.contains("camera"))
@@ -151,7 +151,7 @@ class ViewReader {
       to.spot_direction = {static_cast<float>(-back.x), static_cast<float>(-back.y),
                            static_cast<float>(-back.z)};
       to.spot_cutoff = static_cast<float>(std::clamp(outer * kDegrees, 0.0, 90.0));
-      to.spot_exponent = exponent_of_ramp(inner, outer);
+      to.spot_exponent = spot_exponent_from_cone(inner, outer);
     }
     const auto is_finite = [](const auto& list) {
       return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); });

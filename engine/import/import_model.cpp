@@ -31,7 +31,7 @@ std::string import_by_module(const std::string& path) {
   if (what.empty()) what = "\"" + path + "\"";
   auto* const import = function_of_module<tessera_import_function>(TESSERA_IMPORT_NAME, what);
   try {
-    return taken([&](auto* take, void* user, char* message, std::size_t size) {
+    return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
       return import(path.c_str(), take, user, message, size);
     });
   } catch (const Error& error) {
@@ -42,10 +42,10 @@ std::string import_by_module(const std::string& path) {
 // Where files may be that a model's file names: a backslash mostly is a slash, and Blender's "//" is the
 // folder of the model.
 std::vector<std::string> paths_of(const std::vector<std::string>& names, const fs::path& folder) {
-  constexpr std::size_t kMostPaths = 100000, kLongestName = 4096;
+  constexpr std::size_t kMaxPaths = 100000, kMaxNameLength = 4096;
   std::set<std::string> paths;
   for (std::string name : names) {
-    if (name.empty() || name.size() > kLongestName || paths.size() >= kMostPaths) continue;
+    if (name.empty() || name.size() > kMaxNameLength || paths.size() >= kMaxPaths) continue;
     paths.insert((folder / name).string());
     std::replace(name.begin(), name.end(), '\\', '/');
     paths.insert((folder / name).string());
@@ -56,7 +56,7 @@ std::vector<std::string> paths_of(const std::vector<std::string>& names, const f
 
 }  // namespace
 
-Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& go_on) {
+Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& should_continue) {
   errno = 0;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -68,22 +68,22 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
   if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
   const auto read = [&] {
     Model model =
-        lower_case_ending(path) == ".obj" ? import_obj(path) : model_from_bytes(import_by_module(path), path);
+        lower_case_extension(path) == ".obj" ? import_obj(path) : model_from_bytes(import_by_module(path), path);
     if (use == ModelUse::display) {
       if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
-      wind_by_normals(model.mesh);
+      orient_by_normals(model.mesh);
     }
     model.files = paths_of(model.files, fs::path(path).parent_path());
     return to_bytes(model);
   };
-  return model_from_bytes(run_in_child("reading \"" + path + "\"", {.go_on = go_on}, read), path);
+  return model_from_bytes(run_in_child("reading \"" + path + "\"", {.should_continue = should_continue}, read), path);
 }
 
-std::vector<std::string> model_endings() {
+std::vector<std::string> model_extensions() {
   const std::string list = run_in_child("listing the formats of models", {}, [] {
     auto* const formats = function_of_module<tessera_import_formats_function>(TESSERA_IMPORT_FORMATS_NAME,
                                                                               "every other format");
-    return taken([&](auto* take, void* user, char* message, std::size_t size) {
+    return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
       return formats(take, user, message, size);
     });
   });

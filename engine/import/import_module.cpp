@@ -36,7 +36,7 @@ bool contains(const std::string& path, const std::string& word) {
 
 Model read(const std::string& path) {
   Assimp::Importer importer;
-  const std::string ending = lower_case_ending(path);
+  const std::string ending = lower_case_extension(path);
   if (ending.empty() || !importer.IsExtensionSupported(ending))
     throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);

@@ -47,15 +47,15 @@ enum class ModelUse {
 
 /// Reads a model in a child process that may take 10 seconds and 1 GiB, and return 256 MiB. It is a fork of
 /// this one: call it before other threads run.
-/// @param go_on  asked a few times a second; false ends the reading
+/// @param should_continue  asked a few times a second; false ends the reading
 /// @throws Error, naming the file and where possible the line, for a file that is missing, broken or without
 /// a triangle, and for one that takes too long or too much; Cancelled if it was ended.
 Model import_model(const std::string& path, ModelUse use = ModelUse::mesh,
-                   const std::function<bool()>& go_on = {});
+                   const std::function<bool()>& should_continue = {});
 
 /// The endings of the formats that are read, in lower case with their dots. @throws Error without the import
 /// module.
-std::vector<std::string> model_endings();
+std::vector<std::string> model_extensions();
 
 /// Each part as a mesh of its own, without the vertices of the others.
 std::vector<MeshData> split_into_parts(Model model);

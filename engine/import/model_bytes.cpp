@@ -12,21 +12,21 @@ template <class T>
 constexpr bool kIsPlain = std::is_arithmetic_v<T>;
 
 template <class T, class U>
-concept Either = std::is_same_v<std::remove_const_t<T>, U>;
+concept SameUnqualified = std::is_same_v<std::remove_const_t<T>, U>;
 
 // Calls the stream for each member.
 template <class Stream>
-void members(Stream& stream, Either<Color> auto& value);
+void visit_members(Stream& stream, SameUnqualified<Color> auto& value);
 template <class Stream>
-void members(Stream& stream, Either<Material> auto& value);
+void visit_members(Stream& stream, SameUnqualified<Material> auto& value);
 template <class Stream>
-void members(Stream& stream, Either<Light> auto& value);
+void visit_members(Stream& stream, SameUnqualified<Light> auto& value);
 template <class Stream>
-void members(Stream& stream, Either<ModelCamera> auto& value);
+void visit_members(Stream& stream, SameUnqualified<ModelCamera> auto& value);
 template <class Stream>
-void members(Stream& stream, Either<ModelPart> auto& value);
+void visit_members(Stream& stream, SameUnqualified<ModelPart> auto& value);
 template <class Stream>
-void members(Stream& stream, Either<std::string> auto& value);
+void visit_members(Stream& stream, SameUnqualified<std::string> auto& value);
 
 class Writer {
  public:
@@ -42,13 +42,13 @@ class Writer {
       list(elements);
     } else {
       (*this)(elements.size());
-      for (const T& element : elements) members(*this, element);
+      for (const T& element : elements) visit_members(*this, element);
     }
   }
   template <class T>
   void operator()(const std::optional<T>& value) {
     (*this)(value.has_value());
-    if (value) members(*this, *value);
+    if (value) visit_members(*this, *value);
   }
 
  private:
@@ -78,14 +78,14 @@ class Reader {
       list(elements);
     } else {
       // One by one: what a wrong count promises takes no memory.
-      for (std::size_t left = count(1); left > 0; --left) members(*this, elements.emplace_back());
+      for (std::size_t left = count(1); left > 0; --left) visit_members(*this, elements.emplace_back());
     }
   }
   template <class T>
   void operator()(std::optional<T>& value) {
     bool has = false;
     (*this)(has);
-    if (has) members(*this, value.emplace());
+    if (has) visit_members(*this, value.emplace());
   }
   void end() const {
     if (at_ != bytes_.size()) fail();
@@ -118,17 +118,17 @@ class Reader {
 
 // One list of members for both ways.
 template <class Stream>
-void members(Stream& stream, Either<Color> auto& c) {
+void visit_members(Stream& stream, SameUnqualified<Color> auto& c) {
   stream(c.r), stream(c.g), stream(c.b), stream(c.a);
 }
 template <class Stream>
-void members(Stream& stream, Either<Material> auto& m) {
-  for (auto* color : {&m.ambient, &m.diffuse, &m.specular, &m.emission}) members(stream, *color);
+void visit_members(Stream& stream, SameUnqualified<Material> auto& m) {
+  for (auto* color : {&m.ambient, &m.diffuse, &m.specular, &m.emission}) visit_members(stream, *color);
   stream(m.shininess);
 }
 template <class Stream>
-void members(Stream& stream, Either<Light> auto& l) {
-  for (auto* color : {&l.ambient, &l.diffuse, &l.specular}) members(stream, *color);
+void visit_members(Stream& stream, SameUnqualified<Light> auto& l) {
+  for (auto* color : {&l.ambient, &l.diffuse, &l.specular}) visit_members(stream, *color);
   for (auto& x : l.position) stream(x);
   for (auto& x : l.spot_direction) stream(x);
   for (auto* x : {&l.spot_exponent, &l.spot_cutoff, &l.attenuation_constant, &l.attenuation_linear,
@@ -136,25 +136,25 @@ void members(Stream& stream, Either<Light> auto& l) {
     stream(*x);
 }
 template <class Stream>
-void members(Stream& stream, Either<ModelCamera> auto& c) {
+void visit_members(Stream& stream, SameUnqualified<ModelCamera> auto& c) {
   for (auto& x : c.view.m) stream(x);
   stream(c.is_orthographic);
   for (auto* x : {&c.half_width, &c.half_height, &c.near, &c.far}) stream(*x);
 }
 template <class Stream>
-void members(Stream& stream, Either<ModelPart> auto& p) {
+void visit_members(Stream& stream, SameUnqualified<ModelPart> auto& p) {
   stream(p.material_name);
-  members(stream, p.material);
+  visit_members(stream, p.material);
   stream(p.first_index);
   stream(p.index_count);
   stream(p.uses_colors);
 }
 template <class Stream>
-void members(Stream& stream, Either<std::string> auto& text) {
+void visit_members(Stream& stream, SameUnqualified<std::string> auto& text) {
   stream(text);
 }
 template <class Stream>
-void members(Stream& stream, Either<Model> auto& model) {
+void visit_members(Stream& stream, SameUnqualified<Model> auto& model) {
   stream(model.mesh.positions);
   stream(model.mesh.normals);
   stream(model.mesh.colors);
@@ -193,14 +193,14 @@ bool is_sound(const Model& model) {
 
 std::string to_bytes(const Model& model) {
   Writer writer;
-  members(writer, model);
+  visit_members(writer, model);
   return std::move(writer.bytes);
 }
 
 Model model_from_bytes(const std::string& bytes, const std::string& path) try {
   Model model;
   Reader reader(bytes);
-  members(reader, model);
+  visit_members(reader, model);
   reader.end();
   if (!is_sound(model)) Reader::fail();
   return model;

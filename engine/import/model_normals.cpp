@@ -16,7 +16,7 @@ using Float3 = std::array<float, 3>;
 
 // Beyond that many triangles at one place, all of them are one surface: comparing each with each would take
 // too long.
-constexpr std::size_t kMostCompared = 256;
+constexpr std::size_t kMaxComparedTriangles = 256;
 
 double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -114,7 +114,7 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
     normals.push_back(face_normal(mesh, i));
     units.push_back(unit(normals.back()));
   }
-  const double least_cosine =
+  const double min_cosine =
       sin_cos_degrees(crease_degrees).cosine - 1e-9;  // rounded positions: what is meant to be plane is
   const std::vector<std::uint32_t> corners = corners_by_position(mesh);
   VertexSplitter splitter(mesh);
@@ -130,20 +130,20 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
       const Double3 n = unit(sum);
       return Float3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
     };
-    const bool is_compared = end - first <= kMostCompared;
+    const bool is_compared = end - first <= kMaxComparedTriangles;
     const Float3 of_all = is_compared ? Float3{} : mean([](std::uint32_t) { return true; });
     for (std::size_t i = first; i < end; ++i) {
       if (!missing[mesh.indices[corners[i]]]) continue;
       const Double3& own = units[corners[i] / 3];
       splitter.set(corners[i], is_compared ? mean([&](std::uint32_t face) {
-                     return dot(units[face], own) >= least_cosine;
+                     return dot(units[face], own) >= min_cosine;
                    })
                                            : of_all);
     }
   }
 }
 
-void wind_by_normals(MeshData& mesh) {
+void orient_by_normals(MeshData& mesh) {
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const Double3 face = face_normal(mesh, i);
     double along = 0;

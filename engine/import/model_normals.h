@@ -14,6 +14,6 @@ constexpr double kCreaseDegrees = 60;
 void add_creased_normals(MeshData& mesh, double crease_degrees = kCreaseDegrees);
 
 /// Winds triangles counter-clockwise seen from where their normals point.
-void wind_by_normals(MeshData& mesh);
+void orient_by_normals(MeshData& mesh);
 
 }  // namespace tessera

@@ -42,9 +42,9 @@ class MaterialFiles : public tinyobj::MaterialReader {
 
   /// Those and their textures, by their names from the model's folder.
   const std::set<std::string>& names() const { return names_; }
-  MtlGiven given(const std::string& material) const {
+  MtlKeys given(const std::string& material) const {
     const auto found = given_.find(material);
-    return found == given_.end() ? MtlGiven{} : found->second;
+    return found == given_.end() ? MtlKeys{} : found->second;
   }
 
   /// `names` is one name with spaces, or several names.
@@ -69,7 +69,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
     names_.insert(name);
     std::string text;
     try {
-      refuse_endless_file(path);
+      refuse_device_or_pipe(path);
       text = read_text_file(path);
     } catch (const Error& missing) {
       *warning += std::string(missing.what()) + "\n";
@@ -93,12 +93,12 @@ class MaterialFiles : public tinyobj::MaterialReader {
 
   std::string folder_;
   std::set<std::string> names_;
-  std::map<std::string, MtlGiven, std::less<>> given_;
+  std::map<std::string, MtlKeys, std::less<>> given_;
 };
 
 // tinyobjloader leaves a colour that is not given black; such a surface has the default diffuse colour, and
 // reflects ambient light as it reflects all other. Below illum 2 there is no highlight.
-void fill_in(tinyobj::material_t& material, const MtlGiven& given, std::string& warning) {
+void fill_in(tinyobj::material_t& material, const MtlKeys& given, std::string& warning) {
   const Color diffuse = Material{}.diffuse;
   const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
   if (!given.diffuse) std::copy_n(standard, 3, material.diffuse);
@@ -121,10 +121,10 @@ struct Obj {
 
 // One warning a line, each once.
 std::vector<std::string> warning_lines(const std::string& text, const std::string& path) {
-  constexpr std::size_t kMostWarnings = 20;
+  constexpr std::size_t kMaxWarnings = 20;
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line) && lines.size() < kMostWarnings;) {
+  for (std::string line; std::getline(stream, line) && lines.size() < kMaxWarnings;) {
     const std::string warning = path + ": " + line;
     if (!line.empty() && std::find(lines.begin(), lines.end(), warning) == lines.end())
       lines.push_back(warning);
@@ -153,14 +153,14 @@ Obj load(const std::string& path) {
 }
 
 // What every corner of a file has.
-struct Given {
+struct CornerAttributes {
   bool normals = false, texcoords = false;
 };
 
 // Turns corners (position, normal, texture coordinates) into vertices of one mesh.
 class VertexPool {
  public:
-  VertexPool(const tinyobj::attrib_t& attributes, Given given, MeshData& mesh)
+  VertexPool(const tinyobj::attrib_t& attributes, CornerAttributes given, MeshData& mesh)
       : attributes_(attributes),
         has_normals_(given.normals),
         has_texcoords_(given.texcoords),
@@ -209,15 +209,15 @@ Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::str
   const auto color = [](const tinyobj::real_t(&rgb)[3], float alpha) {
     return Color{rgb[0], rgb[1], rgb[2], alpha};
   };
-  constexpr float kMostShininess = 16384;
-  if (from.shininess < 0 || from.shininess > kMostShininess)
+  constexpr float kMaxShininess = 16384;
+  if (from.shininess < 0 || from.shininess > kMaxShininess)
     warnings.push_back(path + ": Ns of material \"" + from.name + "\" is " + std::to_string(from.shininess) +
                        ", cut to 0 .. 16384");
   return {.ambient = color(from.ambient, 1),
           .diffuse = color(from.diffuse, from.dissolve),
           .specular = color(from.specular, 1),
           .emission = color(from.emission, 1),
-          .shininess = std::clamp(from.shininess, 0.0f, kMostShininess)};
+          .shininess = std::clamp(from.shininess, 0.0f, kMaxShininess)};
 }
 
 }  // namespace

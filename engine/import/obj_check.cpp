@@ -86,14 +86,14 @@ void check_index(std::string_view text, std::int64_t count, const char* kind, co
 
 // It may be more than there are: then no texture coordinates are used.
 void check_texture_index(std::string_view text, const Line& line) {
-  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  constexpr std::int64_t kMaxIndex = std::numeric_limits<int>::max();
   const std::int64_t index = index_of(text, line);
-  if (index == 0 || index > kMost || index < -kMost)
+  if (index == 0 || index > kMaxIndex || index < -kMaxIndex)
     line.fail("texture index " + std::to_string(index) + " out of bounds");
 }
 
 void check_face(Line& line, const Counts& counts) {
-  constexpr int kMostCorners =
+  constexpr int kMaxCorners =
       1024;  // the time that it takes to cut a polygon into triangles grows with the square, or worse
   int corners = 0;
   for (std::string_view corner = line.word(); !corner.empty() && corner.front() != '#';
@@ -108,8 +108,8 @@ void check_face(Line& line, const Counts& counts) {
     ++corners;
   }
   if (corners < 3) line.fail("a face has " + std::to_string(corners) + " corners, needs 3");
-  if (corners > kMostCorners)
-    line.fail("a face has " + std::to_string(corners) + " corners, at most " + std::to_string(kMostCorners) +
+  if (corners > kMaxCorners)
+    line.fail("a face has " + std::to_string(corners) + " corners, at most " + std::to_string(kMaxCorners) +
               " are read");
 }
 
@@ -130,9 +130,9 @@ void check_obj(std::string_view text, const std::string& file) {
   });
 }
 
-std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, const std::string& file) {
-  std::map<std::string, MtlGiven, std::less<>> given;
-  MtlGiven* material = nullptr;
+std::map<std::string, MtlKeys, std::less<>> check_mtl(std::string_view text, const std::string& file) {
+  std::map<std::string, MtlKeys, std::less<>> given;
+  MtlKeys* material = nullptr;
   for_each_line(text, file, [&](std::string_view keyword, Line& line) {
     if (keyword == "newmtl") material = &given[std::string(line.word())];
     if (material != nullptr) {

@@ -16,11 +16,11 @@ void check_obj(std::string_view text, const std::string& file);
 
 /// What an MTL file says of a material: a colour that is not given is not black, and what is given may not be
 /// supported.
-struct MtlGiven {
+struct MtlKeys {
   bool ambient = false, diffuse = false, illum = false, texture = false, dissolve = false;
 };
 
 /// The same for the colours, Ns and d of an MTL file (of illum: normalized_mtl()). Materials by their names.
-std::map<std::string, MtlGiven, std::less<>> check_mtl(std::string_view text, const std::string& file);
+std::map<std::string, MtlKeys, std::less<>> check_mtl(std::string_view text, const std::string& file);
 
 }  // namespace tessera

@@ -126,15 +126,15 @@ MeshData cone(int n) {
 
 }  // namespace
 
-int least_mesh_detail(std::string_view name) { return name == "sphere" || name == "torus" ? 2 : 1; }
+int min_mesh_detail(std::string_view name) { return name == "sphere" || name == "torus" ? 2 : 1; }
 
 MeshData builtin_mesh(std::string_view name, int detail) {
   const std::string text(name);
   if (std::find(kBuiltinMeshNames.begin(), kBuiltinMeshNames.end(), name) == kBuiltinMeshNames.end())
     throw Error("there is no built-in mesh \"" + text + "\"");
-  if (detail < least_mesh_detail(name) || detail > kMaxMeshDetail)
+  if (detail < min_mesh_detail(name) || detail > kMaxMeshDetail)
     throw Error("detail of a built-in " + text + " is " + std::to_string(detail) + ", must be " +
-                std::to_string(least_mesh_detail(name)) + " .. " + std::to_string(kMaxMeshDetail));
+                std::to_string(min_mesh_detail(name)) + " .. " + std::to_string(kMaxMeshDetail));
 
   MeshData mesh = name == "teapot"     ? teapot_mesh(detail)
                   : name == "sphere"   ? sphere(detail)

@@ -17,12 +17,12 @@ inline constexpr std::array<std::string_view, 8> kBuiltinMeshNames{"teapot",   "
                                                                    "cylinder", "cone",   "quad",  "grid"};
 
 /// @param name    one of kBuiltinMeshNames
-/// @param detail  subdivisions: least_mesh_detail(name) .. kMaxMeshDetail
+/// @param detail  subdivisions: min_mesh_detail(name) .. kMaxMeshDetail
 /// @throws Error for any other name or detail.
 MeshData builtin_mesh(std::string_view name, int detail = kDefaultMeshDetail);
 
 /// A sphere or a torus needs 2: with 1 no triangle of it has an area.
-int least_mesh_detail(std::string_view name);
+int min_mesh_detail(std::string_view name);
 
 /// Martin Newell's teapot at detail x detail quads a patch, centred in the bounds of its vertices; the
 /// longest side spans -1..1.

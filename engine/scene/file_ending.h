@@ -9,7 +9,7 @@
 namespace tessera {
 
 /// ".png" of "Picture.PNG"; empty where there is none.
-inline std::string lower_case_ending(const std::string& path) {
+inline std::string lower_case_extension(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -11,12 +11,12 @@ std::size_t pixel_count(const FrameBuffer& buffer) {
   return static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
 }
 
-std::vector<std::uint32_t> color_words(const FrameBuffer& buffer) {
+std::vector<std::uint32_t> packed_colors(const FrameBuffer& buffer) {
   std::vector<std::uint32_t> words(pixel_count(buffer));
   buffer.read_color_words(words);
   return words;
 }
-std::vector<std::uint32_t> depth_words(const FrameBuffer& buffer) {
+std::vector<std::uint32_t> stored_depths(const FrameBuffer& buffer) {
   std::vector<std::uint32_t> words(pixel_count(buffer));
   buffer.read_depth_words(words);
   return words;
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> stencil_values(const FrameBuffer& buffer) {
   buffer.read_stencil(values);
   return values;
 }
-std::vector<float> accumulated_values(const FrameBuffer& buffer) {
+std::vector<float> accumulation_values(const FrameBuffer& buffer) {
   std::vector<float> values(4 * pixel_count(buffer));
   buffer.read_accumulation(values);
   return values;
@@ -57,8 +57,8 @@ std::ostream& operator<<(std::ostream& out, const Fingerprint& f) {
 
 Fingerprint fingerprint(const FrameBuffer& buffer) {
   Fingerprint f;
-  f.color = hash_of(color_words(buffer));
-  if (buffer.plane_count(Buffer::depth) > 0) f.depth = hash_of(depth_words(buffer));
+  f.color = hash_of(packed_colors(buffer));
+  if (buffer.plane_count(Buffer::depth) > 0) f.depth = hash_of(stored_depths(buffer));
   const auto value_hash = [&](Buffer which, const auto& values) -> std::uint64_t {
     if (buffer.plane_count(which) == 0) return 0;
     try {
@@ -71,7 +71,7 @@ Fingerprint fingerprint(const FrameBuffer& buffer) {
     }
   };
   f.stencil = value_hash(Buffer::stencil, [&] { return stencil_values(buffer); });
-  f.accumulation = value_hash(Buffer::accumulation, [&] { return accumulated_values(buffer); });
+  f.accumulation = value_hash(Buffer::accumulation, [&] { return accumulation_values(buffer); });
   for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation})
     if ((which != Buffer::stencil || f.stencil != 1) &&
         (which != Buffer::accumulation || f.accumulation != 1))

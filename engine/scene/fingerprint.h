@@ -11,11 +11,11 @@
 namespace tessera {
 
 std::size_t pixel_count(const FrameBuffer& buffer);
-std::vector<std::uint32_t> color_words(const FrameBuffer& buffer);
-std::vector<std::uint32_t> depth_words(const FrameBuffer& buffer);
+std::vector<std::uint32_t> packed_colors(const FrameBuffer& buffer);
+std::vector<std::uint32_t> stored_depths(const FrameBuffer& buffer);
 std::vector<std::uint8_t> stencil_values(const FrameBuffer& buffer);
 /// r g b a of each pixel.
-std::vector<float> accumulated_values(const FrameBuffer& buffer);
+std::vector<float> accumulation_values(const FrameBuffer& buffer);
 
 /// 64 bits of a run of words, by value: no matter of byte order.
 class Hash {

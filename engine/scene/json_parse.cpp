@@ -73,9 +73,9 @@ class Reader {
   };
 
   bool open(bool is_array) {
-    constexpr std::size_t kDeepest = 64;
-    if (levels_.size() == kDeepest)
-      throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
+    constexpr std::size_t kMaxDepth = 64;
+    if (levels_.size() == kMaxDepth)
+      throw Error(file_ + ": " + pointer() + ": nested deeper than " + std::to_string(kMaxDepth) + " levels");
     levels_.emplace_back();
     levels_.back().is_array = is_array;
     return true;

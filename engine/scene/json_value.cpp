@@ -13,11 +13,11 @@ constexpr std::string_view kUnsupported = "part of the format but not supported 
 
 // Scalars as they are; the rest by kind and size: a message is one line.
 std::string description(const Json& json) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxShownLength = 60;
   if (json.is_object()) return json.contains("keys") ? "an object with \"keys\"" : "an object";
   if (json.is_array()) return json.empty() ? "an empty array" : "an array of " + std::to_string(json.size());
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  if (text.size() > kMaxShownLength) text = text.substr(0, kMaxShownLength) + "...";
   return text;
 }
 
@@ -58,23 +58,23 @@ double Value::number() const {
   return x;
 }
 
-double Value::number(double least, double most) const {
+double Value::number(double min_value, double max_value) const {
   const double x = number();
-  if (!(x >= least && x <= most)) fail("a number from " + short_number(least) + " to " + short_number(most));
+  if (!(x >= min_value && x <= max_value)) fail("a number from " + short_number(min_value) + " to " + short_number(max_value));
   return x;
 }
 
 float Value::real() const {
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMaxFloat = std::numeric_limits<float>::max();
   const double x = number();
-  if (std::abs(x) > kMost) fail("a number that a 32-bit float can hold");
+  if (std::abs(x) > kMaxFloat) fail("a number that a 32-bit float can hold");
   return static_cast<float>(x);
 }
 
-std::int64_t Value::integer(std::int64_t least, std::int64_t most) const {
+std::int64_t Value::integer(std::int64_t min_value, std::int64_t max_value) const {
   const double x = number();
-  if (x != std::floor(x) || x < static_cast<double>(least) || x > static_cast<double>(most))
-    fail("an integer from " + std::to_string(least) + " to " + std::to_string(most));
+  if (x != std::floor(x) || x < static_cast<double>(min_value) || x > static_cast<double>(max_value))
+    fail("an integer from " + std::to_string(min_value) + " to " + std::to_string(max_value));
   return static_cast<std::int64_t>(x);
 }
 
@@ -107,22 +107,22 @@ Color Value::color() const {
   return {element(0).real(), element(1).real(), element(2).real(), element(3).real()};
 }
 
-Color Value::color(double least, double most) const {
+Color Value::color(double min_value, double max_value) const {
   expect_numbers(4);
-  return {element(0).real(least, most), element(1).real(least, most), element(2).real(least, most),
-          element(3).real(least, most)};
+  return {element(0).real(min_value, max_value), element(1).real(min_value, max_value), element(2).real(min_value, max_value),
+          element(3).real(min_value, max_value)};
 }
 
 Matrix Value::matrix() const { return {numbers<16>()}; }
 
 Rect Value::rect() const {
-  constexpr std::int64_t kFarthest = 1
+  constexpr std::int64_t kMaxCoordinate = 1
                                      << 20;  // well beyond any buffer; keeps sums of corner and size in range
   if (!json_->is_array() || json_->size() != 4) fail("[x, y, width, height]");
-  const auto at = [&](std::size_t i, std::int64_t least) {
-    return static_cast<int>(element(i).integer(least, kFarthest));
+  const auto at = [&](std::size_t i, std::int64_t min_value) {
+    return static_cast<int>(element(i).integer(min_value, kMaxCoordinate));
   };
-  return {at(0, -kFarthest), at(1, -kFarthest), at(2, 0), at(3, 0)};
+  return {at(0, -kMaxCoordinate), at(1, -kMaxCoordinate), at(2, 0), at(3, 0)};
 }
 
 void Value::refuse_choice(const std::vector<std::string_view>& names,

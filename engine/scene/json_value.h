@@ -51,10 +51,10 @@ class Value {
   [[noreturn]] void refuse_unsupported(std::string_view what = "") const;
 
   double number() const;
-  double number(double least, double most) const;
+  double number(double min_value, double max_value) const;
   float real() const;  ///< a number that a float can hold
-  float real(double least, double most) const { return static_cast<float>(number(least, most)); }
-  std::int64_t integer(std::int64_t least, std::int64_t most) const;
+  float real(double min_value, double max_value) const { return static_cast<float>(number(min_value, max_value)); }
+  std::int64_t integer(std::int64_t min_value, std::int64_t max_value) const;
   bool boolean() const;
   const std::string& text() const;
   /// The length of an array.
@@ -69,7 +69,7 @@ class Value {
   }
   Vec3 vec3() const;
   Color color() const;  ///< any four numbers that floats can hold
-  Color color(double least, double most) const;
+  Color color(double min_value, double max_value) const;
   Matrix matrix() const;
   Rect rect() const;  ///< four integers, width and height not negative
 

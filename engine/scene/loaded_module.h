@@ -24,7 +24,7 @@ void* function_of(void* module, const char* file_name, const char* name);
 /// not enough memory. Runs call(take, user, message, message size) and returns what it took. @throws Error
 /// with the reason, in one line; std::bad_alloc.
 template <class Call>
-std::string taken(const Call& call) {
+std::string collect_bytes(const Call& call) {
   struct Taken {
     std::string bytes;
     bool fits = true;

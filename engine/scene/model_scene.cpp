@@ -17,7 +17,7 @@ constexpr double kFovy = 36;  // degrees
 double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // Vertices that are not finite are not drawn, either.
-Vec3 middle_of_bounds(const MeshData& mesh) {
+Vec3 center_of_bounds(const MeshData& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -37,7 +37,7 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
   const Vec3 back{elevation.cosine * azimuth.sine, elevation.sine,
                   elevation.cosine * azimuth.cosine};  // towards the viewer
   const Vec3 up{-elevation.sine * azimuth.sine, elevation.cosine, -elevation.sine * azimuth.cosine};
-  const Vec3 centre = middle_of_bounds(mesh);
+  const Vec3 centre = center_of_bounds(mesh);
 
   constexpr double kMargin = 1.08;
   const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin, tangent_x = tangent_y * aspect;
@@ -62,21 +62,21 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
 
 // The file's own camera, if the model is not all behind it. Near and far come as close to the model as they
 // may, for the depth buffer's sake.
-std::optional<SceneCamera> own_camera(const ModelCamera& camera, const MeshData& mesh, double aspect) {
-  double least = std::numeric_limits<double>::infinity(), most = 0;  // distances along the direction of view
+std::optional<SceneCamera> camera_of_model(const ModelCamera& camera, const MeshData& mesh, double aspect) {
+  double min_distance = std::numeric_limits<double>::infinity(), max_distance = 0;  // distances along the direction of view
   const double* const row = &camera.view.m[8];
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
     const double distance = -(row[0] * mesh.positions[i] + row[1] * mesh.positions[i + 1] +
                               row[2] * mesh.positions[i + 2] + row[3]);
     if (!std::isfinite(distance)) continue;
-    least = std::min(least, distance);
-    most = std::max(most, distance);
+    min_distance = std::min(min_distance, distance);
+    max_distance = std::max(max_distance, distance);
   }
-  constexpr double kMargin = 1.01, kDeepest = 1e5;
+  constexpr double kMargin = 1.01, kMaxFarNearRatio = 1e5;
   const double given_far =
       camera.far > std::max(camera.near, 0.0) ? camera.far : std::numeric_limits<double>::infinity();
-  const double far = most > 0 ? std::min(given_far, most * kMargin) : 1;
-  const double near = std::max(camera.near > 0 ? camera.near : far / kDeepest, least / kMargin);
+  const double far = max_distance > 0 ? std::min(given_far, max_distance * kMargin) : 1;
+  const double near = std::max(camera.near > 0 ? camera.near : far / kMaxFarNearRatio, min_distance / kMargin);
   if (!(near < far)) return {};
   const double h = camera.half_height > 0 ? camera.half_height : camera.half_width / aspect, w = h * aspect;
   try {
@@ -90,9 +90,9 @@ std::optional<SceneCamera> own_camera(const ModelCamera& camera, const MeshData&
 }
 
 // False only if each triangle lies wholly beyond one of the planes of the view.
-bool sees_something(const SceneCamera& camera, double aspect, const MeshData& mesh) {
+bool sees_any_triangle(const SceneCamera& camera, double aspect, const MeshData& mesh) {
   const Camera at = camera.at_aspect(aspect);
-  const auto beyond = [&](std::uint32_t vertex) {
+  const auto outcode = [&](std::uint32_t vertex) {
     const float* const p = &mesh.positions[3 * std::size_t{vertex}];
     const auto transformed = [](const Matrix& m, const std::array<double, 4>& v) {
       std::array<double, 4> r{};
@@ -107,7 +107,7 @@ bool sees_something(const SceneCamera& camera, double aspect, const MeshData& me
     return planes;
   };
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    if ((beyond(mesh.indices[i]) & beyond(mesh.indices[i + 1]) & beyond(mesh.indices[i + 2])) == 0)
+    if ((outcode(mesh.indices[i]) & outcode(mesh.indices[i + 1]) & outcode(mesh.indices[i + 2])) == 0)
       return true;
   return false;
 }
@@ -115,10 +115,10 @@ bool sees_something(const SceneCamera& camera, double aspect, const MeshData& me
 // The first camera of the file that sees anything; else one that frames the model.
 void choose_camera(const Model& model, double aspect, Scene& scene) {
   scene.camera = framing_camera(model.mesh, aspect, scene.name);
-  constexpr std::size_t kMostTried = 16;  // each looks at the whole model
-  for (std::size_t i = 0; i < std::min(model.cameras.size(), kMostTried); ++i)
-    if (const auto camera = own_camera(model.cameras[i], model.mesh, aspect);
-        camera && sees_something(*camera, aspect, model.mesh)) {
+  constexpr std::size_t kMaxTriedCameras = 16;  // each looks at the whole model
+  for (std::size_t i = 0; i < std::min(model.cameras.size(), kMaxTriedCameras); ++i)
+    if (const auto camera = camera_of_model(model.cameras[i], model.mesh, aspect);
+        camera && sees_any_triangle(*camera, aspect, model.mesh)) {
       scene.camera = *camera;
       return;
     }

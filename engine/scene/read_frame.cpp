@@ -13,7 +13,7 @@ using json::Json;
 using json::Object;
 using json::Value;
 
-constexpr std::int64_t kMost32Bits = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
 
 struct NameList {
   std::vector<std::string_view> names{};
@@ -145,8 +145,8 @@ ShadowOn read_shadow_on(const Value& value, const LightList& lights) {
   if (lights.empty()) value.refuse("needs a light, and there are none");
   ShadowOn shadow{.plane = object.require("plane").numbers<4>()};
   if (const auto light = object.find("light")) {
-    const auto most = static_cast<std::int64_t>(lights.size()) - 1;
-    shadow.light = static_cast<std::size_t>(light->integer(0, most));
+    const auto max_index = static_cast<std::int64_t>(lights.size()) - 1;
+    shadow.light = static_cast<std::size_t>(light->integer(0, max_index));
   }
   if (const auto color = object.find("color")) shadow.color = color->color();
   value.checked([&] { return planar_shadow(shadow.plane, lights[shadow.light]); });
@@ -205,7 +205,7 @@ Clear read_clear(const Value& value, const FrameBufferFormat& format) {
   if (const auto index = object.find("index")) {
     if (format.color_mode != ColorMode::index)
       index->refuse("needs an index buffer: \"color\": {\"mode\": \"index\"}");
-    clear.index = static_cast<std::uint32_t>(index->integer(0, kMost32Bits));
+    clear.index = static_cast<std::uint32_t>(index->integer(0, kMaxUint32));
     clear.color.reset();  // the index says it exactly
   }
   if (const auto depth = object.find("depth")) {
@@ -237,7 +237,7 @@ Accum read_accum(const Value& value, const FrameBufferFormat& format) {
                                                    {"load", AccumOp::load},
                                                    {"add", AccumOp::add},
                                                    {"mult", AccumOp::mult},
-                                                   {"return", AccumOp::return_}});
+                                                   {"return", AccumOp::return_color}});
   accum.value = object.require("value").number();
   if (const auto scissor = object.find("scissor")) accum.scissor = scissor->rect();
   if (const auto mask = object.find("color_mask")) accum.color_mask = read_color_mask(*mask, format);
@@ -271,7 +271,7 @@ void read_fragment_state(const Object& object, const Scene& scene, DrawState& st
   if (const auto mask = object.find("color_mask"))
     state.color_mask = read_color_mask(*mask, scene.framebuffer);
   if (const auto mask = object.find("plane_mask"))
-    state.plane_mask = static_cast<std::uint32_t>(mask->integer(0, kMost32Bits));
+    state.plane_mask = static_cast<std::uint32_t>(mask->integer(0, kMaxUint32));
   if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
   read_operations(object, scene.framebuffer, state);
 }

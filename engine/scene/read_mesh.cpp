@@ -26,7 +26,7 @@ MeshData read_builtin(const Value& value) {
                                                                           {"grid", "grid"}});
   const auto detail = object.find("detail");
   return builtin_mesh(name, detail
-                                ? static_cast<int>(detail->integer(least_mesh_detail(name), kMaxMeshDetail))
+                                ? static_cast<int>(detail->integer(min_mesh_detail(name), kMaxMeshDetail))
                                 : kDefaultMeshDetail);
 }
 
@@ -41,7 +41,7 @@ MeshData read_file(const Value& value, const std::string& base_folder, ModelCach
     model =
         cache.models
             .emplace(path.string(),
-                     file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.go_on); }))
+                     file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.should_continue); }))
             .first;
     cache.files.insert(model->second.files.begin(), model->second.files.end());
   }

@@ -80,13 +80,13 @@ BlendState read_blend(const Value& value) {
 LogicOp read_logic(const Value& value) {
   using enum LogicOp;
   return value.choice<LogicOp>({{"clear", clear},
-                                {"and", and_},
+                                {"and", bit_and},
                                 {"and_reverse", and_reverse},
                                 {"copy", copy},
                                 {"and_inverted", and_inverted},
                                 {"noop", noop},
-                                {"xor", xor_},
-                                {"or", or_},
+                                {"xor", bit_xor},
+                                {"or", bit_or},
                                 {"nor", nor},
                                 {"equiv", equiv},
                                 {"invert", invert},

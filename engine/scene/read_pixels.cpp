@@ -47,7 +47,7 @@ std::shared_ptr<const Picture> read_image_file(const Value& file, const std::str
   auto picture = cache.pictures.find(path.string());
   if (picture == cache.pictures.end()) {
     const auto read = [&] {
-      refuse_endless_file(path.string());
+      refuse_device_or_pipe(path.string());
       return std::make_shared<const Picture>(read_picture(path.string()));
     };
     picture = cache.pictures.emplace(path.string(), file.checked(read)).first;

@@ -25,10 +25,10 @@ void read_palette(const Value& value, Scene& scene) {
     format.palette = value.checked([&] { return named_palette(scene.palette_name, format.color_bits); });
     return;
   }
-  const std::size_t most = std::size_t{1} << format.color_bits;
+  const std::size_t max_entries = std::size_t{1} << format.color_bits;
   if (!value.json().is_array()) value.fail("the name of a palette or a list of [r, g, b]");
-  if (value.size() == 0 || value.size() > most)
-    value.fail("1 to " + std::to_string(most) + " entries for " + std::to_string(format.color_bits) +
+  if (value.size() == 0 || value.size() > max_entries)
+    value.fail("1 to " + std::to_string(max_entries) + " entries for " + std::to_string(format.color_bits) +
                " bits");
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value entry = value.element(i);
@@ -101,11 +101,11 @@ LightModel read_light_model(const Value& value) {
   if (const auto local = object.find("local_viewer")) model.local_viewer = local->boolean();
   if (const auto two_sided = object.find("two_sided")) model.two_sided = two_sided->boolean();
   if (const auto specular = object.find("specular"))
-    model.specular = specular->choice<Highlight>({{"blinn", Highlight::blinn}, {"phong", Highlight::phong}});
+    model.specular = specular->choice<SpecularModel>({{"blinn", SpecularModel::blinn}, {"phong", SpecularModel::phong}});
   return model;
 }
 
-constexpr double kMostExponent = 16384;  // of shininess and spots
+constexpr double kMaxExponent = 16384;  // of shininess and spots
 
 Light read_light(const Value& value) {
   const Object object(value, {"ambient", "diffuse", "specular", "position", "spot_direction", "spot_exponent",
@@ -123,7 +123,7 @@ Light read_light(const Value& value) {
     for (std::size_t i = 0; i < 3; ++i) light.spot_direction[i] = direction->element(i).real();
   }
   if (const auto exponent = object.find("spot_exponent"))
-    light.spot_exponent = exponent->real(0, kMostExponent);
+    light.spot_exponent = exponent->real(0, kMaxExponent);
   if (const auto cutoff = object.find("spot_cutoff")) {
     light.spot_cutoff = cutoff->real();
     if (light.spot_cutoff != 180 && !(light.spot_cutoff >= 0 && light.spot_cutoff <= 90))
@@ -153,10 +153,10 @@ Material read_material(const Value& value) {
   if (const auto diffuse = object.find("diffuse")) material.diffuse = diffuse->color();
   if (const auto specular = object.find("specular")) material.specular = specular->color();
   if (const auto emission = object.find("emission")) material.emission = emission->color();
-  if (const auto shininess = object.find("shininess")) material.shininess = shininess->real(0, kMostExponent);
+  if (const auto shininess = object.find("shininess")) material.shininess = shininess->real(0, kMaxExponent);
   if (const auto indexes = object.find("color_indexes")) {
     if (!indexes->json().is_array() || indexes->size() != 3) indexes->fail("an array of 3 numbers");
-    material.color_indexes = {indexes->element(0).real(), indexes->element(1).real(),
+    material.index_ramp = {indexes->element(0).real(), indexes->element(1).real(),
                               indexes->element(2).real()};
   }
   return material;
@@ -221,9 +221,9 @@ struct SceneFile::Content {
   ModelCache models;
 };
 
-SceneFile::SceneFile(const std::string& path, std::function<bool()> go_on)
+SceneFile::SceneFile(const std::string& path, std::function<bool()> should_continue)
     : content_(std::make_unique<Content>()) {
-  content_->models.go_on = std::move(go_on);
+  content_->models.should_continue = std::move(should_continue);
   content_->path = path;
   content_->models.files.insert(path);
   content_->json = json::parse(read_text_file(path), path);

@@ -27,7 +27,7 @@ struct ModelCache {
   std::map<std::string, std::shared_ptr<const Texture>>
       textures;                 // of those written in the scene, by their texels
   std::set<std::string> files;  // paths of all that was read, and of what models refer to
-  std::function<bool()> go_on;  ///< of reading one
+  std::function<bool()> should_continue;  ///< of reading one
 };
 /// Appends every mesh of the file's `meshes`, and what the importer warns of.
 void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);

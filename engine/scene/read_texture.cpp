@@ -92,7 +92,7 @@ std::shared_ptr<const Texture> read_texture(const Value& value, const std::strin
   auto texture = cache.textures.find(key);
   if (texture == cache.textures.end()) {
     const auto read_file = [&] {
-      refuse_endless_file(path);
+      refuse_device_or_pipe(path);
       return texture_of(read_picture(path), sampler);
     };
     texture =

@@ -81,9 +81,9 @@ struct Scene {
 /// and images are read once, textures once for each sampler.
 class SceneFile {
  public:
-  /// @param go_on  asked while models are read; false ends it with Cancelled
+  /// @param should_continue  asked while models are read; false ends it with Cancelled
   /// @throws Error, naming file, JSON pointer, what was found and what was expected.
-  explicit SceneFile(const std::string& path, std::function<bool()> go_on = {});
+  explicit SceneFile(const std::string& path, std::function<bool()> should_continue = {});
   ~SceneFile();
   SceneFile(SceneFile&&) noexcept;
   /// @param time  0 .. 1 over an animation

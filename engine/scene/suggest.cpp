@@ -28,9 +28,9 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates) {
-  constexpr std::size_t kLongestName =
+  constexpr std::size_t kMaxNameLength =
       64;  // longer ones are no typing mistake, and the distance costs length^2
-  if (typed.empty() || typed.size() > kLongestName) return {};
+  if (typed.empty() || typed.size() > kMaxNameLength) return {};
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 3) + 1;
   for (const std::string_view candidate : candidates)

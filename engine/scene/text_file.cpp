@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-std::string read_text_file(const std::string& path, std::size_t most_bytes) {
+std::string read_text_file(const std::string& path, std::size_t max_bytes) {
   const auto fail = [&](int reason) -> void {
     throw Error("cannot read \"" + path + "\": " + std::strerror(reason));
   };
@@ -20,15 +20,15 @@ std::string read_text_file(const std::string& path, std::size_t most_bytes) {
   char block[1 << 16];
   while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) {
     text.append(block, count);
-    if (text.size() > most_bytes)
-      throw Error("cannot read \"" + path + "\": it holds more than " + std::to_string(most_bytes) +
+    if (text.size() > max_bytes)
+      throw Error("cannot read \"" + path + "\": it holds more than " + std::to_string(max_bytes) +
                   " bytes");
   }
   if (std::ferror(file.get())) fail(errno);  // a folder opens, and fails here
   return text;
 }
 
-void refuse_endless_file(const std::string& path) {
+void refuse_device_or_pipe(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code unknown;  // what is missing is told by who reads it
   const fs::file_status status = fs::status(path, unknown);

@@ -8,12 +8,12 @@
 namespace tessera {
 
 /// @throws Error, naming the file and the reason, for one that is missing, is a folder, cannot be read, or
-/// holds more than `most_bytes`.
+/// holds more than `max_bytes`.
 std::string read_text_file(const std::string& path,
-                           std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
+                           std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
 /// @throws Error for a device or a pipe, which may have no end. For files that other files name: what people
 /// type may be a pipe.
-void refuse_endless_file(const std::string& path);
+void refuse_device_or_pipe(const std::string& path);
 
 }  // namespace tessera

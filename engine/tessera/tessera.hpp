@@ -104,7 +104,7 @@ enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32
 
 inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height, in pixels
 
-/// Ordered dither of every colour that draws, clears and AccumOp::return_ write, by a pattern of that size;
+/// Ordered dither of every colour that draws, clears and AccumOp::return_color write, by a pattern of that size;
 /// indices are stored as they are.
 enum class Dither : std::uint8_t { none, bayer2, bayer4, bayer8 };
 
@@ -155,7 +155,7 @@ struct ImageTarget {
   int width = 0, height = 0;  ///< must equal the frame buffer's
   std::ptrdiff_t stride_bytes = 0;
   PixelOrder order = PixelOrder::rgba8;
-  std::optional<Rect> part{};  ///< only these pixels of it (origin lower left) are written, what lies outside
+  std::optional<Rect> region{};  ///< only these pixels of it (origin lower left) are written, what lies outside
                                ///< is left out; what else the memory holds stays
 };
 
@@ -220,27 +220,27 @@ class TESSERA_API FrameBuffer {
 
 /// What a span may be made of without being left behind: not a temporary that owns its elements.
 template <class Range, class Element>
-concept Lent = std::convertible_to<Range, std::span<const Element>> &&
+concept BorrowableRange = std::convertible_to<Range, std::span<const Element>> &&
     (std::is_lvalue_reference_v<Range> || std::ranges::enable_borrowed_range<std::remove_cvref_t<Range>>);
 
 /// Numbers of the vertices, in the caller's memory: packed, from anything that is a span of floats, or with a
 /// stride.
 struct FloatArray {
   const float* data = nullptr;
-  std::size_t floats = 0;        ///< packed: all of them
+  std::size_t float_count = 0;        ///< packed: all of them
   std::size_t vertices = 0;      ///< strided: how many
   std::size_t stride_bytes = 0;  ///< from one vertex to the next, a multiple of 4; 0: packed
 
   constexpr FloatArray() = default;
   template <class Range>
-  requires Lent<Range, float>
+  requires BorrowableRange<Range, float>
   constexpr FloatArray(Range&& packed) : FloatArray(std::span<const float>(packed), 0) {}
   constexpr FloatArray(const float* first, std::size_t vertex_count, std::size_t stride)
       : data(first), vertices(vertex_count), stride_bytes(stride) {}
-  constexpr bool empty() const { return floats == 0 && vertices == 0; }
+  constexpr bool empty() const { return float_count == 0 && vertices == 0; }
 
  private:
-  constexpr FloatArray(std::span<const float> packed, int) : data(packed.data()), floats(packed.size()) {}
+  constexpr FloatArray(std::span<const float> packed, int) : data(packed.data()), float_count(packed.size()) {}
 };
 
 /// Colours of the vertices: r g b a as floats, or as bytes where 255 is 1.
@@ -253,10 +253,10 @@ struct ColorArray {
 
   constexpr ColorArray() = default;
   template <class Range>
-  requires Lent<Range, float>
+  requires BorrowableRange<Range, float>
   constexpr ColorArray(Range&& packed) : floats(packed) {}
   template <class Range>
-  requires Lent<Range, std::uint8_t>
+  requires BorrowableRange<Range, std::uint8_t>
   constexpr ColorArray(Range&& packed)
       : bytes(std::span<const std::uint8_t>(packed).data()),
         byte_count(std::span<const std::uint8_t>(packed).size()) {}
@@ -275,12 +275,12 @@ struct IndexArray {
 
   constexpr IndexArray() = default;
   template <class Range>
-  requires Lent<Range, std::uint32_t>
+  requires BorrowableRange<Range, std::uint32_t>
   constexpr IndexArray(Range&& packed)
       : data(std::span<const std::uint32_t>(packed).data()),
         count(std::span<const std::uint32_t>(packed).size()) {}
   template <class Range>
-  requires Lent<Range, std::uint16_t>
+  requires BorrowableRange<Range, std::uint16_t>
   constexpr IndexArray(Range&& packed)
       : data(std::span<const std::uint16_t>(packed).data()),
         count(std::span<const std::uint16_t>(packed).size()),
@@ -392,7 +392,7 @@ struct Material {
   /// Index buffers: ambient, diffuse, specular index (a, d, s). Lit draws then have index lighting, min(a + D
   /// (1 - S) (d - a) + S (s - a), s) with the luminances D and S of the diffuse light and the highlights;
   /// absent: the nearest palette entries to their colours.
-  std::optional<std::array<float, 3>> color_indexes{};
+  std::optional<std::array<float, 3>> index_ramp{};
 };
 /// The named materials of the lighting tables: "emerald", "polished_gold", ... Empty for an unknown name.
 TESSERA_API std::optional<Material> named_material(std::string_view name);
@@ -408,11 +408,11 @@ struct Light {
   float attenuation_constant = 1, attenuation_linear = 0, attenuation_quadratic = 0;
 };
 
-enum class Highlight : std::uint8_t { blinn, phong };
+enum class SpecularModel : std::uint8_t { blinn, phong };
 struct LightModel {
   Color ambient{0.2f, 0.2f, 0.2f, 1};
   bool local_viewer = false, two_sided = false;
-  Highlight specular = Highlight::blinn;
+  SpecularModel specular = SpecularModel::blinn;
 };
 
 /// With `reversed`, the projection maps z to 0..w, near at 1, far at 0, and depth is z/w; otherwise z runs
@@ -520,13 +520,13 @@ struct AlphaTest {
 /// On the stored bits of a colour word, alpha planes included; in place of blending.
 enum class LogicOp : std::uint8_t {
   clear,
-  and_,
+  bit_and,
   and_reverse,
   copy,
   and_inverted,
   noop,
-  xor_,
-  or_,
+  bit_xor,
+  bit_or,
   nor,
   equiv,
   invert,
@@ -643,7 +643,7 @@ enum class AccumOp : std::uint8_t {
   load,    ///< acc = value * colour
   add,     ///< acc += value
   mult,    ///< acc *= value
-  return_  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
+  return_color  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
 };
 /// What happens between the colour and the accumulation buffer, for whole rectangles. Components that leave
 /// -1 .. 1 stay at its end; without alpha planes alpha is 1, of luminance red, green and blue are the grey.
@@ -651,7 +651,7 @@ struct Accum {
   AccumOp op = AccumOp::accum;
   double value = 1;  ///< any finite number
   std::optional<Rect> scissor{};
-  std::array<bool, 4> color_mask{true, true, true, true};  ///< return_: what of the colour may change
+  std::array<bool, 4> color_mask{true, true, true, true};  ///< return_color: what of the colour may change
 };
 
 // ---- frames
@@ -665,8 +665,8 @@ struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 
   std::span<std::uint32_t>
-      objects{};  ///< which draw of the frame, counted from 0; bitmaps and images are draws, too
-  std::span<std::uint32_t> primitives{};  ///< which point, line, triangle, quad or polygon of that draw's
+      draw_ids{};  ///< which draw of the frame, counted from 0; bitmaps and images are draws, too
+  std::span<std::uint32_t> primitive_ids{};  ///< which point, line, triangle, quad or polygon of that draw's
                                           ///< mesh; 0 of bitmaps and images
   /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated,
   /// in eye space, of length 1; 0 0 0 where nothing was drawn, of bitmaps and images, and where they cancel
@@ -680,7 +680,7 @@ struct FrameStats {
   // count in bin_entries alone.
   std::uint64_t triangles_in = 0;
   std::uint64_t dropped_non_finite = 0;  ///< triangles with a NaN or infinite vertex
-  std::uint64_t outside = 0;      ///< wholly outside the view volume, the scissor or between pixel centres
+  std::uint64_t trivially_rejected = 0;      ///< wholly outside the view volume, the scissor or between pixel centres
   std::uint64_t culled = 0;       ///< by facing
   std::uint64_t zero_area = 0;    ///< no area after snapping to 1/256 pixel
   std::uint64_t clipped = 0;      ///< cut by the near or far plane or the guard band
@@ -787,7 +787,7 @@ enum class LogLevel : std::uint8_t { debug, info, warning };
 /// back from tiles to binning. Each waits for all of the one before.
 enum class FrameStage : std::uint8_t {
   vertices,  ///< what indices make; normals of meshes without; positions and colours
-  faces,     ///< colours of whole triangles
+  flat_colors,  ///< colours of whole triangles
   binning,   ///< triangles, in batches, into the lists of the tiles that they may touch
   tiles      ///< pixels
 };
@@ -801,7 +801,7 @@ struct FrameTask {
                  ///< begin after all of them
 };
 
-inline constexpr std::size_t kLeastBinMemory = std::size_t{64} << 10;  ///< bytes
+inline constexpr std::size_t kMinBinMemory = std::size_t{64} << 10;  ///< bytes
 
 struct RendererOptions {
   int threads = 0;    ///< 0: one for each core that the process may use, or each worker of the executor, but
@@ -810,7 +810,7 @@ struct RendererOptions {
   InstructionSet instruction_set = InstructionSet::automatic;
   bool defer_shading =
       true;  ///< shade once for each visible pixel where that is cheaper; false: at once, always. Same bits.
-  /// Bytes that the lists of which triangles lie in which tiles may take, at least kLeastBinMemory. A frame
+  /// Bytes that the lists of which triangles lie in which tiles may take, at least kMinBinMemory. A frame
   /// that would need more is rendered part by part, to the same bits; that takes longer.
   std::size_t bin_memory = std::size_t{256} << 20;
   bool count_fragments = false;  ///< one more pass over the tiles, for FrameStats::fragments

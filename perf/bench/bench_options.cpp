@@ -24,11 +24,11 @@ bool parse_size(std::string_view text, BenchOptions& options) {
 }
 
 bool parse_cores(std::string_view text, std::vector<int>& cores) {
-  constexpr int kMostCores = 1023;
+  constexpr int kMaxCore = 1023;
   for (;;) {
     const std::size_t comma = text.find(',');
     int core = 0;
-    if (!parse_number(text.substr(0, comma), 0, kMostCores, core)) return false;
+    if (!parse_number(text.substr(0, comma), 0, kMaxCore, core)) return false;
     cores.push_back(core);
     if (comma == std::string_view::npos) return true;
     text.remove_prefix(comma + 1);
@@ -62,7 +62,7 @@ CLI::Option* add_path(CLI::App& program, const std::string& name, const std::str
 }  // namespace
 
 void add_options(CLI::App& program, BenchOptions& options) {
-  constexpr auto kLargestSeed = std::numeric_limits<decltype(options.measure.seed)>::max();
+  constexpr auto kMaxSeed = std::numeric_limits<decltype(options.measure.seed)>::max();
   program.option_defaults()->take_last();
   CLI::Option* const names = program
                                  .add_option("workloads", options.names,
@@ -105,9 +105,9 @@ void add_options(CLI::App& program, BenchOptions& options) {
   add_text(
       program, "--seed", "N", "of what is random in workloads, and of the order of turns; default: 1",
       [&options](const std::string& text) {
-        return parse_number(text, 0, kLargestSeed, options.measure.seed);
+        return parse_number(text, 0, kMaxSeed, options.measure.seed);
       },
-      ", 0 to " + std::to_string(kLargestSeed));
+      ", 0 to " + std::to_string(kMaxSeed));
   CLI::Option* const rivals = program.add_flag(
       "--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");
   CLI::Option* const driver = add_text(

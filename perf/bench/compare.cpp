@@ -8,7 +8,7 @@
 
 namespace tessera::bench {
 
-EarlierRun::EarlierRun(const std::string& file) : file_(file) {
+BaselineRun::BaselineRun(const std::string& file) : file_(file) {
   const json::Json report = json::parse(read_text_file(file), file);
   const json::Value whole(report, "", file);
   if (!report.is_object() || !report.contains("workloads")) whole.fail("a report of tessera bench --json");
@@ -31,19 +31,19 @@ EarlierRun::EarlierRun(const std::string& file) : file_(file) {
   report_ = report;
 }
 
-bool EarlierRun::has_any_of(std::span<const WorkloadEntry* const> entries) const {
+bool BaselineRun::has_any_of(std::span<const WorkloadEntry* const> entries) const {
   return std::any_of(entries.begin(), entries.end(),
                      [this](const WorkloadEntry* entry) { return medians_.contains(entry->name); });
 }
 
-void EarlierRun::require_size(int width, int height) const {
+void BaselineRun::require_size(int width, int height) const {
   if (width != width_ || height != height_)
     throw Error(formatted("%s: found frames of %dx%d, expected %dx%d, as they are now", file_.c_str(), width_,
                           height_, width, height));
 }
 
-Comparison EarlierRun::compare(const Report& now, double allowed) const {
-  Comparison comparison;
+BaselineComparison BaselineRun::compare(const Report& now, double allowed) const {
+  BaselineComparison comparison;
   if (setting_ != setting_text(now))
     comparison.table =
         "not the same setting: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
@@ -65,10 +65,10 @@ Comparison EarlierRun::compare(const Report& now, double allowed) const {
       continue;
     }
     const double earlier = found->second;
-    const bool is_worse = row.ms.median > earlier * (1 + allowed);
+    const bool has_regressed = row.ms.median > earlier * (1 + allowed);
     comparison.table += formatted("%-22s %12.3f %12.3f %12.3f%s\n", row.name.c_str(), earlier, row.ms.median,
-                                  earlier / row.ms.median, is_worse ? "  worse" : "");
-    comparison.is_worse |= is_worse;
+                                  earlier / row.ms.median, has_regressed ? "  worse" : "");
+    comparison.has_regressed |= has_regressed;
   }
   for (const auto& [name, median] : only_then) comparison.table += name + ": only in " + file_ + "\n";
   return comparison;

@@ -9,15 +9,15 @@
 
 namespace tessera::bench {
 
-struct Comparison {
+struct BaselineComparison {
   std::string table;      ///< ratios of medians, earlier to now: above 1 is faster
-  bool is_worse = false;  ///< in a row by more than was allowed
+  bool has_regressed = false;  ///< in a row by more than was allowed
 };
 
-class EarlierRun {
+class BaselineRun {
  public:
   /// @param file  what --json wrote then. @throws Error where it is no such report
-  explicit EarlierRun(const std::string& file);
+  explicit BaselineRun(const std::string& file);
   /// Whether it has any of these workloads: else there is nothing to compare.
   bool has_any_of(std::span<const WorkloadEntry* const> entries) const;
   /// @throws Error where its frames, in pixels, were of another size: what they cost says nothing of these
@@ -26,7 +26,7 @@ class EarlierRun {
   /// instruction set; tile size, seed, cores, machine and compiler, if the file tells.
   ///
   /// @param allowed  share by which a median may be longer, 0.05: 5 %
-  Comparison compare(const Report& now, double allowed) const;
+  BaselineComparison compare(const Report& now, double allowed) const;
 
  private:
   std::string file_;

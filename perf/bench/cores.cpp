@@ -25,7 +25,7 @@ void pause() {
 }
 
 /// Waits for `turn` and gives it to the other, again and again.
-void take_turns(std::atomic<int>& turn, int mine, int rounds) {
+void ping_pong(std::atomic<int>& turn, int mine, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     while (turn.load() != mine) pause();
     turn = 1 - mine;
@@ -33,17 +33,17 @@ void take_turns(std::atomic<int>& turn, int mine, int rounds) {
 }
 
 /// NaN if the system did not keep both threads apart.
-double passing_ns(int first_core, int second_core) {
+double handoff_ns(int first_core, int second_core) {
   constexpr int kRounds = 5000;
   std::atomic<int> turn{0}, ready{0};
   std::atomic<bool> are_apart{true};
   double ns = std::numeric_limits<double>::quiet_NaN();
   const auto play = [&](int mine, int core) {
-    if (!keep_on({&core, 1})) are_apart = false;
+    if (!set_thread_affinity({&core, 1})) are_apart = false;
     for (++ready; ready.load() < 2 && are_apart;) std::this_thread::yield();
     if (!are_apart) return;
     const auto start = std::chrono::steady_clock::now();
-    take_turns(turn, mine, kRounds);
+    ping_pong(turn, mine, kRounds);
     if (mine == 0)
       ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() /
            (2 * kRounds);
@@ -72,7 +72,7 @@ std::vector<int> allowed_cores() {
   return cores;
 }
 
-bool keep_on(std::span<const int> cores) {
+bool set_thread_affinity(std::span<const int> cores) {
   cpu_set_t set;
   CPU_ZERO(&set);
   for (const int core : cores) CPU_SET(static_cast<std::size_t>(core), &set);
@@ -84,7 +84,7 @@ double core_to_core_ns() {
   const std::vector<int> cores = allowed_cores();
   if (cores.size() < 2) return 0;
   double least = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < kRuns; ++run) least = std::fmin(least, passing_ns(cores[0], cores[1]));
+  for (int run = 0; run < kRuns; ++run) least = std::fmin(least, handoff_ns(cores[0], cores[1]));
   return std::isfinite(least) ? least : 0;
 }
 

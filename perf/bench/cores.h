@@ -11,7 +11,7 @@ namespace tessera::bench {
 std::vector<int> allowed_cores();
 /// Keeps the calling thread, and threads that it starts from now on, on these. False if the system does not
 /// let it.
-bool keep_on(std::span<const int> cores);
+bool set_thread_affinity(std::span<const int> cores);
 
 /// Nanoseconds in which a cache line that one core has written reaches another one that waits for it, between
 /// the first two of the calling thread's: the least of several runs; 0 where there is but one. Tens where

@@ -11,14 +11,14 @@ std::size_t pixels_of(const FrameBufferFormat& format) {
 }
 
 RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
-  if (drawing.shades_at_once) options.defer_shading = false;
+  if (drawing.immediate_shading) options.defer_shading = false;
   return options;
 }
 
 /// A renderer with a buffer of its own for a drawing.
-class Easel {
+class DrawingRenderer {
  public:
-  Easel(const Drawing& drawing, const RendererOptions& options)
+  DrawingRenderer(const Drawing& drawing, const RendererOptions& options)
       : drawing_(drawing),
         renderer_(options_for(drawing, options)),
         buffer_(drawing.format),
@@ -33,25 +33,25 @@ class Easel {
     drawing_.record(drawing_, frame_);
     return finish();
   }
-  FrameStats draw_to_be_judged() {
+  FrameStats draw_for_validation() {
     drawing_.record(drawing_, frame_);
     if (drawing_.reveal) drawing_.reveal(drawing_, frame_);
     return finish();
   }
   const Picture& picture() {
-    if (drawing_.keeps_planes) buffer_.read_color(picture_.target());
+    if (drawing_.stores_planes) buffer_.read_color(picture_.target());
     return picture_;
   }
   /// What a frame moves of planes and of the image.
-  std::uint64_t moved_bytes() const {
-    return (drawing_.keeps_planes || drawing_.before ? plane_bytes() : 0) +
-           (drawing_.keeps_planes ? 0 : picture_.rgba.size());
+  std::uint64_t traffic_bytes() const {
+    return (drawing_.stores_planes || drawing_.before ? plane_bytes() : 0) +
+           (drawing_.stores_planes ? 0 : picture_.rgba.size());
   }
-  std::uint64_t kept_bytes() const { return plane_bytes() + picture_.rgba.size(); }
+  std::uint64_t frame_buffer_bytes() const { return plane_bytes() + picture_.rgba.size(); }
 
  private:
   FrameStats finish() {
-    return drawing_.keeps_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target());
+    return drawing_.stores_planes ? renderer_.finish(frame_) : renderer_.finish(frame_, picture_.target());
   }
   std::uint64_t plane_bytes() const {
     std::uint64_t bytes = 0;
@@ -72,14 +72,14 @@ class DrawnWorkload : public Workload {
   DrawnWorkload(Drawing drawing, const RendererOptions& options)
       : drawing_(std::move(drawing)), options_(options) {}
 
-  FrameStats draw() override { return easel().draw(); }
+  FrameStats draw() override { return drawing_renderer().draw(); }
 
   std::string fault() override {
-    const FrameStats stats = easel().draw_to_be_judged();
+    const FrameStats stats = drawing_renderer().draw_for_validation();
     if (drawing_.fragments != 0 && stats.shaded_pixels != drawing_.fragments)
       return "shaded " + std::to_string(stats.shaded_pixels) + " pixels, expected " +
              std::to_string(drawing_.fragments);
-    const Picture& picture = easel_->picture();
+    const Picture& picture = drawing_renderer_->picture();
     if (drawing_.fault)
       if (std::string fault = drawing_.fault(picture); !fault.empty()) return fault;
     // The scalar kernels' bits; and the scalar kernels, which would only repeat themselves, have to have
@@ -87,8 +87,8 @@ class DrawnWorkload : public Workload {
     RendererOptions others = options_;
     others.instruction_set = options_.instruction_set == InstructionSet::scalar ? InstructionSet::automatic
                                                                                 : InstructionSet::scalar;
-    Easel reference(drawing_, others);
-    reference.draw_to_be_judged();
+    DrawingRenderer reference(drawing_, others);
+    reference.draw_for_validation();
     const Picture& expected = reference.picture();
     const auto found = std::mismatch(picture.rgba.begin(), picture.rgba.end(), expected.rgba.begin()).first;
     if (found == picture.rgba.end()) return {};
@@ -98,7 +98,7 @@ class DrawnWorkload : public Workload {
            " is not as the kernels of another instruction set have it";
   }
 
-  const Picture& picture() override { return easel_->picture(); }
+  const Picture& picture() override { return drawing_renderer_->picture(); }
 
   FrameWork work(const FrameStats& stats) const override {
     FrameWork work;
@@ -106,30 +106,30 @@ class DrawnWorkload : public Workload {
     work.triangles = stats.triangles_in;
     work.vertices = stats.vertices;
     work.fragments = drawing_.tested_fragments != 0 ? drawing_.tested_fragments : stats.shaded_pixels;
-    work.bytes = easel_->moved_bytes();  // and meshes are read once
+    work.bytes = drawing_renderer_->traffic_bytes();  // and meshes are read once
     for (const MeshData& mesh : drawing_.meshes)
       work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() +
                          mesh.texcoords.size() + mesh.indices.size());
-    work.limit = drawing_.limit;
-    work.limited_bytes = drawing_.limited_bytes != 0 ? drawing_.limited_bytes : easel_->moved_bytes();
+    work.roofline = drawing_.roofline;
+    work.roofline_bytes = drawing_.roofline_bytes != 0 ? drawing_.roofline_bytes : drawing_renderer_->traffic_bytes();
     const auto in_tile = [&](int pixels) {
       return static_cast<std::uint64_t>(std::min(pixels, stats.tile_size));
     };
     work.tile_bytes = drawing_.pixel_bytes * in_tile(drawing_.format.width) * in_tile(drawing_.format.height);
-    work.kept_bytes = easel_->kept_bytes();
+    work.frame_buffer_bytes = drawing_renderer_->frame_buffer_bytes();
     return work;
   }
 
  private:
-  Easel& easel() {
-    if (!easel_)
-      easel_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
-    return *easel_;
+  DrawingRenderer& drawing_renderer() {
+    if (!drawing_renderer_)
+      drawing_renderer_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
+    return *drawing_renderer_;
   }
 
   Drawing drawing_;
   RendererOptions options_;
-  std::optional<Easel> easel_;
+  std::optional<DrawingRenderer> drawing_renderer_;
 };
 
 }  // namespace
@@ -139,14 +139,14 @@ WorkloadEntry drawn(const std::string& name, const std::string& what, MakeDrawin
   entry.make = [make](const WorkloadSetup& setup) {
     return std::make_unique<DrawnWorkload>(make(setup.width, setup.height, setup.seed), setup.options);
   };
-  entry.rival = [make = std::move(make)](const WorkloadSetup& setup) {
+  entry.gl_workload = [make = std::move(make)](const WorkloadSetup& setup) {
     const Drawing drawing = make(setup.width, setup.height, setup.seed);
-    return drawing.rival ? std::optional(drawing.rival(drawing)) : std::nullopt;
+    return drawing.gl_workload ? std::optional(drawing.gl_workload(drawing)) : std::nullopt;
   };
   return entry;
 }
 
-WorkloadEntry drawn_beside(const std::string& name, const std::string& what, MakeDrawing make) {
+WorkloadEntry drawn_outside_mean(const std::string& name, const std::string& what, MakeDrawing make) {
   WorkloadEntry entry = drawn(name, what, std::move(make));
   entry.is_in_mean = false;
   return entry;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLayers = 16;
 constexpr int kTextureSize = 256;
-constexpr float kMagnified =
+constexpr float kMagnifiedTexelsPerPixel =
     0.7013f;  // texels a pixel: no centre is on a border between two, in whatever size
 
 using rivals::Varying;
@@ -30,11 +30,11 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
   for (int k = 0; k < kLayers; ++k)
     drawing.meshes.push_back(window_grid(1, 1, 0.8f - 0.1f * static_cast<float>(k), 0, texture_repeats));
-  drawing.shades_at_once = true;
+  drawing.immediate_shading = true;
   drawing.fragments = kLayers * area(width, height);
-  drawing.limit = Limit::tile_stores;
+  drawing.roofline = Roofline::tile_stores;
   drawing.pixel_bytes = 4;  // of colour, or of depth where that is all
-  drawing.limited_bytes = drawing.pixel_bytes * drawing.fragments;
+  drawing.roofline_bytes = drawing.pixel_bytes * drawing.fragments;
   drawing.record = [change](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     for (int k = 0; k < kLayers; ++k) {
@@ -50,16 +50,16 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
 }
 
 /// Depth, or a stencil, beside colour.
-void store_a_word_more(Drawing& drawing) {
+void add_depth_or_stencil_store(Drawing& drawing) {
   drawing.pixel_bytes *= 2;
-  drawing.limited_bytes *= 2;
+  drawing.roofline_bytes *= 2;
 }
 
 /// @param change  of what all layers have
-std::function<RivalForm(const Drawing&)> as_rivals_draw(Varying varying, const Color& color,
-                                                        std::function<void(RivalForm&)> change = {}) {
+std::function<GlWorkload(const Drawing&)> as_gl_workload(Varying varying, const Color& color,
+                                                        std::function<void(GlWorkload&)> change = {}) {
   return [=](const Drawing& drawing) {
-    RivalForm form;
+    GlWorkload form;
     form.mesh = merged(drawing.meshes);
     if (varying != Varying::colors) form.mesh.colors.clear();
     if (varying != Varying::texcoords) form.mesh.texcoords.clear();
@@ -84,7 +84,7 @@ Drawing flat_layers(int width, int height) {
     state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1};
   });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  drawing.rival = as_rivals_draw(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f,
+  drawing.gl_workload = as_gl_workload(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f,
                                                     1});  // what is seen in the end: one colour is fastest
   drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
@@ -107,10 +107,10 @@ std::string colors_across(const Picture& picture) {
 }
 
 Drawing gouraud_layers(int width, int height, const ChangeLayer& change,
-                       std::function<void(RivalForm&)> change_rival = {}) {
+                       std::function<void(GlWorkload&)> change_gl_workload = {}) {
   Drawing drawing = layers(width, height, 1, change);
   drawing.fault = colors_across;
-  drawing.rival = as_rivals_draw(Varying::colors, {}, std::move(change_rival));
+  drawing.gl_workload = as_gl_workload(Varying::colors, {}, std::move(change_gl_workload));
   return drawing;
 }
 
@@ -118,8 +118,8 @@ void with_depth(int, DrawState& state) { state.depth.enabled = true; }
 
 Drawing gouraud_depth_layers(int width, int height) {
   Drawing drawing =
-      gouraud_layers(width, height, with_depth, [](RivalForm& form) { form.tests_depth = true; });
-  store_a_word_more(drawing);
+      gouraud_layers(width, height, with_depth, [](GlWorkload& form) { form.tests_depth = true; });
+  add_depth_or_stencil_store(drawing);
   return drawing;
 }
 
@@ -137,9 +137,9 @@ Drawing depth_layers(int width, int height) {
   drawing.tested_fragments = drawing.fragments;
   drawing.fragments = area(width, height);
   drawing.fault = all_of(255, 255, 255);
-  drawing.rival =
-      as_rivals_draw(Varying::nothing, {1, 1, 1, 1},
-                     [indices = static_cast<int>(drawing.meshes.back().indices.size())](RivalForm& form) {
+  drawing.gl_workload =
+      as_gl_workload(Varying::nothing, {1, 1, 1, 1},
+                     [indices = static_cast<int>(drawing.meshes.back().indices.size())](GlWorkload& form) {
                        form.tests_depth = true;
                        form.writes_color = false;
                        form.revealed_indices = indices;
@@ -151,7 +151,7 @@ Drawing blended_layers(int width, int height) {
   Drawing drawing = layers(width, height, 1, [](int, DrawState& state) { state.blend = BlendState{}; });
   for (MeshData& mesh : drawing.meshes)
     for (std::size_t i = 3; i < mesh.colors.size(); i += 4) mesh.colors[i] = 0.5f;
-  drawing.rival = as_rivals_draw(Varying::colors, {}, [](RivalForm& form) { form.blends = true; });
+  drawing.gl_workload = as_gl_workload(Varying::colors, {}, [](GlWorkload& form) { form.blends = true; });
   return drawing;
 }
 
@@ -161,9 +161,9 @@ Drawing stencilled_layers(int width, int height) {
       [](int, DrawState& state) {
         state.stencil = StencilState{.front = {.func = Compare::less, .ref = 0, .zpass = StencilOp::incr}};
       },
-      [](RivalForm& form) { form.counts_in_stencil = true; });
+      [](GlWorkload& form) { form.increments_stencil = true; });
   drawing.format.stencil_bits = 8;
-  store_a_word_more(drawing);
+  add_depth_or_stencil_store(drawing);
   const auto record = drawing.record;
   drawing.record = [record](const Drawing& d, Frame& frame) {
     frame.clear({.stencil = 1u});
@@ -172,9 +172,9 @@ Drawing stencilled_layers(int width, int height) {
   return drawing;
 }
 
-/// @param texels_a_pixel  along x
-Drawing textured_layers(int width, int height, const TextureSampler& sampler, float texels_a_pixel) {
-  Drawing drawing = layers(width, height, texels_a_pixel * static_cast<float>(width) / kTextureSize,
+/// @param texels_per_pixel  along x
+Drawing textured_layers(int width, int height, const TextureSampler& sampler, float texels_per_pixel) {
+  Drawing drawing = layers(width, height, texels_per_pixel * static_cast<float>(width) / kTextureSize,
                            [](int, DrawState& state) { state.texture_env = TextureEnv::replace; });
   std::vector<std::uint8_t> texels(4 * kTextureSize * kTextureSize);
   for (std::size_t i = 0; i < texels.size(); ++i)
@@ -182,10 +182,10 @@ Drawing textured_layers(int width, int height, const TextureSampler& sampler, fl
   drawing.textures.emplace_back(
       TextureImage{.pixels = texels.data(), .width = kTextureSize, .height = kTextureSize, .channels = 4},
       sampler);
-  drawing.rival = as_rivals_draw(Varying::texcoords, {}, [texels, sampler](RivalForm& form) {
+  drawing.gl_workload = as_gl_workload(Varying::texcoords, {}, [texels, sampler](GlWorkload& form) {
     form.texture_size = kTextureSize;
     form.sampler = sampler;
-    form.tolerated = 0.03;  // the texels are noise: where two of them meet, or two levels, a coordinate's
+    form.max_mismatch_share = 0.03;  // the texels are noise: where two of them meet, or two levels, a coordinate's
                             // last bits are seen
     // OpenGL's rows start at the bottom.
     for (int y = kTextureSize - 1; y >= 0; --y)
@@ -233,19 +233,19 @@ std::vector<WorkloadEntry> fill_workloads() {
       entry("nearest", "the nearest texel",
             [](int w, int h) {
               return textured_layers(w, h, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest},
-                                     kMagnified);
+                                     kMagnifiedTexelsPerPixel);
             }),
       entry("bilinear", "four texels mixed",
             [](int w, int h) {
               return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear},
-                                     kMagnified);
+                                     kMagnifiedTexelsPerPixel);
             }),
       entry("trilinear", "eight texels of two sizes mixed",
             [](int w, int h) {
               return textured_layers(
                   w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear}, 1.5f);
             }),
-      drawn_beside("fill-hidden",
+      drawn_outside_mean("fill-hidden",
                    "16 full-screen layers, eight texels of two sizes mixed, each hides the one before",
                    [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
   };

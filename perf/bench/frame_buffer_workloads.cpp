@@ -17,7 +17,7 @@ std::string not_all_of(const Picture& picture, int r, int g, int b) {
 Drawing cleared(int width, int height) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height};
-  drawing.limit = Limit::memory_stores;
+  drawing.roofline = Roofline::memory_stores;
   drawing.record = [](const Drawing&, Frame& frame) {
     frame.clear({.color = Color{1, 0, 0.2f, 1}, .depth = 1.0, .stencil = 0x5au});
   };
@@ -34,7 +34,7 @@ void draw_colors(const Drawing& d, Frame& frame) {
 }
 
 /// Two triangles over the whole window, each in one colour.
-Drawing colorful(const FrameBufferFormat& format) {
+Drawing two_flat_triangles(const FrameBufferFormat& format) {
   Drawing drawing;
   drawing.format = format;
   drawing.format.depth = DepthFormat::none;
@@ -44,9 +44,9 @@ Drawing colorful(const FrameBufferFormat& format) {
 }
 
 Drawing stored_planes(int width, int height, int bits) {
-  Drawing drawing = colorful({.width = width, .height = height, .color_bits = bits});
-  drawing.keeps_planes = true;
-  drawing.limit = Limit::memory_stores;
+  Drawing drawing = two_flat_triangles({.width = width, .height = height, .color_bits = bits});
+  drawing.stores_planes = true;
+  drawing.roofline = Roofline::memory_stores;
   drawing.record = [](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}});  // else planes are loaded before
     draw_colors(d, frame);
@@ -55,29 +55,29 @@ Drawing stored_planes(int width, int height, int bits) {
 }
 
 Drawing scanned_out(int width, int height) {
-  Drawing drawing = colorful({.width = width, .height = height});
+  Drawing drawing = two_flat_triangles({.width = width, .height = height});
   drawing.before = draw_colors;
-  drawing.limit = Limit::memory_copies;
+  drawing.roofline = Roofline::memory_copies;
   drawing.record = [](const Drawing&, Frame&) {};
   return drawing;
 }
 
 /// Two exposures, of what stands in the colour planes, and their mean.
 Drawing accumulated(int width, int height) {
-  Drawing drawing = colorful({.width = width, .height = height, .accumulation_bits = 16});
+  Drawing drawing = two_flat_triangles({.width = width, .height = height, .accumulation_bits = 16});
   drawing.before = draw_colors;
-  drawing.keeps_planes = true;
+  drawing.stores_planes = true;
   drawing.record = [](const Drawing&, Frame& frame) {
     frame.accumulate({.op = AccumOp::load, .value = 0.5});
     frame.accumulate({.op = AccumOp::accum, .value = 0.5});
-    frame.accumulate({.op = AccumOp::return_});
+    frame.accumulate({.op = AccumOp::return_color});
   };
   return drawing;
 }
 
 WorkloadEntry entry(const std::string& name, const std::string& what,
                     std::function<Drawing(int width, int height)> make) {
-  return drawn_beside(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
+  return drawn_outside_mean(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
     return make(width, height);
   });
 }

@@ -16,7 +16,7 @@ namespace tessera::bench {
 namespace {
 
 constexpr int kWarmUps = 3, kFrames = 9;             // of one workload
-constexpr int kFewestTurns = 3, kFramesOfATurn = 2;  // of several
+constexpr int kMinTurns = 3, kFramesPerTurn = 2;  // of several
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -31,7 +31,7 @@ int passes_of(std::span<const FrameTask> tasks) {
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-WorkloadSetup with_workers(WorkloadSetup setup, const std::shared_ptr<PretendedWorkers>& workers) {
+WorkloadSetup with_workers(WorkloadSetup setup, const std::shared_ptr<SimulatedWorkers>& workers) {
   setup.options.threads = workers->workers();
   setup.options.executor = workers;
   return setup;
@@ -42,37 +42,37 @@ WorkloadSetup with_workers(WorkloadSetup setup, const std::shared_ptr<PretendedW
 class TaskCosts {
  public:
   TaskCosts(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers)
-      : workers_(std::make_shared<WorkersOnCaller>(workers)),
+      : workers_(std::make_shared<WorkersOnCallingThread>(workers)),
         workload_(entry, with_workers(setup, workers_)) {}
 
   void draw(bool counts) {
     workers_->take_seconds(), workers_->take_calls();
     TracedFrame frame = workload_.draw();
-    frame.seconds_taking = workers_->take_seconds() - frame.seconds_in_tasks();
-    frame.calls_without_tasks = workers_->take_calls() - passes_of(frame.tasks);
+    frame.dispatch_seconds = workers_->take_seconds() - frame.task_seconds();
+    frame.untraced_calls = workers_->take_calls() - passes_of(frame.tasks);
     const bool has_no_trace =
-        frame.tasks.empty() && least_ && !least_->tasks.empty();  // there was no memory for it
+        frame.tasks.empty() && min_ && !min_->tasks.empty();  // there was no memory for it
     if (!counts || has_no_trace) return;
-    if (!least_ || least_->tasks.size() != frame.tasks.size())
-      least_ = frame;  // bins that grew need fewer passes
-    least_->seconds_taking = std::min(least_->seconds_taking, frame.seconds_taking);
+    if (!min_ || min_->tasks.size() != frame.tasks.size())
+      min_ = frame;  // bins that grew need fewer passes
+    min_->dispatch_seconds = std::min(min_->dispatch_seconds, frame.dispatch_seconds);
     for (std::size_t i = 0; i < frame.tasks.size(); ++i)
-      if (length(frame.tasks[i]) < length(least_->tasks[i])) least_->tasks[i] = frame.tasks[i];
-    least_->seconds = least_->seconds_taking + least_->seconds_in_tasks();
+      if (length(frame.tasks[i]) < length(min_->tasks[i])) min_->tasks[i] = frame.tasks[i];
+    min_->seconds = min_->dispatch_seconds + min_->task_seconds();
   }
   /// @pre one counted
-  const TracedFrame& least() const { return *least_; }
+  const TracedFrame& min() const { return *min_; }
 
  private:
-  std::shared_ptr<WorkersOnCaller> workers_;
+  std::shared_ptr<WorkersOnCallingThread> workers_;
   TracedWorkload workload_;
-  std::optional<TracedFrame> least_;
+  std::optional<TracedFrame> min_;
 };
 
 /// The least of the seconds of a frame in which no worker runs.
-class RestCosts {
+class SerialCosts {
  public:
-  RestCosts(const WorkloadEntry& entry, const WorkloadSetup& setup, std::shared_ptr<PretendedWorkers> workers)
+  SerialCosts(const WorkloadEntry& entry, const WorkloadSetup& setup, std::shared_ptr<SimulatedWorkers> workers)
       : workers_(std::move(workers)), workload_(entry.make(with_workers(setup, workers_))) {}
 
   void draw(bool counts) {
@@ -80,14 +80,14 @@ class RestCosts {
     const Clock::time_point start = Clock::now();
     workload_->draw();
     const double rest = seconds_since(start) - workers_->take_seconds();
-    if (counts) least_ = std::min(least_, rest);
+    if (counts) min_ = std::min(min_, rest);
   }
-  double least() const { return least_; }
+  double min() const { return min_; }
 
  private:
-  std::shared_ptr<PretendedWorkers> workers_;
+  std::shared_ptr<SimulatedWorkers> workers_;
   std::unique_ptr<Workload> workload_;
-  double least_ = std::numeric_limits<double>::infinity();
+  double min_ = std::numeric_limits<double>::infinity();
 };
 
 /// Of a frame whose work is cut for so many workers.
@@ -99,56 +99,56 @@ class FrameCosts {
       : tasks_(entry, setup, workers) {
     tasks_.draw(false);  // may draw more than a frame
     tasks_.draw(true);   // tells what the rest needs to know
-    rest_.emplace(entry, setup, workers_for_rest(workers, cores));
+    serial_.emplace(entry, setup, workers_for_serial(workers, cores));
   }
 
   void take_turn() {
-    for (int i = 0; i <= kFramesOfATurn; ++i)
+    for (int i = 0; i <= kFramesPerTurn; ++i)
       tasks_.draw(i > 0);  // after the first one caches are its own again
-    for (int i = 0; i <= kFramesOfATurn; ++i) rest_->draw(i > 0);
+    for (int i = 0; i <= kFramesPerTurn; ++i) serial_->draw(i > 0);
   }
-  TracedFrame least() const {
-    TracedFrame frame = tasks_.least();
-    frame.seconds += rest_->least();
+  TracedFrame min() const {
+    TracedFrame frame = tasks_.min();
+    frame.seconds += serial_->min();
     return frame;
   }
 
  private:
-  std::shared_ptr<PretendedWorkers> workers_for_rest(int workers, const std::vector<int>& cores) const {
-    if (workers == 1 || cores.size() < 2) return std::make_shared<WorkersOnCaller>(workers);
-    const TracedFrame& frame = tasks_.least();
+  std::shared_ptr<SimulatedWorkers> workers_for_serial(int workers, const std::vector<int>& cores) const {
+    if (workers == 1 || cores.size() < 2) return std::make_shared<WorkersOnCallingThread>(workers);
+    const TracedFrame& frame = tasks_.min();
     const auto passes =
-        static_cast<std::size_t>(std::max(1, passes_of(frame.tasks) + frame.calls_without_tasks));
-    return std::make_shared<WorkersElsewhere>(workers, cores.back(),
+        static_cast<std::size_t>(std::max(1, passes_of(frame.tasks) + frame.untraced_calls));
+    return std::make_shared<WorkersOnOtherCore>(workers, cores.back(),
                                               frame.work.bytes / passes / static_cast<std::size_t>(workers));
   }
 
   TaskCosts tasks_;
-  std::optional<RestCosts> rest_;
+  std::optional<SerialCosts> serial_;
 };
 
 }  // namespace
 
-TracedFrame cost_of_tasks(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
+TracedFrame measure_task_costs(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers) {
   TaskCosts costs(entry, setup, workers);
   for (int i = 0; i < kWarmUps + kFrames; ++i) costs.draw(i >= kWarmUps);
-  return costs.least();
+  return costs.min();
 }
 
-std::vector<TracedFrame> costs_of_frames(const WorkloadEntry& entry, const WorkloadSetup& setup,
+std::vector<TracedFrame> measure_frame_costs(const WorkloadEntry& entry, const WorkloadSetup& setup,
                                          std::span<const int> workers, double seconds) {
   return std::async(std::launch::async,
                     [&] {
                       const std::vector<int> cores = allowed_cores();
-                      if (cores.size() > 1) keep_on({&cores.front(), 1});
+                      if (cores.size() > 1) set_thread_affinity({&cores.front(), 1});
                       std::vector<std::unique_ptr<FrameCosts>> all;
                       for (const int count : workers)
                         all.push_back(std::make_unique<FrameCosts>(entry, setup, count, cores));
                       const Clock::time_point start = Clock::now();
-                      for (int turn = 0; turn < kFewestTurns || seconds_since(start) < seconds; ++turn)
+                      for (int turn = 0; turn < kMinTurns || seconds_since(start) < seconds; ++turn)
                         for (const auto& costs : all) costs->take_turn();
                       std::vector<TracedFrame> least;
-                      for (const auto& costs : all) least.push_back(costs->least());
+                      for (const auto& costs : all) least.push_back(costs->min());
                       return least;
                     })
       .get();

@@ -31,13 +31,13 @@ std::vector<Step> pixels() {
 std::vector<Step> lights() {
   std::vector<Step> steps;
   for (const int count : {1, 2, 4, 8, 16, 32})
-    steps.push_back({static_cast<double>(count), sphere_under(count)});
+    steps.push_back({static_cast<double>(count), sphere_with_lights(count)});
   return steps;
 }
 std::vector<Step> draws() {
   std::vector<Step> steps;
   for (const int count : {10, 32, 100, 316, 1000, 3162, 10000})
-    steps.push_back({static_cast<double>(count), patches_drawn_apart(count)});
+    steps.push_back({static_cast<double>(count), patches_in_separate_draws(count)});
   return steps;
 }
 

@@ -78,7 +78,7 @@ std::string wrong_sphere(const Picture& picture, double red) {
   return {};
 }
 
-rivals::LitForm lit_form(int width, int height, Shading shading, int lights, bool spots) {
+rivals::LitDraw lit_draw(int width, int height, Shading shading, int lights, bool spots) {
   const double aspect = static_cast<double>(width) / height;
   return {.camera = {.view = translate(0, 0, -kDistance),
                      .projection = frustum(-0.5 * aspect, 0.5 * aspect, -0.5, 0.5, 1, 20)},
@@ -96,7 +96,7 @@ Drawing lit_sphere(int width, int height, int columns, Shading shading, int ligh
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
   drawing.meshes.push_back(sphere(columns, columns / 2, static_cast<float>(kRadius)));
-  const rivals::LitForm lit = lit_form(width, height, shading, lights, spots);
+  const rivals::LitDraw lit = lit_draw(width, height, shading, lights, spots);
   drawing.record = [lit](const Drawing& d, Frame& frame) {
     frame.set_camera(lit.camera);
     frame.set_lights(lit.lights);
@@ -109,8 +109,8 @@ Drawing lit_sphere(int width, int height, int columns, Shading shading, int ligh
     state.material = lit.material;
     frame.draw(d.meshes.front().view(), state);
   };
-  drawing.rival = [lit](const Drawing& d) {
-    return RivalForm{.mesh = d.meshes.front(),
+  drawing.gl_workload = [lit](const Drawing& d) {
+    return GlWorkload{.mesh = d.meshes.front(),
                      .shaders = rivals::lit_shaders(lit),
                      .tests_depth = true,
                      .culls_back = true};
@@ -136,14 +136,14 @@ WorkloadEntry entry(const std::string& size, int columns, Shading shading, int l
 
 WorkloadEntry sphere_in_frame(int width, int height) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  return drawn_beside("size-" + size, "phong-20k-1 in a frame of " + size, [=](int, int, std::uint32_t) {
+  return drawn_outside_mean("size-" + size, "phong-20k-1 in a frame of " + size, [=](int, int, std::uint32_t) {
     Drawing drawing = lit_sphere(width, height, 142, Shading::phong, 1, false);
-    drawing.rival = nullptr;  // rivals draw in frames of the size that was asked for
+    drawing.gl_workload = nullptr;  // rivals draw in frames of the size that was asked for
     return drawing;
   });
 }
 
-WorkloadEntry sphere_under(int lights) { return entry("20k", 142, Shading::phong, lights, false); }
+WorkloadEntry sphere_with_lights(int lights) { return entry("20k", 142, Shading::phong, lights, false); }
 
 std::vector<WorkloadEntry> lit_workloads() {
   std::vector<WorkloadEntry> list;

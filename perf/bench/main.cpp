@@ -27,7 +27,7 @@
 namespace tessera::bench {
 namespace {
 
-constexpr int kWrong = 1, kUsage = 2, kWorse = 3;
+constexpr int kFailed = 1, kBadUsage = 2, kRegressed = 3;
 
 constexpr const char* kExamples = R"(examples:
   tessera bench                                   everything
@@ -36,22 +36,22 @@ constexpr const char* kExamples = R"(examples:
   tessera bench --compare before.json)";
 
 /// Whether a name is a workload's, or, if it is no whole name, how that one's begins.
-bool means(const std::string& name, const WorkloadEntry& entry) {
+bool matches(const std::string& name, const WorkloadEntry& entry) {
   if (entry.name == name) return true;
   const bool is_a_whole_name = std::any_of(workloads().begin(), workloads().end(),
                                            [&](const WorkloadEntry& other) { return other.name == name; });
   return !is_a_whole_name && !name.empty() && entry.name.starts_with(name);
 }
-std::vector<const WorkloadEntry*> chosen_by(const std::vector<std::string>& names) {
+std::vector<const WorkloadEntry*> select_workloads(const std::vector<std::string>& names) {
   std::vector<const WorkloadEntry*> list;
   for (const std::string& name : names)
     if (std::none_of(workloads().begin(), workloads().end(),
-                     [&](const WorkloadEntry& entry) { return means(name, entry); }))
+                     [&](const WorkloadEntry& entry) { return matches(name, entry); }))
       throw CLI::ValidationError(
           "workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
   for (const WorkloadEntry& entry : workloads())
     if (names.empty() ||
-        std::any_of(names.begin(), names.end(), [&](const std::string& name) { return means(name, entry); }))
+        std::any_of(names.begin(), names.end(), [&](const std::string& name) { return matches(name, entry); }))
       list.push_back(&entry);
   return list;
 }
@@ -101,16 +101,16 @@ struct Chosen {
   std::string left_out;
 };
 /// @throws Error if a name was given and nothing that it means can run
-Chosen prepared(const std::vector<std::string>& names) {
+Chosen prepare_workloads(const std::vector<std::string>& names) {
   Chosen chosen;
   std::map<std::string, std::string> why_none;  // of what a name means can run; empty where one can
-  for (const WorkloadEntry* entry : chosen_by(names)) {
+  for (const WorkloadEntry* entry : select_workloads(names)) {
     const std::string reason = entry->prepare ? entry->prepare() : "";
     const bool runs = reason.empty();
     if (runs) chosen.entries.push_back(entry);
     else chosen.left_out += entry->name + ": left out, " + reason + "\n";
     for (const std::string& name : names)
-      if (means(name, *entry) && (runs || !why_none.contains(name))) why_none[name] = reason;
+      if (matches(name, *entry) && (runs || !why_none.contains(name))) why_none[name] = reason;
   }
   for (const auto& [name, reason] : why_none)
     if (!reason.empty()) throw Error("found nothing to measure of \"" + name + "\": it " + reason);
@@ -145,27 +145,27 @@ class Bench {
     if (!entries.empty()) measure_noise(*entries.front());
   }
   void measure_rates() {
-    constexpr std::uint64_t kMuch = std::uint64_t{256} << 20, kTile = std::uint64_t{64} << 10;
+    constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20, kTileBytes = std::uint64_t{64} << 10;
     const std::uint64_t frame =
         4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
-    const auto rate_of = [](Limit limit, int threads, std::uint64_t bytes) -> std::optional<double> {
+    const auto rate_of = [](Roofline limit, int threads, std::uint64_t bytes) -> std::optional<double> {
       try {
-        return measure_limit(limit, threads, bytes);
+        return measure_bandwidth(limit, threads, bytes);
       } catch (const std::bad_alloc&) {
         return {};  // what was measured before is worth more
       }
     };
-    const auto rate = [&](Limit limit, std::uint64_t bytes) {
+    const auto rate = [&](Roofline limit, std::uint64_t bytes) {
       return rate_of(limit, report_.threads, bytes);
     };
-    report_.limits = {
-        .l1_stores = rate(Limit::l1_stores, 0),
-        .frame_stores = rate(Limit::memory_stores, frame),
-        .frame_copies = rate(Limit::memory_copies, 2 * frame),
-        .tile_stores = rate(Limit::memory_stores, kTile * static_cast<std::uint64_t>(report_.threads)),
-        .memory_stores = rate(Limit::memory_stores, kMuch),
-        .memory_loads = rate(Limit::memory_loads, kMuch),
-        .memory_loads_of_one_core = rate_of(Limit::memory_loads, 1, kMuch)};
+    report_.bandwidth = {
+        .l1_stores = rate(Roofline::l1_stores, 0),
+        .frame_stores = rate(Roofline::memory_stores, frame),
+        .frame_copies = rate(Roofline::memory_copies, 2 * frame),
+        .tile_stores = rate(Roofline::memory_stores, kTileBytes * static_cast<std::uint64_t>(report_.threads)),
+        .memory_stores = rate(Roofline::memory_stores, kBandwidthTestBytes),
+        .memory_loads = rate(Roofline::memory_loads, kBandwidthTestBytes),
+        .memory_loads_single_core = rate_of(Roofline::memory_loads, 1, kBandwidthTestBytes)};
     try {
       report_.core_to_core_ns[1] = core_to_core_ns();
     } catch (const std::exception&) {
@@ -186,43 +186,43 @@ class Bench {
     for (const WorkloadEntry* entry : entries) {
       Candidate candidate = candidate_of(*entry);
       if (!options_.pictures_folder.empty())
-        candidate.judge = [&](const Picture& picture) {
+        candidate.validate = [&](const Picture& picture) {
           write_picture(picture, options_.pictures_folder + "/" + entry->name + ".png");
           return std::string();
         };
-      Row row = measure(std::vector{candidate}, with_limits(options_.measure), counters_).front();
+      Row row = measure(std::vector{candidate}, with_rooflines(options_.measure), counters_).front();
       show(table_line(row));
       is_wrong_ |= !row.fault.empty();
       report_.rows.push_back(std::move(row));
     }
   }
   void run_with_rivals(const std::vector<const WorkloadEntry*>& entries) {
-    Rivalry& rivalry = report_.rivalry.emplace();
-    rivalry.rival = rivals::mesa_name(options_.driver, report_.threads);
-    rivalry.finish_ms =
+    RivalComparisons& rival_comparisons = report_.rival_comparisons.emplace();
+    rival_comparisons.rival = rivals::mesa_name(options_.driver, report_.threads);
+    rival_comparisons.finish_ms =
         rivals::mesa_finish_ms(report_.width, report_.height, options_.driver, report_.threads);
-    rivalry.finish_pixel_ms = rivals::mesa_finish_ms(1, 1, options_.driver, report_.threads);
+    rival_comparisons.finish_pixel_ms = rivals::mesa_finish_ms(1, 1, options_.driver, report_.threads);
     std::string without_rival;
-    show(rivalry_heading());
+    show(comparison_heading());
     for (const WorkloadEntry* entry : entries) {
-      std::optional<Duel> fought = duel(*entry, setup_, options_.driver, options_.measure, counters_);
+      std::optional<Comparison> fought = compare_with_rival(*entry, setup_, options_.driver, options_.measure, counters_);
       if (!fought) {
         without_rival += " " + entry->name;
         continue;
       }
-      show(rivalry_line(*fought));
+      show(comparison_line(*fought));
       is_wrong_ |= !fought->fault().empty();
-      rivalry.duels.push_back(std::move(*fought));
+      rival_comparisons.comparisons.push_back(std::move(*fought));
     }
     if (!without_rival.empty()) show("no rival draws:" + without_rival + "\n");
   }
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
     CoreModel& model = report_.core_model.emplace(measure_core_model(report_.threads));
-    model.most_cores_of_memory = options_.memory_cores;
+    model.bandwidth_saturating_cores = options_.memory_cores;
     show(
         formatted("one core copies %.1f GB/s, and %d of them are taken to copy all that the memory does "
                   "(--memory-cores); a stage begins in %.1f microseconds\n\n",
-                  model.core_bytes, model.most_cores_of_memory, 1e6 * model.barrier_seconds));
+                  model.core_gb_per_second, model.bandwidth_saturating_cores, 1e6 * model.barrier_seconds));
     show(scaling_heading(report_.threads));
     for (const WorkloadEntry* entry : entries) {
       report_.scaling.push_back(
@@ -237,7 +237,7 @@ class Bench {
     report_.noise_of = entry.name;
     if (rows[0].frames != 0) report_.noise = ratio_of(rows[1].ms, rows[0].ms);
   }
-  static MeasureOptions with_limits(MeasureOptions options) { return options.takes_limits = true, options; }
+  static MeasureOptions with_rooflines(MeasureOptions options) { return options.measures_rooflines = true, options; }
   Candidate candidate_of(const WorkloadEntry& entry) const {
     return {.name = entry.name,
             .make = [this, &entry] { return entry.make(setup_); },
@@ -265,7 +265,7 @@ void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>&
     }
   std::optional<Heatmap> map;
   if (!options.heatmap_file.empty()) {
-    map = heatmap(cost_of_tasks(*entries.front(), setup, options.renderer.threads));
+    map = heatmap(measure_task_costs(*entries.front(), setup, options.renderer.threads));
     if (map->picture.rgba.empty())
       throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
   }
@@ -273,7 +273,7 @@ void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>&
   if (!map) return;
   write_picture(map->picture, options.heatmap_file);
   (options.trace_file == "-" ? std::cerr : std::cout)
-      << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map->most_ns_a_pixel);
+      << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map->max_ns_per_pixel);
 }
 
 void show_growth(const BenchOptions& options) {
@@ -289,7 +289,7 @@ void show_growth(const BenchOptions& options) {
 }
 
 /// @throws CLI::ValidationError if this process may not use each of them
-void keep_on_all(const std::vector<int>& cores) {
+void require_affinity(const std::vector<int>& cores) {
   const auto listed = [](const std::vector<int>& list) {
     std::string text;
     for (const int core : list) text += (text.empty() ? "" : ",") + std::to_string(core);
@@ -303,7 +303,7 @@ void keep_on_all(const std::vector<int>& cores) {
     throw CLI::ValidationError(
         "--cores",
         "found " + listed(others) + ", which this process may not use, expected some of " + listed(allowed));
-  if (!keep_on(cores)) throw Error("the system does not keep this process on the cores " + listed(cores));
+  if (!set_thread_affinity(cores)) throw Error("the system does not keep this process on the cores " + listed(cores));
 }
 
 int run(BenchOptions& options) {
@@ -315,12 +315,12 @@ int run(BenchOptions& options) {
     }
     return 0;
   }
-  std::optional<EarlierRun> earlier;  // which has to be there before anything is measured
+  std::optional<BaselineRun> earlier;  // which has to be there before anything is measured
   if (!options.compare_file.empty()) {
     earlier.emplace(options.compare_file);
     earlier->require_size(options.width, options.height);
   }
-  const Chosen chosen = prepared(options.names);
+  const Chosen chosen = prepare_workloads(options.names);
   if (options.growth_file.empty()) std::cerr << chosen.left_out;
   if (earlier && !earlier->has_any_of(chosen.entries))
     throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
@@ -328,7 +328,7 @@ int run(BenchOptions& options) {
     throw CLI::ValidationError("--heatmap",
                                "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
   require_outputs(options);
-  if (!options.cores.empty()) keep_on_all(options.cores);
+  if (!options.cores.empty()) require_affinity(options.cores);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) return show_growth(options), 0;
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {
@@ -340,14 +340,14 @@ int run(BenchOptions& options) {
   if (!options.pictures_folder.empty()) make_folder(options.pictures_folder);
   bench.run(chosen.entries);
   bench.measure_rates();
-  bench.show(table_ending(bench.report()));
+  bench.show(table_summary(bench.report()));
   if (!options.json_file.empty()) write(options.json_file, report_json(bench.report()).dump(2) + "\n");
   if (!options.csv_file.empty()) write(options.csv_file, report_csv(bench.report()));
-  if (bench.is_wrong()) return kWrong;
+  if (bench.is_wrong()) return kFailed;
   if (!earlier) return 0;
-  const Comparison comparison = earlier->compare(bench.report(), options.allowed);
+  const BaselineComparison comparison = earlier->compare(bench.report(), options.allowed);
   (bench.is_silent() ? std::cerr : std::cout) << "\n" << comparison.table;
-  return comparison.is_worse ? kWorse : 0;
+  return comparison.has_regressed ? kRegressed : 0;
 }
 
 }  // namespace
@@ -372,11 +372,11 @@ int main(int argc, char** argv) {
     return code;
   } catch (const CLI::ParseError& error) {
     std::cerr << "tessera bench: error: " << error.what() << " (see tessera bench --help)\n";
-    return tessera::bench::kUsage;
+    return tessera::bench::kBadUsage;
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera bench: error: out of memory\n";
   } catch (const std::exception& error) {
     std::cerr << "tessera bench: error: " << error.what() << "\n";
   }
-  return tessera::bench::kWrong;
+  return tessera::bench::kFailed;
 }

@@ -17,20 +17,20 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-constexpr int kFewestTurns = 15, kMostTurns = 1000000;
+constexpr int kMinTurns = 15, kMaxTurns = 1000000;
 
 /// A workload, or what another one is held against.
 struct Runner {
   std::unique_ptr<Workload> workload{};
-  std::optional<LimitMoves> limit{};
-  double Row::*rate = nullptr;  // of the limit
+  std::optional<BandwidthKernel> roofline{};
+  double Row::*rate = nullptr;  // of the roofline
   std::size_t row = 0;
   FrameStats stats{};  // of the last frame
   std::vector<double> times{};
   HardwareCounters::Counts counted{};
 
   void draw() {
-    if (limit) limit->run();
+    if (roofline) roofline->run();
     else stats = workload->draw();
   }
 };
@@ -38,7 +38,7 @@ struct Runner {
 /// Turns of `ms` each that the seconds of a row hold, 15 at least.
 int turns_for(double seconds, double ms) {
   return static_cast<int>(
-      std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kFewestTurns), 1e4));
+      std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kMinTurns), 1e4));
 }
 
 std::uint64_t above(std::uint64_t bytes, std::uint64_t others) { return bytes > others ? bytes - others : 0; }
@@ -69,39 +69,39 @@ std::string fault_of(const Work& work) {
 
 /// The first frame.
 void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
-  forget_peak();
+  reset_peak();
   const std::uint64_t before = resident_memory().now;
   runner.workload = candidate.make();
-  forget_peak();  // what was needed to make it only is given back
+  reset_peak();  // what was needed to make it only is given back
   const std::uint64_t made = resident_memory().now;
   const Clock::time_point start = Clock::now();
   runner.draw();
   row.cold_ms = ms_since(start);
-  const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(runner.stats).kept_bytes;
+  const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(runner.stats).frame_buffer_bytes;
   row.peak_bytes = above(peak, before);
   row.working_bytes = above(peak, made + kept);
 }
 std::string picture_fault(const Candidate& candidate, Workload& workload) {
   std::string fault = workload.fault();
-  return fault.empty() && candidate.judge ? candidate.judge(workload.picture()) : fault;
+  return fault.empty() && candidate.validate ? candidate.validate(workload.picture()) : fault;
 }
 
-/// One more runner for each limit that a row is held against, which runs so long, a millisecond where all is
+/// One more runner for each roofline that a row is held against, which runs so long, a millisecond where all is
 /// in caches, that its threads' start is little beside it.
-void add_limits(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
+void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
   const auto add = [&](const FrameWork& work, double Row::*rate) {
     try {
-      runners.push_back({.limit = limit_for(work, rows[drawing].threads, std::uint64_t{256} << 20),
+      runners.push_back({.roofline = bandwidth_kernel_for(work, rows[drawing].threads, std::uint64_t{256} << 20),
                          .rate = rate,
                          .row = drawing});
     } catch (const std::bad_alloc&) {
-      // The row is worth more than what it is held against, and its limit stays 0.
+      // The row is worth more than what it is held against, and its roofline stays 0.
     }
   };
   for (drawing = 0; drawing < rows.size(); ++drawing) {
     const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
-    if (work.limit != Limit::none) add(work, &Row::limit);
-    if (work.limit == Limit::tile_stores) add({.limit = Limit::l1_stores}, &Row::l1_stores);
+    if (work.roofline != Roofline::none) add(work, &Row::roofline);
+    if (work.roofline == Roofline::tile_stores) add({.roofline = Roofline::l1_stores}, &Row::l1_stores);
   }
 }
 
@@ -112,16 +112,16 @@ void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
                    const HardwareCounters& counters, std::size_t& drawing) {
   // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower
   // one the other's.
-  int frames = kMostTurns;
+  int frames = kMaxTurns;
   std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) {  // limits come last
     drawing = runners[k].row;
     const int most = turns_for(options.seconds, warm_up(runners[k], options.warm_up_seconds));
-    if (runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, most)), k);
+    if (runners[k].roofline) turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, most)), k);
     else frames = std::min(frames, options.repeats > 0 ? options.repeats : most);
   }
   for (std::size_t k = 0; k < runners.size(); ++k)
-    if (!runners[k].limit) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
+    if (!runners[k].roofline) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
   std::mt19937 random(options.seed);
   std::shuffle(turns.begin(), turns.end(), random);
   std::optional<std::size_t> last;
@@ -157,25 +157,25 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
       fault = picture_fault(candidates[k], *runners[k].workload);
     });
     rows[k].fault = stopped.empty() ? fault : stopped;
-    rows[k].is_stopped = !stopped.empty();
+    rows[k].is_aborted = !stopped.empty();
   }
   const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
   if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
   std::size_t drawing = 0;
   const std::string stopped = fault_of([&] {
-    if (options.takes_limits) add_limits(runners, rows, drawing);
+    if (options.measures_rooflines) add_rooflines(runners, rows, drawing);
     draw_in_turns(runners, options, counters, drawing);
   });
   if (!stopped.empty()) {
     rows[drawing].fault = stopped;
-    rows[drawing].is_stopped = true;
+    rows[drawing].is_aborted = true;
     return rows;
   }
   for (Runner& runner : runners) {
     Row& row = rows[runner.row];
     const Statistics ms = statistics_of(runner.times);
-    if (runner.limit) {
-      row.*runner.rate = runner.limit->bytes() / ms.median * 1e-6;
+    if (runner.roofline) {
+      row.*runner.rate = runner.roofline->bytes() / ms.median * 1e-6;
       continue;
     }
     row.frames = runner.times.size();

@@ -20,7 +20,7 @@ struct MeasureOptions {
   double seconds = 1;  ///< for each row; for what it is held against always
   double warm_up_seconds = 0.2;
   std::uint32_t seed = 1;     ///< of the order in which rows take turns
-  bool takes_limits = false;  ///< what a row is held against takes turns with it
+  bool measures_rooflines = false;  ///< what a row is held against takes turns with it
 };
 
 struct Row {
@@ -33,10 +33,10 @@ struct Row {
   Statistics ms;
   FrameWork work;
   std::optional<HardwareCounters::Counts> counts{};  ///< of a frame
-  double limit = 0;         ///< 10^9 bytes a second, where there is one and it was measured
+  double roofline = 0;         ///< 10^9 bytes a second, where there is one and it was measured
   double l1_stores = 0;     ///< the same of stores in L1, where tiles' words are what is stored
   std::string fault;        ///< of the picture, or what stopped it; empty: it is right
-  bool is_stopped = false;  ///< no memory, say: the fault is nothing that was drawn
+  bool is_aborted = false;  ///< no memory, say: the fault is nothing that was drawn
 };
 
 struct Candidate {
@@ -44,7 +44,7 @@ struct Candidate {
   std::function<std::unique_ptr<Workload>()> make;
   int threads = 0;
   std::function<std::string(const Picture&)>
-      judge{};  ///< says what is wrong with what was drawn, or nothing; may be empty
+      validate{};  ///< says what is wrong with what was drawn, or nothing; may be empty
 };
 
 /// Makes the candidates, draws and checks each, and then lets them take turns, as many each (limits may take

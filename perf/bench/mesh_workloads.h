@@ -17,7 +17,7 @@ std::vector<WorkloadEntry> scene_workloads();
 // Those that grow by one number.
 WorkloadEntry grid_of(int side);  ///< 2 side^2 triangles over the whole window
 WorkloadEntry sphere_in_frame(int width, int height);
-WorkloadEntry sphere_under(int lights);        ///< lit at its pixels
-WorkloadEntry patches_drawn_apart(int draws);  ///< of 32 triangles each
+WorkloadEntry sphere_with_lights(int lights);        ///< lit at its pixels
+WorkloadEntry patches_in_separate_draws(int draws);  ///< of 32 triangles each
 
 }  // namespace tessera::bench

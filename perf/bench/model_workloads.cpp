@@ -19,8 +19,8 @@ struct ModelFile {
 
 /// Of a scene with one draw. Lit on one side, which is faster: that nothing else is seen is checked with the
 /// picture.
-RivalForm rival_of(const Scene& scene) {
-  RivalForm form;
+GlWorkload gl_workload_of(const Scene& scene) {
+  GlWorkload form;
   LightModel model = scene.light_model;
   model.two_sided = false;
   for (const SceneCommand& command : scene.frame) {
@@ -54,7 +54,7 @@ Drawing drawing_of(const ModelFile& file, int width, int height) {
   const auto draws = std::count_if(scene->frame.begin(), scene->frame.end(), [](const SceneCommand& command) {
     return std::holds_alternative<DrawCommand>(command.what);
   });
-  if (draws == 1) drawing.rival = [scene](const Drawing&) { return rival_of(*scene); };
+  if (draws == 1) drawing.gl_workload = [scene](const Drawing&) { return gl_workload_of(*scene); };
   return drawing;
 }
 
@@ -77,7 +77,7 @@ WorkloadEntry entry(const std::string& name, const std::string& what, const std:
   return entry;
 }
 
-WorkloadEntry beside(const std::string& name, const std::string& what, const std::string& path,
+WorkloadEntry entry_outside_mean(const std::string& name, const std::string& what, const std::string& path,
                      const std::string& package) {
   WorkloadEntry large = entry(name, what, path, package);
   large.is_in_mean = false;
@@ -90,13 +90,13 @@ std::vector<WorkloadEntry> model_workloads() {
   // The largest that Debian 12 has.
   return {entry("bunny", "the Stanford bunny, 69,666 triangles", "/usr/share/glmark2/models/bunny.obj",
                 "glmark2-data"),
-          beside("model-suzanne", "a subdivided monkey's head, 251,904 triangles",
+          entry_outside_mean("model-suzanne", "a subdivided monkey's head, 251,904 triangles",
                  "/usr/share/assimp/models/BLEND/SuzanneSubdiv_252.blend", "assimp-testmodels"),
-          beside("model-ac3d", "a subdivided scene, 245,760 triangles",
+          entry_outside_mean("model-ac3d", "a subdivided scene, 245,760 triangles",
                  "/usr/share/assimp/models/AC/sample_subdiv.ac", "assimp-testmodels"),
-          beside("model-rs1", "a scanned part, 221,803 triangles",
+          entry_outside_mean("model-rs1", "a scanned part, 221,803 triangles",
                  "/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply", "opencv-doc"),
-          beside("model-robot", "a robot to print, 187,974 triangles",
+          entry_outside_mean("model-robot", "a robot to print, 187,974 triangles",
                  "/usr/share/cura/resources/meshes/UltimakerRobot_support.stl", "cura")};
 }
 

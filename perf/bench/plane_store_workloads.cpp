@@ -30,36 +30,36 @@ struct alignas(kTileAlignment) Tile {
 
 /// Every worker has as many tiles, of random words, as the renderer keeps, and stores them wherever the
 /// window has some.
-class StoredTiles : public Workload {
+class TileStoreWorkload : public Workload {
  public:
-  StoredTiles(const WorkloadSetup& setup, int bits)
+  TileStoreWorkload(const WorkloadSetup& setup, int bits)
       : grid_{setup.width, setup.height,
               setup.options.tile_size != 0 ? setup.options.tile_size : kMaxTileSize},
-        parallel_(setup.options.threads, setup.options.executor),
+        worker_pool_(setup.options.threads, setup.options.executor),
         store_(store_planes_for(isa_of(setup.options.instruction_set))),
         planes_(setup.width, setup.height, bits),
-        together_(tiles_stored_together(isa_of(setup.options.instruction_set), grid_.tile_size)),
-        tiles_(static_cast<std::size_t>(setup.options.threads * together_)),
+        tiles_per_store_(tiles_per_store(isa_of(setup.options.instruction_set), grid_.tile_size)),
+        tiles_(static_cast<std::size_t>(setup.options.threads * tiles_per_store_)),
         picture_(setup.width, setup.height) {
     std::mt19937 random(setup.seed);
-    for (int t = 0; t < together_; ++t)
+    for (int t = 0; t < tiles_per_store_; ++t)
       for (std::uint32_t& word : tiles_[static_cast<std::size_t>(t)].words)
         word = static_cast<std::uint32_t>(random());
-    for (std::size_t t = static_cast<std::size_t>(together_); t < tiles_.size(); ++t)
-      tiles_[t] = tiles_[t - static_cast<std::size_t>(together_)];
-    for (const Tile& tile : tiles_) words_.push_back(tile.words);
+    for (std::size_t t = static_cast<std::size_t>(tiles_per_store_); t < tiles_.size(); ++t)
+      tiles_[t] = tiles_[t - static_cast<std::size_t>(tiles_per_store_)];
+    for (const Tile& tile : tiles_) tile_pixels_.push_back(tile.words);
     planes_.allocate(0);
   }
 
   FrameStats draw() override {
     const int in_line = kLinePixels / grid_.tile_size, strips = (grid_.columns() + in_line - 1) / in_line;
-    parallel_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
+    worker_pool_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
       const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * in_line,
                 last = std::min(first + in_line, grid_.columns());
-      const std::uint32_t* const* const tiles = words_.data() + worker * together_;
-      for (int column = first; column < last; column += together_)
+      const std::uint32_t* const* const tiles = tile_pixels_.data() + worker * tiles_per_store_;
+      for (int column = first; column < last; column += tiles_per_store_)
         store_(
-            {tiles, static_cast<std::size_t>(std::min(together_, last - column))},
+            {tiles, static_cast<std::size_t>(std::min(tiles_per_store_, last - column))},
             {.x0_px = column * grid_.tile_size, .y0_px = row * grid_.tile_size, .tile_size = grid_.tile_size},
             planes_, ~std::uint32_t{0});
     });
@@ -70,7 +70,7 @@ class StoredTiles : public Workload {
     draw();
     for (int y = 0; y < grid_.height_px; ++y)
       for (int x = 0; x < grid_.width_px; ++x)
-        if (planes_.word(x, y) != expected(x, y))
+        if (planes_.pixel(x, y) != expected(x, y))
           return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " is not its tile's";
     return {};
   }
@@ -79,7 +79,7 @@ class StoredTiles : public Workload {
     const int to_24 = 24 - planes_.plane_count();
     for (int y = 0; y < grid_.height_px; ++y)
       for (int x = 0; x < grid_.width_px; ++x) {
-        const std::uint32_t word = planes_.word(x, y) << to_24;
+        const std::uint32_t word = planes_.pixel(x, y) << to_24;
         std::uint8_t* const pixel = picture_.rgba.data() + 4 * (static_cast<std::size_t>(y) *
                                                                     static_cast<std::size_t>(grid_.width_px) +
                                                                 static_cast<std::size_t>(x));
@@ -97,25 +97,25 @@ class StoredTiles : public Workload {
     // way.
     return {.pixels = pixels,
             .bytes = bytes,
-            .kept_bytes = bytes,
-            .limit = Limit::memory_copies,
-            .limited_bytes = bytes + pixels * sizeof(std::uint32_t)};
+            .frame_buffer_bytes = bytes,
+            .roofline = Roofline::memory_copies,
+            .roofline_bytes = bytes + pixels * sizeof(std::uint32_t)};
   }
 
  private:
   std::uint32_t expected(int x, int y) const {
-    return tiles_[static_cast<std::size_t>(x / grid_.tile_size % together_)]
+    return tiles_[static_cast<std::size_t>(x / grid_.tile_size % tiles_per_store_)]
                .words[tile_index(x % grid_.tile_size, y % grid_.tile_size, grid_.tile_size)] &
-           planes_.word_mask();
+           planes_.value_mask();
   }
 
   TileGrid grid_;
-  Parallel parallel_;
+  WorkerPool worker_pool_;
   StorePlanesFn* store_;
   BitplaneStack planes_;
-  int together_;  // tiles that are stored at once
+  int tiles_per_store_;  // tiles that are stored at once
   std::vector<Tile> tiles_;
-  std::vector<const std::uint32_t*> words_;  // of each of them
+  std::vector<const std::uint32_t*> tile_pixels_;  // of each of them
   Picture picture_;
 };
 
@@ -128,8 +128,8 @@ std::vector<WorkloadEntry> plane_store_workloads() {
                         .what = "tiles that are there brought into " + std::to_string(bits) +
                                 (bits > 1 ? " planes" : " plane"),
                         .is_in_mean = false};
-    entry.make = [bits](const WorkloadSetup& setup) { return std::make_unique<StoredTiles>(setup, bits); };
-    entry.rival = [](const WorkloadSetup&) { return std::nullopt; };
+    entry.make = [bits](const WorkloadSetup& setup) { return std::make_unique<TileStoreWorkload>(setup, bits); };
+    entry.gl_workload = [](const WorkloadSetup&) { return std::nullopt; };
     list.push_back(std::move(entry));
   }
   return list;

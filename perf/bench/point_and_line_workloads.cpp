@@ -11,9 +11,9 @@ namespace {
 constexpr int kCount = 1000000;
 
 /// Numbers that are the same on every machine.
-class Dice {
+class Rng {
  public:
-  explicit Dice(std::uint32_t seed) : random_(seed) {}
+  explicit Rng(std::uint32_t seed) : random_(seed) {}
   float between(float low, float high) {
     return low + (high - low) * static_cast<float>(random_() >> 8) * 0x1p-24f;
   }
@@ -27,25 +27,25 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
   MeshData mesh;
   mesh.primitive = primitive;
-  Dice dice(seed);
+  Rng rng(seed);
   const float reach_x = 32.0f / static_cast<float>(width),
               reach_y = 32.0f / static_cast<float>(height);  // 16 pixels
   for (int i = 0; i < kCount; ++i) {
-    const float x = dice.between(-1, 1), y = dice.between(-1, 1), z = dice.between(-1, 1);
+    const float x = rng.between(-1, 1), y = rng.between(-1, 1), z = rng.between(-1, 1);
     for (int end = 0; end < (primitive == Primitive::lines ? 2 : 1); ++end) {
-      mesh.positions.insert(mesh.positions.end(), {x + (end != 0 ? dice.between(-reach_x, reach_x) : 0),
-                                                   y + (end != 0 ? dice.between(-reach_y, reach_y) : 0), z});
+      mesh.positions.insert(mesh.positions.end(), {x + (end != 0 ? rng.between(-reach_x, reach_x) : 0),
+                                                   y + (end != 0 ? rng.between(-reach_y, reach_y) : 0), z});
       mesh.colors.insert(mesh.colors.end(),
-                         {dice.between(0.1f, 1), dice.between(0.1f, 1), dice.between(0.1f, 1), 1});
+                         {rng.between(0.1f, 1), rng.between(0.1f, 1), rng.between(0.1f, 1), 1});
     }
   }
   drawing.meshes.push_back(std::move(mesh));
-  drawing.rival = [primitive](const Drawing& d) {
-    RivalForm form{.mesh = d.meshes.front(),
+  drawing.gl_workload = [primitive](const Drawing& d) {
+    GlWorkload form{.mesh = d.meshes.front(),
                    .shaders = rivals::window_shaders(rivals::Varying::colors),
                    .tests_depth = true};
     if (primitive == Primitive::lines)
-      form.tolerated =
+      form.max_mismatch_share =
           0.1;  // who draws the pixel at an end, and what depth a pixel beside a line has, is left open
     return form;
   };

@@ -16,9 +16,9 @@
 namespace tessera::bench {
 
 /// Whose workers come one after the other, and how long they run.
-class PretendedWorkers : public Executor {
+class SimulatedWorkers : public Executor {
  public:
-  explicit PretendedWorkers(int workers) : workers_(workers) {}
+  explicit SimulatedWorkers(int workers) : workers_(workers) {}
   int workers() const noexcept override { return workers_; }
   void run(int count, void (*work)(void*, int), void* context) override {
     const Clock::time_point start = Clock::now();
@@ -48,9 +48,9 @@ class PretendedWorkers : public Executor {
 };
 
 /// On the caller's thread: what the tasks themselves take.
-class WorkersOnCaller : public PretendedWorkers {
+class WorkersOnCallingThread : public SimulatedWorkers {
  public:
-  using PretendedWorkers::PretendedWorkers;
+  using SimulatedWorkers::SimulatedWorkers;
 
  private:
   void run_all(const Job& job) override { job(); }
@@ -59,16 +59,16 @@ class WorkersOnCaller : public PretendedWorkers {
 /// On a thread of their own: for what the caller does alone. After all of a frame's tasks its core's caches
 /// would hold nothing of that; on many cores it takes a small share of them, and what the others leave for it
 /// comes from their caches. Meanwhile the caller reads other memory, for that share.
-class WorkersElsewhere : public PretendedWorkers {
+class WorkersOnOtherCore : public SimulatedWorkers {
  public:
   /// @param core  that the thread is kept on, if the system lets it
   /// @param share_bytes  that the caller reads while workers run
-  WorkersElsewhere(int workers, int core, std::size_t share_bytes)
-      : PretendedWorkers(workers), share_(share_bytes / sizeof(std::uint64_t)), thread_([this, core] {
-          keep_on({&core, 1});
+  WorkersOnOtherCore(int workers, int core, std::size_t share_bytes)
+      : SimulatedWorkers(workers), share_(share_bytes / sizeof(std::uint64_t)), thread_([this, core] {
+          set_thread_affinity({&core, 1});
           serve();
         }) {}
-  ~WorkersElsewhere() override { hand_over({}); }
+  ~WorkersOnOtherCore() override { hand_over({}); }
 
  private:
   enum class Turn : int { callers, workers };

@@ -12,24 +12,24 @@ namespace {
 constexpr double kMiB = 1 << 20;
 
 // 10^9 bytes a second that a row is held against limits by.
-double moved(const Row& row) { return static_cast<double>(row.work.limited_bytes) / row.ms.median * 1e-6; }
+double achieved_bandwidth(const Row& row) { return static_cast<double>(row.work.roofline_bytes) / row.ms.median * 1e-6; }
 
 // Of what was working memory in the first frame, where triangles are most of it.
-std::optional<double> bytes_a_triangle(const Row& row) {
-  constexpr std::uint64_t kMany = 100000;
-  return row.work.triangles >= kMany
+std::optional<double> bytes_per_triangle(const Row& row) {
+  constexpr std::uint64_t kMinTriangles = 100000;
+  return row.work.triangles >= kMinTriangles
              ? std::optional(static_cast<double>(row.working_bytes) / static_cast<double>(row.work.triangles))
              : std::nullopt;
 }
 
-const char* name_of(Limit limit) {
-  switch (limit) {
-    case Limit::l1_stores: return "stores in L1";
-    case Limit::tile_stores: return "stores of a tile's words";
-    case Limit::memory_stores: return "stores of as much";
-    case Limit::memory_copies: return "copies of as much";
-    case Limit::memory_loads: return "loads of as much";
-    case Limit::none: break;
+const char* name_of(Roofline roofline) {
+  switch (roofline) {
+    case Roofline::l1_stores: return "stores in L1";
+    case Roofline::tile_stores: return "stores of a tile's words";
+    case Roofline::memory_stores: return "stores of as much";
+    case Roofline::memory_copies: return "copies of as much";
+    case Roofline::memory_loads: return "loads of as much";
+    case Roofline::none: break;
   }
   return "";
 }
@@ -39,17 +39,17 @@ double millions(std::uint64_t count, const Row& row) {
   return static_cast<double>(count) / row.ms.median * 1e-3;
 }
 
-struct Figure {
+struct Metric {
   const char* key;
   std::optional<double> value;  // none: it was not measured, or means nothing here
 };
-std::vector<Figure> figures_of(const Row& row) {
-  std::vector<Figure> figures{{"median_ms", row.ms.median},
+std::vector<Metric> metrics_of(const Row& row) {
+  std::vector<Metric> metrics{{"median_ms", row.ms.median},
                               {"low_quartile_ms", row.ms.low_quartile},
                               {"high_quartile_ms", row.ms.high_quartile},
                               {"percentile_95_ms", row.ms.percentile_95},
                               {"percentile_99_ms", row.ms.percentile_99},
-                              {"least_ms", row.ms.least},
+                              {"min_ms", row.ms.min},
                               {"cold_ms", row.cold_ms},
                               {"megapixels_per_second", millions(row.work.pixels, row)},
                               {"megatriangles_per_second", millions(row.work.triangles, row)},
@@ -57,31 +57,31 @@ std::vector<Figure> figures_of(const Row& row) {
                               {"megafragments_per_second", millions(row.work.fragments, row)},
                               {"gigabytes_per_second", millions(row.work.bytes, row) * 1e-3},
                               {"ns_per_pixel", 1e6 * row.ms.median / static_cast<double>(row.work.pixels)}};
-  figures.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
-  figures.push_back({"bytes_per_triangle", bytes_a_triangle(row)});
-  figures.push_back({"limit_gigabytes_per_second", row.limit > 0 ? std::optional(row.limit) : std::nullopt});
-  figures.push_back({"share_of_limit", row.limit > 0 ? std::optional(moved(row) / row.limit) : std::nullopt});
-  figures.push_back({"tile_bytes", row.l1_stores > 0 ? std::optional(static_cast<double>(row.work.tile_bytes))
+  metrics.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
+  metrics.push_back({"bytes_per_triangle", bytes_per_triangle(row)});
+  metrics.push_back({"roofline_gigabytes_per_second", row.roofline > 0 ? std::optional(row.roofline) : std::nullopt});
+  metrics.push_back({"share_of_roofline", row.roofline > 0 ? std::optional(achieved_bandwidth(row) / row.roofline) : std::nullopt});
+  metrics.push_back({"tile_bytes", row.l1_stores > 0 ? std::optional(static_cast<double>(row.work.tile_bytes))
                                                      : std::nullopt});
-  figures.push_back(
+  metrics.push_back(
       {"l1_stores_gigabytes_per_second", row.l1_stores > 0 ? std::optional(row.l1_stores) : std::nullopt});
-  figures.push_back(
-      {"share_of_l1_stores", row.l1_stores > 0 ? std::optional(moved(row) / row.l1_stores) : std::nullopt});
-  figures.push_back(
+  metrics.push_back(
+      {"share_of_l1_stores", row.l1_stores > 0 ? std::optional(achieved_bandwidth(row) / row.l1_stores) : std::nullopt});
+  metrics.push_back(
       {"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
-  figures.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions))
+  metrics.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions))
                                                 : std::nullopt});
-  return figures;
+  return metrics;
 }
 
-std::vector<Figure> figures_of(const MachineLimits& limits) {
+std::vector<Metric> metrics_of(const MachineBandwidth& limits) {
   return {{"l1_stores", limits.l1_stores},
           {"tile_stores", limits.tile_stores},
           {"frame_stores", limits.frame_stores},
           {"frame_copies", limits.frame_copies},
           {"memory_stores", limits.memory_stores},
           {"memory_loads", limits.memory_loads},
-          {"memory_loads_of_one_core", limits.memory_loads_of_one_core}};
+          {"memory_loads_single_core", limits.memory_loads_single_core}};
 }
 
 // What each of a machine's lines tells of, and what.
@@ -123,22 +123,22 @@ std::string table_line(const Row& row) {
       row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row),
       millions(row.work.vertices, row), millions(row.work.pixels, row), millions(row.work.bytes, row) * 1e-3,
       1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB,
-      bytes_a_triangle(row) ? formatted("%.0f", *bytes_a_triangle(row)).c_str() : "");
+      bytes_per_triangle(row) ? formatted("%.0f", *bytes_per_triangle(row)).c_str() : "");
 }
 
-std::string table_ending(const Report& report) {
-  std::string text = report.rivalry ? rivalry_ending(*report.rivalry) : "\n";
+std::string table_summary(const Report& report) {
+  std::string text = report.rival_comparisons ? comparison_summary(*report.rival_comparisons) : "\n";
   if (report.noise)
     text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(),
                       report.noise->value, report.noise->low, report.noise->high);
-  const auto rate = [](const std::optional<double>& limit) {
-    return limit ? formatted("%.1f", *limit) : std::string("(no memory)");
+  const auto rate = [](const std::optional<double>& roofline) {
+    return roofline ? formatted("%.1f", *roofline) : std::string("(no memory)");
   };
-  text += "limits, GB/s: stores in L1 " + rate(report.limits.l1_stores) + ", of 64 KiB a thread " +
-          rate(report.limits.tile_stores) + ", of a frame " + rate(report.limits.frame_stores) +
-          ", copies of a frame " + rate(report.limits.frame_copies) + ", stores of 256 MiB " +
-          rate(report.limits.memory_stores) + ", loads of 256 MiB " + rate(report.limits.memory_loads) +
-          " (by one core " + rate(report.limits.memory_loads_of_one_core) + ")\n";
+  text += "limits, GB/s: stores in L1 " + rate(report.bandwidth.l1_stores) + ", of 64 KiB a thread " +
+          rate(report.bandwidth.tile_stores) + ", of a frame " + rate(report.bandwidth.frame_stores) +
+          ", copies of a frame " + rate(report.bandwidth.frame_copies) + ", stores of 256 MiB " +
+          rate(report.bandwidth.memory_stores) + ", loads of 256 MiB " + rate(report.bandwidth.memory_loads) +
+          " (by one core " + rate(report.bandwidth.memory_loads_single_core) + ")\n";
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n",
                       report.core_to_core_ns[1], report.core_to_core_ns[0]);
@@ -154,16 +154,16 @@ std::string table_ending(const Report& report) {
                     1e-6 * static_cast<double>(row.counts->cycles),
                     static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
   for (const Row& row : report.rows) {
-    if (row.frames == 0 || row.work.limit == Limit::none) continue;
-    if (row.limit > 0) {
-      const auto share_of = [&](double most, Limit limit) {
-        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * moved(row) / most, name_of(limit), most);
+    if (row.frames == 0 || row.work.roofline == Roofline::none) continue;
+    if (row.roofline > 0) {
+      const auto share_of = [&](double most, Roofline roofline) {
+        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved_bandwidth(row) / most, name_of(roofline), most);
       };
-      text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), moved(row)) +
-              share_of(row.limit, row.work.limit) +
-              (row.l1_stores > 0 ? share_of(row.l1_stores, Limit::l1_stores) : "") + "\n";
+      text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), achieved_bandwidth(row)) +
+              share_of(row.roofline, row.work.roofline) +
+              (row.l1_stores > 0 ? share_of(row.l1_stores, Roofline::l1_stores) : "") + "\n";
     } else {
-      text += formatted("%-22s no memory for %s\n", row.name.c_str(), name_of(row.work.limit));
+      text += formatted("%-22s no memory for %s\n", row.name.c_str(), name_of(row.work.roofline));
     }
   }
   return text;
@@ -179,11 +179,11 @@ nlohmann::ordered_json report_json(const Report& report) {
   json["tile_size"] = report.tile_size;
   json["seed"] = report.seed;
   json["kept_on_cores"] = report.cores;
-  const auto add = [](nlohmann::ordered_json& entry, const std::vector<Figure>& figures) {
-    for (const Figure& figure : figures)
-      if (figure.value) entry[figure.key] = *figure.value;
+  const auto add = [](nlohmann::ordered_json& entry, const std::vector<Metric>& metrics) {
+    for (const Metric& metric : metrics)
+      if (metric.value) entry[metric.key] = *metric.value;
   };
-  add(json["limits_gigabytes_per_second"], figures_of(report.limits));
+  add(json["bandwidth_gigabytes_per_second"], metrics_of(report.bandwidth));
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
   if (report.noise)
@@ -191,18 +191,18 @@ nlohmann::ordered_json report_json(const Report& report) {
                      {"ratio", report.noise->value},
                      {"low_ratio", report.noise->low},
                      {"high_ratio", report.noise->high}};
-  if (report.rivalry) json["rivalry"] = rivalry_json(*report.rivalry);
+  if (report.rival_comparisons) json["rival_comparisons"] = comparisons_json(*report.rival_comparisons);
   if (!report.scaling.empty()) json["scaling"] = scaling_json(report.scaling);
   if (report.core_model)
-    json["core_model"] = {{"copies_of_one_core_gigabytes_per_second", report.core_model->core_bytes},
-                          {"most_cores_of_memory", report.core_model->most_cores_of_memory},
-                          {"pass_begins_in_seconds", report.core_model->barrier_seconds}};
+    json["core_model"] = {{"core_copy_gigabytes_per_second", report.core_model->core_gb_per_second},
+                          {"bandwidth_saturating_cores", report.core_model->bandwidth_saturating_cores},
+                          {"barrier_seconds", report.core_model->barrier_seconds}};
   json["workloads"] = nlohmann::ordered_json::array();
   for (const Row& row : report.rows) {
     nlohmann::ordered_json entry{{"name", row.name}, {"threads", row.threads}, {"frames", row.frames}};
     if (!row.fault.empty()) entry["fault"] = row.fault;
-    else add(entry, figures_of(row));
-    if (row.fault.empty() && row.limit > 0) entry["limit"] = name_of(row.work.limit);
+    else add(entry, metrics_of(row));
+    if (row.fault.empty() && row.roofline > 0) entry["roofline"] = name_of(row.work.roofline);
     json["workloads"].push_back(std::move(entry));
   }
   return json;
@@ -210,7 +210,7 @@ nlohmann::ordered_json report_json(const Report& report) {
 
 std::string report_csv(const Report& report) {
   std::string text = "workload,threads,frames";
-  for (const Figure& figure : figures_of(Row{})) text += std::string(",") + figure.key;
+  for (const Metric& metric : metrics_of(Row{})) text += std::string(",") + metric.key;
   text += ",fault,width,height,instruction_set,tile_size,seed,kept_on_cores,noise_low_ratio,noise_high_ratio";
   // The same in every row, so that rows of several files may stand together.
   std::string shared = formatted(",%d,%d,%s,%d,%u,", report.width, report.height,
@@ -224,8 +224,8 @@ std::string report_csv(const Report& report) {
   text += "\n";
   for (const Row& row : report.rows) {
     text += row.name + "," + std::to_string(row.threads) + "," + std::to_string(row.frames);
-    for (const Figure& figure : figures_of(row))
-      text += row.fault.empty() && figure.value ? formatted(",%.6g", *figure.value) : ",";
+    for (const Metric& metric : metrics_of(row))
+      text += row.fault.empty() && metric.value ? formatted(",%.6g", *metric.value) : ",";
     text += "," + csv_field(row.fault) + shared + "\n";
   }
   return text;

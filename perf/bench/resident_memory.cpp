@@ -22,7 +22,7 @@ ResidentMemory resident_memory() {
   return memory;
 }
 
-void forget_peak() {
+void reset_peak() {
   ::malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";  // see proc(5)
 }

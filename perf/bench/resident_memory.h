@@ -12,6 +12,6 @@ struct ResidentMemory {
 ResidentMemory resident_memory();
 
 /// Gives back what is free, and lets the peak start from there.
-void forget_peak();
+void reset_peak();
 
 }  // namespace tessera::bench

@@ -17,7 +17,7 @@ struct ShaderSources {
   std::string vertex, fragment;
 };
 
-struct RivalForm {
+struct GlWorkload {
   MeshData mesh{};
   ShaderSources shaders{};
   bool tests_depth = false;  ///< less, and writes it
@@ -25,13 +25,13 @@ struct RivalForm {
   int revealed_indices = 0;  ///< the last of them, which are drawn once more to be judged, in colour, where
                              ///< the depth is equal to theirs; 0: none are
   bool blends = false;       ///< by the source's alpha
-  bool counts_in_stencil = false;  ///< cleared to 1; passes where it is greater than 0, and counts up
+  bool increments_stencil = false;  ///< cleared to 1; passes where it is greater than 0, and counts up
   bool culls_back = false;
   Color clear_color{0, 0, 0, 1};
   int texture_size = 0;                ///< texels along both sides; 0: there is none
   std::vector<std::uint8_t> texels{};  ///< RGBA, rows from the bottom
   TextureSampler sampler{};
-  double tolerated = 0.001;  ///< share of pixels that may be more than two levels off
+  double max_mismatch_share = 0.001;  ///< share of pixels that may be more than two levels off
 };
 
 }  // namespace tessera::bench

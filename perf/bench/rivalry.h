@@ -12,9 +12,9 @@
 
 namespace tessera::bench {
 
-struct Duel {
+struct Comparison {
   Row ours, rivals;
-  double share_off = 0;  ///< of pixels, more than two levels
+  double mismatch_share = 0;  ///< of pixels, more than two levels
   bool is_in_mean = true;
   /// How many times as long the rival takes.
   Ratio ratio() const { return ratio_of(rivals.ms, ours.ms); }
@@ -22,25 +22,25 @@ struct Duel {
   const std::string& fault() const { return !ours.fault.empty() ? ours.fault : rivals.fault; }
 };
 
-struct Rivalry {
+struct RivalComparisons {
   std::string rival;     ///< its own name for itself
   double finish_ms = 0;  ///< what a frame takes it that changes one pixel
   double finish_pixel_ms =
       0;  ///< and in a window of one pixel: what finish_ms is beyond that is a copy of the picture
-  std::vector<Duel> duels;
+  std::vector<Comparison> comparisons;
 };
 
 /// Draws both, and, where each has its right picture and the two are the same, times them in turns.
-/// @param tolerated  share of pixels that may differ by more than two levels
-Duel duel(Candidate ours, Candidate rival, double tolerated, const MeasureOptions& options,
+/// @param max_mismatch_share  share of pixels that may differ by more than two levels
+Comparison compare_with_rival(Candidate ours, Candidate rival, double max_mismatch_share, const MeasureOptions& options,
           const HardwareCounters& counters);
 /// Of a workload with Mesa. Empty where rivals do not draw it.
-std::optional<Duel> duel(const WorkloadEntry& entry, const WorkloadSetup& setup, rivals::MesaDriver driver,
+std::optional<Comparison> compare_with_rival(const WorkloadEntry& entry, const WorkloadSetup& setup, rivals::MesaDriver driver,
                          const MeasureOptions& options, const HardwareCounters& counters);
 
-std::string rivalry_heading();
-std::string rivalry_line(const Duel& duel);
-std::string rivalry_ending(const Rivalry& rivalry);
-nlohmann::ordered_json rivalry_json(const Rivalry& rivalry);
+std::string comparison_heading();
+std::string comparison_line(const Comparison& comparison);
+std::string comparison_summary(const RivalComparisons& rival_comparisons);
+nlohmann::ordered_json comparisons_json(const RivalComparisons& rival_comparisons);
 
 }  // namespace tessera::bench

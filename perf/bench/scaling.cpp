@@ -12,26 +12,26 @@
 #include <queue>
 #include <tuple>
 
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 #include "perf/bench/frame_costs.h"
 #include "perf/bench/limits.h"
 #include "perf/bench/text.h"
-#include "perf/bench/two_apart.h"
+#include "perf/bench/independent_renderers.h"
 
 namespace tessera::bench {
 namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
 constexpr double kCostSeconds = 2;  // of a measured row's, for each count of cores
-constexpr int kManyCores = 64;      // whose seconds are shown in parts
-static_assert(std::find(std::begin(kCores), std::end(kCores), kManyCores) != std::end(kCores));
+constexpr int kBreakdownCores = 64;      // whose seconds are shown in parts
+static_assert(std::find(std::begin(kCores), std::end(kCores), kBreakdownCores) != std::end(kCores));
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// Until the last core is done, as Parallel hands tasks out.
+/// Until the last core is done, as WorkerPool hands tasks out.
 /// @param tasks  in the order of their numbers
 /// @param taking  seconds before each
-double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
+double makespan(std::span<const FrameTask> tasks, double taking, int cores) {
   const std::size_t workers = std::min(static_cast<std::size_t>(cores), tasks.size());
   std::vector<std::size_t> next;  // of each share
   for (std::size_t s = 0; s < workers; ++s) next.push_back(first_of_share(tasks.size(), workers, s));
@@ -59,21 +59,21 @@ double scheduled(std::span<const FrameTask> tasks, double taking, int cores) {
   return end;
 }
 
-std::array<std::pair<const char*, double>, 4> parts_of(const CoreSeconds& seconds) {
-  return {{{"working", seconds.working},
-           {"waiting", seconds.waiting},
-           {"alone", seconds.alone},
+std::array<std::pair<const char*, double>, 4> parts_of(const FrameTimeBreakdown& seconds) {
+  return {{{"busy", seconds.busy},
+           {"idle", seconds.idle},
+           {"serial", seconds.serial},
            {"memory", seconds.memory}}};
 }
 
 double barrier_seconds(int threads) {
   constexpr int kRuns = 9, kTimes = 500;
-  Parallel parallel(threads);
+  WorkerPool worker_pool(threads);
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < kTimes; ++i)
-      parallel.for_each(static_cast<std::size_t>(threads), [](std::size_t, int) {});
+      worker_pool.for_each(static_cast<std::size_t>(threads), [](std::size_t, int) {});
     least = std::min(
         least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes);
   }
@@ -83,25 +83,25 @@ double barrier_seconds(int threads) {
 }  // namespace
 
 CoreModel measure_core_model(int threads) {
-  constexpr std::uint64_t kMuch = std::uint64_t{256} << 20;
-  return {.core_bytes = measure_limit(Limit::memory_copies, 1, kMuch),
+  constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20;
+  return {.core_gb_per_second = measure_bandwidth(Roofline::memory_copies, 1, kBandwidthTestBytes),
           .barrier_seconds = barrier_seconds(threads)};
 }
 
-CoreSeconds seconds_on(const TracedFrame& frame, int cores, const CoreModel& model) {
-  CoreSeconds seconds{.alone = frame.seconds - frame.seconds_in_tasks() - frame.seconds_taking};
-  const double taking = frame.seconds_taking / std::max<double>(1, static_cast<double>(frame.tasks.size()));
+FrameTimeBreakdown predict_frame_time(const TracedFrame& frame, int cores, const CoreModel& model) {
+  FrameTimeBreakdown seconds{.serial = frame.seconds - frame.task_seconds() - frame.dispatch_seconds};
+  const double taking = frame.dispatch_seconds / std::max<double>(1, static_cast<double>(frame.tasks.size()));
   const double begins = cores > 1 ? model.barrier_seconds : 0;
-  double passes = frame.calls_without_tasks * begins;
+  double passes = frame.untraced_calls * begins;
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
     const auto last = std::find_if(first, frame.tasks.end(),
                                    [&](const FrameTask& task) { return task.pass != first->pass; });
-    passes += scheduled({first, last}, taking, cores) + begins;
+    passes += makespan({first, last}, taking, cores) + begins;
     first = last;
   }
-  seconds.working = (frame.seconds_in_tasks() + frame.seconds_taking) / cores;
-  seconds.waiting = frame.tasks.empty() ? passes : passes - seconds.working;
-  const double memory_rate = 1e9 * model.core_bytes * std::min(cores, model.most_cores_of_memory);
+  seconds.busy = (frame.task_seconds() + frame.dispatch_seconds) / cores;
+  seconds.idle = frame.tasks.empty() ? passes : passes - seconds.busy;
+  const double memory_rate = 1e9 * model.core_gb_per_second * std::min(cores, model.bandwidth_saturating_cores);
   seconds.memory = std::max(0.0, static_cast<double>(frame.work.bytes) / memory_rate - seconds.sum());
   return seconds;
 }
@@ -143,23 +143,23 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
   }
   if (!counts.empty()) {
     const Candidate apart{
-        .name = entry.name, .make = [&] { return std::make_unique<TwoApart>(entry, setup); }, .threads = 2};
+        .name = entry.name, .make = [&] { return std::make_unique<IndependentRenderers>(entry, setup); }, .threads = 2};
     const std::vector<Row> rows = measure(std::vector{on(1), apart}, options, counters);
     if (std::none_of(rows.begin(), rows.end(), [](const Row& row) {
-          return row.is_stopped;
+          return row.is_aborted;
         })) {  // what was measured before is worth more than both
       note_fault(rows);
       if (!scaling.fault.empty()) return scaling;
-      scaling.two_apart = TwoApart::speed_up(rows[0].ms, rows[1].ms);
+      scaling.independent_renderers = IndependentRenderers::speed_up(rows[0].ms, rows[1].ms);
     }
   }
   try {
     for (const int cores : kCores) {
       const std::vector<TracedFrame> costs =
-          costs_of_frames(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
-      const CoreSeconds one = seconds_on(costs[0], 1, model), seconds = seconds_on(costs[1], cores, model);
+          measure_frame_costs(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
+      const FrameTimeBreakdown one = predict_frame_time(costs[0], 1, model), seconds = predict_frame_time(costs[1], cores, model);
       scaling.predicted.emplace_back(cores, one.sum() / seconds.sum());
-      if (cores == kManyCores) scaling.of_64 = seconds;
+      if (cores == kBreakdownCores) scaling.on_64_cores = seconds;
     }
   } catch (const std::bad_alloc&) {
     scaling.not_computed = kOutOfMemory;
@@ -173,10 +173,10 @@ std::string scaling_heading(int threads) {
   std::string text = formatted("%-22s %9s ", "workload", "1 core ms");
   for (const int count : measured_threads(threads))
     text += formatted(" %20s", (std::to_string(count) + " threads").c_str());
-  if (threads > 1) text += formatted(" %20s", "2 apart");
+  if (threads > 1) text += formatted(" %20s", "2 independent");
   text += "  computed:";
   for (const int cores : kCores) text += formatted(" %7s", (std::to_string(cores) + "x").c_str());
-  return text + "   of 64  working  waiting    alone   memory\n";
+  return text + "   of 64     busy     idle   serial   memory\n";
 }
 
 std::string scaling_line(const Scaling& scaling) {
@@ -187,18 +187,18 @@ std::string scaling_line(const Scaling& scaling) {
     text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high);
   };
   for (const auto& [threads, speed] : scaling.measured) measured(speed);
-  if (scaling.two_apart) measured(*scaling.two_apart);
+  if (scaling.independent_renderers) measured(*scaling.independent_renderers);
   else if (!scaling.measured.empty()) text += formatted(" %20s", "(no memory)");
   text += "           ";
-  double of_64 = 0;
+  double on_64_cores = 0;
   for (const auto& [cores, speed] : scaling.predicted) {
     text += formatted(" %7.2f", speed);
-    if (cores == kManyCores) of_64 = speed / kManyCores;
+    if (cores == kBreakdownCores) on_64_cores = speed / kBreakdownCores;
   }
   if (!scaling.not_computed.empty()) return text + "  not computed: " + scaling.not_computed + "\n";
-  text += formatted("  %4.0f %%", 100 * of_64);
-  for (const auto& [what, seconds] : parts_of(scaling.of_64))
-    text += formatted("  %5.0f %%", 100 * seconds / scaling.of_64.sum());
+  text += formatted("  %4.0f %%", 100 * on_64_cores);
+  for (const auto& [what, seconds] : parts_of(scaling.on_64_cores))
+    text += formatted("  %5.0f %%", 100 * seconds / scaling.on_64_cores.sum());
   return text + "\n";
 }
 
@@ -215,11 +215,11 @@ nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
       entry["one_thread_ms"] = scaling.one_ms;
       for (const auto& [threads, speed] : scaling.measured)
         entry["measured"][std::to_string(threads)] = measured(speed);
-      if (scaling.two_apart) entry["two_apart"] = measured(*scaling.two_apart);
+      if (scaling.independent_renderers) entry["independent_renderers"] = measured(*scaling.independent_renderers);
       if (!scaling.not_computed.empty()) entry["not_computed"] = scaling.not_computed;
       for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
-      if (scaling.of_64.sum() > 0)
-        for (const auto& [what, seconds] : parts_of(scaling.of_64)) entry["ms_of_64"][what] = 1e3 * seconds;
+      if (scaling.on_64_cores.sum() > 0)
+        for (const auto& [what, seconds] : parts_of(scaling.on_64_cores)) entry["ms_on_64_cores"][what] = 1e3 * seconds;
     }
     json.push_back(std::move(entry));
   }

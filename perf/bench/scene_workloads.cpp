@@ -12,7 +12,7 @@ constexpr int kDepthComplexity = 8;
 constexpr int kDraws = 1000;
 
 /// Grids of 20,000 triangles each.
-Drawing deep(int width, int height, bool front_first) {
+Drawing overdraw_layers(int width, int height, bool front_first) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
   for (int k = 0; k < kDepthComplexity; ++k)
@@ -70,14 +70,14 @@ Drawing many_draws(int width, int height, int draws) {
 
 WorkloadEntry entry(const std::string& name, const std::string& what,
                     std::function<Drawing(int width, int height)> make) {
-  return drawn_beside(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
+  return drawn_outside_mean(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
     return make(width, height);
   });
 }
 
 }  // namespace
 
-WorkloadEntry patches_drawn_apart(int draws) {
+WorkloadEntry patches_in_separate_draws(int draws) {
   return entry("draws-" + std::to_string(draws),
                std::to_string(draws) + " draws of 32 triangles, each with a state of its own",
                [draws](int w, int h) { return many_draws(w, h, draws); });
@@ -85,10 +85,10 @@ WorkloadEntry patches_drawn_apart(int draws) {
 
 std::vector<WorkloadEntry> scene_workloads() {
   return {entry("depth-8-front", "8 layers of 20k triangles over the whole window, the nearest first",
-                [](int w, int h) { return deep(w, h, true); }),
+                [](int w, int h) { return overdraw_layers(w, h, true); }),
           entry("depth-8-back", "8 layers of 20k triangles over the whole window, the farthest first",
-                [](int w, int h) { return deep(w, h, false); }),
-          patches_drawn_apart(kDraws)};
+                [](int w, int h) { return overdraw_layers(w, h, false); }),
+          patches_in_separate_draws(kDraws)};
 }
 
 }  // namespace tessera::bench

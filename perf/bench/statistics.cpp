@@ -19,13 +19,13 @@ Statistics statistics_of(std::vector<double> values) {
           .high_quartile = percentile(0.75),
           .percentile_95 = percentile(0.95),
           .percentile_99 = percentile(0.99),
-          .least = values.front(),
-          .low_median = values[rank - 1],
-          .high_median = values[values.size() - rank]};
+          .min = values.front(),
+          .median_ci_low = values[rank - 1],
+          .median_ci_high = values[values.size() - rank]};
 }
 
 Ratio ratio_of(const Statistics& a, const Statistics& b) {
-  return {a.median / b.median, a.low_median / b.high_median, a.high_median / b.low_median};
+  return {a.median / b.median, a.median_ci_low / b.median_ci_high, a.median_ci_high / b.median_ci_low};
 }
 
 }  // namespace tessera::bench

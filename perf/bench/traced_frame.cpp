@@ -17,7 +17,7 @@ constexpr int kWarmUps = 3, kFrames = 9;
 const char* name_of(FrameStage stage) {
   switch (stage) {
     case FrameStage::vertices: return "vertices";
-    case FrameStage::faces: return "faces";
+    case FrameStage::flat_colors: return "flat_colors";
     case FrameStage::binning: return "binning";
     default: return "tiles";
   }
@@ -36,7 +36,7 @@ nlohmann::ordered_json event_of(const FrameTask& task, std::size_t process) {
   return event;
 }
 
-double ns_a_pixel(const FrameTask& task) {
+double ns_per_pixel(const FrameTask& task) {
   return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height);
 }
 
@@ -56,7 +56,7 @@ std::set<int> workers_of(std::span<const FrameTask> tasks) {
 
 }  // namespace
 
-double TracedFrame::seconds_in_tasks() const {
+double TracedFrame::task_seconds() const {
   return std::accumulate(tasks.begin(), tasks.end(), 0.0,
                          [](double sum, const FrameTask& task) { return sum + task.end - task.begin; });
 }
@@ -113,14 +113,14 @@ Heatmap heatmap(const TracedFrame& frame) {
   for (std::size_t i = 3; i < map.picture.rgba.size(); i += 4) map.picture.rgba[i] = 255;
   for (const FrameTask& task : frame.tasks)
     if (task.stage == FrameStage::tiles)
-      map.most_ns_a_pixel = std::max(map.most_ns_a_pixel, ns_a_pixel(task));
+      map.max_ns_per_pixel = std::max(map.max_ns_per_pixel, ns_per_pixel(task));
   for (const FrameTask& task : frame.tasks)
     for (int y = task.pixels.y; y < task.pixels.y + task.pixels.height; ++y)
       for (int x = task.pixels.x; x < task.pixels.x + task.pixels.width; ++x)
         paint(map.picture.rgba.data() +
                   4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
                        static_cast<std::size_t>(x)),
-              ns_a_pixel(task) / map.most_ns_a_pixel);
+              ns_per_pixel(task) / map.max_ns_per_pixel);
   return map;
 }
 

@@ -13,12 +13,12 @@ struct TracedFrame {
   std::string workload;
   double seconds = 0;              ///< from its first command to its end; of costs their sum
   std::vector<FrameTask> tasks{};  ///< in the order in which they began
-  double seconds_taking = 0;  ///< where workers run, but not at tasks: they take their next ones, or do what
+  double dispatch_seconds = 0;  ///< where workers run, but not at tasks: they take their next ones, or do what
                               ///< no task tells of; of costs only
-  int calls_without_tasks = 0;  ///< for workers, who run in them all the same; of costs only
+  int untraced_calls = 0;  ///< for workers, who run in them all the same; of costs only
   FrameWork work{};
 
-  double seconds_in_tasks() const;  ///< of all workers together
+  double task_seconds() const;  ///< of all workers together
 };
 
 /// A workload whose frames tell of their tasks.
@@ -47,7 +47,7 @@ std::string chrome_trace(const std::vector<TracedFrame>& frames);
 /// dearest tile costs.
 struct Heatmap {
   Picture picture;
-  double most_ns_a_pixel = 0;  ///< white
+  double max_ns_per_pixel = 0;  ///< white
 };
 Heatmap heatmap(const TracedFrame& frame);
 

@@ -14,7 +14,7 @@ namespace tessera::bench {
 
 /// The same workload twice, on a thread each. What is wrong with one of them is wrong with it; the rest is
 /// the first one's.
-class TwoApart : public Workload {
+class IndependentRenderers : public Workload {
  public:
   static constexpr int kFrames =
       3;  ///< that each of them draws in a draw(), so that little of it is one that waits for the other
@@ -25,14 +25,14 @@ class TwoApart : public Workload {
     return {kAll * ratio.value, kAll * ratio.low, kAll * ratio.high};
   }
 
-  TwoApart(const WorkloadEntry& entry, WorkloadSetup setup) {
+  IndependentRenderers(const WorkloadEntry& entry, WorkloadSetup setup) {
     setup.options.threads = 1;
     for (std::unique_ptr<Workload>& workload : workloads_) workload = entry.make(setup);
   }
 
   FrameStats draw() override {
     std::array<FrameStats, 2> stats;
-    parallel_.for_each(stats.size(), [&](std::size_t i, int) {
+    worker_pool_.for_each(stats.size(), [&](std::size_t i, int) {
       for (int frame = 0; frame < kFrames; ++frame) stats[i] = workloads_[i]->draw();
     });
     return stats.front();
@@ -46,7 +46,7 @@ class TwoApart : public Workload {
   FrameWork work(const FrameStats& stats) const override { return workloads_.front()->work(stats); }
 
  private:
-  Parallel parallel_{2};
+  WorkerPool worker_pool_{2};
   std::array<std::unique_ptr<Workload>, 2> workloads_;
 };
 

@@ -26,7 +26,7 @@ struct WorkloadSetup {
 };
 
 /// What the machine does at best with a frame's bytes.
-enum class Limit : std::uint8_t {
+enum class Roofline : std::uint8_t {
   none,
   l1_stores,      ///< memset of 16 KiB for each thread, again and again
   tile_stores,    ///< memset of as many bytes as a tile's words for each thread, again and again: the first
@@ -43,10 +43,10 @@ struct FrameWork {
   std::uint64_t vertices = 0;
   std::uint64_t fragments = 0;   ///< shaded, or blended, or tested: as the workload counts them
   std::uint64_t bytes = 0;       ///< read and written in memory by its nature: meshes, planes, the image
-  std::uint64_t kept_bytes = 0;  ///< of the frame buffer's planes and the image
-  Limit limit = Limit::none;     ///< what it is held against
-  std::uint64_t limited_bytes = 0;
-  std::uint64_t tile_bytes = 0;  ///< a tile's words, where they are what the limit stores
+  std::uint64_t frame_buffer_bytes = 0;  ///< of the frame buffer's planes and the image
+  Roofline roofline = Roofline::none;     ///< what it is held against
+  std::uint64_t roofline_bytes = 0;
+  std::uint64_t tile_bytes = 0;  ///< a tile's words, where they are what the roofline stores
 };
 
 class Workload {
@@ -66,8 +66,8 @@ struct WorkloadEntry {
   std::string what;        ///< one line, for the list
   bool is_in_mean = true;  ///< of ratios to rivals
   std::function<std::unique_ptr<Workload>(const WorkloadSetup&)> make{};
-  std::function<std::optional<RivalForm>(const WorkloadSetup&)>
-      rival{};                             ///< the same for rivals, where they can draw it
+  std::function<std::optional<GlWorkload>(const WorkloadSetup&)>
+      gl_workload{};                             ///< the same for rivals, where they can draw it
   std::function<std::string()> lacks{};    ///< what it needs and is not installed, or nothing. May be empty
   std::function<std::string()> prepare{};  ///< reads what it needs, before any thread runs; says why it
                                            ///< cannot, or nothing. May be empty

@@ -49,7 +49,7 @@ Vector to_eye(const Matrix& view, double x, double y, double z, double w) {
 }
 
 // One light's share of `sum`, for the normal n at p and the direction v to the eye.
-void add_light(std::ostringstream& s, const Light& light, const LitForm& form) {
+void add_light(std::ostringstream& s, const Light& light, const LitDraw& form) {
   const Material& m = form.material;
   const Vector at =
       to_eye(form.camera.view, light.position[0], light.position[1], light.position[2], light.position[3]);
@@ -80,8 +80,8 @@ void add_light(std::ostringstream& s, const Light& light, const LitForm& form) {
 }
 
 /// light(normal, position), in eye space.
-std::string lighting_function(const LitForm& form) {
-  if (form.model.two_sided || form.model.specular != Highlight::blinn)
+std::string lighting_function(const LitDraw& form) {
+  if (form.model.two_sided || form.model.specular != SpecularModel::blinn)
     throw std::runtime_error("the rival's shaders know one side, and highlights by the halfway vector");
   const Material& m = form.material;
   const Color scene = product(form.model.ambient, m.ambient);
@@ -116,7 +116,7 @@ bench::ShaderSources window_shaders(Varying varying, const Color& color) {
   }
 }
 
-bench::ShaderSources lit_shaders(const LitForm& form) {
+bench::ShaderSources lit_shaders(const LitDraw& form) {
   const Matrix eye = form.camera.view * form.transform, clip = form.camera.projection * eye;
   const std::string head = kHead, lighting = lighting_function(form);
   const std::string inputs = "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 normal;\n",

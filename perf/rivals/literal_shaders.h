@@ -15,7 +15,7 @@ enum class Varying { nothing, colors, texcoords };
 bench::ShaderSources window_shaders(Varying varying, const Color& color = {});
 
 /// A draw under the lighting equation, as Tessera has it.
-struct LitForm {
+struct LitDraw {
   Camera camera{};
   Matrix transform{};  ///< world from object: moves and turns, and scales alike in all directions
   std::vector<Light> lights{};
@@ -25,6 +25,6 @@ struct LitForm {
   bool normalizes = true;  ///< normals of vertices
 };
 /// @throws std::runtime_error for what these shaders do not know
-bench::ShaderSources lit_shaders(const LitForm& form);
+bench::ShaderSources lit_shaders(const LitDraw& form);
 
 }  // namespace tessera::rivals

@@ -11,14 +11,14 @@
 namespace tessera::rivals {
 namespace {
 
-using bench::RivalForm;
+using bench::GlWorkload;
 
-std::string text_of(GLenum what) { return reinterpret_cast<const char*>(mesa().get_string(what)); }
+std::string gl_string(GLenum what) { return reinterpret_cast<const char*>(mesa().get_string(what)); }
 
 /// A context that draws into a picture, rows from the top.
-class MesaWindow {
+class MesaContext {
  public:
-  MesaWindow(int width, int height, MesaDriver driver, int threads) : picture_(width, height) {
+  MesaContext(int width, int height, MesaDriver driver, int threads) : picture_(width, height) {
     setenv("GALLIUM_DRIVER", driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe", 1);
     setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 1);
     constexpr int kAttributes[] = {OSMESA_FORMAT,
@@ -34,14 +34,14 @@ class MesaWindow {
     if (context_ == nullptr) throw std::runtime_error("OSMesa makes no context");
     make_current();
     const std::string wanted = driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe",
-                      found = text_of(GL_RENDERER);
+                      found = gl_string(GL_RENDERER);
     if (found.find(wanted) == std::string::npos)
       throw std::runtime_error("OSMesa's driver is \"" + found + "\", expected " + wanted);
     mesa().pixel_store(OSMESA_Y_UP, 0);
   }
-  ~MesaWindow() { mesa().destroy_context(context_); }
-  MesaWindow(const MesaWindow&) = delete;
-  MesaWindow& operator=(const MesaWindow&) = delete;
+  ~MesaContext() { mesa().destroy_context(context_); }
+  MesaContext(const MesaContext&) = delete;
+  MesaContext& operator=(const MesaContext&) = delete;
 
   void make_current() {
     if (!mesa().make_current(context_, picture_.rgba.data(), GL_UNSIGNED_BYTE, picture_.width,
@@ -55,7 +55,7 @@ class MesaWindow {
   OSMesaContext context_ = nullptr;
 };
 
-void use_shaders(const bench::ShaderSources& sources) {
+void link_and_use_program(const bench::ShaderSources& sources) {
   const GLuint program = mesa().create_program();
   const auto attach = [&](GLenum kind, const std::string& source) {
     const GLuint shader = mesa().create_shader(kind);
@@ -78,7 +78,7 @@ void use_shaders(const bench::ShaderSources& sources) {
 }
 
 template <class Number>
-void fill_buffer(GLenum target, const std::vector<Number>& values) {
+void upload_buffer(GLenum target, const std::vector<Number>& values) {
   GLuint name = 0;
   mesa().gen_buffers(1, &name);
   mesa().bind_buffer(target, name);
@@ -86,9 +86,9 @@ void fill_buffer(GLenum target, const std::vector<Number>& values) {
                      GL_STATIC_DRAW);
 }
 
-void give_attribute(GLuint location, GLint components, const std::vector<float>& values) {
+void set_vertex_attribute(GLuint location, GLint components, const std::vector<float>& values) {
   if (values.empty()) return;
-  fill_buffer(GL_ARRAY_BUFFER, values);
+  upload_buffer(GL_ARRAY_BUFFER, values);
   mesa().enable_vertex_attrib_array(location);
   mesa().vertex_attrib_pointer(location, components, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
@@ -104,7 +104,7 @@ GLint filter_of(TextureFilter filter) {
   }
 }
 
-void give_texture(const RivalForm& form) {
+void upload_texture(const GlWorkload& form) {
   mesa().bind_texture(GL_TEXTURE_2D, 0);
   mesa().tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, form.texture_size, form.texture_size, 0, GL_RGBA,
                       GL_UNSIGNED_BYTE, form.texels.data());
@@ -124,35 +124,35 @@ GLenum mode_of(Primitive primitive) {
 
 class MesaWorkload : public bench::Workload {
  public:
-  MesaWorkload(const RivalForm& form, int width, int height, MesaDriver driver, int threads)
+  MesaWorkload(const GlWorkload& form, int width, int height, MesaDriver driver, int threads)
       : window_(width, height, driver, threads), mode_(mode_of(form.mesh.primitive)) {
-    use_shaders(form.shaders);
-    give_attribute(0, form.mesh.position_components, form.mesh.positions);
-    give_attribute(1, 3, form.mesh.normals);
-    give_attribute(2, 4, form.mesh.colors);
-    give_attribute(3, 2, form.mesh.texcoords);
-    if (!form.mesh.indices.empty()) fill_buffer(GL_ELEMENT_ARRAY_BUFFER, form.mesh.indices);
+    link_and_use_program(form.shaders);
+    set_vertex_attribute(0, form.mesh.position_components, form.mesh.positions);
+    set_vertex_attribute(1, 3, form.mesh.normals);
+    set_vertex_attribute(2, 4, form.mesh.colors);
+    set_vertex_attribute(3, 2, form.mesh.texcoords);
+    if (!form.mesh.indices.empty()) upload_buffer(GL_ELEMENT_ARRAY_BUFFER, form.mesh.indices);
     index_count_ = static_cast<GLsizei>(form.mesh.indices.size());
     revealed_indices_ = form.revealed_indices;
     vertex_count_ = static_cast<GLsizei>(form.mesh.vertex_count());
-    if (form.texture_size != 0) give_texture(form);
+    if (form.texture_size != 0) upload_texture(form);
     mesa().disable(GL_DITHER);
     if (form.culls_back) mesa().enable(GL_CULL_FACE);
     if (form.tests_depth) {
       mesa().enable(GL_DEPTH_TEST);
-      cleared_ |= kDepthAndStencil;
+      clear_mask_ |= kDepthAndStencil;
     }
     if (!form.writes_color) mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     if (form.blends) {
       mesa().enable(GL_BLEND);
       mesa().blend_func(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     }
-    if (form.counts_in_stencil) {
+    if (form.increments_stencil) {
       mesa().enable(GL_STENCIL_TEST);
       mesa().clear_stencil(1);
       mesa().stencil_func(GL_LESS, 0, 0xff);
       mesa().stencil_op(GL_KEEP, GL_KEEP, GL_INCR);
-      cleared_ |= kDepthAndStencil;
+      clear_mask_ |= kDepthAndStencil;
     }
     mesa().clear_color(form.clear_color.r, form.clear_color.g, form.clear_color.b, 1);
     if (mesa().get_error() != GL_NO_ERROR)
@@ -160,7 +160,7 @@ class MesaWorkload : public bench::Workload {
   }
 
   FrameStats draw() override {
-    mesa().clear(cleared_);
+    mesa().clear(clear_mask_);
     if (index_count_ > 0) mesa().draw_elements(mode_, index_count_, GL_UNSIGNED_INT, nullptr);
     else mesa().draw_arrays(mode_, 0, vertex_count_);
     mesa().finish();
@@ -189,22 +189,22 @@ class MesaWorkload : public bench::Workload {
   static constexpr GLbitfield kDepthAndStencil =
       GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;  // they share words: one alone would be read and written
 
-  MesaWindow window_;
+  MesaContext window_;
   GLenum mode_;
   GLsizei index_count_ = 0, vertex_count_ = 0, revealed_indices_ = 0;
-  GLbitfield cleared_ = GL_COLOR_BUFFER_BIT;
+  GLbitfield clear_mask_ = GL_COLOR_BUFFER_BIT;
 };
 
 }  // namespace
 
-std::unique_ptr<bench::Workload> mesa_workload(const RivalForm& form, int width, int height,
+std::unique_ptr<bench::Workload> mesa_workload(const GlWorkload& form, int width, int height,
                                                MesaDriver driver, int threads) {
   return std::make_unique<MesaWorkload>(form, width, height, driver, threads);
 }
 
 double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {
   constexpr int kFrames = 51;
-  MesaWindow window(width, height, driver, threads);
+  MesaContext window(width, height, driver, threads);
   mesa().clear(GL_COLOR_BUFFER_BIT);
   mesa().finish();
   mesa().scissor(0, 0, 1, 1);
@@ -222,8 +222,8 @@ double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {
 }
 
 std::string mesa_name(MesaDriver driver, int threads) {
-  const MesaWindow window(1, 1, driver, threads);
-  return text_of(GL_RENDERER) + ", " + text_of(GL_VERSION);
+  const MesaContext window(1, 1, driver, threads);
+  return gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION);
 }
 
 }  // namespace tessera::rivals

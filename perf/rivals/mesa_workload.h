@@ -16,7 +16,7 @@ enum class MesaDriver { llvmpipe, softpipe };
 /// same for all of a process.
 ///     With one it draws on the thread that calls it.
 /// @throws std::runtime_error where OSMesa is missing, has another driver, or does not take a shader
-std::unique_ptr<bench::Workload> mesa_workload(const bench::RivalForm& form, int width, int height,
+std::unique_ptr<bench::Workload> mesa_workload(const bench::GlWorkload& form, int width, int height,
                                                MesaDriver driver, int threads);
 
 /// Time in ms, the median of many, of a frame that changes one pixel: what finishing a frame costs by itself.

@@ -34,7 +34,7 @@ float at(const FrameBuffer& buffer, int x, int y, std::size_t c) {
   return accumulated(buffer)[4 * static_cast<std::size_t>(y * buffer.format().width + x) + c];
 }
 std::uint32_t word_at(const FrameBuffer& buffer, int x, int y) {
-  return color_words(buffer)[static_cast<std::size_t>(y * buffer.format().width + x)];
+  return packed_colors(buffer)[static_cast<std::size_t>(y * buffer.format().width + x)];
 }
 
 std::vector<std::uint64_t> plane_hashes(const FrameBuffer& buffer) {
@@ -61,7 +61,7 @@ TEST_F(Accumulating, BlursWhatMovesBetweenTwoFrames) {
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   frame.draw(right.view(), unlit({1, 1, 1, 1}));
   frame.accumulate({.value = 0.5});
-  frame.accumulate({.op = AccumOp::return_});
+  frame.accumulate({.op = AccumOp::return_color});
   frame.keep({Buffer::color});
   renderer.finish(frame);
   EXPECT_EQ(word_at(buffer, 30, 35), 0xff808080u) << "the first alone";
@@ -131,7 +131,7 @@ TEST_F(Accumulating, ReachesTilesWithoutTriangles) {
   frame.clear({.color = Color{1, 1, 1, 1}, .depth = 1.0});
   frame.draw(mesh.view(), unlit({0, 0, 0, 1}));
   frame.accumulate({.op = AccumOp::load, .value = 0.5});
-  frame.accumulate({.op = AccumOp::return_});
+  frame.accumulate({.op = AccumOp::return_color});
   renderer.finish(frame, image.target());
   EXPECT_EQ(image.bytes.back(), 128) << "alpha";
   EXPECT_EQ(image.bytes[image.bytes.size() - 4], 128);
@@ -142,10 +142,10 @@ TEST_F(Accumulating, ReachesTilesWithoutTriangles) {
 TEST_F(Accumulating, ReturnsThroughTheColorMask) {
   frame.clear({.color = Color{0, 0, 0, 0}, .accumulation = Color{1, 1, 1, 1}});
   frame.accumulate(
-      {.op = AccumOp::return_, .scissor = Rect{0, 0, 40, 71}, .color_mask = {true, false, false, false}});
+      {.op = AccumOp::return_color, .scissor = Rect{0, 0, 40, 71}, .color_mask = {true, false, false, false}});
   frame.accumulate(
-      {.op = AccumOp::return_, .scissor = Rect{40, 0, 40, 71}, .color_mask = {false, true, false, true}});
-  frame.accumulate({.op = AccumOp::return_, .value = -1, .scissor = Rect{80, 0, 40, 71}});
+      {.op = AccumOp::return_color, .scissor = Rect{40, 0, 40, 71}, .color_mask = {false, true, false, true}});
+  frame.accumulate({.op = AccumOp::return_color, .value = -1, .scissor = Rect{80, 0, 40, 71}});
   renderer.finish(frame);
   EXPECT_EQ(word_at(buffer, 20, 20), 0x00ff0000u);
   EXPECT_EQ(word_at(buffer, 60, 20), 0xff00ff00u);
@@ -164,11 +164,11 @@ TEST_F(Accumulating, ReturnsWithTheDitherOfEveryOtherWrite) {
     const Color color{0.2987f, 0.4321f, 0.7123f, 1};
     f.clear({.color = color});
     renderer.finish(f);
-    const std::vector<std::uint32_t> cleared = color_words(dithered);
+    const std::vector<std::uint32_t> cleared = packed_colors(dithered);
     f.clear({.color = Color{0, 0, 0, 1}, .accumulation = color});
-    f.accumulate({.op = AccumOp::return_});
+    f.accumulate({.op = AccumOp::return_color});
     renderer.finish(f);
-    EXPECT_EQ(color_words(dithered), cleared) << color_bits;
+    EXPECT_EQ(packed_colors(dithered), cleared) << color_bits;
   }
 }
 
@@ -220,14 +220,14 @@ TEST_F(Accumulating, LosesWhatIsNotKeptAndSaysSo) {
       << "accumulation reads it";
   frame.reset();
   frame.clear({.accumulation = Color{0.5f, 0.5f, 0.5f, 0.5f}});
-  frame.accumulate({.op = AccumOp::return_, .scissor = Rect{0, 0, 5, 5}});
+  frame.accumulate({.op = AccumOp::return_color, .scissor = Rect{0, 0, 5, 5}});
   EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
               HasSubstr("starts from the colour buffer"))
       << "a part of it stays";
   frame.reset();
   // Nothing of either is looked at before it is replaced.
   frame.clear({.accumulation = Color{0.5f, 0.5f, 0.5f, 0.5f}});
-  frame.accumulate({.op = AccumOp::return_});
+  frame.accumulate({.op = AccumOp::return_color});
   frame.accumulate({.op = AccumOp::load, .value = -1});
   renderer.finish(frame);
   EXPECT_EQ(word_at(buffer, 132, 70), 0x80808080u);
@@ -241,16 +241,16 @@ TEST_F(Accumulating, LosesWhatIsNotKeptAndSaysSo) {
 }
 
 TEST_F(Accumulating, LeavesCapturesAlone) {
-  std::vector<std::uint32_t> objects(pixel_count(buffer));
+  std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
   const MeshData mesh = rectangle(-1, -1, 0, 1);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .accumulation = Color{1, 1, 1, 1}});
   frame.draw(mesh.view(), unlit({0, 1, 0, 1}));
   frame.accumulate({.op = AccumOp::add, .value = -0.5});
-  frame.accumulate({.op = AccumOp::return_});
-  frame.capture({.objects = objects});
+  frame.accumulate({.op = AccumOp::return_color});
+  frame.capture({.draw_ids = draw_ids});
   renderer.finish(frame);
-  EXPECT_EQ(objects[10], 0u);
-  EXPECT_EQ(objects[130], Capture::kNothing);
+  EXPECT_EQ(draw_ids[10], 0u);
+  EXPECT_EQ(draw_ids[130], Capture::kNothing);
   EXPECT_EQ(word_at(buffer, 10, 0), 0x80808080u);
   EXPECT_NEAR(at(buffer, 10, 0, 1), 0.5, 1e-4);
 }
@@ -279,7 +279,7 @@ std::vector<std::function<void(Frame&)>> commands_of(const RandomFrame& scene) {
           draw({0, 0.7f, 0.9f, 1}, 0.5, Shading::gouraud),
           accum({.value = 0.6}),
           accum({.op = AccumOp::mult, .value = -1.3, .scissor = Rect{-5, -5, 80, 40}}),
-          accum({.op = AccumOp::return_,
+          accum({.op = AccumOp::return_color,
                  .value = 1.7,
                  .scissor = Rect{11, 13, 100, 41},
                  .color_mask = {true, true, false, true}}),
@@ -287,7 +287,7 @@ std::vector<std::function<void(Frame&)>> commands_of(const RandomFrame& scene) {
           clear({.accumulation = Color{0.5f, 0.6f, 0.7f, 0.8f}, .scissor = Rect{100, 50, 20, 20}}),
           draw({0.6f, 0.1f, 0.9f, 0.5f}, -0.5, Shading::flat),
           accum({.value = 0.9}),
-          accum({.op = AccumOp::return_, .value = 0.8, .scissor = Rect{60, 0, 60, 71}})};
+          accum({.op = AccumOp::return_color, .value = 0.8, .scissor = Rect{60, 0, 60, 71}})};
 }
 
 TEST(Accumulation, GivesTheSameBitsForEveryTileSizeNumberOfThreadsAndInstructionSetAndHoweverTheFrameIsCut) {

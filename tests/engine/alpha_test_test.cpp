@@ -28,7 +28,7 @@ Tested drawn(const Mesh& mesh, DrawState state, const LightModel& model, bool st
   if (!stores_color) state.color_mask = {false, false, false, false};
   frame.draw(mesh, state);
   Renderer().finish(frame);
-  return {depth_words(buffer), stencil_values(buffer)};
+  return {stored_depths(buffer), stencil_values(buffer)};
 }
 
 std::size_t passed(const Tested& tested) {
@@ -119,7 +119,7 @@ TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
           frame.clear({.color = Color{0, 0, 0, 1}});
           frame.draw(mesh.view(), state);
           Renderer().finish(frame);
-          const std::vector<std::uint32_t> words = color_words(buffer);
+          const std::vector<std::uint32_t> words = packed_colors(buffer);
           for (std::size_t x = 3; x < 37; ++x) {  // beside what the other sides cover
             const double along = (static_cast<double>(x) + 0.5) / 40,
                          alpha = std::clamp(shading == Shading::phong ? -1 + 4 * along : along, 0.0, 1.0);

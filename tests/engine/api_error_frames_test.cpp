@@ -177,7 +177,7 @@ TEST(ErrorsOfFrames, NameAccumulationsThatCannotBe) {
   FrameBufferFormat grey = kGrey2;
   grey.accumulation_bits = 16;
   expect_errors(grey,
-                {accumulate("a split mask", {.op = AccumOp::return_, .color_mask = {true, true, false, true}},
+                {accumulate("a split mask", {.op = AccumOp::return_color, .color_mask = {true, true, false, true}},
                             {"Frame::accumulate", "luminance", "all or none"})});
 }
 
@@ -353,7 +353,7 @@ TEST(ErrorsOfFrames, NameOperationsWithoutTheirBuffer) {
   EXPECT_FALSE(error_of([&] { into_bare.draw(kLeft.view(), plain); }))
       << "an offset of nothing, and a blend with the copying logic operation";
   DrawState logic;
-  logic.logic_op = LogicOp::xor_;
+  logic.logic_op = LogicOp::bit_xor;
   logic.stencil.emplace();
   EXPECT_FALSE(error_of([&] { into_index.draw(kLeft.view(), logic); }));
 }

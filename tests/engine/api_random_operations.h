@@ -157,7 +157,7 @@ struct RandomOperations {
   }
   Accum accum(Random& random, int turn) const {
     Accum accum{.op = static_cast<AccumOp>(turn % 5), .value = random.between(-0.3f, 1)};
-    if (accum.op == AccumOp::return_) accum.value = 1;
+    if (accum.op == AccumOp::return_color) accum.value = 1;
     if (coin(random)) accum.scissor = part(random);
     if (format.color_bits > 2 && coin(random))
       accum.color_mask = {coin(random), coin(random), true, coin(random)};
@@ -213,7 +213,7 @@ struct RandomOperations {
     s.material.diffuse = color(random);
     s.material.specular = {0.5f, 0.5f, 0.4f, 1};
     s.material.shininess = 12;
-    if (is_index() && coin(random)) s.material.color_indexes = {{3, random.between(20, 200), 255}};
+    if (is_index() && coin(random)) s.material.index_ramp = {{3, random.between(20, 200), 255}};
     if (i % 4 == 2) s.back_material = Material{.diffuse = color(random)};
     s.shading = static_cast<Shading>(i % 3);
     s.lighting = i % 4 != 3;

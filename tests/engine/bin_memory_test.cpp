@@ -20,12 +20,12 @@ namespace {
 using namespace test;
 
 RendererOptions in_parts(RendererOptions options = {.threads = 1}) {
-  options.bin_memory = kLeastBinMemory;
+  options.bin_memory = kMinBinMemory;
   return options;
 }
 
 std::vector<std::uint64_t> triangle_counts(const FrameStats& s) {
-  return {s.vertices, s.triangles_in, s.dropped_non_finite, s.outside, s.culled,   s.zero_area,
+  return {s.vertices, s.triangles_in, s.dropped_non_finite, s.trivially_rejected, s.culled,   s.zero_area,
           s.clipped,  s.binned,       s.bin_entries,        s.tiles,   s.fragments};
 }
 
@@ -33,7 +33,7 @@ std::vector<std::uint64_t> triangle_counts(const FrameStats& s) {
 struct Outcome {
   Fingerprint stored;
   std::vector<std::uint8_t> shown;
-  std::vector<std::uint32_t> objects, primitives;
+  std::vector<std::uint32_t> draw_ids, primitive_ids;
   std::vector<float> normals;
   FrameStats stats;
 };
@@ -44,10 +44,10 @@ Outcome render(const Scene& scene, RendererOptions options) {
   Frame frame(buffer);
   scene.record(frame);
   const std::size_t pixels = pixel_count(buffer);
-  Outcome outcome{.objects = std::vector<std::uint32_t>(pixels),
-                  .primitives = std::vector<std::uint32_t>(pixels),
+  Outcome outcome{.draw_ids = std::vector<std::uint32_t>(pixels),
+                  .primitive_ids = std::vector<std::uint32_t>(pixels),
                   .normals = std::vector<float>(3 * pixels)};
-  frame.capture({.objects = outcome.objects, .primitives = outcome.primitives, .normals = outcome.normals});
+  frame.capture({.draw_ids = outcome.draw_ids, .primitive_ids = outcome.primitive_ids, .normals = outcome.normals});
   frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
   Image image(buffer);
   Renderer renderer(options);
@@ -60,8 +60,8 @@ Outcome render(const Scene& scene, RendererOptions options) {
 void expect_same(const Outcome& found, const Outcome& expected) {
   EXPECT_EQ(found.stored, expected.stored);
   EXPECT_TRUE(found.shown == expected.shown);
-  EXPECT_TRUE(found.objects == expected.objects);
-  EXPECT_TRUE(found.primitives == expected.primitives);
+  EXPECT_TRUE(found.draw_ids == expected.draw_ids);
+  EXPECT_TRUE(found.primitive_ids == expected.primitive_ids);
   EXPECT_TRUE(found.normals == expected.normals);
   EXPECT_EQ(triangle_counts(found.stats), triangle_counts(expected.stats));
   EXPECT_EQ(expected.stats.bin_passes, 1u);
@@ -85,7 +85,7 @@ TEST(BinMemory, FramesInPartsAreTheSameFrames) {
 
 TEST(BinMemory, ASingleTileTakesABatchAtATime) {
   for (const int samples : {1, 8}) {
-    const FullTile scene({.width = 60, .height = 50, .samples = samples});
+    const BinOverflowScene scene({.width = 60, .height = 50, .samples = samples});
     const Outcome whole = render(scene, {.threads = 1, .tile_size = 64});
     ASSERT_EQ(whole.stats.tiles, 1u);
     for (const bool defer : {true, false}) {
@@ -110,18 +110,18 @@ long most_bytes(int count, RendererOptions options, int tile_size) {
   options.tile_size = tile_size;
   Renderer renderer(options);
   const long before = live_bytes;
-  most_live_bytes = before;
+  peak_live_bytes = before;
   for (int i = 0; i < 2; ++i) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     frame.draw(layers.view(), {.lighting = false});
     renderer.finish(frame);
   }
-  return most_live_bytes - before;
+  return peak_live_bytes - before;
 }
 
 /// Bytes that each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow
 /// the end of a list and its count, and one piece with its attributes.
-constexpr long kUnasked = sizeof(Bins::Block) + 16 + sizeof(Piece) + 64 * sizeof(float);
+constexpr long kUnasked = sizeof(Bins::Block) + 16 + sizeof(DerivedPrimitive) + 64 * sizeof(float);
 
 TEST(BinMemory, IsTheMostThatTheBinsTake) {
   ThreadLimit limit(4);
@@ -132,10 +132,10 @@ TEST(BinMemory, IsTheMostThatTheBinsTake) {
       SCOPED_TRACE(std::to_string(threads) + " threads, tiles of " + std::to_string(tile_size));
       const RendererOptions whole{.threads = threads};
       const long empty = most_bytes(0, whole, tile_size);
-      EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kLeastBinMemory))
+      EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kMinBinMemory))
           << "a frame that is to be in parts";
       EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty,
-                static_cast<long>(kLeastBinMemory) + kBatches * kUnasked);
+                static_cast<long>(kMinBinMemory) + kBatches * kUnasked);
     }
 }
 
@@ -149,17 +149,17 @@ TEST(BinMemory, IsTheMostThatManyTilesTake) {
   Frame frame(buffer);
   const auto most = [&](std::size_t bin_memory) {
     Renderer renderer(
-        {.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<WorkersInTurn>(4)});
+        {.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<SingleThreadExecutor>(4)});
     frame.keep({});
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     frame.draw(triangles.view(), {.lighting = false});
     const long before = live_bytes;
-    most_live_bytes = before;
+    peak_live_bytes = before;
     renderer.finish(frame);
-    return most_live_bytes - before;
+    return peak_live_bytes - before;
   };
-  const long whole = most(std::size_t{8} << 20), parts = most(kLeastBinMemory);
-  EXPECT_GT(whole - parts, kBatches * (16 * 4096 + 16384 - kUnasked) - static_cast<long>(kLeastBinMemory));
+  const long whole = most(std::size_t{8} << 20), parts = most(kMinBinMemory);
+  EXPECT_GT(whole - parts, kBatches * (16 * 4096 + 16384 - kUnasked) - static_cast<long>(kMinBinMemory));
 }
 
 #endif
@@ -178,7 +178,7 @@ TEST(BinMemory, IsAQuarterOfAGigabyteUnlessSaidOtherwise) {
 
 // What the bins were found to take is forgotten where it was too much.
 TEST(BinMemory, FramesAfterOneInPartsAreWholeIfTheyFit) {
-  const FullTile large({.width = 60, .height = 50});
+  const BinOverflowScene large({.width = 60, .height = 50});
   const MeshData small = rectangle(-1, -1, 1, 1);
   Renderer renderer(in_parts({.threads = 1, .tile_size = 32}));
   FrameBuffer buffer(large.format);

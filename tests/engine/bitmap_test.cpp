@@ -88,7 +88,7 @@ TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
                 expected[static_cast<std::size_t>(row * kWidth + column)] = word, ++touched;
         }
         renderer.finish(frame);
-        EXPECT_EQ(color_words(buffer), expected)
+        EXPECT_EQ(packed_colors(buffer), expected)
             << samples << " samples, tiles of " << tile_size << ", " << name(set);
         EXPECT_GT(touched, 10000u);
       }
@@ -99,7 +99,7 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 60; ++turn) {
       Random random(100 + static_cast<std::uint64_t>(turn));
-      const Rect place = random_place(random);
+      const Rect place = random_rect(random);
       const std::vector<std::uint8_t> ones(static_cast<std::size_t>((place.width + 7) / 8 * place.height),
                                            0xff);
       const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1),
@@ -146,7 +146,7 @@ TEST(Bitmap, DepthIsQuantizedLikeAClear) {
       const bool is_float = format == DepthFormat::float32;
       const std::uint32_t level = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(depth))
                                            : static_cast<std::uint32_t>(std::floor(scaled + 0.5L));
-      EXPECT_EQ(depth_words(buffer)[7], level) << depth << " in " << bits << " bits";
+      EXPECT_EQ(stored_depths(buffer)[7], level) << depth << " in " << bits << " bits";
     }
   }
 }
@@ -174,11 +174,11 @@ TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
       frame.draw_bitmap(square(20, 0, {0, 0, 1, 1}, 0.8));    // behind it
       frame.accumulate({.op = AccumOp::load, .value = 1});
       frame.draw_bitmap(square(30, 0, {1, 1, 1, 1}));  // not accumulated
-      frame.accumulate({.op = AccumOp::return_, .value = 1, .scissor = Rect{30, 0, 4, 8}});
+      frame.accumulate({.op = AccumOp::return_color, .value = 1, .scissor = Rect{30, 0, 4, 8}});
       frame.clear({.color = Color{1, 1, 0, 1}, .scissor = Rect{10, 0, 4, 8}});
       frame.draw_bitmap(square(40, 4, {0, 1, 1, 1}));
       Renderer({.threads = 1, .defer_shading = defer}).finish(frame);
-      const std::vector<std::uint32_t> words = color_words(buffer);
+      const std::vector<std::uint32_t> words = packed_colors(buffer);
       const auto at = [&](int x, int y) { return words[static_cast<std::size_t>((39 - y) * 48 + x)]; };
       EXPECT_EQ(at(2, 2) & 0xffff, 0u) << "red light alone";
       EXPECT_GT(at(2, 2) >> 16, 100u);
@@ -212,9 +212,9 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
       EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("a bitmap of 8 x 64: one colour"),
                                           HasSubstr("depth test"), testing::Not(HasSubstr("left out"))));
       EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
-      std::vector<std::uint32_t> objects(pixel_count(buffer)), primitives(objects.size());
-      std::vector<float> normals(3 * objects.size());
-      frame.capture({.objects = objects, .primitives = primitives, .normals = normals});
+      std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
+      std::vector<float> normals(3 * draw_ids.size());
+      frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
       const FrameStats stats =
           Renderer({.threads = 1, .tile_size = 32, .count_fragments = true}).finish(frame);
       EXPECT_EQ(stats.fragments, 70u * 50 + 4 * 50 + 4);
@@ -224,8 +224,8 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
         for (std::size_t x = 0; x < 70; ++x) {
           const std::uint32_t object = x >= 30 && x < 34 ? 1 : x < 4 && y == 46 ? 3 : 0;
           const std::size_t i = 70 * y + x;
-          ASSERT_EQ(objects[i], object) << x << ' ' << y;
-          ASSERT_EQ(primitives[i], object == 0 ? (primitives[i] & 1) : 0u);
+          ASSERT_EQ(draw_ids[i], object) << x << ' ' << y;
+          ASSERT_EQ(primitive_ids[i], object == 0 ? (primitive_ids[i] & 1) : 0u);
           ASSERT_EQ(normals[3 * i + 2], object == 0 ? 1.0f : 0.0f) << x << ' ' << y;
           drawn += object == 0 ? 0 : 1;
         }
@@ -284,7 +284,7 @@ TEST(Bitmap, RefusesWhatItCannotDraw) {
               HasSubstr("Frame::draw_bitmap: scissor is 4 x -1 pixels"));
   EXPECT_THAT(error(as_is, {.alpha_test = AlphaTest{.ref = 2}}, rgb),
               HasSubstr("Frame::draw_bitmap: alpha_test.ref is 2"));
-  EXPECT_THAT(error(as_is, {.blend = BlendState{}, .logic_op = LogicOp::xor_}, rgb),
+  EXPECT_THAT(error(as_is, {.blend = BlendState{}, .logic_op = LogicOp::bit_xor}, rgb),
               HasSubstr("Frame::draw_bitmap: blending and a logic operation"));
   EXPECT_THAT(error(as_is, {.blend = BlendState{}}, index), HasSubstr("indices, which do not blend"));
   EXPECT_THAT(error(as_is, {.alpha_test = AlphaTest{}}, index), HasSubstr("indices, which have no alpha"));

@@ -48,7 +48,7 @@ std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, f
   frame.set_light_model({.ambient = {0, 0, 0, 1}});
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1}).finish(frame);
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   const auto [least, most] = std::minmax_element(words.begin(), words.end());
   return {*least >> 16, *most >> 16};
 }

@@ -81,7 +81,7 @@ double worst_angle(const MeshData& mesh) {
 
 TEST(BuiltinMesh, EveryMeshHasUnitNormalsThatAgreeWithItsTriangles) {
   for (const std::string_view name : kBuiltinMeshNames)
-    for (const int detail : {least_mesh_detail(name), 3, 8, 16}) {
+    for (const int detail : {min_mesh_detail(name), 3, 8, 16}) {
       const MeshData mesh = builtin_mesh(name, detail);
       ASSERT_GT(mesh.triangle_count(), 0u) << name;
       ASSERT_EQ(mesh.normals.size(), mesh.positions.size()) << name;

@@ -73,7 +73,7 @@ TEST_P(CalibratedCamera, PutsPointsOnTheirPixelsAtTheirDistances) {
     renderer.finish(frame);
     std::vector<float> depth(pixel_count(buffer));
     buffer.read_view_depth(depth, camera, -1);
-    const std::vector<std::uint32_t> words = color_words(buffer);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
     for (std::size_t i = 0; i < words.size(); ++i) {
       const bool expected = i == static_cast<std::size_t>(row) * 320 + static_cast<std::size_t>(column);
       ASSERT_EQ(words[i] != 0, expected)

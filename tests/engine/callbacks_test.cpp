@@ -72,7 +72,7 @@ TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
     const ThreadLimit limit(std::max(1, threads));
     Renderer* helper = nullptr;
     int drawn = 0, told = 0;
-    const std::shared_ptr<Executor> executor = threads == 0 ? std::make_shared<OwnThreads>(3) : nullptr;
+    const std::shared_ptr<Executor> executor = threads == 0 ? std::make_shared<ThreadPerCallExecutor>(3) : nullptr;
     Renderer renderer({.threads = threads, .tile_size = 32, .executor = executor, .progress = [&](double) {
                          const auto draw = [&] {
                            FrameBuffer next_buffer({.width = 8, .height = 8});
@@ -95,12 +95,12 @@ TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
 }
 
 /// Notes how deep its calls are within each other.
-class Depth : public WorkersInTurn {
+class Depth : public SingleThreadExecutor {
  public:
-  Depth() : WorkersInTurn(3) {}
+  Depth() : SingleThreadExecutor(3) {}
   void run(int count, void (*work)(void*, int), void* context) override {
     deepest = std::max(deepest, ++depth_);
-    WorkersInTurn::run(count, work, context);
+    SingleThreadExecutor::run(count, work, context);
     --depth_;
   }
   int deepest = 0;
@@ -160,7 +160,7 @@ TEST(Progress, MayUseAnotherRendererOfTheSameExecutor) {
   EXPECT_EQ(depth->deepest, 1);
   expect_frames_within_a_frame(depth);
   EXPECT_EQ(depth->deepest, 2) << "the executor hears of the frames within the frame";
-  expect_frames_within_a_frame(std::make_shared<OwnThreads>(3));
+  expect_frames_within_a_frame(std::make_shared<ThreadPerCallExecutor>(3));
   expect_frames_within_a_frame(std::make_shared<Helping>());
 }
 
@@ -185,7 +185,7 @@ TEST(Progress, MustNotFinishFramesOfItsRenderer) {
     ASSERT_GE(calls, 2);
     EXPECT_THAT(errors, testing::Each(testing::HasSubstr("called by this renderer's own progress callback")));
     plain.finish(next);
-    EXPECT_THAT(color_words(next_buffer), testing::AllOf(testing::SizeIs(64), testing::Each(0x0000ffu)))
+    EXPECT_THAT(packed_colors(next_buffer), testing::AllOf(testing::SizeIs(64), testing::Each(0x0000ffu)))
         << "nothing of it is lost";
   }
 }
@@ -215,7 +215,7 @@ void end_at_every_call(const End& expect_end) {
     if (!ended) break;
     armed = false;
     EXPECT_EQ(frame.draw_count(), draws) << "still recorded";
-    color_words(buffer);  // readable
+    packed_colors(buffer);  // readable
     renderer.finish(frame);
     EXPECT_EQ(fingerprint(buffer), expected) << "after call " << at;
     EXPECT_EQ(frame.draw_count(), 0u);
@@ -262,7 +262,7 @@ TEST(Progress, MayCancelWhileTwoThreadsWork) {
         renderer.finish(frame);
       } catch (const Cancelled&) {
         ++cancelled;
-        color_words(*buffer);  // readable
+        packed_colors(*buffer);  // readable
       }
       armed = false;
       if (frame.draw_count() == 0) scene().record(frame);
@@ -333,7 +333,7 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
     }());
   EXPECT_THROW(renderer.finish(frame), Cancelled);
   std::size_t before = 0, after = 0;
-  for (const std::uint32_t word : color_words(buffer)) {
+  for (const std::uint32_t word : packed_colors(buffer)) {
     ASSERT_TRUE(word == 0xff0000u || word == 0x00ff00u) << std::hex << word;
     ++(word == 0xff0000u ? before : after);
   }

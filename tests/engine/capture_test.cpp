@@ -17,13 +17,13 @@ using namespace test;
 constexpr FrameBufferFormat kFormat{.width = 150, .height = 110};
 
 struct Pixels {
-  std::vector<std::uint32_t> objects, primitives;
+  std::vector<std::uint32_t> draw_ids, primitive_ids;
   std::vector<float> normals;
   explicit Pixels(const FrameBuffer& buffer)
-      : objects(pixel_count(buffer), 7),
-        primitives(pixel_count(buffer), 7),
+      : draw_ids(pixel_count(buffer), 7),
+        primitive_ids(pixel_count(buffer), 7),
         normals(3 * pixel_count(buffer), 7.0f) {}
-  Capture all() { return {.objects = objects, .primitives = primitives, .normals = normals}; }
+  Capture all() { return {.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals}; }
 };
 
 // The oracle: every triangle is a draw of its own, unlit, in a colour that is its number.
@@ -68,12 +68,12 @@ TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
       frame.capture(pixels.all());
       renderer.finish(frame);
       renderer.finish(numbers);
-      const std::vector<std::uint32_t> words = color_words(numbered);
+      const std::vector<std::uint32_t> words = packed_colors(numbered);
       std::size_t drawn = 0;
       for (std::size_t i = 0; i < words.size(); ++i) {
         const bool nothing = words[i] == 0;
-        ASSERT_EQ(pixels.objects[i], nothing ? Capture::kNothing : who[words[i] - 1].first) << i;
-        ASSERT_EQ(pixels.primitives[i], nothing ? Capture::kNothing : who[words[i] - 1].second) << i;
+        ASSERT_EQ(pixels.draw_ids[i], nothing ? Capture::kNothing : who[words[i] - 1].first) << i;
+        ASSERT_EQ(pixels.primitive_ids[i], nothing ? Capture::kNothing : who[words[i] - 1].second) << i;
         const double length =
             std::hypot(pixels.normals[3 * i], pixels.normals[3 * i + 1], pixels.normals[3 * i + 2]);
         ASSERT_NEAR(length, nothing ? 0 : 1, 1e-5) << i;
@@ -99,7 +99,7 @@ TEST(Capture, ChangesNoBitOfThePictureAndHoldsForOneFrame) {
   const Pixels first = pixels;
   with.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   renderer.finish(with);
-  EXPECT_EQ(pixels.objects, first.objects) << "not asked for again";
+  EXPECT_EQ(pixels.draw_ids, first.draw_ids) << "not asked for again";
 }
 
 // Neither how pixels are stored nor when they are shaded has a say in which triangle is seen.
@@ -119,10 +119,10 @@ TEST(Capture, IsTheSameForIndicesAndForShadingAtOnce) {
       frame.capture(pixels.all());
       renderer.finish(frame);
       if (!first) first = pixels;
-      EXPECT_EQ(pixels.objects, first->objects);
-      EXPECT_EQ(pixels.primitives, first->primitives);
+      EXPECT_EQ(pixels.draw_ids, first->draw_ids);
+      EXPECT_EQ(pixels.primitive_ids, first->primitive_ids);
       EXPECT_EQ(pixels.normals, first->normals);
-      EXPECT_GT(std::count(pixels.objects.begin(), pixels.objects.end(), 0u), 1000);
+      EXPECT_GT(std::count(pixels.draw_ids.begin(), pixels.draw_ids.end(), 0u), 1000);
     }
 }
 
@@ -175,11 +175,11 @@ TEST(Capture, FollowsClearsMasksAndLaterDraws) {
   frame.draw(MeshData{}.view(), {});
   frame.draw(whole.view(), {.depth = {.test = Compare::never}});
   Pixels pixels(buffer);
-  frame.capture({.objects = pixels.objects, .primitives = pixels.primitives});
+  frame.capture({.draw_ids = pixels.draw_ids, .primitive_ids = pixels.primitive_ids});
   renderer.finish(frame);
   for (std::size_t y = 0; y < 8; ++y)
     for (std::size_t x = 0; x < 8; ++x)
-      EXPECT_EQ(pixels.objects[8 * y + x], y < 4 ? 0u : x < 4 ? 2u : Capture::kNothing) << x << ' ' << y;
+      EXPECT_EQ(pixels.draw_ids[8 * y + x], y < 4 ? 0u : x < 4 ? 2u : Capture::kNothing) << x << ' ' << y;
   EXPECT_EQ(pixels.normals[0], 7.0f) << "not asked for";
 }
 
@@ -189,10 +189,10 @@ TEST(Capture, RefusesSpansOfAnotherSize) {
   std::vector<std::uint32_t> ids(10);
   std::vector<float> normals(pixel_count(buffer));
   EXPECT_THAT(
-      error_of([&] { frame.capture({.objects = ids}); }).value_or(""),
-      testing::AllOf(testing::HasSubstr("objects"), testing::HasSubstr("10"), testing::HasSubstr("16500")));
-  EXPECT_THAT(error_of([&] { frame.capture({.primitives = ids}); }).value_or(""),
-              testing::HasSubstr("primitives"));
+      error_of([&] { frame.capture({.draw_ids = ids}); }).value_or(""),
+      testing::AllOf(testing::HasSubstr("draw_ids"), testing::HasSubstr("10"), testing::HasSubstr("16500")));
+  EXPECT_THAT(error_of([&] { frame.capture({.primitive_ids = ids}); }).value_or(""),
+              testing::HasSubstr("primitive_ids"));
   EXPECT_THAT(error_of([&] { frame.capture({.normals = normals}); }).value_or(""),
               testing::HasSubstr("49500"));
 }
@@ -217,12 +217,12 @@ TEST(Fragments, AreCountedBeforeAnyTestAndOnlyOnRequest) {
 
 TEST(Capture, SeesNothingWhereAClearIsDithered) {
   FrameBuffer buffer({.width = 20, .height = 20, .color_bits = 3, .dither = Dither::bayer4});
-  std::vector<std::uint32_t> objects(pixel_count(buffer));
+  std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
   Frame frame(buffer);
   frame.clear({.color = Color{0.4f, 0.5f, 0.6f, 1}});
-  frame.capture({.objects = objects});
+  frame.capture({.draw_ids = draw_ids});
   Renderer({.threads = 1}).finish(frame);
-  EXPECT_THAT(objects, testing::Each(Capture::kNothing));
+  EXPECT_THAT(draw_ids, testing::Each(Capture::kNothing));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(ChildProcess, IsStoppedByItsLimitsAndSaysWhy) {
                     }),
             "file took more than 1 seconds; given up");
   int asked = 0;
-  EXPECT_EQ(message({.go_on = [&] { return ++asked < 4; }},
+  EXPECT_EQ(message({.should_continue = [&] { return ++asked < 4; }},
                     [] {
                       std::this_thread::sleep_for(std::chrono::seconds(30));
                       return std::string();

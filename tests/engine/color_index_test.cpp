@@ -24,8 +24,8 @@ TEST(ColorIndex, IsInterpolatedFromMaskedVertices) {
   for (const auto& [a, b, c] : corners) {
     const MeshData mesh = large_triangle(a, b, c);
     const double at[3] = {masked(a, 64), masked(b, 64), masked(c, 64)};
-    for (const DrawState& state : every_way(index_state())) {
-      const Words words = drawn(kIndexFormat, [&](Frame& frame) { frame.draw(mesh.view(), state); });
+    for (const DrawState& state : every_pixel_path(index_state())) {
+      const PackedColors words = drawn(kIndexFormat, [&](Frame& frame) { frame.draw(mesh.view(), state); });
       for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) {
           const double index = at[0] + (at[1] - at[0]) * (x + 0.5) / 128 + (at[2] - at[0]) * (y + 0.5) / 64;
@@ -75,7 +75,7 @@ TEST(ColorIndex, IsNeverDithered) {
   format.palette = named_palette("ega16", 6);
   const MeshData mesh = large_triangle(0, 60, 20);
   const auto record = [&](Frame& frame) { frame.draw(mesh.view(), index_state()); };
-  const Words plain = drawn(format, record);
+  const PackedColors plain = drawn(format, record);
   format.dither = Dither::bayer8;
   EXPECT_EQ(drawn(format, record), plain);
 }
@@ -95,7 +95,7 @@ TEST(ColorIndex, GivesWayToColoursWhereItDoesNotApply) {
   Frame frame(buffer);
   frame.draw(mesh.view(), index_state());
   Renderer({.threads = 1}).finish(frame);
-  EXPECT_THAT(color_words(buffer), Each(0xff5454u));
+  EXPECT_THAT(packed_colors(buffer), Each(0xff5454u));
 }
 
 TEST(ColorIndex, XorDrawnTwiceRestoresWhatWasThere) {
@@ -106,13 +106,13 @@ TEST(ColorIndex, XorDrawnTwiceRestoresWhatWasThere) {
     return drawn(kIndexFormat, [&](Frame& frame) {
       frame.draw(below.view(), state);
       DrawState cursor = state;
-      cursor.logic_op = LogicOp::xor_;
+      cursor.logic_op = LogicOp::bit_xor;
       for (int i = 0; i < times; ++i) frame.draw(above.view(), cursor);
     });
   };
-  const Words before = draws(0), once = draws(1);
+  const PackedColors before = draws(0), once = draws(1);
   EXPECT_EQ(draws(2), before);
-  const Words alone = drawn(kIndexFormat, [&](Frame& frame) { frame.draw(above.view(), state); });
+  const PackedColors alone = drawn(kIndexFormat, [&](Frame& frame) { frame.draw(above.view(), state); });
   for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i], before[i] ^ alone[i]);
 }
 
@@ -120,7 +120,7 @@ TEST(ColorIndex, GoesThroughThePlaneMask) {
   DrawState state = index_state();
   state.plane_mask = 0b000111;
   const MeshData mesh = large_triangle(0b101010, 0b101010, 0b101010);
-  const Words words = drawn(kIndexFormat, [&](Frame& frame) {
+  const PackedColors words = drawn(kIndexFormat, [&](Frame& frame) {
     frame.clear({.index = 0b010101});
     frame.draw(mesh.view(), state);
   });
@@ -138,7 +138,7 @@ TEST(ColorIndex, ErrorsNameWhatIsWrong) {
   DrawState state;
   state.material = index_material(0, std::numeric_limits<float>::infinity(), 1, 0);
   EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), state); }).value_or(""),
-              AllOf(HasSubstr("material.color_indexes"), HasSubstr("finite")));
+              AllOf(HasSubstr("material.index_ramp"), HasSubstr("finite")));
   state = index_state();
   state.blend = BlendState{};
   EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), state); }).value_or(""), HasSubstr("do not blend"));
@@ -188,7 +188,7 @@ TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
   const auto record = [&](Frame& frame) {
     frame.set_lights({Light{}, point});
     frame.set_light_model({.two_sided = true});
-    for (const DrawState& way : every_way({})) {
+    for (const DrawState& way : every_pixel_path({})) {
       for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
         DrawState state = way;
         state.shading = shading;
@@ -202,7 +202,7 @@ TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
       }
     }
   };
-  const Words expected = drawn(format, record);
+  const PackedColors expected = drawn(format, record);
   for (const InstructionSet set : available_instruction_sets())
     for (const int tile_size : {32, 64, 128})
       for (const int threads : {1, 3})
@@ -220,17 +220,17 @@ TEST(ColorIndex, LeavesCapturesAlone) {
   const MeshData mesh = with_normals(0, 0, 2);
   DrawState plain = index_state();
   plain.depth.test = Compare::lequal;
-  for (const DrawState& state : every_way(plain)) {
-    Words objects(64 * 32), primitives(64 * 32);
+  for (const DrawState& state : every_pixel_path(plain)) {
+    PackedColors draw_ids(64 * 32), primitive_ids(64 * 32);
     std::vector<float> normals(3 * 64 * 32);
-    const Words words = drawn(kIndexFormat, [&](Frame& frame) {
+    const PackedColors words = drawn(kIndexFormat, [&](Frame& frame) {
       frame.draw(mesh.view(), state);
       frame.draw(mesh.view(), state);
-      frame.capture({.objects = objects, .primitives = primitives, .normals = normals});
+      frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
     });
     EXPECT_EQ(words, drawn(kIndexFormat, [&](Frame& frame) { frame.draw(mesh.view(), state); }));
-    EXPECT_THAT(objects, Each(1u)) << "the second, not its index";
-    EXPECT_THAT(primitives, Each(0u));
+    EXPECT_THAT(draw_ids, Each(1u)) << "the second, not its index";
+    EXPECT_THAT(primitive_ids, Each(0u));
     for (std::size_t i = 0; i < normals.size(); ++i) ASSERT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);
   }
 }
@@ -260,8 +260,8 @@ TEST(ColorIndex, ExplainTellsWhatIsNotUsed) {
   state.material = index_material(0, 1, 2, 3);
   EXPECT_THAT(explain(kIndexFormat, mesh, state),
               AllOf(HasSubstr("index lighting"), HasSubstr("Blinn highlight"),
-                    HasSubstr("colours are not used: the material has color_indexes")));
-  EXPECT_THAT(explain(rgb, mesh, state), AllOf(HasSubstr("color_indexes are not used: the buffer holds RGB"),
+                    HasSubstr("colours are not used: the material has an index_ramp")));
+  EXPECT_THAT(explain(rgb, mesh, state), AllOf(HasSubstr("index_ramp is not used: the buffer holds RGB"),
                                                Not(HasSubstr("index lighting"))));
 }
 

@@ -13,7 +13,7 @@ TEST(DrawRanges, CoverEachDrawInOrder) {
   DrawRanges ranges;
   for (const std::size_t each : {std::size_t{1}, std::size_t{3}, std::size_t{4}, std::size_t{100}}) {
     SCOPED_TRACE(each);
-    ranges.cut(
+    ranges.split(
         counts.size(), [&](std::size_t draw) { return counts[draw]; }, each);
     std::size_t i = 0;
     for (std::size_t draw = 0; draw < counts.size(); ++draw)
@@ -26,7 +26,7 @@ TEST(DrawRanges, CoverEachDrawInOrder) {
       }
     EXPECT_EQ(i, ranges.size());
   }
-  ranges.cut(
+  ranges.split(
       3, [](std::size_t) { return std::size_t{0}; }, 4);
   EXPECT_EQ(ranges.size(), 0u);
 }

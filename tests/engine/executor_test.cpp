@@ -61,10 +61,10 @@ Fingerprint drawn(RendererOptions options) {
 TEST(Executors, GiveTheSameBits) {
   const Fingerprint expected = drawn({.threads = 1});
   EXPECT_EQ(drawn({.executor = serial_executor()}), expected);
-  const auto own = std::make_shared<OwnThreads>(3);
+  const auto own = std::make_shared<ThreadPerCallExecutor>(3);
   EXPECT_EQ(drawn({.executor = own}), expected);
   EXPECT_GT(own->runs, 2);
-  EXPECT_EQ(drawn({.executor = std::make_shared<WorkersInTurn>(5, 4)}), expected);
+  EXPECT_EQ(drawn({.executor = std::make_shared<SingleThreadExecutor>(5, 4)}), expected);
 }
 
 /// Small triangles on the left, then clipped ones everywhere, then small lines and points on the right, then
@@ -143,7 +143,7 @@ TEST(Executors, OfManyWorkersGiveTheSameBits) {
   EXPECT_EQ(batches, 4);
   for (const int workers : {3, 17, 32, 64}) {
     EXPECT_TRUE(
-        scene.drawn({.tile_size = 32, .executor = std::make_shared<WorkersInTurn>(workers, workers - 1)},
+        scene.drawn({.tile_size = 32, .executor = std::make_shared<SingleThreadExecutor>(workers, workers - 1)},
                     batches) == expected)
         << workers;
     EXPECT_EQ(batches, std::min(4 * workers, 3 * ManyBatches::kSmall / 1024)) << workers;
@@ -151,9 +151,9 @@ TEST(Executors, OfManyWorkersGiveTheSameBits) {
 }
 
 TEST(Executors, NumberOfWorkersIsTheNumberOfThreads) {
-  EXPECT_EQ(Renderer({.executor = std::make_shared<OwnThreads>(3)}).options().threads, 3);
-  EXPECT_EQ(Renderer({.threads = 2, .executor = std::make_shared<OwnThreads>(3)}).options().threads, 2);
-  EXPECT_EQ(Renderer({.threads = 9, .executor = std::make_shared<OwnThreads>(3)}).options().threads, 3);
+  EXPECT_EQ(Renderer({.executor = std::make_shared<ThreadPerCallExecutor>(3)}).options().threads, 3);
+  EXPECT_EQ(Renderer({.threads = 2, .executor = std::make_shared<ThreadPerCallExecutor>(3)}).options().threads, 2);
+  EXPECT_EQ(Renderer({.threads = 9, .executor = std::make_shared<ThreadPerCallExecutor>(3)}).options().threads, 3);
 }
 
 TEST(Executors, ThatDoNotDoTheirWorkAreNamed) {

@@ -31,7 +31,7 @@ namespace tessera::test {
 extern std::atomic<long> allocations_left;
 /// Bytes that are allocated now, and the most that were at any time since it was set; with what the allocator
 /// rounds them up to.
-extern std::atomic<long> live_bytes, most_live_bytes;
+extern std::atomic<long> live_bytes, peak_live_bytes;
 
 inline void refuse_lost(int at) { ADD_FAILURE() << "allocation " << at << " was lost"; }
 

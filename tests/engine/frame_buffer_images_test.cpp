@@ -150,7 +150,7 @@ TEST(FrameBufferImages, HaveTheirTopRowFirst) {
   frame.clear({.color = Color{0, 0, 0, 1}});
   frame.draw(upper.view(), unlit({1, 0, 0, 1}));
   Renderer({.threads = 1}).finish(frame);
-  EXPECT_EQ(color_words(buffer), (std::vector<std::uint32_t>{0xff0000, 0xff0000, 0xff0000, 0, 0, 0}));
+  EXPECT_EQ(packed_colors(buffer), (std::vector<std::uint32_t>{0xff0000, 0xff0000, 0xff0000, 0, 0, 0}));
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ class FrameBufferMemory : public testing::Test {
   }
   std::optional<std::string> error_of_reading(Buffer which) {
     return error_of([&] {
-      if (which == Buffer::color) color_words(buffer);
-      if (which == Buffer::depth) depth_words(buffer);
+      if (which == Buffer::color) packed_colors(buffer);
+      if (which == Buffer::depth) stored_depths(buffer);
       if (which == Buffer::stencil) stencil_values(buffer);
     });
   }
@@ -85,8 +85,8 @@ TEST_F(FrameBufferMemory, WholeClearsNeedNoPlanes) {
   frame.clear({.color = Color{0.2f, 0.4f, 0.6f, 1}, .depth = 0.5, .stencil = 9u});
   renderer.finish(frame);
   EXPECT_EQ(allocated(), (Flags{false, false, false}));
-  EXPECT_EQ(color_words(buffer)[5], 0x336699u);
-  EXPECT_EQ(depth_words(buffer)[5], 0x800000u);
+  EXPECT_EQ(packed_colors(buffer)[5], 0x336699u);
+  EXPECT_EQ(stored_depths(buffer)[5], 0x800000u);
   EXPECT_EQ(stencil_values(buffer)[5], 9);
 }
 
@@ -116,7 +116,7 @@ TEST_F(FrameBufferMemory, AFrameStartsFromWhatIsStored) {
   const MeshData behind = whole_window(0.5f);
   frame.draw(behind.view(), unlit({0, 1, 0, 1}));
   renderer.finish(frame);
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   EXPECT_EQ(words[0], 0x00ff00u) << "over the blue of the first frame";
   EXPECT_EQ(words[30 * 100 + 50], 0xff0000u) << "behind the red of the second";
 }

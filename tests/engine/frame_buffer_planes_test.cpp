@@ -57,7 +57,7 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheWordsInEveryColorDepth) {
     FrameBuffer buffer(format_of(ColorMode::rgb, bits));
     EXPECT_EQ(buffer.plane_count(Buffer::color), bits);
     draw_random(buffer);
-    expect_literal_planes(buffer, Buffer::color, color_words(buffer));
+    expect_literal_planes(buffer, Buffer::color, packed_colors(buffer));
   }
 }
 
@@ -66,7 +66,7 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheIndicesInEveryIndexMode) {
     SCOPED_TRACE(std::to_string(bits) + " bits");
     FrameBuffer buffer(format_of(ColorMode::index, bits));
     draw_random(buffer);
-    expect_literal_planes(buffer, Buffer::color, color_words(buffer));
+    expect_literal_planes(buffer, Buffer::color, packed_colors(buffer));
   }
 }
 
@@ -82,7 +82,7 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheDepthsInEveryFormat) {
     EXPECT_EQ(buffer.plane_count(Buffer::depth), bits);
     draw_random(buffer);
     if (depth == DepthFormat::none) continue;
-    const std::vector<std::uint32_t> words = depth_words(buffer);
+    const std::vector<std::uint32_t> words = stored_depths(buffer);
     expect_literal_planes(buffer, Buffer::depth, words);
     std::vector<float> depths(words.size());
     buffer.read_depth(depths);
@@ -120,10 +120,10 @@ TEST(FrameBufferPlanes, OfANewBufferHoldColor0Depth1Stencil0) {
     std::vector<float> depths(33 * 5);
     buffer.read_depth(depths);
     for (const float d : depths) EXPECT_EQ(d, 1.0f);
-    for (const std::uint32_t word : color_words(buffer)) EXPECT_EQ(word, 0u);
+    for (const std::uint32_t word : packed_colors(buffer)) EXPECT_EQ(word, 0u);
     for (const std::uint8_t value : stencil_values(buffer)) EXPECT_EQ(value, 0);
-    expect_literal_planes(buffer, Buffer::color, color_words(buffer));
-    expect_literal_planes(buffer, Buffer::depth, depth_words(buffer));
+    expect_literal_planes(buffer, Buffer::color, packed_colors(buffer));
+    expect_literal_planes(buffer, Buffer::depth, stored_depths(buffer));
   }
 }
 
@@ -154,11 +154,11 @@ TEST(FrameBufferColors, AreSplitAndRoundedAlikeByClearsDrawsAndScanOut) {
       Frame frame(buffer);
       frame.clear({.color = color});
       renderer.finish(frame);
-      EXPECT_EQ(color_words(buffer), std::vector<std::uint32_t>(18, expected)) << "cleared";
+      EXPECT_EQ(packed_colors(buffer), std::vector<std::uint32_t>(18, expected)) << "cleared";
       frame.clear({.color = Color{}});
       frame.draw(all.view(), unlit(color));
       renderer.finish(frame);
-      EXPECT_EQ(color_words(buffer), std::vector<std::uint32_t>(18, expected)) << "drawn";
+      EXPECT_EQ(packed_colors(buffer), std::vector<std::uint32_t>(18, expected)) << "drawn";
 
       Image image(buffer);
       buffer.read_color(image.target());
@@ -186,7 +186,7 @@ TEST(FrameBufferColors, OfAnIndexBufferGoToTheNearestEntryAndUnsetEntriesShowBla
   const auto word_of_clear = [&](const Clear& clear) {
     frame.clear(clear);
     renderer.finish(frame);
-    return color_words(buffer)[0];
+    return packed_colors(buffer)[0];
   };
   EXPECT_EQ(word_of_clear({.color = Color{0.9f, 0.8f, 0.9f, 1}}), 0u);
   EXPECT_EQ(word_of_clear({.color = Color{0.9f, 0.1f, 0.1f, 1}}), 1u) << "ties go to the lowest index";

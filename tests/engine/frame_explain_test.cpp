@@ -45,7 +45,7 @@ TEST(Explain, ABlackSpecularProductHasNoHighlight) {
   EXPECT_THAT(explain(s),
               AllOf(HasSubstr("Blinn highlight, infinite viewer"), Not(HasSubstr("no highlight"))));
   s.model.local_viewer = true;
-  s.model.specular = Highlight::phong;
+  s.model.specular = SpecularModel::phong;
   EXPECT_THAT(explain(s), HasSubstr("Phong highlight, local viewer"));
   s.lights[0].specular = {0, 1, 1, 1};
   EXPECT_THAT(explain(s), HasSubstr("no highlight")) << "red times cyan";

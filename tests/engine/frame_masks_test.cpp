@@ -26,7 +26,7 @@ std::vector<std::uint32_t> words_of(const FrameBufferFormat& format, const Recor
   Frame frame(buffer);
   record(frame);
   Renderer(options).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 // `expected` sees window coordinates: the lower row is 0.
@@ -213,7 +213,7 @@ TEST(Sizes, OddOnesAreDrawnWhole) {
       Renderer(RendererOptions{.threads = 2, .tile_size = tile_size}).finish(frame);
       // A pixel belongs to the left half if its centre does; a centre on the edge belongs to the right one.
       const int half = width / 2;
-      expect_words(format, color_words(buffer), [&](int x, int) { return x < half ? kRedWord : kBlueWord; });
+      expect_words(format, packed_colors(buffer), [&](int x, int) { return x < half ? kRedWord : kBlueWord; });
       std::vector<float> depth(pixel_count(buffer));
       buffer.read_depth(depth);
       EXPECT_NEAR(depth.back(), 0.75, 1e-6);

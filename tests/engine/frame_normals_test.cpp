@@ -34,7 +34,7 @@ std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state
   frame.set_light_model(model);
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1}).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 std::uint32_t corner(const MeshData& mesh, std::size_t i) {
   return mesh.indices.empty() ? static_cast<std::uint32_t>(i) : mesh.indices[i];
@@ -159,7 +159,7 @@ TEST(GeneratedNormals, OfManyMeshesInAFrameAreTheSame) {
         frame.draw(all[i].view(), state);
       }
     Renderer({.threads = threads}).finish(frame);
-    return color_words(buffer);
+    return packed_colors(buffer);
   };
   const ThreadLimit limit(5);
   const std::vector<std::uint32_t> expected = words(given, 1);
@@ -247,7 +247,7 @@ std::uint32_t middle(const MeshData& mesh, const DrawState& state, const LightMo
   frame.set_light_model(model);
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1}).finish(frame);
-  return color_words(buffer)[4 * 9 + 3];
+  return packed_colors(buffer)[4 * 9 + 3];
 }
 
 TEST(MirroredTransforms, TurnTheWindingAndKeepTheNormal) {

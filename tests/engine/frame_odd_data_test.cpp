@@ -63,7 +63,7 @@ MeshData without(const MeshData& mesh, std::size_t triangle) {
 }
 
 std::uint64_t sum(const FrameStats& s) {
-  return s.dropped_non_finite + s.outside + s.culled + s.zero_area + s.clipped + s.binned;
+  return s.dropped_non_finite + s.trivially_rejected + s.culled + s.zero_area + s.clipped + s.binned;
 }
 
 void expect_dropped(const std::function<void(MeshData&)>& spoil, std::size_t triangle,
@@ -132,7 +132,7 @@ TEST(OddData, NonFiniteNormalsAreNoneToACaptureThatAloneAsksForThem) {
   Renderer({.threads = 1}).finish(frame);
   for (std::size_t i = 0; i < normals.size(); ++i)
     ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);  // the first vertex's, which is left
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   EXPECT_EQ(std::count(words.begin(), words.end(), 0xffffffu), 16 * 16);
 }
 
@@ -218,13 +218,13 @@ TEST(OddData, TrianglesBehindTheEyeAreOutside) {
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
     mesh.positions[i] = 3;  // the camera looks along -z
   const Result behind = draw(mesh, {}, {.threads = 1}, camera), empty = draw({}, {}, {.threads = 1}, camera);
-  EXPECT_EQ(behind.stats.outside, 6u);
+  EXPECT_EQ(behind.stats.trivially_rejected, 6u);
   EXPECT_EQ(behind.pixels, empty.pixels);
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
     mesh.positions[i] = 0;  // in the eye's own plane: w is 0
-  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.outside, 6u);
+  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = -60;  // behind the far plane
-  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.outside, 6u);
+  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = -3;
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.binned, 6u);
 }
@@ -254,7 +254,7 @@ TEST(FrameStatistics, AddUpWithoutClipping) {
         EXPECT_EQ(stats.dropped_non_finite, 40u);
         EXPECT_EQ(stats.clipped, 0u);
         EXPECT_EQ(sum(stats), stats.triangles_in);
-        for (const std::uint64_t part : {stats.outside, stats.zero_area, stats.binned}) EXPECT_GT(part, 100u);
+        for (const std::uint64_t part : {stats.trivially_rejected, stats.zero_area, stats.binned}) EXPECT_GT(part, 100u);
         EXPECT_EQ(stats.culled > 0, cull != Cull::none);
         EXPECT_GE(stats.bin_entries, stats.binned / 2);
         EXPECT_EQ(stats.tiles, tile_size == 32 ? 9u : 1u);

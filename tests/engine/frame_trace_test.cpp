@@ -123,7 +123,7 @@ TEST(FrameTrace, HoldsEachStageAndEachPixel) {
 }
 
 TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
-  const Traced frame = traced({.threads = 2, .tile_size = 32, .bin_memory = kLeastBinMemory});
+  const Traced frame = traced({.threads = 2, .tile_size = 32, .bin_memory = kMinBinMemory});
   expect_sound_times(frame.tasks, 2);
   expect_each_pixel_once(frame.tasks);
   expect_that_passes_wait(frame.tasks);
@@ -150,7 +150,7 @@ std::vector<int> rows_in_order(const std::vector<int>& triangles, int workers, i
               2.0f * static_cast<float>(y + row * kTile) / static_cast<float>(height) - 1, 0.0f})
           positions.push_back(value);
   std::vector<int> rows;
-  RendererOptions options{.tile_size = kTile, .executor = std::make_shared<WorkersInTurn>(workers, worker)};
+  RendererOptions options{.tile_size = kTile, .executor = std::make_shared<SingleThreadExecutor>(workers, worker)};
   options.trace = [&](std::span<const FrameTask> tasks) {
     for (const FrameTask& task : tasks)
       if (task.stage == FrameStage::tiles) rows.push_back(task.pixels.y / kTile);

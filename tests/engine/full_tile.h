@@ -7,10 +7,10 @@ namespace tessera::test {
 
 /// Triangles, lines and points of which one tile alone has more than the least memory for bins holds; among
 /// them many that are clipped, draws that blend, and a clear in between.
-struct FullTile {
+struct BinOverflowScene {
   FrameBufferFormat format;
   MeshData triangles, lines, points;
-  explicit FullTile(FrameBufferFormat f, int count = 9000) : format(std::move(f)) {
+  explicit BinOverflowScene(FrameBufferFormat f, int count = 9000) : format(std::move(f)) {
     Random random(3);
     for (MeshData* mesh : {&triangles, &lines, &points}) {
       mesh->primitive = mesh == &triangles ? Primitive::triangles

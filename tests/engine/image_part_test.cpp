@@ -46,7 +46,7 @@ TEST(ImagePart, IsWrittenAloneByFinishAndByReadColor) {
       }
       if (keep) frame.keep({Buffer::color});
       ImageTarget target = image.target();
-      target.part = part;
+      target.region = part;
       renderer.finish(frame, target);
     };
     Image whole(buffer), part(buffer), read(buffer), kept(buffer);
@@ -58,7 +58,7 @@ TEST(ImagePart, IsWrittenAloneByFinishAndByReadColor) {
     draw(rect, kept, true);
     expect_part(kept, whole, rect, "finish that keeps");
     ImageTarget target = read.target();
-    target.part = rect;
+    target.region = rect;
     buffer.read_color(target);
     expect_part(read, whole, rect, "read_color");
     Image everything(buffer);
@@ -71,9 +71,9 @@ TEST(ImagePart, MustNotBeNegative) {
   FrameBuffer buffer({.width = 8, .height = 8});
   Image image(buffer);
   ImageTarget target = image.target();
-  target.part = Rect{0, 0, -1, 4};
+  target.region = Rect{0, 0, -1, 4};
   EXPECT_THAT(error_of([&] { buffer.read_color(target); }).value_or(""),
-              testing::HasSubstr("part is -1 x 4"));
+              testing::HasSubstr("region is -1 x 4"));
 }
 
 }  // namespace

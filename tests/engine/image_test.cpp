@@ -122,7 +122,7 @@ TEST_P(Images, ShowTheTexelsThatAnExactRuleSays) {
           }
       }
       renderer.finish(frame);
-      const std::vector<std::uint32_t> words = color_words(buffer);
+      const std::vector<std::uint32_t> words = packed_colors(buffer);
       for (std::size_t i = 0; i < words.size(); ++i) {
         std::uint32_t expected = 0;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -165,7 +165,7 @@ TEST(Image, LeavesNoPlaceOutAndTakesNoneTwice) {
     Renderer({.threads = 1}).finish(frame);
     const double a = image.x, b = image.x + image.zoom_x * width, bottom = image.y,
                  top = image.y + image.zoom_y * height;
-    const std::vector<std::uint32_t> words = color_words(buffer);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
     for (int row = 0; row < 8; ++row)
       for (int column = 0; column < kWidth; ++column) {
         const double x = column + 0.5, y = 7 - row + 0.5;
@@ -180,7 +180,7 @@ TEST(Image, OfOneTexelGoesThroughEveryOperationAsTrianglesDo) {
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 60; ++turn) {
       Random random(500 + static_cast<std::uint64_t>(turn));
-      const Rect place = random_place(random);
+      const Rect place = random_rect(random);
       std::uint8_t texel[4];
       for (std::uint8_t& level : texel) level = static_cast<std::uint8_t>(random.next());
       const double depth = static_cast<double>(below(random, 257)) / 256;
@@ -217,7 +217,7 @@ TEST(Image, HasItsOwnAlphaInEachPixel) {
   own.image.x = 2, own.image.y = 1;
   frame.draw_image(own.image, {.alpha_test = AlphaTest{Compare::gequal, 128.0f / 255.0f}});
   Renderer({.threads = 1}).finish(frame);
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   for (std::int64_t y = 0; y < 24; ++y)
     for (std::int64_t x = 0; x < 40; ++x) {
       const bool inside = x >= 2 && x < 39 && y >= 1 && y < 22;
@@ -238,7 +238,7 @@ TEST(Image, GoesToTheNearestPaletteEntries) {
   frame.clear({.index = 9u, .depth = 1.0});
   frame.draw_image({.pixels = pixels, .width = 4, .height = 1, .channels = 3, .x = 1, .y = 2});
   Renderer({.threads = 1}).finish(frame);
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   EXPECT_EQ(std::vector<std::uint32_t>(words.begin() + 5 * 8, words.begin() + 6 * 8),
             (std::vector<std::uint32_t>{9, 1, 2, 0, 3, 9, 9, 9}));
 }
@@ -267,18 +267,18 @@ TEST(Image, IsADrawToCapturesExplanationsAndCounts) {
                 AllOf(HasSubstr("an image of 4 x 4, 1 channel: each pixel has the colour of its texel"),
                       HasSubstr("depth test")));
     EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
-    std::vector<std::uint32_t> objects(pixel_count(buffer)), primitives(objects.size());
-    std::vector<float> normals(3 * objects.size());
-    frame.capture({.objects = objects, .primitives = primitives, .normals = normals});
+    std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
+    std::vector<float> normals(3 * draw_ids.size());
+    frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
     const FrameStats stats = Renderer({.threads = 1, .count_fragments = true}).finish(frame);
     EXPECT_EQ(stats.fragments, 40u * 40 + 64);
     for (std::size_t y = 0; y < 40; ++y)
       for (std::size_t x = 0; x < 40; ++x) {
         const bool image = x >= 10 && x < 18 && y >= 12 && y < 20;
-        ASSERT_EQ(objects[40 * y + x], image ? 1u : 0u) << x << ' ' << y;
+        ASSERT_EQ(draw_ids[40 * y + x], image ? 1u : 0u) << x << ' ' << y;
         ASSERT_EQ(normals[3 * (40 * y + x) + 2], image ? 0.0f : 1.0f) << x << ' ' << y;
         if (image) {
-          ASSERT_EQ(primitives[40 * y + x], 0u);
+          ASSERT_EQ(primitive_ids[40 * y + x], 0u);
         }
       }
   }
@@ -315,7 +315,7 @@ TEST(Image, MayBeAnywhereAndOfAnySize) {
                       .zoom_x = c.zoom_x,
                       .zoom_y = c.zoom_y});
     Renderer({.threads = 1}).finish(frame);
-    EXPECT_THAT(color_words(buffer), testing::Each(c.everywhere ? 0xffffffu : 0u))
+    EXPECT_THAT(packed_colors(buffer), testing::Each(c.everywhere ? 0xffffffu : 0u))
         << c.x << ' ' << c.y << ' ' << c.zoom_x << ' ' << c.zoom_y;
   }
 }

@@ -79,8 +79,8 @@ TEST(IndexLighting, GoesByTheMaterialOfEachFace) {
       plain.material = c.front;
       plain.back_material = c.back;
       plain.shading = shading;
-      for (const DrawState& state : every_way(plain)) {
-        const Words words = drawn(kIndexFormat, [&](Frame& frame) {
+      for (const DrawState& state : every_pixel_path(plain)) {
+        const PackedColors words = drawn(kIndexFormat, [&](Frame& frame) {
           frame.set_light_model({.two_sided = true});
           frame.set_lights({matt});
           frame.draw(mesh.view(), state);
@@ -98,7 +98,7 @@ TEST(IndexLighting, OfConstantFacesIsEachOnesOwn) {
   DrawState state;
   state.material = index_material(20, 40, 40, 0);
   state.back_material = index_material(21, 40, 40, 0);
-  const Words words = drawn(kIndexFormat, [&](Frame& frame) {
+  const PackedColors words = drawn(kIndexFormat, [&](Frame& frame) {
     frame.set_light_model({.two_sided = true});
     frame.set_lights({});
     frame.draw(mesh.view(), state);

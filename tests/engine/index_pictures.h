@@ -11,20 +11,20 @@
 
 namespace tessera::test {
 
-using Words = std::vector<std::uint32_t>;
+using PackedColors = std::vector<std::uint32_t>;
 using Record = std::function<void(Frame&)>;
 
 inline const FrameBufferFormat kIndexFormat{
     .width = 64, .height = 32, .color_mode = ColorMode::index, .color_bits = 6};
 
-inline Words drawn(const FrameBufferFormat& format, const Record& record,
+inline PackedColors drawn(const FrameBufferFormat& format, const Record& record,
                    const RendererOptions& options = {.threads = 1}) {
   FrameBuffer buffer(format);
   Frame frame(buffer);
   frame.clear({.index = 0, .depth = 1.0});
   record(frame);
   Renderer(options).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 // Covers the window; at pixel (x, y) from the lower left what is interpolated is a + (b - a) (x + 0.5) / 128
@@ -45,9 +45,9 @@ inline DrawState index_state(Shading shading = Shading::gouraud) {
 
 // The same picture by every way through the pixels: at once or later, with operations whose order matters or
 // does not.
-inline std::vector<DrawState> every_way(const DrawState& plain) {
+inline std::vector<DrawState> every_pixel_path(const DrawState& plain) {
   std::vector<DrawState> states(4, plain);
-  states[1].logic_op = LogicOp::or_;
+  states[1].logic_op = LogicOp::bit_or;
   states[2].stencil = StencilState{.front = {.zpass = StencilOp::incr}};
   states[3].polygon_offset = {0, 1};
   return states;
@@ -55,8 +55,8 @@ inline std::vector<DrawState> every_way(const DrawState& plain) {
 inline void expect_everywhere(std::uint32_t word, const MeshData& mesh, const DrawState& plain,
                               const FrameBufferFormat& format = kIndexFormat,
                               const std::vector<Light>& lights = {Light{}}) {
-  for (const DrawState& state : every_way(plain)) {
-    const Words words = drawn(format, [&](Frame& frame) {
+  for (const DrawState& state : every_pixel_path(plain)) {
+    const PackedColors words = drawn(format, [&](Frame& frame) {
       frame.set_lights(lights);
       frame.draw(mesh.view(), state);
     });
@@ -75,7 +75,7 @@ inline MeshData with_normals(float x, float y, float z) {
 
 inline Material index_material(float ambient, float diffuse, float specular, float shininess) {
   Material material;
-  material.color_indexes = {ambient, diffuse, specular};
+  material.index_ramp = {ambient, diffuse, specular};
   material.shininess = shininess;
   return material;
 }

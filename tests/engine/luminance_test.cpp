@@ -17,7 +17,7 @@ std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, i
   frame.set_light_model({.ambient = {0, 0, 0, 1}});
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1}).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 TEST(Luminance, IsOfClampedColors) {

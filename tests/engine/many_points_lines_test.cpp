@@ -93,7 +93,7 @@ Elements random_lines(std::uint64_t seed) {
     lines.add(a, z[0], word ^ 0xffffff);
     lines.add(b, z[1], word);
     lines.words.push_back(word);
-    const auto pixels = by_the_rule(from, to);
+    const auto pixels = diamond_exit_pixels(from, to);
     lines.pixels.emplace_back(pixels.begin(), pixels.end());
   }
   return lines;
@@ -104,7 +104,7 @@ std::vector<std::uint32_t> drawn(const Elements& elements, const DrawState& stat
   Frame frame(buffer);
   frame.draw(elements.mesh.view(), state);
   Renderer({.threads = 2}).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 template <class Store>
 std::vector<std::uint32_t> by_the_rules(const Elements& elements, const Store& store) {
@@ -132,7 +132,7 @@ void expect_by_the_rules(const Elements& elements) {
       differing(drawn(elements, state),
                 by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored = word; })),
       0u);
-  state.logic_op = LogicOp::xor_;
+  state.logic_op = LogicOp::bit_xor;
   EXPECT_EQ(
       differing(drawn(elements, state),
                 by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored ^= word; })),

@@ -161,9 +161,9 @@ TEST_F(ModelImport, LightsOfCollada) {
 TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
   int read = 0, refused = 0;
   std::map<std::string, fs::path> smallest;
-  const std::vector<std::string> endings = model_endings();
+  const std::vector<std::string> endings = model_extensions();
   for (const auto& entry : fs::recursive_directory_iterator(kModels)) {
-    const std::string ending = lower_case_ending(entry.path().string());
+    const std::string ending = lower_case_extension(entry.path().string());
     if (!entry.is_regular_file() || std::find(endings.begin(), endings.end(), ending) == endings.end())
       continue;
     const bool is_read = renders(entry.path().string());

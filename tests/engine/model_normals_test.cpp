@@ -101,7 +101,7 @@ TEST(WindByNormals, TurnsTheTrianglesThatFaceAwayFromTheirNormals) {
   const std::vector<std::uint32_t> right = mesh.indices;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 6)
     std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-  wind_by_normals(mesh);
+  orient_by_normals(mesh);
   EXPECT_EQ(mesh.indices, right);
 }
 

@@ -73,7 +73,7 @@ int expect_that_it_can_be_finished_afterwards(const Scene& scene, const Renderer
                                    Frame small(other);
                                    small.clear({.color = Color{1, 1, 1, 1}});
                                    renderer->finish(small);
-                                   EXPECT_EQ(color_words(other)[7], 0xffffffu);
+                                   EXPECT_EQ(packed_colors(other)[7], 0xffffffu);
                                  }
                                  renderer->finish(*frame);
                                  EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
@@ -99,8 +99,8 @@ TEST(OutOfMemoryAnywhere, SoCanThoseOfTwoThreads) {
 }
 
 TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
-  const FullTile scene({.width = 120, .height = 60}, 510);
-  const RendererOptions options{.threads = 1, .tile_size = 32, .bin_memory = kLeastBinMemory};
+  const BinOverflowScene scene({.width = 120, .height = 60}, 510);
+  const RendererOptions options{.threads = 1, .tile_size = 32, .bin_memory = kMinBinMemory};
   FrameBuffer buffer(scene.format);
   Frame frame(buffer);
   scene.record(frame);
@@ -109,8 +109,8 @@ TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
 }
 TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewBatchesAtATime) {
   EXPECT_GT(expect_that_it_can_be_finished_afterwards(
-                FullTile({.width = 60, .height = 50}, 2502),
-                {.threads = 1, .tile_size = 64, .bin_memory = kLeastBinMemory}),
+                BinOverflowScene({.width = 60, .height = 50}, 2502),
+                {.threads = 1, .tile_size = 64, .bin_memory = kMinBinMemory}),
             100);
 }
 
@@ -148,7 +148,7 @@ TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {
        [](Frame& f) {
          f.clear({.color = Color{1, 1, 1, 1}});
        }},
-      {"accumulate", [](Frame& f) { f.accumulate({.op = AccumOp::return_}); }},
+      {"accumulate", [](Frame& f) { f.accumulate({.op = AccumOp::return_color}); }},
       {"draw", [&](Frame& f) { f.draw(mesh.view(), {}); }},
       {"draw a shadow", [&](Frame& f) { f.draw(mesh.view(), shadow); }},
       {"draw textured", [&](Frame& f) { f.draw(mesh.view(), textured); }},

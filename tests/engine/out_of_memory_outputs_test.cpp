@@ -21,23 +21,23 @@ using namespace test;
 /// The caller's memory for all that a frame may write.
 struct Outputs {
   Image image;
-  std::vector<std::uint32_t> objects, primitives;
+  std::vector<std::uint32_t> draw_ids, primitive_ids;
   std::vector<float> normals;
 
   explicit Outputs(const FrameBuffer& buffer)
-      : image(buffer), objects(pixel_count(buffer)), primitives(objects.size()), normals(3 * objects.size()) {
+      : image(buffer), draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size()), normals(3 * draw_ids.size()) {
     forget();
   }
   void forget() {
     std::fill(image.bytes.begin(), image.bytes.end(), std::uint8_t{0xcd});
-    std::fill(objects.begin(), objects.end(), 7u), std::fill(primitives.begin(), primitives.end(), 7u),
+    std::fill(draw_ids.begin(), draw_ids.end(), 7u), std::fill(primitive_ids.begin(), primitive_ids.end(), 7u),
         std::fill(normals.begin(), normals.end(), 7.0f);
   }
-  Capture capture() { return {.objects = objects, .primitives = primitives, .normals = normals}; }
+  Capture capture() { return {.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals}; }
 };
 void expect_same(const Outputs& found, const Outputs& expected, int at) {
   EXPECT_TRUE(found.image.bytes == expected.image.bytes) << "picture, allocation " << at;
-  EXPECT_TRUE(found.objects == expected.objects && found.primitives == expected.primitives &&
+  EXPECT_TRUE(found.draw_ids == expected.draw_ids && found.primitive_ids == expected.primitive_ids &&
               found.normals == expected.normals)
       << "captures, allocation " << at;
 }

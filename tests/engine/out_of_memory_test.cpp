@@ -13,14 +13,14 @@
 #if TESSERA_CAN_FAIL_ALLOCATIONS
 
 std::atomic<long> tessera::test::allocations_left = -1;
-std::atomic<long> tessera::test::live_bytes = 0, tessera::test::most_live_bytes = 0;
+std::atomic<long> tessera::test::live_bytes = 0, tessera::test::peak_live_bytes = 0;
 
 namespace {
-using tessera::test::allocations_left, tessera::test::live_bytes, tessera::test::most_live_bytes;
+using tessera::test::allocations_left, tessera::test::live_bytes, tessera::test::peak_live_bytes;
 
 void* counted(void* memory) noexcept {
   const long bytes = live_bytes += static_cast<long>(malloc_usable_size(memory));
-  for (long most = most_live_bytes; most < bytes && !most_live_bytes.compare_exchange_weak(most, bytes);) {}
+  for (long most = peak_live_bytes; most < bytes && !peak_live_bytes.compare_exchange_weak(most, bytes);) {}
   return memory;
 }
 void release(void* memory) noexcept {
@@ -73,10 +73,10 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
     }
     plain.finish(once);
     const Fingerprint expected = fingerprint(reference);
-    std::vector<std::uint32_t> objects(pixel_count(reference)), expected_objects(objects.size());
-    std::vector<float> normals(3 * objects.size());
+    std::vector<std::uint32_t> draw_ids(pixel_count(reference)), expected_draw_ids(draw_ids.size());
+    std::vector<float> normals(3 * draw_ids.size());
     scene.record(once);
-    once.capture({.objects = expected_objects});
+    once.capture({.draw_ids = expected_draw_ids});
     plain.finish(once);
     std::optional<Renderer> renderer;
     std::optional<FrameBuffer> buffer;
@@ -91,7 +91,7 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
       scene.record(*frame);
       if (stencil) {
         record_more(*frame);
-        frame->capture({.objects = objects, .normals = normals});
+        frame->capture({.draw_ids = draw_ids, .normals = normals});
       }
     };
     start();
@@ -102,7 +102,7 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
                                 renderer->finish(*frame);
                                 EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
                                 if (stencil) {
-                                  EXPECT_EQ(objects, expected_objects) << "asked for before, and still";
+                                  EXPECT_EQ(draw_ids, expected_draw_ids) << "asked for before, and still";
                                 }
                                 start();
                               });

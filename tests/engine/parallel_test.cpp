@@ -1,5 +1,5 @@
 // Tasks run once each, on as many workers as were asked for, in the default floating-point mode.
-#include "engine/parallel.h"
+#include "engine/worker_pool.h"
 
 #include <gtest/gtest.h>
 
@@ -28,27 +28,27 @@ void spin(std::chrono::microseconds time) {
   while (std::chrono::steady_clock::now() < end) {}
 }
 
-TEST(Parallel, EightThreadsAreEightDistinctWorkers) {
+TEST(WorkerPool, EightThreadsAreEightDistinctWorkers) {
   const ThreadLimit limit(8);
-  Parallel parallel(8);
-  ASSERT_EQ(parallel.threads(), 8);
+  WorkerPool worker_pool(8);
+  ASSERT_EQ(worker_pool.threads(), 8);
   int seen = 0;
   for (int round = 0; round < 50 && seen < 8; ++round) {  // workers need a moment to arrive
-    parallel.for_each(400, [](std::size_t, int) { spin(std::chrono::microseconds(200)); });
-    seen = parallel.distinct_workers_seen();
+    worker_pool.for_each(400, [](std::size_t, int) { spin(std::chrono::microseconds(200)); });
+    seen = worker_pool.distinct_workers_seen();
   }
   EXPECT_EQ(seen, 8);
-  EXPECT_EQ(parallel.distinct_workers_seen(), 0) << "asking starts the count anew";
+  EXPECT_EQ(worker_pool.distinct_workers_seen(), 0) << "asking starts the count anew";
 }
 
-TEST(Parallel, EachTaskRunsOnceForAnyNumberOfThreads) {
+TEST(WorkerPool, EachTaskRunsOnceForAnyNumberOfThreads) {
   const ThreadLimit limit(8);
   for (const int threads : {1, 2, 3, 8}) {
     for (const std::uint32_t order : {0u, 1u, 2u, 1000u, 0xffffffffu}) {
-      Parallel parallel(threads, nullptr, order);
+      WorkerPool worker_pool(threads, nullptr, order);
       for (const std::size_t count : {0, 1, 2, 7, 12, 1000}) {
         std::vector<std::atomic<int>> runs(count);
-        parallel.for_each(count, [&](std::size_t task, int) { ++runs.at(task); });
+        worker_pool.for_each(count, [&](std::size_t task, int) { ++runs.at(task); });
         for (std::size_t i = 0; i < count; ++i)
           EXPECT_EQ(runs[i], 1) << "task " << i << " of " << count << " on " << threads
                                 << " threads in order " << order;
@@ -57,10 +57,10 @@ TEST(Parallel, EachTaskRunsOnceForAnyNumberOfThreads) {
   }
 }
 
-TEST(Parallel, AnotherOrderIsAnother) {
+TEST(WorkerPool, AnotherOrderIsAnother) {
   const auto order_of = [](std::uint32_t order) {
     std::vector<std::size_t> tasks;
-    Parallel(1, nullptr, order).for_each(100, [&](std::size_t task, int) { tasks.push_back(task); });
+    WorkerPool(1, nullptr, order).for_each(100, [&](std::size_t task, int) { tasks.push_back(task); });
     return tasks;
   };
   EXPECT_TRUE(std::ranges::is_sorted(order_of(0)));
@@ -69,7 +69,7 @@ TEST(Parallel, AnotherOrderIsAnother) {
   EXPECT_EQ(order_of(2), order_of(2));
 }
 
-TEST(Parallel, SharesFollowEachOtherAndAreAsLarge) {
+TEST(WorkerPool, SharesFollowEachOtherAndAreAsLarge) {
   for (const std::size_t tasks : {1, 2, 7, 12, 1000}) {
     for (const std::size_t shares : {1, 2, 3, 7, 64}) {
       EXPECT_EQ(first_of_share(tasks, shares, 0), 0);
@@ -85,13 +85,13 @@ TEST(Parallel, SharesFollowEachOtherAndAreAsLarge) {
   }
 }
 
-TEST(Parallel, AWorkerBeginsWithItsShare) {
+TEST(WorkerPool, AWorkerBeginsWithItsShare) {
   constexpr std::size_t kTasks = 11, kThreads = 3;
-  Parallel parallel(kThreads, std::make_shared<test::OwnThreads>(kThreads));
+  WorkerPool worker_pool(kThreads, std::make_shared<test::ThreadPerCallExecutor>(kThreads));
   for (int round = 0; round < 20; ++round) {
     std::vector<std::size_t> first(kThreads, kTasks);
     std::atomic<std::size_t> began = 0;
-    parallel.for_each(kTasks, [&](std::size_t task, int worker) {
+    worker_pool.for_each(kTasks, [&](std::size_t task, int worker) {
       std::size_t& mine = first.at(static_cast<std::size_t>(worker));
       if (mine != kTasks) return;
       mine = task;
@@ -104,12 +104,12 @@ TEST(Parallel, AWorkerBeginsWithItsShare) {
   }
 }
 
-TEST(Parallel, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
-  Parallel parallel(3, std::make_shared<test::WorkersInTurn>(3, 2));
-  EXPECT_EQ(parallel.workers_for(11), 3);
-  EXPECT_EQ(parallel.workers_for(2), 2);
+TEST(WorkerPool, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
+  WorkerPool worker_pool(3, std::make_shared<test::SingleThreadExecutor>(3, 2));
+  EXPECT_EQ(worker_pool.workers_for(11), 3);
+  EXPECT_EQ(worker_pool.workers_for(2), 2);
   std::vector<std::size_t> tasks;
-  parallel.for_each(11, [&](std::size_t task, int worker) {
+  worker_pool.for_each(11, [&](std::size_t task, int worker) {
     EXPECT_EQ(worker, 2);
     tasks.push_back(task);
   });
@@ -118,21 +118,21 @@ TEST(Parallel, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
 
 // A draw in a progress callback, say, that the renderer helps with: nobody there waits for threads that may
 // wait for that callback.
-TEST(Parallel, ATasksCallIsItsThreadsAlone) {
+TEST(WorkerPool, ATasksCallIsItsThreadsAlone) {
   constexpr int kRounds = 20;
   for (const int threads : {1, 2, 3, 8}) {
     const ThreadLimit limit(threads);
-    Parallel parallel(threads);
+    WorkerPool worker_pool(threads);
     std::vector<std::atomic<int>> runs(10), inner_runs(20);
     std::atomic<int> elsewhere = 0;
     for (int round = 0; round < kRounds; ++round)
-      parallel.for_each(runs.size(), [&](std::size_t task, int) {
+      worker_pool.for_each(runs.size(), [&](std::size_t task, int) {
         ++runs[task];
         spin(std::chrono::microseconds(20));
         if (task % 3 != 0) return;
         const auto caller = std::this_thread::get_id();
         std::size_t next = 0;
-        parallel.for_each(inner_runs.size(), [&](std::size_t inner, int worker) {
+        worker_pool.for_each(inner_runs.size(), [&](std::size_t inner, int worker) {
           if (std::this_thread::get_id() != caller || worker != 0 || inner != next++) ++elsewhere;
           ++inner_runs[inner];
           spin(std::chrono::microseconds(20));
@@ -144,12 +144,12 @@ TEST(Parallel, ATasksCallIsItsThreadsAlone) {
   }
 }
 
-TEST(Parallel, AnExceptionInATasksCallReachesTheCaller) {
+TEST(WorkerPool, AnExceptionInATasksCallReachesTheCaller) {
   const ThreadLimit limit(3);
-  Parallel parallel(3);
+  WorkerPool worker_pool(3);
   const auto run = [&] {
-    parallel.for_each(6, [&](std::size_t task, int) {
-      parallel.for_each(6, [&](std::size_t inner, int) {
+    worker_pool.for_each(6, [&](std::size_t task, int) {
+      worker_pool.for_each(6, [&](std::size_t inner, int) {
         if (task == 4 && inner == 5) throw std::out_of_range("four and five");
       });
     });
@@ -157,12 +157,12 @@ TEST(Parallel, AnExceptionInATasksCallReachesTheCaller) {
   EXPECT_THROW(run(), std::out_of_range);
 }
 
-TEST(Parallel, NoTwoTasksAtTheSameTimeShareAWorker) {
+TEST(WorkerPool, NoTwoTasksAtTheSameTimeShareAWorker) {
   const ThreadLimit limit(8);
-  Parallel parallel(8);
+  WorkerPool worker_pool(8);
   std::vector<std::atomic<int>> busy(8);
   std::atomic<bool> shared = false, beyond = false;
-  parallel.for_each(2000, [&](std::size_t, int worker) {
+  worker_pool.for_each(2000, [&](std::size_t, int worker) {
     if (worker < 0 || worker >= 8) {
       beyond = true;
       return;
@@ -175,68 +175,68 @@ TEST(Parallel, NoTwoTasksAtTheSameTimeShareAWorker) {
   EXPECT_FALSE(beyond);
 }
 
-TEST(Parallel, OneThreadIsTheCallers) {
-  Parallel parallel(1);
+TEST(WorkerPool, OneThreadIsTheCallers) {
+  WorkerPool worker_pool(1);
   const auto caller = std::this_thread::get_id();
   std::vector<std::size_t> order;
-  parallel.for_each(5, [&](std::size_t task, int worker) {
+  worker_pool.for_each(5, [&](std::size_t task, int worker) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     EXPECT_EQ(worker, 0);
     order.push_back(task);
   });
   EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
-  EXPECT_EQ(parallel.distinct_workers_seen(), 1);
+  EXPECT_EQ(worker_pool.distinct_workers_seen(), 1);
 }
 
-TEST(Parallel, AnExceptionOfATaskReachesTheCaller) {
+TEST(WorkerPool, AnExceptionOfATaskReachesTheCaller) {
   const ThreadLimit limit(8);
   for (const int threads : {1, 8}) {
-    Parallel parallel(threads);
+    WorkerPool worker_pool(threads);
     const auto run = [&] {
-      parallel.for_each(100, [](std::size_t task, int) {
+      worker_pool.for_each(100, [](std::size_t task, int) {
         if (task == 37) throw std::out_of_range("thirty-seven");
       });
     };
     EXPECT_THROW(run(), std::out_of_range);
     std::atomic<int> after = 0;
-    parallel.for_each(100, [&](std::size_t, int) { ++after; });
+    worker_pool.for_each(100, [&](std::size_t, int) { ++after; });
     EXPECT_EQ(after, 100) << "it works as before";
   }
 }
 
-class FailsOnce : public test::WorkersInTurn {
+class FailsOnce : public test::SingleThreadExecutor {
  public:
-  FailsOnce() : WorkersInTurn(2) {}
+  FailsOnce() : SingleThreadExecutor(2) {}
   void run(int count, void (*work)(void*, int), void* context) override {
     if (!std::exchange(has_failed_, true)) throw std::length_error("no threads yet");
-    WorkersInTurn::run(count, work, context);
+    SingleThreadExecutor::run(count, work, context);
   }
 
  private:
   bool has_failed_ = false;
 };
 
-TEST(Parallel, WorksAsBeforeAfterItsExecutorHasFailed) {
-  Parallel parallel(2, std::make_shared<FailsOnce>());
+TEST(WorkerPool, WorksAsBeforeAfterItsExecutorHasFailed) {
+  WorkerPool worker_pool(2, std::make_shared<FailsOnce>());
   std::vector<std::size_t> tasks;
-  const auto run = [&] { parallel.for_each(5, [&](std::size_t task, int) { tasks.push_back(task); }); };
+  const auto run = [&] { worker_pool.for_each(5, [&](std::size_t task, int) { tasks.push_back(task); }); };
   EXPECT_THROW(run(), std::length_error);
   run();
   EXPECT_EQ(tasks, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
-  EXPECT_EQ(parallel.distinct_workers_seen(), 1) << "as a call that is no task's";
+  EXPECT_EQ(worker_pool.distinct_workers_seen(), 1) << "as a call that is no task's";
 }
 
-TEST(Parallel, AThreadCountAboveTheProcessesLimitIsLowered) {
+TEST(WorkerPool, AThreadCountAboveTheProcessesLimitIsLowered) {
   const ThreadLimit limit(3);
-  EXPECT_EQ(Parallel(8).threads(), 3);
-  EXPECT_EQ(Parallel(2).threads(), 2);
+  EXPECT_EQ(WorkerPool(8).threads(), 3);
+  EXPECT_EQ(WorkerPool(2).threads(), 2);
 }
 
-TEST(Parallel, SurvivesBeingMoved) {
+TEST(WorkerPool, SurvivesBeingMoved) {
   const ThreadLimit limit(8);
-  Parallel first(4);
-  Parallel second(std::move(first));
-  Parallel third(1);
+  WorkerPool first(4);
+  WorkerPool second(std::move(first));
+  WorkerPool third(1);
   third = std::move(second);
   EXPECT_EQ(third.threads(), 4);
   std::atomic<int> runs = 0;
@@ -249,15 +249,15 @@ TEST(Parallel, SurvivesBeingMoved) {
 constexpr unsigned kDefaultMode = 0x1f80, kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000,
                    kModeBits = 0xffc0;
 
-TEST(Parallel, TasksRunInTheDefaultFloatingPointMode) {
+TEST(WorkerPool, TasksRunInTheDefaultFloatingPointMode) {
   const ThreadLimit limit(8);
   const unsigned before = _mm_getcsr();
   const unsigned odd = (kDefaultMode | kFlushToZero | kDenormalsAreZero | kRoundUp);
   for (const int threads : {1, 8}) {
-    Parallel parallel(threads);
+    WorkerPool worker_pool(threads);
     std::atomic<int> wrong = 0;
     _mm_setcsr(odd);
-    parallel.for_each(400, [&](std::size_t, int) {
+    worker_pool.for_each(400, [&](std::size_t, int) {
       if ((_mm_getcsr() & kModeBits) != kDefaultMode) ++wrong;
       spin(std::chrono::microseconds(20));
     });
@@ -268,16 +268,16 @@ TEST(Parallel, TasksRunInTheDefaultFloatingPointMode) {
   }
 }
 
-TEST(Parallel, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
+TEST(WorkerPool, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
   const ThreadLimit limit(3);
   const unsigned odd = kDefaultMode | kFlushToZero | kDenormalsAreZero | kRoundUp;
   for (const int threads : {1, 3}) {
-    Parallel parallel(threads);
+    WorkerPool worker_pool(threads);
     std::atomic<int> wrong = 0, changed = 0;
-    parallel.for_each(12, [&](std::size_t, int) {
+    worker_pool.for_each(12, [&](std::size_t, int) {
       const unsigned before = _mm_getcsr();
       _mm_setcsr(odd);  // as a progress callback may have set it
-      parallel.for_each(5, [&](std::size_t, int) {
+      worker_pool.for_each(5, [&](std::size_t, int) {
         if ((_mm_getcsr() & kModeBits) != kDefaultMode) ++wrong;
       });
       if ((_mm_getcsr() & kModeBits) != (odd & kModeBits)) ++changed;
@@ -288,7 +288,7 @@ TEST(Parallel, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
   }
 }
 
-TEST(Parallel, TheFloatingPointModeEndsWithItsScope) {
+TEST(WorkerPool, TheFloatingPointModeEndsWithItsScope) {
   const unsigned before = _mm_getcsr();
   _mm_setcsr(kDefaultMode | kFlushToZero | kRoundUp);
   volatile float smallest = std::numeric_limits<float>::min();

@@ -17,7 +17,7 @@ inline Color color_of(std::uint32_t word) {
           static_cast<float>(word & 255) / 255.0f, 1};
 }
 
-inline Rect random_place(Random& random) {
+inline Rect random_rect(Random& random) {
   const auto upto = [&](int n) { return static_cast<int>(below(random, n)); };
   const int x = upto(50), y = upto(30);
   return {x, y, 1 + upto(40), 1 + upto(30)};
@@ -77,7 +77,7 @@ inline FragmentState random_fragment_state(Random& random, const FrameBufferForm
     const bool red = coin();
     s.color_mask = {red, all ? red : coin(), all ? red : coin(), coin()};
   }
-  if (turn % 5 == 1) s.scissor = random_place(random);
+  if (turn % 5 == 1) s.scissor = random_rect(random);
   return s;
 }
 

@@ -151,7 +151,7 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
       shadow.shading = static_cast<Shading>(turn % 3);
       shadow.lighting = turn % 5 != 0;
       shadow.color_material = ColorMaterial::ambient_and_diffuse;
-      shadow.material.color_indexes = {{1, 5, 9}};
+      shadow.material.index_ramp = {{1, 5, 9}};
       shadow.texture = &texture;
       state.lighting = false;
       state.material.diffuse = color;
@@ -184,7 +184,7 @@ TEST(PlanarShadow, OfAPointLightGrowsWithItsDistance) {
   EXPECT_THAT(frame.explain(0),
               AllOf(HasSubstr("planar shadow"), HasSubstr("unlit"), HasSubstr("one colour for the draw")));
   Renderer({.threads = 1}).finish(frame);
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x)
       EXPECT_EQ(words[static_cast<std::size_t>(64 * y + x)],
@@ -209,7 +209,7 @@ TEST(PlanarShadow, FollowsTheObjectsTransform) {
     Renderer({.threads = 1}).finish(frame);
   }
   EXPECT_EQ(fingerprint(a), fingerprint(b));
-  EXPECT_THAT(color_words(a), testing::Contains(0xff0000u));
+  EXPECT_THAT(packed_colors(a), testing::Contains(0xff0000u));
 }
 
 TEST(PlanarShadow, IsRefusedWhereThereIsNone) {

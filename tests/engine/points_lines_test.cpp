@@ -63,7 +63,7 @@ std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, R
   Frame frame(buffer);
   frame.draw(mesh.view(), state);
   renderer.finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 struct Renderers {
@@ -97,7 +97,7 @@ PixelSet wide_by_the_rule(LinePoint a, LinePoint b, int width) {
   (x_major ? a.y : a.x) += x_major ? aside : -aside;
   (x_major ? b.y : b.x) += x_major ? aside : -aside;
   PixelSet pixels;
-  for (const auto& [x, y] : by_the_rule(a, b))
+  for (const auto& [x, y] : diamond_exit_pixels(a, b))
     for (int k = 0; k < width; ++k) pixels.insert({x_major ? x : x + k, x_major ? y - k : y});
   return pixels;
 }
@@ -338,7 +338,7 @@ TEST(Lines, KeepTheColorOfBothEndsWhereTheirWeightsCancel) {
           {.primitive = Primitive::lines, .positions = positions, .position_components = 4, .colors = colors},
           state);
       renderer.finish(frame);
-      const std::vector<std::uint32_t> words = color_words(buffer);
+      const std::vector<std::uint32_t> words = packed_colors(buffer);
       EXPECT_EQ(std::count(words.begin(), words.end(), 0xff0000u), 40) << name(set);
       EXPECT_EQ(std::count(words.begin(), words.end(), 0u), 64 * 64 - 40) << name(set);
     }
@@ -370,7 +370,7 @@ TEST(Lines, OfIndicesWrapAround) {
     mesh.color_indices = {0, 15};
     frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1, .instruction_set = set}).finish(frame);
-    const std::vector<std::uint32_t> words = color_words(buffer);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
     // Pixel i has its centre at i + 0.5: the index there is 15 (i + 0.5 - 10.703125) / 4.
     for (std::size_t i = 10; i < 14; ++i)
       EXPECT_EQ(

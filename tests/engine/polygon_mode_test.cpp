@@ -68,7 +68,7 @@ std::vector<std::uint32_t> drawn(const std::vector<Step>& steps, int tile_size =
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1});
   for (const Step& step : steps) frame.draw(step.mesh.view(), step.state);
   Renderer({.threads = 1, .tile_size = tile_size}).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 std::ptrdiff_t lit(const std::vector<std::uint32_t>& words) {
   return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; });
@@ -142,7 +142,7 @@ TEST(PolygonMode, OffsetIsThatOfThePolygon) {
         state.polygon_offset = {factor, units};
         frame.draw(mesh.view(), state);
         Renderer({.threads = 1}).finish(frame);
-        return color_words(buffer);
+        return packed_colors(buffer);
       };
       const std::vector<std::uint32_t> alone = shown(0, 0);
       ASSERT_EQ(shown(-2, -2), alone) << turn;
@@ -155,7 +155,7 @@ TEST(PolygonMode, OffsetIsThatOfThePolygon) {
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1});
       frame.draw(white.view(), plain());
       Renderer({.threads = 1}).finish(frame);
-      const std::vector<std::uint32_t> filled = color_words(buffer);
+      const std::vector<std::uint32_t> filled = packed_colors(buffer);
       for (std::size_t i = 0; i < hidden.size(); ++i)
         ASSERT_EQ(hidden[i], filled[i] != 0 ? 0u : alone[i]) << turn << ", pixel " << i;
     }
@@ -195,7 +195,7 @@ TEST(PolygonMode, OffsetIsASlopeAndUnits) {
       state.polygon_offset = {factor, units};
       frame.draw(mesh.view(), state);
       Renderer({.threads = 1}).finish(frame);
-      return depth_words(buffer);
+      return stored_depths(buffer);
     };
     const std::vector<std::uint32_t> before = depths(0, 0), after = depths(3, 5);
     const double moved = 3 * (0.375 / (0.75 * kWidth)) * 0xffffff + 5;
@@ -236,8 +236,8 @@ TEST(PolygonMode, CapturesThePolygonAndItsDraw) {
   second.colors.insert(second.colors.end(), other.colors.begin(), other.colors.end());
   FrameBuffer buffer({.width = kWidth, .height = kHeight});
   Frame frame(buffer);
-  std::vector<std::uint32_t> objects(std::size_t{kWidth} * kHeight), primitives(objects.size());
-  frame.capture({.objects = objects, .primitives = primitives});
+  std::vector<std::uint32_t> draw_ids(std::size_t{kWidth} * kHeight), primitive_ids(draw_ids.size());
+  frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids});
   frame.draw(first.view(), outlined(PolygonMode::line, PolygonMode::fill));
   frame.clear({.depth = 1});
   frame.draw(second.view(), outlined(PolygonMode::point, PolygonMode::line));
@@ -246,11 +246,11 @@ TEST(PolygonMode, CapturesThePolygonAndItsDraw) {
                                    points = drawn({{as(Primitive::points, second), plain()}}),
                                    late = drawn({{as(Primitive::points, other), plain()}});
   std::ptrdiff_t of_other = 0;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    ASSERT_EQ(objects[i], points[i] != 0 ? 1u : lines[i] != 0 ? 0u : Capture::kNothing);
-    ASSERT_TRUE(primitives[i] == (objects[i] == Capture::kNothing ? Capture::kNothing : 0u) ||
-                (primitives[i] == 1 && late[i] != 0));
-    of_other += primitives[i] == 1;
+  for (std::size_t i = 0; i < draw_ids.size(); ++i) {
+    ASSERT_EQ(draw_ids[i], points[i] != 0 ? 1u : lines[i] != 0 ? 0u : Capture::kNothing);
+    ASSERT_TRUE(primitive_ids[i] == (draw_ids[i] == Capture::kNothing ? Capture::kNothing : 0u) ||
+                (primitive_ids[i] == 1 && late[i] != 0));
+    of_other += primitive_ids[i] == 1;
   }
   EXPECT_GT(of_other, 9);
 }

@@ -63,7 +63,7 @@ class Decals : public testing::TestWithParam<Setting> {
   }
   std::vector<std::uint32_t> words_of_frame() {
     renderer.finish(frame);
-    return color_words(buffer);
+    return packed_colors(buffer);
   }
 };
 
@@ -250,9 +250,9 @@ TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
     SCOPED_TRACE(testing::Message() << std::hexfloat << depth);
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = depth});
     renderer.finish(frame);
-    const std::uint32_t word = depth_words(buffer).front();
+    const std::uint32_t word = stored_depths(buffer).front();
     ASSERT_TRUE(is_word_of(word, depth, setting.depth)) << word << " is cleared";
-    ASSERT_TRUE(all_are(depth_words(buffer), word));
+    ASSERT_TRUE(all_are(stored_depths(buffer), word));
     // The same depth by way of the depth range, and by way of the transform where that is exact.
     for (const bool by_range : {true, false}) {
       if (!by_range && depth < 0.5) continue;
@@ -263,8 +263,8 @@ TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
       frame.clear({.color = Color{0, 0, 0, 1}});
       frame.draw(window.view(), state);
       renderer.finish(frame);
-      ASSERT_TRUE(all_are(color_words(buffer), 0xffffffu)) << (by_range ? "by range" : "by transform");
-      ASSERT_TRUE(all_are(depth_words(buffer), word));
+      ASSERT_TRUE(all_are(packed_colors(buffer), 0xffffffu)) << (by_range ? "by range" : "by transform");
+      ASSERT_TRUE(all_are(stored_depths(buffer), word));
     }
   }
 }
@@ -279,7 +279,7 @@ TEST_P(ExactDepth, IsWhatClearsOfPartsStore) {
     frame.clear({.depth = 0.25});
     frame.clear({.depth = depth, .scissor = Rect{0, 0, 7, 36}});
     renderer.finish(frame);
-    const std::vector<std::uint32_t> words = depth_words(buffer);
+    const std::vector<std::uint32_t> words = stored_depths(buffer);
     for (std::size_t i = 0; i < words.size(); ++i)
       ASSERT_TRUE(is_word_of(words[i], i % 40 < 7 ? depth : 0.25, setting.depth))
           << words[i] << " at " << i % 40 << " of " << std::hexfloat << depth;
@@ -315,7 +315,7 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
         state.polygon_offset.units = units;
         frame.draw(mesh.view(), state);
         renderer.finish(frame);
-        return depth_words(buffer);
+        return stored_depths(buffer);
       };
       const std::vector<std::uint32_t> plain = depths(0), nearer = depths(-1), farther = depths(3);
       const std::uint32_t far_end = format == DepthFormat::unorm16   ? 0xffffu

@@ -213,7 +213,7 @@ TEST(PolygonPrimitives, HaveTheMaterialOfTheirSide) {
     frame.draw(tie.view(), state);
     Renderer({.threads = 1}).finish(frame);
     std::size_t red = 0, blue = 0;
-    for (const std::uint32_t word : color_words(buffer)) {
+    for (const std::uint32_t word : packed_colors(buffer)) {
       red += word == 0xff0000u;
       blue += word == 0x0000ffu;
     }
@@ -258,7 +258,7 @@ TEST(PolygonPrimitives, HaveOneOffset) {
     state.polygon_offset = offset;
     frame.draw(quad.view(), state);
     Renderer({.threads = 1}).finish(frame);
-    return depth_words(buffer);
+    return stored_depths(buffer);
   };
   const std::vector<float> folded{-0.8f, -0.8f, 0, 0.8f, -0.8f, 0.6f, 0.8f, 0.8f, 0, -0.8f, 0.8f, 0};
   const std::vector<std::uint32_t> before = depths(folded, DepthFormat::unorm24, {}),
@@ -296,7 +296,7 @@ TEST(PolygonPrimitives, HaveOneNormalWhereTheMeshHasNone) {
     Frame frame(buffer);
     frame.draw(quad.view(), flat);
     Renderer({.threads = 1}).finish(frame);
-    return color_words(buffer);
+    return packed_colors(buffer);
   }();
   std::uint32_t seen = 0;
   for (const std::uint32_t word : words) {
@@ -311,7 +311,7 @@ TEST(PolygonPrimitives, HaveOneNormalWhereTheMeshHasNone) {
   Frame frame(buffer);
   frame.draw(quad.view(), flat);
   Renderer({.threads = 1}).finish(frame);
-  for (const std::uint32_t word : color_words(buffer)) ASSERT_TRUE(word == 0 || word == seen);
+  for (const std::uint32_t word : packed_colors(buffer)) ASSERT_TRUE(word == 0 || word == seen);
 }
 
 TEST(PolygonPrimitives, AreDroppedWholeWhereAVertexIsNotFinite) {
@@ -324,7 +324,7 @@ TEST(PolygonPrimitives, AreDroppedWholeWhereAVertexIsNotFinite) {
   frame.draw(quads.view(), unlit({1, 1, 1, 1}));
   const FrameStats stats = Renderer({.threads = 1}).finish(frame);
   EXPECT_EQ(stats.dropped_non_finite, 2u);
-  const std::vector<std::uint32_t> words = color_words(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth / 2; ++x) ASSERT_EQ(words[static_cast<std::size_t>(y * kWidth + x)], 0u);
   EXPECT_EQ(words[static_cast<std::size_t>(kHeight / 2 * kWidth + kWidth * 3 / 4)], 0xffffffu);
@@ -336,7 +336,7 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     FrameBuffer buffer({.width = kWidth, .height = kHeight});
     Frame frame(buffer);
     std::vector<std::uint32_t> numbers(static_cast<std::size_t>(kWidth * kHeight));
-    frame.capture({.primitives = numbers});
+    frame.capture({.primitive_ids = numbers});
     frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1}).finish(frame);
     const std::uint32_t each = of.primitive == Primitive::quads || of.primitive == Primitive::quad_strip ? 2
@@ -350,7 +350,7 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     std::vector<std::uint32_t> of_triangles(numbers.size());
     Frame other(buffer);
     other.clear({.color = Color{}, .depth = 1});
-    other.capture({.primitives = of_triangles});
+    other.capture({.primitive_ids = of_triangles});
     other.draw(split.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1}).finish(other);
     std::set<std::uint32_t> seen;

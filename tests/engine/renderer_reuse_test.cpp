@@ -119,7 +119,7 @@ TEST(Moving, AssigningAFrameBufferKeepsItsPixelsAndItsFrames) {
   EXPECT_EQ(fingerprint(target), drawn);
   frame.clear({.color = Color{1, 1, 1, 1}});
   renderer.finish(frame);
-  EXPECT_EQ(color_words(target)[0], 0xffffffu);
+  EXPECT_EQ(packed_colors(target)[0], 0xffffffu);
 }
 
 TEST(Moving, AFrameTakesItsRecordingAlong) {

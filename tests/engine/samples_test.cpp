@@ -150,7 +150,7 @@ TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
       frame.draw(mesh.view(), white);
       ASSERT_EQ(renderer.finish(frame).shaded_pixels, shaded)
           << "triangle " << turn << ", tiles of " << renderer.options().tile_size;
-      const std::vector<std::uint32_t> found = color_words(buffer);
+      const std::vector<std::uint32_t> found = packed_colors(buffer);
       const auto differ = std::mismatch(found.begin(), found.end(), expected.begin());
       ASSERT_TRUE(differ.first == found.end())
           << "triangle " << turn << ", tiles of " << renderer.options().tile_size << ", pixel "
@@ -192,7 +192,7 @@ TEST_P(Samples, BelongToOneOfTheTrianglesThatShareAnEdge) {
     grey.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
     frame.draw(mesh.view(), grey);
     renderer.finish(frame);
-    const std::vector<std::uint32_t> words = color_words(buffer);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
     ASSERT_EQ(std::count(words.begin(), words.end(), 0x404040u), std::ptrdiff_t{kWidth} * kHeight)
         << "sheet " << turn;
   }
@@ -218,7 +218,7 @@ TEST_P(Samples, AreKeptToTheEndOfTheFrame) {
       if (!in_one_frame) renderer.finish(frame);
       frame.draw(second.view(), white);
       renderer.finish(frame);
-      const std::vector<std::uint32_t> words = color_words(buffer);
+      const std::vector<std::uint32_t> words = packed_colors(buffer);
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
           const int before = covered_samples(upper, x, y, samples),
@@ -253,7 +253,7 @@ TEST_P(Samples, LeaveDepthAndStencilOfTheFirst) {
     state.stencil = StencilState{.front = {.ref = 9, .zpass = StencilOp::replace}};
     frame.draw(mesh.view(), state);
     renderer.finish(frame);
-    const std::vector<std::uint32_t> levels = depth_words(buffer);
+    const std::vector<std::uint32_t> levels = stored_depths(buffer);
     const std::vector<std::uint8_t> stencil = stencil_values(buffer);
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {

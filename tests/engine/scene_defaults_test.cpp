@@ -104,7 +104,7 @@ TEST(SceneDefaults, EveryKeyOfAnAccumulationArrives) {
   EXPECT_FALSE(mult.scissor);
   EXPECT_EQ(mult.color_mask, (std::array<bool, 4>{true, true, true, true}));
   const auto& given_back = std::get<Accum>(scene.frame[2].what);
-  EXPECT_EQ(given_back.op, AccumOp::return_);
+  EXPECT_EQ(given_back.op, AccumOp::return_color);
   ASSERT_TRUE(given_back.scissor);
   EXPECT_EQ(given_back.scissor->height, 4);
   EXPECT_EQ(given_back.color_mask, (std::array<bool, 4>{true, false, true, false}));

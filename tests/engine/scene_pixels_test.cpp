@@ -82,7 +82,7 @@ TEST(ScenePixels, AnImageIsReadOnceAndShownFromItsTop) {
     const auto at = static_cast<std::size_t>(1 + shift);
     expected[4 + at] = 0x0a141e, expected[5 + at] = 0x28323c, expected[8 + at] = 0x46505a,
                  expected[9 + at] = 0x646e78;
-    EXPECT_EQ(color_words(buffer), expected);
+    EXPECT_EQ(packed_colors(buffer), expected);
   }
   std::filesystem::remove_all(folder);
 }

@@ -110,7 +110,7 @@ TEST_F(SceneTexture, TexelsMayStandInTheScene) {
   Frame frame(buffer);
   record(scene, frame);
   Renderer().finish(frame);
-  EXPECT_EQ(color_words(buffer), (std::vector<std::uint32_t>{0x33001122, 0x77445566, 0xbb8899aa, 0xffccddee,
+  EXPECT_EQ(packed_colors(buffer), (std::vector<std::uint32_t>{0x33001122, 0x77445566, 0xbb8899aa, 0xffccddee,
                                                              0x67012345, 0xef89abcd}));
   EXPECT_EQ(file.at(1).textures[0], scene.textures[0]) << "made once";
   EXPECT_NE(scene.textures[0], scene.textures[1]) << "another sampler";

@@ -29,7 +29,7 @@ TEST(Palette, ChangesWhatIsShownAndNotWhatIsStored) {
   buffer.set_palette(second);
   EXPECT_EQ(shown(buffer)[1], 255);
   EXPECT_EQ(shown(buffer)[2], 0);
-  EXPECT_THAT(color_words(buffer), Each(2u));
+  EXPECT_THAT(packed_colors(buffer), Each(2u));
   EXPECT_EQ(buffer.format().palette.size(), 3u);
 
   // Colours find the entries of the palette in force when the frame is finished.
@@ -39,16 +39,16 @@ TEST(Palette, ChangesWhatIsShownAndNotWhatIsStored) {
   const auto draw_red = [&] { frame.draw(mesh.view(), over); };
   draw_red();
   renderer.finish(frame);
-  EXPECT_THAT(color_words(buffer), Each(1u));
+  EXPECT_THAT(packed_colors(buffer), Each(1u));
   draw_red();
   buffer.set_palette(first);
   renderer.finish(frame);
-  EXPECT_THAT(color_words(buffer), Each(0u));
+  EXPECT_THAT(packed_colors(buffer), Each(0u));
   buffer.set_palette({});
   EXPECT_EQ(buffer.format().palette.size(), 16u);
   draw_red();
   renderer.finish(frame);
-  EXPECT_THAT(color_words(buffer), Each(4u)) << "of ega16";
+  EXPECT_THAT(packed_colors(buffer), Each(4u)) << "of ega16";
 }
 
 TEST(Palette, ErrorsChangeNothing) {

@@ -109,8 +109,8 @@ TEST(SteadyFrames, AllocateNothing) {
   const ThreadLimit limit(2);
   for (const bool keeps_planes : {false, true}) {
     for (const int threads : {1, 2}) expect_steady(MadeOnTheWay(), {.threads = threads}, keeps_planes);
-    expect_steady(FullTile({.width = 300, .height = 200}), {.threads = 2}, keeps_planes);
-    expect_steady(FullTile({.width = 300, .height = 200}), {.threads = 1}, keeps_planes);
+    expect_steady(BinOverflowScene({.width = 300, .height = 200}), {.threads = 2}, keeps_planes);
+    expect_steady(BinOverflowScene({.width = 300, .height = 200}), {.threads = 1}, keeps_planes);
     expect_steady(RandomOperations({.width = 300, .height = 200, .alpha_bits = 8}), {.threads = 1},
                   keeps_planes);
     expect_steady(RandomOperations({.width = 300, .height = 200, .samples = 4}), {.threads = 1},
@@ -120,7 +120,7 @@ TEST(SteadyFrames, AllocateNothing) {
 
 TEST(SteadyFrames, AllocateNothingWhicheverWorkerRuns) {
   for (const bool keeps_planes : {false, true}) {
-    const auto executor = std::make_shared<WorkersInTurn>(2);
+    const auto executor = std::make_shared<SingleThreadExecutor>(2);
     expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes,
                   [&] { executor->begin_with(1); });
   }

@@ -53,7 +53,7 @@ Stored drawn(const FrameBufferFormat& format, const MeshData& mesh, const DrawSt
   frame.set_light_model({.two_sided = true});
   frame.draw(mesh.view(), state);
   Renderer(options).finish(frame);
-  Stored stored{.words = color_words(buffer), .depth = {}};
+  Stored stored{.words = packed_colors(buffer), .depth = {}};
   stored.depth.resize(stored.words.size());
   if (format.depth != DepthFormat::none) buffer.read_depth(stored.depth);
   return stored;

@@ -11,10 +11,10 @@ namespace tessera::test {
 
 /// Workers that run one after the other on the caller's thread, so that the first of them finds all the
 /// tasks.
-class WorkersInTurn : public Executor {
+class SingleThreadExecutor : public Executor {
  public:
   /// @param first  the one that begins, or the last one where there are fewer; those after it follow
-  explicit WorkersInTurn(int count, int first = 0) : count_(count), first_(first) {}
+  explicit SingleThreadExecutor(int count, int first = 0) : count_(count), first_(first) {}
   int workers() const noexcept override { return count_; }
   void run(int count, void (*work)(void*, int), void* context) override {
     for (int k = 0; k < count; ++k) work(context, (std::min(first_, count - 1) + k) % count);
@@ -26,9 +26,9 @@ class WorkersInTurn : public Executor {
 };
 
 /// Threads that are made for each call: the simplest pool there is.
-class OwnThreads : public Executor {
+class ThreadPerCallExecutor : public Executor {
  public:
-  explicit OwnThreads(int count) : count_(count) {}
+  explicit ThreadPerCallExecutor(int count) : count_(count) {}
   int workers() const noexcept override { return count_; }
   void run(int count, void (*work)(void*, int), void* context) override {
     std::vector<std::thread> threads;

@@ -31,7 +31,7 @@ std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, i
   frame.clear({.color = Color{128 / 255.0f, 128 / 255.0f, 128 / 255.0f, 1}, .depth = 1.0});
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1, .tile_size = tile_size}).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 std::ptrdiff_t not_grey(const std::vector<std::uint32_t>& words) {
   return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return (w & 0xffffff) != kGrey; });
@@ -170,7 +170,7 @@ TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
                                    .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
         frame.draw(mesh.view(), state);
         Renderer({.threads = 1}).finish(frame);
-        return color_words(buffer);
+        return packed_colors(buffer);
       };
       EXPECT_LE(most_apart(words_of(false), words_of(true)), color_bits == 24 ? 1 : 0)
           << "round " << round << ", " << color_bits << " bits";

@@ -66,7 +66,7 @@ std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, F
       {.color = Color{0.25f, 0.5f, 0.75f, buffer.format().alpha_bits > 0 ? 0.5f : 1.0f}, .depth = 1.0});
   frame.draw(mesh.view(), state);
   Renderer(options).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 std::string explained(const MeshData& mesh, const DrawState& state,
@@ -138,7 +138,7 @@ TEST(Texture, MayBeMovedBetweenDrawAndFinish) {
   EXPECT_EQ(moved.width(), 2);
   EXPECT_EQ(moved.channels(), 3);
   Renderer({.threads = 1}).finish(frame);
-  EXPECT_EQ(color_words(buffer)[0] & 0xff, pixels.at(0, 0, 2));
+  EXPECT_EQ(packed_colors(buffer)[0] & 0xff, pixels.at(0, 0, 2));
 }
 
 // ---- texels
@@ -381,7 +381,7 @@ TEST(Texture, AlphaTestsLookAtTexels) {
       const MeshData mesh = textured_window();
       frame.draw(mesh.view(), state);
       Renderer({.threads = 1}).finish(frame);
-      const std::vector<std::uint32_t> depths = depth_words(buffer), colors = color_words(buffer);
+      const std::vector<std::uint32_t> depths = stored_depths(buffer), colors = packed_colors(buffer);
       for (std::size_t i = 0; i < 16; ++i) {
         EXPECT_EQ(depths[i] != 0xffffff, i % 4 == 3) << i;
         EXPECT_EQ(colors[i] != 0, writes_color && i % 4 == 3) << i;
@@ -487,13 +487,13 @@ TEST(Texture, CapturesAndCountsSeeWhatAlphaTestsLetThrough) {
   state.alpha_test = AlphaTest{};
   const MeshData mesh = textured_window();
   frame.draw(mesh.view(), state);
-  std::vector<std::uint32_t> objects(8);
+  std::vector<std::uint32_t> draw_ids(8);
   std::vector<float> normals(24);
-  frame.capture({.objects = objects, .normals = normals});
+  frame.capture({.draw_ids = draw_ids, .normals = normals});
   const FrameStats stats = Renderer({.threads = 1, .count_fragments = true}).finish(frame);
   EXPECT_EQ(stats.fragments, 8u);
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(objects[i], i % 4 < 2 ? Capture::kNothing : 0u) << i;
+    EXPECT_EQ(draw_ids[i], i % 4 < 2 ? Capture::kNothing : 0u) << i;
     EXPECT_EQ(normals[3 * i + 2], i % 4 < 2 ? 0.0f : 1.0f) << i;
   }
 }

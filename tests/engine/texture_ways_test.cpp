@@ -46,7 +46,7 @@ Result drawn(const MeshData& mesh, DrawState state, InstructionSet set, bool wit
   frame.draw(mesh.view(), state);
   const FrameStats stats =
       Renderer({.threads = 1, .instruction_set = set, .defer_shading = false}).finish(frame);
-  return {color_words(buffer), stats.shaded_pixels};
+  return {packed_colors(buffer), stats.shaded_pixels};
 }
 
 TEST(TextureWays, OfTrianglesAtOnceComeToTheSame) {

@@ -22,20 +22,20 @@ int main() {
   frame.draw(mesh, {.transform =
                         tessera::translate(1, 0, 1) * tessera::rotate(45, 0, 1, 0)});  // object 1, before it
 
-  std::vector<std::uint32_t> objects(kWidth * kHeight), triangles(kWidth * kHeight);
+  std::vector<std::uint32_t> draw_ids(kWidth * kHeight), triangles(kWidth * kHeight);
   std::vector<float> normals(3 * kWidth * kHeight), distances(kWidth * kHeight);
-  frame.capture({.objects = objects, .primitives = triangles, .normals = normals});
+  frame.capture({.draw_ids = draw_ids, .primitive_ids = triangles, .normals = normals});
   frame.keep({tessera::Buffer::depth});
   renderer.finish(frame);
   buffer.read_view_depth(distances, camera);
 
   const auto tell = [&](int x, int y) {
     const std::size_t at = std::size_t(y) * kWidth + std::size_t(x);
-    if (objects[at] == tessera::Capture::kNothing) std::printf("%d, %d: nothing\n", x, y);
+    if (draw_ids[at] == tessera::Capture::kNothing) std::printf("%d, %d: nothing\n", x, y);
     else
-      std::printf("%d, %d: object %u, triangle %u, normal %.2f %.2f %.2f, %.2f away\n", x, y, objects[at],
+      std::printf("%d, %d: object %u, triangle %u, normal %.2f %.2f %.2f, %.2f away\n", x, y, draw_ids[at],
                   triangles[at], normals[3 * at], normals[3 * at + 1], normals[3 * at + 2], distances[at]);
-    return objects[at];
+    return draw_ids[at];
   };
   const bool right = tell(15, 24) == 0 && tell(45, 24) == 1 && tell(1, 1) == tessera::Capture::kNothing;
   return right ? 0 : 1;

@@ -78,7 +78,7 @@ std::vector<AccumulatedPixel> levels_of(int bits) {
       {most, -most - 1, 0, 1}, {-1, most - 1, -most, most / 2}, {most / 3, -most / 3, 2, -2}};
   for (int i = 0; i < 60; ++i) {
     AccumulatedPixel pixel;
-    for (std::int32_t& level : pixel) level = accumulation_level_from_word(next_random(), bits);
+    for (std::int32_t& level : pixel) level = accumulation_level_from_stored(next_random(), bits);
     pixels.push_back(pixel);
   }
   return pixels;
@@ -125,8 +125,8 @@ TEST(Accumulation, GivesBackTheWordOfLongDouble) {
         for (const AccumulatedPixel& pixel : levels_of(bits))
           for (const double threshold : {0.5, 0.0078125, 0.9921875}) {
             const std::uint32_t word =
-                Accumulation(Op::give_back, value, bits, layout).word(pixel, threshold);
-            ASSERT_EQ(word & ~(layout.word_mask() | layout.alpha_mask()), 0u);
+                Accumulation(Op::give_back, value, bits, layout).packed_color(pixel, threshold);
+            ASSERT_EQ(word & ~(layout.value_mask() | layout.alpha_mask()), 0u);
             differing += word != expected_word(value, pixel, bits, layout, threshold);
             ++all;
           }
@@ -153,7 +153,7 @@ int largest_loss(int bits) {
     const std::uint32_t word = level * 0x010101u;
     AccumulatedPixel acc{};
     for (int pass = 0; pass < 256; ++pass) accumulate.run(&word, {&acc[0], &acc[1], &acc[2], &acc[3]}, 1);
-    const std::uint32_t back = give_back.word(acc, 0.5);
+    const std::uint32_t back = give_back.packed_color(acc, 0.5);
     EXPECT_EQ(back, (back & 255) * 0x010101u) << "the components are equal";
     loss = std::max(loss, std::abs(static_cast<int>(back & 255) - static_cast<int>(level)));
   }

@@ -55,7 +55,7 @@ BitplaneStack random_stack(const Case& c, std::mt19937& random) {
   BitplaneStack stack(c.width, c.height, c.planes);
   stack.allocate(0);
   for (int y = 0; y < c.height; ++y)
-    for (int x = 0; x < c.width; ++x) stack.set_word(x, y, static_cast<std::uint32_t>(random()));
+    for (int x = 0; x < c.width; ++x) stack.set_pixel(x, y, static_cast<std::uint32_t>(random()));
   return stack;
 }
 BitplaneStack copy_of(const BitplaneStack& stack) {
@@ -78,7 +78,7 @@ bool same_bits(const BitplaneStack& a, const BitplaneStack& b) {
 std::vector<StorePlanesFn*> ways() {
   std::vector<StorePlanesFn*> all;
   for (Isa isa : available_isas())
-    for (StorePlanesFn* way : {store_planes_for(isa), store_planes_tile_by_tile(isa)})
+    for (StorePlanesFn* way : {store_planes_for(isa), store_planes_per_tile(isa)})
       if (std::find(all.begin(), all.end(), way) == all.end()) all.push_back(way);
   return all;
 }
@@ -178,7 +178,7 @@ TEST(BitTranspose, ATileWritesNothingOfItsNeighbours) {
       store_tile(store, tile.words, {.x0_px = tile_size, .y0_px = tile_size, .tile_size = tile_size}, stack);
       for (int y = 0; y < 3 * tile_size; ++y)
         for (int x = 0; x < 3 * tile_size; ++x)
-          ASSERT_EQ(stack.word(x, y), x / tile_size == 1 && y / tile_size == 1 ? 0u : 0xffffffu)
+          ASSERT_EQ(stack.pixel(x, y), x / tile_size == 1 && y / tile_size == 1 ? 0u : 0xffffffu)
               << x << " " << y;
     }
 }
@@ -191,7 +191,7 @@ TEST(BitTranspose, DepthKeysOf32BitsComeBackThroughTheFlip) {
     for (std::uint32_t i = 0; i < 64 * 64; ++i) keys.words[i] = (i * 0x100401u) ^ 0x80000000u;
     const TilePlace place{.flip = 0x80000000u};
     store_tile(store_planes_for(isa), keys.words, place, stack);
-    EXPECT_EQ(stack.word(1, 0), 0x100401u);
+    EXPECT_EQ(stack.pixel(1, 0), 0x100401u);
     load_planes_for(isa)(back.words, place, stack);
     EXPECT_EQ(std::memcmp(keys.words, back.words, 64 * 64 * 4), 0);
   }

@@ -45,17 +45,17 @@ TEST(Bitplane, RowsArePaddedToCacheLinesAndPlanesTakeAnOddNumberOfThem) {
 TEST(Bitplane, Bit7OfAByteIsTheLeftmostPixelAndTheFirstRowIsTheTop) {
   BitplaneStack stack(20, 3, 2);
   stack.allocate(0);
-  stack.set_word(0, 0, 1);
-  stack.set_word(9, 2, 3);
+  stack.set_pixel(0, 0, 1);
+  stack.set_pixel(9, 2, 3);
   EXPECT_EQ(stack.plane(0)[0], 0x80);
   EXPECT_EQ(stack.plane(1)[0], 0x00);
   EXPECT_EQ(stack.plane(0)[2 * stack.stride_bytes() + 1], 0x40);
   EXPECT_EQ(stack.plane(1)[2 * stack.stride_bytes() + 1], 0x40);
-  EXPECT_EQ(stack.word(9, 2), 3u);
-  stack.set_word(9, 2, 2);
-  EXPECT_EQ(stack.word(9, 2), 2u);
-  EXPECT_EQ(stack.word(8, 2), 0u);
-  EXPECT_EQ(stack.word(10, 2), 0u);
+  EXPECT_EQ(stack.pixel(9, 2), 3u);
+  stack.set_pixel(9, 2, 2);
+  EXPECT_EQ(stack.pixel(9, 2), 2u);
+  EXPECT_EQ(stack.pixel(8, 2), 0u);
+  EXPECT_EQ(stack.pixel(10, 2), 0u);
 }
 
 TEST(Bitplane, FillSetsEveryPixelAndNoPadBit) {
@@ -66,7 +66,7 @@ TEST(Bitplane, FillSetsEveryPixelAndNoPadBit) {
       for (int y = 0; y < 5; ++y) ASSERT_EQ(bits_in_row(stack, k, y), width) << k << " " << y;
     stack.fill(0x80000005u);
     for (int y = 0; y < 5; ++y) {
-      for (int x = 0; x < width; ++x) ASSERT_EQ(stack.word(x, y), 0x80000005u);
+      for (int x = 0; x < width; ++x) ASSERT_EQ(stack.pixel(x, y), 0x80000005u);
       for (int k = 0; k < 32; ++k)
         ASSERT_EQ(bits_in_row(stack, k, y), (0x80000005u >> k & 1) != 0 ? width : 0);
     }
@@ -78,23 +78,23 @@ TEST(Bitplane, FillRowsLeavesTheOtherRowsAlone) {
   stack.allocate(0x11);
   stack.fill_rows(2, 4, 0xee);
   for (int y = 0; y < 6; ++y)
-    for (int x = 0; x < 30; ++x) EXPECT_EQ(stack.word(x, y), y == 2 || y == 3 ? 0xeeu : 0x11u) << y;
+    for (int x = 0; x < 30; ++x) EXPECT_EQ(stack.pixel(x, y), y == 2 || y == 3 ? 0xeeu : 0x11u) << y;
 }
 
 TEST(Bitplane, BitsBeyondThePlanesAreIgnored) {
   BitplaneStack stack(3, 3, 5);
-  EXPECT_EQ(stack.word_mask(), 31u);
-  EXPECT_EQ(BitplaneStack(3, 3, 32).word_mask(), 0xffffffffu);
-  EXPECT_EQ(BitplaneStack(3, 3, 0).word_mask(), 0u);
+  EXPECT_EQ(stack.value_mask(), 31u);
+  EXPECT_EQ(BitplaneStack(3, 3, 32).value_mask(), 0xffffffffu);
+  EXPECT_EQ(BitplaneStack(3, 3, 0).value_mask(), 0u);
   stack.allocate(0xffffffffu);
-  EXPECT_EQ(stack.word(1, 1), 31u);
+  EXPECT_EQ(stack.pixel(1, 1), 31u);
 }
 
 TEST(Bitplane, ASecondAllocateKeepsWhatIsThere) {
   BitplaneStack stack(3, 3, 5);
   stack.allocate(9);
   stack.allocate(0);
-  EXPECT_EQ(stack.word(2, 2), 9u);
+  EXPECT_EQ(stack.pixel(2, 2), 9u);
 }
 
 TEST(Bitplane, AStackWithoutPlanesIsNeverAllocated) {
@@ -107,7 +107,7 @@ TEST(Bitplane, MovingHandsTheMemoryOn) {
   BitplaneStack from(10, 10, 4);
   from.allocate(6);
   const BitplaneStack to = std::move(from);
-  EXPECT_EQ(to.word(9, 9), 6u);
+  EXPECT_EQ(to.pixel(9, 9), 6u);
   EXPECT_FALSE(from.allocated());  // NOLINT: that is what is tested
 }
 

@@ -22,8 +22,8 @@ TEST(Palette, UnsetEntriesAreBlackAndAnyIndexMayBeRead) {
 }
 
 TEST(Palette, StoredColorRoundsClampsAndTakesNanAsZero) {
-  EXPECT_EQ(stored_color(0.5f, 1.0f, 0.0f), (Rgb8{128, 255, 0}));
-  EXPECT_EQ(stored_color(-1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN()), (Rgb8{0, 255, 0}));
+  EXPECT_EQ(quantize_rgb8(0.5f, 1.0f, 0.0f), (Rgb8{128, 255, 0}));
+  EXPECT_EQ(quantize_rgb8(-1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN()), (Rgb8{0, 255, 0}));
 }
 
 TEST(Palette, NamesThatAreKnownAndOneThatIsNot) {

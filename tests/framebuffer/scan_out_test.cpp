@@ -51,7 +51,7 @@ TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
         // All words of up to 12 bits; beyond that every level of each component, and random words.
         std::vector<std::uint32_t> words;
         if (source.layout.bits <= 12) {
-          for (std::uint32_t w = 0; w <= source.layout.word_mask(); ++w) words.push_back(w);
+          for (std::uint32_t w = 0; w <= source.layout.value_mask(); ++w) words.push_back(w);
         } else {
           for (std::uint32_t v = 0; v < 256; ++v)
             words.insert(words.end(), {v, v << source.layout.g_shift(), v << source.layout.r_shift(), ~v});
@@ -63,7 +63,7 @@ TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
         scan_out.row(words.data(), static_cast<int>(words.size()), row.data());
         for (std::size_t i = 0; i < words.size(); ++i)
           ASSERT_EQ(pixel_at(&row[4 * i]),
-                    shown_pixel_reference(source.layout, &source.palette, order, words[i]))
+                    scan_out_pixel_reference(source.layout, &source.palette, order, words[i]))
               << static_cast<int>(isa) << " bits " << source.layout.bits << " index " << source.layout.index
               << " word " << words[i];
         for (std::size_t i = words.size() * 4; i < row.size(); ++i) ASSERT_EQ(row[i], kUntouched);
@@ -107,7 +107,7 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
               const std::uint8_t* row = first + (upwards ? -y : y) * stride;
               for (int x = 0; x < width; ++x)
                 ASSERT_EQ(pixel_at(row + 4 * x),
-                          shown_pixel_reference(source.layout, &source.palette, order,
+                          scan_out_pixel_reference(source.layout, &source.palette, order,
                                                 tile.words[tile_index(x, y, tile_size)]))
                     << static_cast<int>(isa) << " " << tile_size << " " << x << "," << y;
               for (int i = 4 * width; i < stride; ++i) ASSERT_EQ(row[i], kUntouched);

@@ -14,7 +14,7 @@ namespace tessera::fuzz {
 
 class AssimpSceneCase {
  public:
-  explicit AssimpSceneCase(Bytes& from) : from_(from) {
+  explicit AssimpSceneCase(FuzzInput& from) : from_(from) {
     fill(scene_.mMaterials, scene_.mNumMaterials, from_.below(4), [&](aiMaterial& m) { make(m); });
     fill(scene_.mMeshes, scene_.mNumMeshes, from_.below(4), [&](aiMesh& m) { make(m); });
     fill(scene_.mCameras, scene_.mNumCameras, from_.below(3), [&](aiCamera& c) { make(c); });
@@ -81,9 +81,9 @@ class AssimpSceneCase {
     }
   }
 
-  void add(aiMaterial& material, const char* key, unsigned type, unsigned index, int most_numbers) {
+  void add(aiMaterial& material, const char* key, unsigned type, unsigned index, int max_numbers) {
     ai_real numbers[4];
-    const int count = from_.rarely() ? 1 + from_.below(4) : most_numbers;
+    const int count = from_.rarely() ? 1 + from_.below(4) : max_numbers;
     for (int i = 0; i < count; ++i) numbers[i] = real();
     material.AddBinaryProperty(numbers, static_cast<unsigned>(count) * sizeof(ai_real), key, type, index,
                                from_.rarely() ? aiPTI_Integer : aiPTI_Float);
@@ -135,12 +135,12 @@ class AssimpSceneCase {
     node.mMeshes = list_of<unsigned>(node.mNumMeshes, [&] {
       return from_.rarely() ? from_.word() : from_.byte() % (scene_.mNumMeshes + (scene_.mNumMeshes == 0));
     });
-    constexpr int kMostDepth = 600;  // more than are followed
-    const int children = depth < kMostDepth && !from_.empty() ? from_.below(3) : 0;
+    constexpr int kMaxNodeDepth = 600;  // more than are followed
+    const int children = depth < kMaxNodeDepth && !from_.empty() ? from_.below(3) : 0;
     fill(node.mChildren, node.mNumChildren, children, [&](aiNode& child) { make(child, depth + 1); });
   }
 
-  Bytes& from_;
+  FuzzInput& from_;
   aiScene scene_;
 };
 

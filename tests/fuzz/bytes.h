@@ -10,9 +10,9 @@
 
 namespace tessera::fuzz {
 
-class Bytes {
+class FuzzInput {
  public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
+  FuzzInput(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
 
   bool empty() const { return left_ == 0; }
   std::uint8_t byte() {

@@ -16,14 +16,14 @@ std::string read_text_file(const std::string& path, std::size_t) {
   return found->second;
 }
 
-void refuse_endless_file(const std::string&) {}
+void refuse_device_or_pipe(const std::string&) {}
 
 // As the real one for OBJ files, without a process of its own.
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>&) {
   Model model = import_obj(path);
   if (use == ModelUse::display) {
     if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
-    wind_by_normals(model.mesh);
+    orient_by_normals(model.mesh);
   }
   const std::string bytes = to_bytes(model);
   std::optional<Model> received;

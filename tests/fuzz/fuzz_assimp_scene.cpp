@@ -10,13 +10,13 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tessera;
   using namespace tessera::fuzz;
-  Bytes bytes(data, size);
+  FuzzInput bytes(data, size);
   const int kind = bytes.byte();
   const AssimpSceneCase from(bytes);
   std::optional<Model> model;
   if (error_of([&] { model = model_of(from.scene(), (kind & 1) == 0, (kind & 2) != 0); })) return 0;
   add_creased_normals(model->mesh, (kind & 4) != 0 ? 0 : kCreaseDegrees);
-  wind_by_normals(model->mesh);
+  orient_by_normals(model->mesh);
   if (const auto error = error_of([&] { model_from_bytes(to_bytes(*model), "model"); }))
     finding("what was made of a scene is refused: " + *error);
   std::optional<Scene> scene;

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   error_of([&] { render_small(model_scene(*model, "model", 24, 32)); });
   // The reading process has the same model in its hands.
   add_creased_normals(model->mesh);
-  wind_by_normals(model->mesh);
+  orient_by_normals(model->mesh);
   error_of([&] { render_small(model_scene(*model, "model", 32, 24)); });
   return 0;
 }

@@ -24,7 +24,7 @@ void read_ppm(std::string file) {
           "a picture changes when it is written and read again");
 }
 
-void write_png(Bytes& from) {
+void write_png(FuzzInput& from) {
   const int bits = 1 << from.below(4), width = 1 + from.below(40), height = 1 + from.below(40),
             entries = from.integer(0, 1 << bits), compression = from.below(10);
   std::vector<unsigned char> indices, palette, file;
@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > 0 && data[0] == 'P') {
     error_of([&] { read_ppm(std::string(data, data + size)); });
   } else {
-    Bytes from(data, size);
+    FuzzInput from(data, size);
     write_png(from);
   }
   return 0;

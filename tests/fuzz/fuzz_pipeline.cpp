@@ -103,19 +103,19 @@ class Canvas {
     bytes.assign(static_cast<std::size_t>(stride_ * (height_ - 1) + 4 * std::ptrdiff_t{width_}), kUntouched);
   }
   ImageTarget target() {
-    return {.pixels = bytes.data() + (how_.upwards ? stride_ * (height_ - 1) : 0),
+    return {.pixels = bytes.data() + (how_.bottom_up ? stride_ * (height_ - 1) : 0),
             .width = width_,
             .height = height_,
-            .stride_bytes = how_.upwards ? -stride_ : stride_,
+            .stride_bytes = how_.bottom_up ? -stride_ : stride_,
             .order = how_.order,
-            .part = how_.part};
+            .region = how_.part};
   }
   void require_untouched_outside() const {
     const Rect part = how_.part.value_or(Rect{0, 0, width_, height_});
     for (std::size_t i = 0; i < bytes.size(); ++i) {
       const std::int64_t row = static_cast<std::int64_t>(i) / stride_,
                          x = static_cast<std::int64_t>(i) % stride_ / 4,
-                         y = how_.upwards ? row : height_ - 1 - row;
+                         y = how_.bottom_up ? row : height_ - 1 - row;
       const bool inside = x < width_ && x >= part.x && x < std::int64_t{part.x} + part.width && y >= part.y &&
                           y < std::int64_t{part.y} + part.height;
       require(inside || bytes[i] == kUntouched, "an image changed outside of the part that was asked for");
@@ -218,9 +218,9 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
   const std::size_t pixels = static_cast<std::size_t>(buffer.format().width) *
                              static_cast<std::size_t>(buffer.format().height),
                     draws = frame.draw_count();
-  std::vector<std::uint32_t> objects(wanted.captures ? pixels : 0), primitives(objects.size());
-  std::vector<float> normals(3 * objects.size());
-  frame.capture({.objects = objects, .primitives = primitives, .normals = normals});
+  std::vector<std::uint32_t> draw_ids(wanted.captures ? pixels : 0), primitive_ids(draw_ids.size());
+  std::vector<float> normals(3 * draw_ids.size());
+  frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
   std::optional<Canvas> canvas;
   if (wanted.presentation) canvas.emplace(*wanted.presentation, buffer.format());
   const Stored before = stored_in(buffer);
@@ -234,10 +234,10 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
     frame.reset();
   } else {
     reach.require_untouched(before, after);
-    for (const std::uint32_t object : objects)
+    for (const std::uint32_t object : draw_ids)
       require(object == Capture::kNothing || object < draws, "a draw is captured that there is none of");
     outcome.counted.insert(outcome.counted.end(),
-                           {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.outside,
+                           {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.trivially_rejected,
                             stats.culled, stats.zero_area, stats.clipped, stats.binned});
   }
   if (canvas) {
@@ -245,8 +245,8 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
     outcome.pictures.push_back(std::move(canvas->bytes));
   }
   outcome.stored.push_back(after);
-  outcome.captured.insert(outcome.captured.end(), objects.begin(), objects.end());
-  outcome.captured.insert(outcome.captured.end(), primitives.begin(), primitives.end());
+  outcome.captured.insert(outcome.captured.end(), draw_ids.begin(), draw_ids.end());
+  outcome.captured.insert(outcome.captured.end(), primitive_ids.begin(), primitive_ids.end());
   for (const float x : normals) outcome.captured.push_back(std::bit_cast<std::uint32_t>(x));
 }
 
@@ -258,7 +258,7 @@ Outcome draw(const PipelineCase& from, int way) {
   const auto error = error_of([&] {
     LentMemory memory(nullptr, &std::free);
     std::optional<FrameBuffer> buffer;
-    if (way == 1 && from.lent_memory) {
+    if (way == 1 && from.uses_caller_memory) {
       const std::size_t bytes = FrameBuffer::memory_bytes(from.format);
       memory.reset(static_cast<std::byte*>(std::aligned_alloc(64, (bytes + 63) / 64 * 64)));
       buffer.emplace(from.format, std::span(memory.get(), bytes));
@@ -285,7 +285,7 @@ Outcome draw(const PipelineCase& from, int way) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tessera::fuzz;
   static const tessera::ThreadLimit limit(3);
-  Bytes bytes(data, size);
+  FuzzInput bytes(data, size);
   const PipelineCase from(bytes);
   const Outcome scalar = draw(from, 0), fast = draw(from, 1);
   require(scalar.errors == fast.errors, "two ways to draw a frame refuse different things");

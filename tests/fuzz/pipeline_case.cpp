@@ -8,12 +8,12 @@
 namespace tessera::fuzz {
 namespace {
 
-FrameBufferFormat read_format(Bytes& from) {
-  constexpr int kMostPixels = 48;
+FrameBufferFormat read_format(FuzzInput& from) {
+  constexpr int kMaxSidePixels = 48;
   constexpr DepthFormat kDepths[] = {DepthFormat::unorm24, DepthFormat::float32, DepthFormat::unorm16,
                                      DepthFormat::unorm32, DepthFormat::none};
   FrameBufferFormat format;
-  const auto side = [&](int byte) { return 1 + byte % kMostPixels; };
+  const auto side = [&](int byte) { return 1 + byte % kMaxSidePixels; };
   format.width = side(from.byte()), format.height = side(from.byte());
   const int kind = from.byte(), more = from.byte();
   const bool is_index = (kind & 7) == 7;
@@ -43,7 +43,7 @@ FrameBufferFormat read_format(Bytes& from) {
 }
 
 // One of its numbers is out of range.
-FrameBufferFormat spoilt(FrameBufferFormat format, Bytes& from) {
+FrameBufferFormat spoilt(FrameBufferFormat format, FuzzInput& from) {
   int* const numbers[] = {&format.width,        &format.height,     &format.color_bits,
                           &format.stencil_bits, &format.alpha_bits, &format.accumulation_bits,
                           &format.samples};
@@ -53,7 +53,7 @@ FrameBufferFormat spoilt(FrameBufferFormat format, Bytes& from) {
 
 // The first is the scalar path in whole, on one thread; the other one of the fast ones, on some threads, in
 // some order, maybe in parts.
-void read_options(Bytes& from, RendererOptions (&options)[2]) {
+void read_options(FuzzInput& from, RendererOptions (&options)[2]) {
   constexpr int kTileSizes[] = {32, 64, 128, 0};
   const std::vector<InstructionSet> sets = available_instruction_sets();
   const int bits = from.byte();
@@ -66,7 +66,7 @@ void read_options(Bytes& from, RendererOptions (&options)[2]) {
   const int work = from.byte();
   options[1].threads = 1 + (work & 0x3f) % 3;
   options[1].task_order = work & 0x3f;
-  if ((work & 0x40) != 0) options[1].bin_memory = kLeastBinMemory;
+  if ((work & 0x40) != 0) options[1].bin_memory = kMinBinMemory;
   options[0].instruction_set = InstructionSet::scalar;
   options[1].instruction_set =
       sets[static_cast<std::size_t>(from.below(static_cast<int>(std::max<std::size_t>(sets.size() - 1, 1))))];
@@ -75,7 +75,7 @@ void read_options(Bytes& from, RendererOptions (&options)[2]) {
 /// Numbers of a mesh: each from the bytes, or all from one seed, most of them near -1 .. 1.
 class Numbers {
  public:
-  explicit Numbers(Bytes& from) : from_(from), state_(from.byte()) {}
+  explicit Numbers(FuzzInput& from) : from_(from), state_(from.byte()) {}
   float next() {
     if (state_ % 2 == 0) return from_.real32();
     state_ = state_ * 6364136223846793005u + 1442695040888963406u;  // the lowest bit stays
@@ -84,11 +84,11 @@ class Numbers {
   }
 
  private:
-  Bytes& from_;
+  FuzzInput& from_;
   std::uint64_t state_;
 };
 
-std::vector<float> read_floats(Bytes& from, const OwnMesh& mesh, std::size_t components) {
+std::vector<float> read_floats(FuzzInput& from, const ExactSizeMesh& mesh, std::size_t components) {
   const std::size_t step = mesh.stride_floats != 0 ? mesh.stride_floats : components;
   std::vector<float> list(mesh.vertices == 0 ? 0 : step * (mesh.vertices - 1) + components);
   Numbers numbers(from);
@@ -97,8 +97,8 @@ std::vector<float> read_floats(Bytes& from, const OwnMesh& mesh, std::size_t com
   return list;
 }
 
-OwnMesh read_mesh(Bytes& from) {
-  OwnMesh own;
+ExactSizeMesh read_mesh(FuzzInput& from) {
+  ExactSizeMesh own;
   const int kind = from.byte(), has = from.byte();
   own.mesh.primitive = static_cast<Primitive>(kind % 10);
   own.mesh.position_components = (has & 1) != 0 ? 4 : 3;
@@ -140,7 +140,7 @@ OwnMesh read_mesh(Bytes& from) {
   return own;
 }
 
-Texture read_texture(Bytes& from) {
+Texture read_texture(FuzzInput& from) {
   const int width = 1 + from.below(33), height = 1 + from.below(33), kind = from.byte();
   TextureImage image{
       .width = width, .height = height, .channels = 1 + (kind & 3), .bottom_row_first = (kind & 4) != 0};
@@ -162,7 +162,7 @@ Texture read_texture(Bytes& from) {
   return Texture(image, sampler);
 }
 
-std::vector<std::uint8_t> read_texels(Bytes& from, std::ptrdiff_t bytes) {
+std::vector<std::uint8_t> read_texels(FuzzInput& from, std::ptrdiff_t bytes) {
   std::vector<std::uint8_t> texels(static_cast<std::size_t>(bytes));
   std::uint32_t state = from.byte();
   const bool is_given = state % 4 == 0;
@@ -171,7 +171,7 @@ std::vector<std::uint8_t> read_texels(Bytes& from, std::ptrdiff_t bytes) {
   return texels;
 }
 
-DrawBitmap read_bitmap(Bytes& from, StateReader& states) {
+DrawBitmap read_bitmap(FuzzInput& from, StateReader& states) {
   DrawBitmap command;
   Bitmap& bitmap = command.bitmap;
   bitmap.width = 1 + from.below(70), bitmap.height = 1 + from.below(20);
@@ -185,7 +185,7 @@ DrawBitmap read_bitmap(Bytes& from, StateReader& states) {
   return command;
 }
 
-DrawImage read_image(Bytes& from, StateReader& states) {
+DrawImage read_image(FuzzInput& from, StateReader& states) {
   DrawImage command;
   PixelImage& image = command.image;
   image.width = 1 + from.below(20), image.height = 1 + from.below(20), image.channels = 1 + from.below(4);
@@ -200,7 +200,7 @@ DrawImage read_image(Bytes& from, StateReader& states) {
   return command;
 }
 
-PipelineFrame read_frame(Bytes& from, StateReader& states, const PipelineCase& all) {
+PipelineFrame read_frame(FuzzInput& from, StateReader& states, const PipelineCase& all) {
   PipelineFrame frame;
   const int count = 1 + from.below(8), ends = from.byte();
   for (int i = 0; i < count && !from.empty(); ++i) {
@@ -222,7 +222,7 @@ PipelineFrame read_frame(Bytes& from, StateReader& states, const PipelineCase& a
     }
   }
   if ((ends & 1) != 0) {
-    Presentation out{.gap_bytes = from.below(9), .upwards = from.coin(), .order = from.one_of<PixelOrder>(2)};
+    Presentation out{.gap_bytes = from.below(9), .bottom_up = from.coin(), .order = from.one_of<PixelOrder>(2)};
     if (from.coin()) out.part = states.rect();
     frame.presentation = out;
   }
@@ -238,7 +238,7 @@ PipelineFrame read_frame(Bytes& from, StateReader& states, const PipelineCase& a
 
 }  // namespace
 
-Mesh OwnMesh::view() const {
+Mesh ExactSizeMesh::view() const {
   Mesh view = mesh;
   const auto lent = [&](const std::vector<float>& list) {
     if (list.empty()) return FloatArray();
@@ -256,12 +256,12 @@ Mesh OwnMesh::view() const {
   return view;
 }
 
-PipelineCase::PipelineCase(Bytes& from) {
+PipelineCase::PipelineCase(FuzzInput& from) {
   const FrameBufferFormat sound = read_format(from);
   format = from.rarely() ? spoilt(sound, from) : sound;
   read_options(from, options);
   const int counts = from.byte();
-  lent_memory = (counts & 0x80) != 0;
+  uses_caller_memory = (counts & 0x80) != 0;
   for (int i = 0; i < (counts & 3); ++i) textures.push_back(read_texture(from));
   for (int i = 0; i <= (counts >> 2 & 3); ++i) meshes.push_back(read_mesh(from));
   std::optional<Rect> window;

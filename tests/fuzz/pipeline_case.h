@@ -15,7 +15,7 @@
 namespace tessera::fuzz {
 
 /// Arrays without a byte behind their ends.
-struct OwnMesh {
+struct ExactSizeMesh {
   Mesh mesh;  ///< all but its arrays
   std::vector<float> positions, normals, colors, color_indices, texcoords;
   std::vector<std::uint8_t> color_bytes;
@@ -47,7 +47,7 @@ using PipelineCommand =
 /// How the picture of a frame leaves it; absent: it stays in the buffer.
 struct Presentation {
   std::ptrdiff_t gap_bytes = 0;  ///< between rows
-  bool upwards = false;          ///< rows go up in memory
+  bool bottom_up = false;          ///< rows go up in memory
   PixelOrder order = PixelOrder::rgba8;
   std::optional<Rect> part;
 };
@@ -61,15 +61,15 @@ struct PipelineFrame {
 
 class PipelineCase {
  public:
-  explicit PipelineCase(Bytes& from);
+  explicit PipelineCase(FuzzInput& from);
   PipelineCase(const PipelineCase&) = delete;  // draws point to its textures
   PipelineCase& operator=(const PipelineCase&) = delete;
 
   FrameBufferFormat format;
   RendererOptions options[2];  ///< two ways to draw the same
-  bool lent_memory = false;    ///< the second way draws into memory of the caller
+  bool uses_caller_memory = false;    ///< the second way draws into memory of the caller
   std::deque<Texture> textures;
-  std::vector<OwnMesh> meshes;
+  std::vector<ExactSizeMesh> meshes;
   std::vector<PipelineFrame> frames;
 };
 

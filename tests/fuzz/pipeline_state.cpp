@@ -127,7 +127,7 @@ LightModel StateReader::light_model() {
   const int has = from_.byte();
   model.local_viewer = (has & 1) != 0;
   model.two_sided = (has & 2) != 0;
-  model.specular = (has & 4) != 0 ? Highlight::phong : Highlight::blinn;
+  model.specular = (has & 4) != 0 ? SpecularModel::phong : SpecularModel::blinn;
   return model;
 }
 
@@ -159,7 +159,7 @@ Material StateReader::material() {
     material.shininess = (has & 16) != 0 ? from_.finite32() : static_cast<float>(from_.byte());
   }
   if ((has & 4) != 0) material.emission = any_color();
-  if ((has & 8) != 0) material.color_indexes = {{from_.finite32(), from_.finite32(), from_.finite32()}};
+  if ((has & 8) != 0) material.index_ramp = {{from_.finite32(), from_.finite32(), from_.finite32()}};
   return material;
 }
 

@@ -12,7 +12,7 @@ namespace tessera::fuzz {
 class StateReader {
  public:
   /// @param window  where all that the states let through is to stay; absent: anywhere
-  StateReader(Bytes& from, const FrameBufferFormat& format, std::optional<Rect> window)
+  StateReader(FuzzInput& from, const FrameBufferFormat& format, std::optional<Rect> window)
       : from_(from), format_(format), window_(window) {}
 
   Color any_color();
@@ -42,7 +42,7 @@ class StateReader {
   DepthState depth_state();
   void read_operations(DrawState& state);
 
-  Bytes& from_;
+  FuzzInput& from_;
   const FrameBufferFormat& format_;
   std::optional<Rect> window_;
 };

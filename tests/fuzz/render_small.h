@@ -11,16 +11,16 @@ namespace tessera::fuzz {
 /// Scenes of many triangles are left out: they would take the fuzzer's time, and show nothing new.
 /// @throws Error as the program would.
 inline void render_small(Scene scene) {
-  constexpr int kMostPixels = 32;
-  constexpr std::size_t kMostTriangles = 20000;
-  apply({.width = std::min(scene.framebuffer.width, kMostPixels),
-         .height = std::min(scene.framebuffer.height, kMostPixels)},
+  constexpr int kMaxSidePixels = 32;
+  constexpr std::size_t kMaxSceneTriangles = 20000;
+  apply({.width = std::min(scene.framebuffer.width, kMaxSidePixels),
+         .height = std::min(scene.framebuffer.height, kMaxSidePixels)},
         scene);
   std::size_t triangles = 0;
   for (const SceneCommand& command : scene.frame)
     if (const auto* draw = std::get_if<DrawCommand>(&command.what))
       triangles += scene.meshes[draw->mesh].triangle_count();
-  if (triangles > kMostTriangles) return;
+  if (triangles > kMaxSceneTriangles) return;
   FrameBuffer buffer(scene.framebuffer);
   Frame frame(buffer);
   record(scene, frame);

@@ -72,7 +72,7 @@ class Commands {
     frame_.accumulate(accum);
     renderer_.finish(frame_);
     const auto after = accumulation_levels(buffer_);
-    const auto words = color_words(buffer_);
+    const auto words = packed_colors(buffer_);
     for (std::size_t i = 0; i < words.size(); ++i)
       for (std::size_t c = 0; c < 4; ++c) {
         const bool has = split_.bits[c] > 0;
@@ -82,20 +82,20 @@ class Commands {
         const bool is_saturated = nearest != value.rounded();
         if (is_saturated && after[i][c] != nearest)
           ADD_FAILURE() << "at the end of the range: " << after[i][c] << ", not " << nearest;
-        if (!is_saturated) keep_worst(worst, value.distance(after[i][c]));
+        if (!is_saturated) update_worst(worst, value.distance(after[i][c]));
       }
   }
   Frame& frame() { return frame_; }
   FrameBuffer& buffer() { return buffer_; }
   Renderer& renderer() { return renderer_; }
-  const Split& split() const { return split_; }
+  const ComponentBits& split() const { return split_; }
 
  private:
   FrameBuffer buffer_;
   std::vector<Picture> painted_;
   Renderer renderer_{{.threads = 1}};
   Frame frame_;
-  Split split_;
+  ComponentBits split_;
   int bits_;
 };
 
@@ -171,7 +171,7 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
         Commands commands(color_bits, bits);
         commands.paint(Picture([](int i) { return i / 4; }));
         commands.renderer().finish(commands.frame());
-        const auto before = color_words(commands.buffer());
+        const auto before = packed_colors(commands.buffer());
         for (int pass = 0; pass < 256; ++pass) {
           commands.frame().accumulate({.op = pass == 0 ? AccumOp::load : AccumOp::accum, .value = 1 / 256.0});
           if (!in_one_frame) commands.renderer().finish(commands.frame());
@@ -179,10 +179,10 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
         commands.renderer().finish(commands.frame());
         const auto sums = accumulation_levels(commands.buffer());
         commands.frame().clear({.color = Color{0, 0, 0, 0}});
-        commands.frame().accumulate({.op = AccumOp::return_});
+        commands.frame().accumulate({.op = AccumOp::return_color});
         commands.renderer().finish(commands.frame());
-        const auto after = color_words(commands.buffer());
-        const Split& split = commands.split();
+        const auto after = packed_colors(commands.buffer());
+        const ComponentBits& split = commands.split();
         for (std::size_t i = 0; i < before.size(); ++i)
           for (std::size_t c = 0; c < 4; ++c) {
             const bool has = split.bits[c] > 0;
@@ -191,7 +191,7 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
             ASSERT_EQ(sums[i][c],
                       saturated(256 * (Ratio{level * one_of(bits), 256 * levels}.rounded()), bits))
                 << "level " << level << " of " << levels;
-            keep_worst(worst, std::abs(split.level(after[i], c) - split.level(before[i], c)));
+            update_worst(worst, std::abs(split.level(after[i], c) - split.level(before[i], c)));
           }
       }
     expect_within("accumulation, 256 passes of 1/256, " + std::to_string(bits) + " bits", worst,
@@ -207,22 +207,22 @@ TEST(Accumulation, Of256PicturesIsTheirMean) {
     for (const int color_bits : {3, 16, 24}) {
       Random random(5);
       Commands commands(color_bits, bits);
-      const Split& split = commands.split();
+      const ComponentBits& split = commands.split();
       std::vector<std::array<std::int64_t, 4>> sums(std::size_t{kWidth} * kHeight);
       for (int pass = 0; pass < 256; ++pass) {
         commands.paint(Picture([&](int) { return random.next() % 256; }));
         commands.frame().accumulate({.op = pass == 0 ? AccumOp::load : AccumOp::accum, .value = 1 / 256.0});
         commands.renderer().finish(commands.frame());
-        const auto words = color_words(commands.buffer());
+        const auto words = packed_colors(commands.buffer());
         for (std::size_t i = 0; i < words.size(); ++i)
           for (std::size_t c = 0; c < 4; ++c) sums[i][c] += split.level(words[i], c);
       }
-      commands.frame().accumulate({.op = AccumOp::return_});
+      commands.frame().accumulate({.op = AccumOp::return_color});
       commands.renderer().finish(commands.frame());
-      const auto after = color_words(commands.buffer());
+      const auto after = packed_colors(commands.buffer());
       for (std::size_t i = 0; i < after.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
-          if (split.bits[c] > 0) keep_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
+          if (split.bits[c] > 0) update_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
     }
     // Half a level of the last rounding, and 256 halves of the passes' (0.5 / 32767 or 0.5 / (2^31 - 1)
     // of 1.0 each, 255 levels).
@@ -251,12 +251,12 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
       }
       renderer.finish(frame);
       const auto levels = accumulation_levels(buffer);
-      const Split split(format);
+      const ComponentBits split(format);
       for (const double value :
            {1.0, std::array{0.37, -1.0, 2.5}[static_cast<std::size_t>(color_bits % 3)]}) {
-        frame.accumulate({.op = AccumOp::return_, .value = value});
+        frame.accumulate({.op = AccumOp::return_color, .value = value});
         renderer.finish(frame);
-        const auto words = color_words(buffer);
+        const auto words = packed_colors(buffer);
         long double worst = 0;
         for (std::size_t i = 0; i < words.size(); ++i)
           for (std::size_t c = 0; c < 4; ++c) {
@@ -267,7 +267,7 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
             const Ratio clamped = exact.over <= 0                    ? Ratio{}
                                   : exact.over >= most * exact.under ? Ratio{most, 1}
                                                                      : exact;
-            keep_worst(worst, clamped.distance(split.level(words[i], c)));
+            update_worst(worst, clamped.distance(split.level(words[i], c)));
           }
         // In doubles, but for the three weights of luminance, which are floats: off by 2^-26, 2^-25 and 2^-28
         // at most.

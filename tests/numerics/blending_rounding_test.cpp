@@ -71,7 +71,7 @@ class Blender {
     Frame frame(buffer_);
     frame.draw_image({.pixels = below.data(), .width = width, .height = height});
     renderer_.finish(frame);
-    const auto before = color_words(buffer_);
+    const auto before = packed_colors(buffer_);
     frame.draw_image({.pixels = above.data(), .width = width, .height = height}, {.blend = state});
     renderer_.finish(frame);
     compare(
@@ -90,7 +90,7 @@ class Blender {
     frame.draw_image(
         {.pixels = below.data(), .width = buffer_.format().width, .height = buffer_.format().height});
     renderer_.finish(frame);
-    const auto before = color_words(buffer_);
+    const auto before = packed_colors(buffer_);
     DrawState draw = unlit(color);
     draw.depth.enabled = false;
     draw.blend = state;
@@ -105,12 +105,12 @@ class Blender {
   }
   /// Beyond half a level, of buffers with that many bits a component.
   long double worst(int bits) const { return worst_[static_cast<std::size_t>(bits)]; }
-  const Split& split() const { return split_; }
+  const ComponentBits& split() const { return split_; }
 
  private:
   template <class Source>
   void compare(const std::vector<std::uint32_t>& before, const Source& source, const BlendState& state) {
-    const auto after = color_words(buffer_);
+    const auto after = packed_colors(buffer_);
     for (std::size_t i = 0; i < after.size(); ++i) {
       Components d, s = source(i);
       for (std::size_t c = 0; c < 4; ++c)
@@ -133,13 +133,13 @@ class Blender {
                                  << split_.level(after[i], c) << ", exactly " << exact[c] * split_.levels(c)
                                  << ", of " << split_.levels(c);
         long double& most = worst_[static_cast<std::size_t>(bits)];
-        keep_worst(most, beyond);
+        update_worst(most, beyond);
       }
     }
   }
 
   FrameBuffer buffer_;
-  Split split_;
+  ComponentBits split_;
   Renderer renderer_;
   std::array<long double, 9> worst_{};
 };

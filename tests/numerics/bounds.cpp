@@ -46,7 +46,7 @@ void expect_within(const std::string& quantity, long double measured, long doubl
   rows().push_back({quantity, unit, measured, promised});
 }
 
-void set_beside(const std::string& quantity, long double mesas) {
+void report_mesa_figure(const std::string& quantity, long double mesas) {
   for (Row& row : rows())
     if (row.quantity == quantity) row.mesas = mesas;
 }

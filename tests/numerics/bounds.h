@@ -13,7 +13,7 @@ namespace tessera::test {
 /// allows: std::max would pass it over.
 /// @pre worst is a number
 template <std::floating_point Number, class... Errors>
-void keep_worst(Number& worst, Errors... errors) {
+void update_worst(Number& worst, Errors... errors) {
   const auto keep = [&worst](Number error) {
     if (error <= worst) return;
     worst = std::isnan(error) ? std::numeric_limits<Number>::infinity() : error;
@@ -26,6 +26,6 @@ void expect_within(const std::string& quantity, long double measured, long doubl
                    const std::string& unit);
 
 /// Puts what Mesa comes to beside a quantity that was measured; nothing is expected of it.
-void set_beside(const std::string& quantity, long double mesas);
+void report_mesa_figure(const std::string& quantity, long double mesas);
 
 }  // namespace tessera::test

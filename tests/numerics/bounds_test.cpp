@@ -13,15 +13,15 @@ void expect_nan_to_be_the_worst() {
   constexpr Number kNaN = std::numeric_limits<Number>::quiet_NaN(),
                    kMost = std::numeric_limits<Number>::max();
   Number worst = 0;
-  keep_worst(worst, Number{2}, Number{1});
+  update_worst(worst, Number{2}, Number{1});
   EXPECT_EQ(worst, 2);
-  keep_worst(worst, kNaN);
+  update_worst(worst, kNaN);
   EXPECT_GT(worst, kMost);
-  keep_worst(worst, kMost, kNaN);
+  update_worst(worst, kMost, kNaN);
   EXPECT_GT(worst, kMost);
   Number first = 0, middle = 0;
-  keep_worst(first, kNaN, Number{1});
-  keep_worst(middle, Number{1}, -kNaN, Number{2});
+  update_worst(first, kNaN, Number{1});
+  update_worst(middle, Number{1}, -kNaN, Number{2});
   EXPECT_GT(first, kMost);
   EXPECT_GT(middle, kMost);
 }

@@ -95,7 +95,7 @@ void expect_figure(const std::string& quantity, long double promised, const std:
   expect_within(quantity, figure([](const CaseFormat& format) { return make_tessera(format); }, true),
                 promised, unit);
 #ifdef TESSERA_HAS_MESA
-  set_beside(quantity, figure([](const CaseFormat& format) { return make_mesa(format); }, false));
+  report_mesa_figure(quantity, figure([](const CaseFormat& format) { return make_mesa(format); }, false));
 #endif
 }
 

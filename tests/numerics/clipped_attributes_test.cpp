@@ -68,7 +68,7 @@ class AnyTriangle {
     return (1 + dice_.unit()) * std::exp2(static_cast<double>(dice_.between(0, octaves)));
   }
   float attribute() { return static_cast<float>((dice_.maybe() ? 1 : -1) * size(20) * 0x1p-10); }
-  Dice dice_;
+  Rng dice_;
 };
 
 TEST(ClippedAttributes, AreRoundedOnce) {
@@ -86,10 +86,10 @@ TEST(ClippedAttributes, AreRoundedOnce) {
                                     cut.distance(v[2].position)};
     if (distances[0] >= 0 || distances[1] <= 0 || distances[2] <= 0)
       continue;  // rounding has put one onto the plane, or another plane cuts
-    const std::uint8_t codes =
-        clip_code(t, v[0].position) | clip_code(t, v[1].position) | clip_code(t, v[2].position);
-    if (codes != (cut.far ? kBehindFar : kBeforeNear)) continue;
-    const ClippedPolygon polygon = clip_triangle(t, v, codes, kAttributes);
+    const std::uint8_t outcodes =
+        compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) | compute_outcode(t, v[2].position);
+    if (outcodes != (cut.far ? kBehindFar : kBeforeNear)) continue;
+    const ClippedPolygon polygon = clip_triangle(t, v, outcodes, kAttributes);
     ASSERT_EQ(polygon.count, 4) << "triangle " << n;
     for (const std::size_t end : {1, 2}) {
       const auto is_cut = [&](const ClipVertex& c) {
@@ -109,7 +109,7 @@ TEST(ClippedAttributes, AreRoundedOnce) {
       }
       const mpq_class off = std::isfinite(at) ? abs(mpq_class(at) - exact) : abs(b - a),
                       allowed = abs(exact) * mpq_class(0x1p-24 * (1 + 0x1p-20));
-      keep_worst(worst, mpq_class((off - allowed) / abs(b - a)).get_d());
+      update_worst(worst, mpq_class((off - allowed) / abs(b - a)).get_d());
       ++cuts;
       cancelled += abs(exact) < abs(b - a) * mpq_class(0x1p-40) ? 1 : 0;
       far_from_ends += along > 0.25 && along < 0.75 ? 1 : 0;

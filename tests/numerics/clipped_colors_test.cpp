@@ -36,7 +36,7 @@ struct Range {
   long double low = 1, high = 0;
 };
 // Of what is seen within kReach of a point of the window.
-Range range_around(const SeenPlane& seen, const Attribute& attribute, Wide x, Wide y) {
+Range range_around(const VisiblePlane& seen, const Attribute& attribute, Wide x, Wide y) {
   const Linear numerator = seen.mix(attribute.one, attribute.by_u, attribute.by_v);
   Range range;
   for (const int dx : {-kReach, kReach})
@@ -53,8 +53,8 @@ Range range_around(const SeenPlane& seen, const Attribute& attribute, Wide x, Wi
 // Levels of 255 beyond the range, at worst, of all pixels that are sure to show the plane. `level_of` says
 // what level an attribute comes to.
 template <class LevelOf>
-long double worst_of(const CasePicture& picture, const SeenPlane& seen, const ExactRegion& region,
-                     const SquareView& view, const std::vector<Attribute>& attributes,
+long double worst_of(const CasePicture& picture, const VisiblePlane& seen, const ExactRegion& region,
+                     const SquareViewport& view, const std::vector<Attribute>& attributes,
                      const LevelOf& level_of, long& pixels) {
   long double worst = 0;
   for (int row = 0; row < kSide; ++row)
@@ -66,7 +66,7 @@ long double worst_of(const CasePicture& picture, const SeenPlane& seen, const Ex
         const Range range = range_around(seen, attributes[a], x, y);
         const long double level =
             255 * static_cast<long double>(picture.colors[static_cast<std::size_t>(row * kSide + column)][a]);
-        keep_worst(worst, level - level_of(range.high), level_of(range.low) - level);
+        update_worst(worst, level - level_of(range.high), level_of(range.low) - level);
       }
     }
   return worst;
@@ -90,8 +90,8 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
     ClipPlane plane = random_plane(random);
     if (reversed) plane.origin.z = 1, plane.to_u.z = plane.to_v.z = 0;  // far at infinity
     const int side = random.one_of({kSide, 2048, 16384});
-    const SquareView view{-random.between(0, side - kSide), -random.between(0, side - kSide), side};
-    const std::optional<SeenPlane> seen = plane.seen(view);
+    const SquareViewport view{-random.between(0, side - kSide), -random.between(0, side - kSide), side};
+    const std::optional<VisiblePlane> seen = plane.seen(view);
     if (!seen) continue;
     const Grid grid = random_plane_grid(random, kSize, 12);
     CountedMesh mesh = plane.mesh_at(grid.points, random.one_of({1.0, 0x1p100, 0x1p-100}));
@@ -118,7 +118,7 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
                                         [&](const WindowPoint& p) { return plane.at(p.x, p.y).w <= 0; });
     if (is_tessera && here > bound && worst <= bound)
       ADD_FAILURE() << "plane " << n << " is off by " << static_cast<double>(here) << " levels";
-    keep_worst(worst, here);
+    update_worst(worst, here);
   }
   EXPECT_GT(pixels, 100000);
   EXPECT_GT(clipped, 200);  // planes that are seen and reach behind the eye

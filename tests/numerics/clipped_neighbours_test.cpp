@@ -26,11 +26,11 @@ int how_many(bool is_tessera, int normal, int in_long_tests) {
 
 // Small viewports have their guard band 512 times as far away as their sides are, the largest only twice. Of
 // those the buffer is some part.
-SquareView random_view(MeshRandom& random) {
+SquareViewport random_view(MeshRandom& random) {
   const int side = random.one_of({kSide, 2048, 16384});
   return {-random.between(0, side - kSide), -random.between(0, side - kSide), side};
 }
-CaseDraw counting(const CountedMesh& mesh, const SquareView& view) {
+CaseDraw counting(const CountedMesh& mesh, const SquareViewport& view) {
   CaseDraw draw = counting(mesh);
   draw.viewport = Rect{view.x, view.y, view.side, view.side};
   return draw;
@@ -38,7 +38,7 @@ CaseDraw counting(const CountedMesh& mesh, const SquareView& view) {
 
 // By which planes triangles are cut: 1 near, 2 far, 4 the guard band. Those that are outside of one of them
 // are left out.
-std::set<int> cuts_of(const CountedMesh& mesh, const SquareView& view) {
+std::set<int> cuts_of(const CountedMesh& mesh, const SquareViewport& view) {
   std::set<int> cuts;
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
     int some = 0, all = 63;
@@ -62,8 +62,8 @@ TEST(ClippedNeighbours, OfPlanesThroughAllClipPlanes) {
     for (int n = 0; n < how_many(is_tessera, 3000, 1000000); ++n) {
       MeshRandom random(n);
       const ClipPlane plane = random_plane(random);
-      const SquareView view = random_view(random);
-      const std::optional<SeenPlane> seen = plane.seen(view);
+      const SquareViewport view = random_view(random);
+      const std::optional<VisiblePlane> seen = plane.seen(view);
       if (!seen) continue;
       const Grid grid = random_plane_grid(random, kSize, 12);
       CountedMesh mesh = plane.mesh_at(grid.points, random.one_of({1.0, 0x1p100, 0x1p-100}));
@@ -90,8 +90,8 @@ TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
     for (int n = 0; n < how_many(is_tessera, 40, 4000); ++n) {
       MeshRandom random(n);
       const ClipPlane plane = plane_at_near(random);
-      const SquareView view = random_view(random);
-      const std::optional<SeenPlane> seen = plane.seen(view);
+      const SquareViewport view = random_view(random);
+      const std::optional<VisiblePlane> seen = plane.seen(view);
       if (!seen) continue;
       // Rows of vertices along the plane.
       Grid grid{64, 64, {}};
@@ -130,8 +130,8 @@ TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
       ClipPlane plane = random_plane(random);
       plane.origin.z = 1;
       plane.to_u.z = plane.to_v.z = 0;
-      const SquareView view = random_view(random);
-      const std::optional<SeenPlane> seen = plane.seen(view);
+      const SquareViewport view = random_view(random);
+      const std::optional<VisiblePlane> seen = plane.seen(view);
       if (!seen) continue;
       const Grid grid = random_plane_grid(random, kSize, 12);
       CountedMesh mesh = plane.mesh_at(grid.points);

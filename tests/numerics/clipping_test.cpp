@@ -15,7 +15,7 @@
 namespace tessera::test {
 namespace {
 
-constexpr SquareView kView{0, 0, 64};
+constexpr SquareViewport kView{0, 0, 64};
 
 /// As it is, and as it is drawn: in floats, so `w` may be some hair other than the exact one's 0, which moves
 /// nothing by as much as 10^-20 pixels.
@@ -36,7 +36,7 @@ struct DrawnTriangle {
   }
   /// Absent where the triangle is seen edge-on.
   std::optional<std::vector<Cover>> expected() const {
-    const std::optional<SeenPlane> seen = seen_plane(exact, kView);
+    const std::optional<VisiblePlane> seen = visible_plane(exact, kView);
     if (!seen) return std::nullopt;
     const auto of_vertices = [&](const auto& value) {
       return seen->mix(value(exact[0]), value(exact[1]), value(exact[2]));

@@ -130,7 +130,7 @@ void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, in
         Frame frame(buffer);
         for (std::size_t i = 0; i < colors.size(); ++i) source.put(frame, static_cast<int>(i), colors[i]);
         renderer.finish(frame);
-        check(source.name, Split(format), colors, color_words(buffer));
+        check(source.name, ComponentBits(format), colors, packed_colors(buffer));
         if (testing::Test::HasFatalFailure()) return;
       }
     }
@@ -143,7 +143,7 @@ long double beyond_half(int bits) { return std::ldexp(1.0L, bits - 25); }
 TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
   std::array<long double, 9> worst{};
   const auto colors = [](int color_bits) {
-    const Split split(color_bits, 8);
+    const ComponentBits split(color_bits, 8);
     std::vector<Color> all;
     std::array<std::vector<float>, 4> c;
     for (std::size_t k = 0; k < 4; ++k) c[k] = telling_components(split.bits[k]);
@@ -154,7 +154,7 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
     return all;
   };
   for_each_buffer(colors, 3, 24,
-                  [&](const char* source, const Split& split, const std::vector<Color>& found,
+                  [&](const char* source, const ComponentBits& split, const std::vector<Color>& found,
                       const std::vector<std::uint32_t>& words) {
                     for (std::size_t i = 0; i < words.size(); ++i) {
                       const float components[] = {found[i].r, found[i].g, found[i].b, found[i].a};
@@ -167,7 +167,7 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
                         ASSERT_LE(off, 0.5L + beyond_half(split.bits[c]))
                             << source << ": " << components[c] << " of component " << c << " is level "
                             << level << " of " << split.levels(c);
-                        keep_worst(worst[static_cast<std::size_t>(split.bits[c])], off);
+                        update_worst(worst[static_cast<std::size_t>(split.bits[c])], off);
                       }
                     }
                   });
@@ -201,7 +201,7 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
       return all;
     };
     for_each_buffer(colors, color_bits, color_bits,
-                    [&](const char* source, const Split& split, const std::vector<Color>& found,
+                    [&](const char* source, const ComponentBits& split, const std::vector<Color>& found,
                         const std::vector<std::uint32_t>& words) {
                       for (std::size_t i = 0; i < words.size(); ++i) {
                         const Color& c = found[i];
@@ -209,7 +209,7 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
                         const long double off =
                             std::abs(static_cast<long double>(split.level(words[i], 0)) - exact);
                         ASSERT_LE(off, 0.5L + bound) << source << ": " << c.r << ", " << c.g << ", " << c.b;
-                        keep_worst(worst, off);
+                        update_worst(worst, off);
                       }
                     });
     expect_within("luminance of " + std::to_string(color_bits) + (color_bits > 1 ? " bits" : " bit") +
@@ -230,8 +230,8 @@ TEST(ColorRounding, OfImagesIsExact) {
     Frame frame(buffer);
     frame.draw_image({.pixels = texels.data(), .width = 256, .height = 1});
     Renderer({.threads = 1}).finish(frame);
-    const auto words = color_words(buffer);
-    const Split split(format);
+    const auto words = packed_colors(buffer);
+    const ComponentBits split(format);
     for (std::size_t i = 0; i < 256; ++i)
       for (std::size_t c = 0; c < 4; ++c)
         ASSERT_EQ(split.level(words[i], c),
@@ -244,7 +244,7 @@ TEST(ColorRounding, OfImagesIsExact) {
 // What is shown of a stored level: round(255 v / (2^b - 1)).
 TEST(ColorRounding, OfWhatIsShownIsExact) {
   for (int color_bits = 1; color_bits <= 24; ++color_bits) {
-    const Split split(color_bits, 0);
+    const ComponentBits split(color_bits, 0);
     const int width = 256;
     FrameBuffer buffer({.width = width, .height = 1, .color_bits = color_bits});
     Frame frame(buffer);
@@ -253,7 +253,7 @@ TEST(ColorRounding, OfWhatIsShownIsExact) {
       frame.clear({.color = Color{level, level, level, 1}, .scissor = pixel(x)});
     }
     Renderer({.threads = 1}).finish(frame);
-    const auto words = color_words(buffer);
+    const auto words = packed_colors(buffer);
     Image image(buffer);
     buffer.read_color(image.target());
     for (std::size_t i = 0; i < words.size(); ++i)
@@ -301,7 +301,7 @@ TEST(ColorRounding, OfIndicesIsExact) {
         frame.draw(mesh.view(), state);
       }
       Renderer({.threads = 1}).finish(frame);
-      const auto words = color_words(buffer);
+      const auto words = packed_colors(buffer);
       for (std::size_t i = 0; i < indices.size(); ++i) {
         const double index = static_cast<double>(indices[i]), modulus = std::ldexp(1.0, bits);
         if (index >= 0) {
@@ -312,7 +312,7 @@ TEST(ColorRounding, OfIndicesIsExact) {
         const double off = std::abs(std::remainder(
             words[i] - index, modulus));  // sums of less than 2^28 and of more than 2^-25: exact
         ASSERT_LE(off, 0.5 + std::ldexp(1.0, bits - 25)) << indices[i] << " in " << bits << " bits";
-        keep_worst(worst, off - 0.5);
+        update_worst(worst, off - 0.5);
       }
     }
   }

@@ -127,7 +127,7 @@ void expect_coverage(const std::string& what, const CaseFormat& format,
       << what << ": hardly a pixel is sure to be covered";
   const auto row = [&](const std::string& kind, long double measured, long double by_mesa) {
     expect_within(what + ": " + kind, measured, 0, "pixels");
-    if (mesa) set_beside(what + ": " + kind, by_mesa);
+    if (mesa) report_mesa_figure(what + ": " + kind, by_mesa);
   };
   row("left out", ours.cracks, mesas.cracks);
   row("covered again", ours.doubles, mesas.doubles);

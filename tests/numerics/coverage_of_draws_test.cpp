@@ -20,7 +20,7 @@
 namespace tessera::test {
 namespace {
 
-constexpr std::size_t kPixels = std::size_t{OwnedPixels::kSide} * OwnedPixels::kSide;
+constexpr std::size_t kPixels = std::size_t{VisibilityOracle::kSide} * VisibilityOracle::kSide;
 
 /// A way to colour pixels.
 struct Way {
@@ -87,12 +87,12 @@ std::vector<Painter> painters() {
   return painters;
 }
 
-std::vector<OwnedPixels> meshes() {
-  std::vector<OwnedPixels> meshes;
-  for (int n = 0; n < (long_tests() ? 600 : 6); ++n) meshes.push_back(OwnedPixels::of_shapes(n));
+std::vector<VisibilityOracle> meshes() {
+  std::vector<VisibilityOracle> meshes;
+  for (int n = 0; n < (long_tests() ? 600 : 6); ++n) meshes.push_back(VisibilityOracle::of_shapes(n));
   for (int n = 0; n < (long_tests() ? 500 : 5); ++n)
     meshes.push_back(
-        OwnedPixels::of_grid(n, std::array{1.5, 5.0, 9.0, 26.0, 60.0}[static_cast<std::size_t>(n % 5)]));
+        VisibilityOracle::of_grid(n, std::array{1.5, 5.0, 9.0, 26.0, 60.0}[static_cast<std::size_t>(n % 5)]));
   return meshes;
 }
 
@@ -106,18 +106,18 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
  protected:
   CoverageOfDraws() {
     if (!GetParam().filter) return;
-    const std::vector<std::uint8_t> texels = OwnedPixels::texels();
+    const std::vector<std::uint8_t> texels = VisibilityOracle::texels();
     const TextureImage image{.pixels = texels.data(),
-                             .width = OwnedPixels::kTextureSide,
-                             .height = OwnedPixels::kTextureSide,
+                             .width = VisibilityOracle::kTextureSide,
+                             .height = VisibilityOracle::kTextureSide,
                              .channels = 4,
                              .bottom_row_first = true};
     texture_.emplace(image, TextureSampler{.mag = *GetParam().filter, .min = *GetParam().filter});
   }
 
-  void draw(const Depth& depth, bool counts, const OwnedPixels& mesh, Painter& painter) {
-    FrameBuffer buffer({.width = OwnedPixels::kSide,
-                        .height = OwnedPixels::kSide,
+  void draw(const Depth& depth, bool counts, const VisibilityOracle& mesh, Painter& painter) {
+    FrameBuffer buffer({.width = VisibilityOracle::kSide,
+                        .height = VisibilityOracle::kSide,
                         .depth = depth.format,
                         .stencil_bits = 8});
     const Way& way = GetParam();
@@ -173,7 +173,7 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
 };
 
 TEST_P(CoverageOfDraws, EqualsExactIntegers) {
-  const std::vector<OwnedPixels> all = meshes();
+  const std::vector<VisibilityOracle> all = meshes();
   std::vector<Painter> by = painters();
   std::size_t turn = 0;
   for (const Depth& depth : kDepths)

@@ -27,8 +27,8 @@ int how_many(bool is_tessera, int normal, int in_long_tests) {
 
 // Beyond the frame on all sides. Inner vertices are anywhere, or multiples of half a pixel: pixel centres,
 // and corners of pixels and tiles. Or of 1/16: sample positions.
-Grid jittered_grid(MeshRandom& random, double jitter, int most_cells = 24) {
-  Grid grid{random.between(1, most_cells), random.between(1, most_cells), {}};
+Grid jittered_grid(MeshRandom& random, double jitter, int max_cells = 24) {
+  Grid grid{random.between(1, max_cells), random.between(1, max_cells), {}};
   const int snap = random.one_of({1, 16, 128, 256});
   const auto place = [&](int n, int last) {
     const double cell = (kSide + 8.0) * 256 / last,

@@ -19,11 +19,11 @@ constexpr int kSide = 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Two triangles over the whole window and beyond, whose corners are 1 to `tilt` units away.
-CaseDraw sheet(Dice& dice, double tilt) {
+CaseDraw sheet(Rng& rng, double tilt) {
   CaseDraw draw{.test_depth = true, .depth_func = Compare::greater};
   std::array<std::array<float, 4>, 4> corners{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const double away = 1 + (tilt - 1) * dice.unit();
+    const double away = 1 + (tilt - 1) * rng.unit();
     corners[k] = {static_cast<float>((k == 1 || k == 2 ? 1.25 : -1.25) * away),
                   static_cast<float>((k >= 2 ? 1.25 : -1.25) * away), static_cast<float>(-away), 1};
   }
@@ -74,10 +74,10 @@ TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
                                   .reversed = true,
                                   .cleared_depth = 0});
       int needed = 1;
-      Dice dice(21);
+      Rng rng(21);
       for (int n = 0; n < (is_tessera && long_tests() ? 20 * distances : distances); ++n) {
-        const double distance = n == 0 ? farthest : 0.1 * std::pow(10 * farthest, dice.unit()) * 1.01;
-        const CaseDraw draw = make_draw(dice);
+        const double distance = n == 0 ? farthest : 0.1 * std::pow(10 * farthest, rng.unit()) * 1.01;
+        const CaseDraw draw = make_draw(rng);
         for (int k = needed; k <= 16; ++k)  // all from the needed one on
           if (!is_apart(*renderer, draw, draw, turn, distance, k * 0x1p-23)) needed = k + 1;
         while (needed > 16 && needed < kMost &&
@@ -87,8 +87,8 @@ TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
       return static_cast<long double>(needed);
     };
   };
-  const auto sheets = [](double tilt) { return [tilt](Dice& dice) { return sheet(dice, tilt); }; };
-  const auto floors = [](double sides) { return [sides](Dice&) { return floor(sides); }; };
+  const auto sheets = [](double tilt) { return [tilt](Rng& rng) { return sheet(rng, tilt); }; };
+  const auto floors = [](double sides) { return [sides](Rng&) { return floor(sides); }; };
   expect_figure("reversed depth, floats, 0.1 .. 5 million away, facing the viewer: apart by", 2, "2^-23",
                 figure(sheets(1), Matrix(), 5e6, 150));
   expect_figure("reversed depth, floats, 0.1 .. 5 million away, tilted: apart by", 3, "2^-23",
@@ -109,10 +109,10 @@ TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
         [&](const MakeRenderer& make, bool is_tessera) {
           const auto renderer =
               make({.width = kSide, .height = kSide, .depth = depth.format, .cleared_depth = 0});
-          Dice dice(22);
+          Rng rng(22);
           long double worst = 0;
           for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 100); ++n) {
-            const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * dice.unit()),
+            const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * rng.unit()),
                          size = std::isinf(distance) ? 1 : distance;
             CaseDraw draw{.test_depth = true,
                           .depth_func = Compare::gequal,
@@ -129,7 +129,7 @@ TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
                                  : static_cast<std::int64_t>(
                                        std::floor(exact * static_cast<long double>(depth.levels()) + 0.5L));
             for (std::size_t i = 0; i < picture.depth.size(); ++i)
-              keep_worst(worst,
+              update_worst(worst,
                          picture.colors[i][0] > 0 ? std::abs(picture.depth[i] - expected) : depth.levels());
           }
           return worst;

@@ -23,21 +23,21 @@ constexpr int kSide = 128;
 
 // Whole ones, and ones that the near plane, the far plane or the guard band cuts. Four vertices for each: a
 // quad.
-std::vector<float> random_corners(Dice& dice) {
+std::vector<float> random_corners(Rng& rng) {
   std::vector<float> positions;
   const auto add = [&](double x, double y, double z, double w) {
     for (const double c : {x, y, z, w}) positions.push_back(static_cast<float>(c));
   };
-  const auto within = [&](double reach) { return reach * (2 * dice.unit() - 1); };
-  if (dice.maybe()) {
-    const WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), kSide, kSide);
+  const auto within = [&](double reach) { return reach * (2 * rng.unit() - 1); };
+  if (rng.maybe()) {
+    const WindowTriangle t = random_triangle(rng, rng.one_of(kWindowShapes), kSide, kSide);
     for (const GridPoint& p : t.at) add(clip_x(p.x, kSide), clip_y(p.y, kSide), within(1), 1);
     add(within(1), within(1), within(1), 1);
   } else {
-    const double reach = std::pow(10, 6 * dice.unit());
+    const double reach = std::pow(10, 6 * rng.unit());
     for (int k = 0; k < 4; ++k) {
-      const double w = dice.unit() * 4 - (dice.maybe() ? 1 : 0);
-      add(within(dice.maybe() ? reach : 2), within(2), within(1.5), w);
+      const double w = rng.unit() * 4 - (rng.maybe() ? 1 : 0);
+      add(within(rng.maybe() ? reach : 2), within(2), within(1.5), w);
     }
   }
   return positions;
@@ -47,8 +47,8 @@ struct Twice {
   CaseDraw first, again;
 };
 
-Twice two_triangles(Dice& dice) {
-  Twice twice{.first = {.positions = random_corners(dice),
+Twice two_triangles(Rng& rng) {
+  Twice twice{.first = {.positions = random_corners(rng),
                         .indices = {0, 1, 2, 0, 2, 3},
                         .color = {1, 0, 0, 1},
                         .test_depth = true},
@@ -60,8 +60,8 @@ Twice two_triangles(Dice& dice) {
 }
 
 // In the middle of a larger mesh, with everything else in other places; what is added is not seen.
-CaseDraw larger_mesh(Dice& dice, CaseDraw draw) {
-  const std::vector<float> original = draw.positions, more = random_corners(dice);
+CaseDraw larger_mesh(Rng& rng, CaseDraw draw) {
+  const std::vector<float> original = draw.positions, more = random_corners(rng);
   draw.positions.clear();
   draw.indices.clear();
   for (int n = 0; n < 40; ++n) {
@@ -75,10 +75,10 @@ CaseDraw larger_mesh(Dice& dice, CaseDraw draw) {
 }
 
 // Triangles all over the window, farther than what is there.
-CaseDraw others(Dice& dice) {
+CaseDraw others(Rng& rng) {
   CaseDraw draw{.color = {0, 0, 1, 1}, .test_depth = true, .depth_near = 1, .depth_far = 1};
   for (int n = 0; n < 20; ++n) {
-    const std::vector<float> corners = random_corners(dice);
+    const std::vector<float> corners = random_corners(rng);
     draw.positions.insert(draw.positions.end(), corners.begin(), corners.begin() + 12);
   }
   return draw;
@@ -99,12 +99,12 @@ TEST(DepthEqual, TheSameTriangleAgainIsEqualEverywhere) {
     expect_figure("depth, " + std::string(depth.name) + ", the same triangle again", 0, "pixels",
                   [&](const MakeRenderer& make, bool is_tessera) {
                     const auto renderer = make({.width = kSide, .height = kSide, .depth = depth.format});
-                    Dice dice(31);
+                    Rng rng(31);
                     Pixels pixels;
                     for (int n = 0; n < (is_tessera && long_tests() ? 10000 : 300); ++n) {
-                      const Twice twice = two_triangles(dice);
-                      for (const CaseDraw& again : {twice.again, larger_mesh(dice, twice.again)})
-                        add_pixels(pixels, renderer->draw({twice.first, others(dice), again}));
+                      const Twice twice = two_triangles(rng);
+                      for (const CaseDraw& again : {twice.again, larger_mesh(rng, twice.again)})
+                        add_pixels(pixels, renderer->draw({twice.first, others(rng), again}));
                     }
                     EXPECT_GT(pixels.seen, 1e5);
                     return pixels.wrong;
@@ -115,16 +115,16 @@ TEST(DepthEqual, TheSameTriangleAgainIsEqualEverywhere) {
 TEST(DepthEqual, SoItIsAsAPartOfOtherPrimitives) {
   for (const DepthCase& depth : kDepthCases) {
     const auto renderer = make_tessera({.width = kSide, .height = kSide, .depth = depth.format});
-    Dice dice(33);
+    Rng rng(33);
     Pixels pixels;
     for (int n = 0; n < (long_tests() ? 10000 : 100); ++n)
       for (const Primitive primitive : {Primitive::triangle_fan, Primitive::polygon, Primitive::quads})
         for (const bool first : {false, true}) {
-          Twice twice = two_triangles(dice);
+          Twice twice = two_triangles(rng);
           CaseDraw& other = first ? twice.first : twice.again;
           other.primitive = primitive;
           other.indices.clear();
-          add_pixels(pixels, renderer->draw({twice.first, others(dice), twice.again}));
+          add_pixels(pixels, renderer->draw({twice.first, others(rng), twice.again}));
         }
     EXPECT_GT(pixels.seen, 1e5);
     expect_within(
@@ -157,7 +157,7 @@ constexpr Way kWays[] = {
      [](DrawState& s, const Texture&) { s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }},
     {"alpha tested", [](DrawState& s, const Texture&) { s.alpha_test = AlphaTest{.ref = 0.25f}; }},
     {"masked", [](DrawState& s, const Texture&) { s.plane_mask = 0x00ffff; }},
-    {"logic", [](DrawState& s, const Texture&) { s.logic_op = LogicOp::xor_; }},
+    {"logic", [](DrawState& s, const Texture&) { s.logic_op = LogicOp::bit_xor; }},
     {"cut",
      [](DrawState& s, const Texture&) {
        s.scissor = Rect{0, 0, kSide, kSide};
@@ -181,7 +181,7 @@ void draw_in_parts(Frame& frame, const Mesh& mesh, DrawState state, int step) {
 TEST(DepthEqual, HoweverItIsDrawn) {
   const std::uint8_t texels[4] = {40, 255, 130, 90};
   const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
-  Dice dice(32);
+  Rng rng(32);
   std::size_t compared = 0;
   for (const DepthCase& depth : kDepthCases)
     for (const int samples : {1, 4, 8}) {
@@ -189,7 +189,7 @@ TEST(DepthEqual, HoweverItIsDrawn) {
       for (int round = 0; round < (long_tests() ? 40 : 1); ++round) {
         std::vector<float> positions, texcoords;
         for (int n = 0; n < 12; ++n) {
-          const std::vector<float> corners = random_corners(dice);
+          const std::vector<float> corners = random_corners(rng);
           positions.insert(positions.end(), corners.begin(), corners.begin() + 12);
           texcoords.insert(texcoords.end(), {0, 0, 1, 0, 0, 1});
         }

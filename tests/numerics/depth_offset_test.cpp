@@ -102,7 +102,7 @@ TEST(DepthOffset, OfSlopesIsRoundedOnce) {
                                   of_gradients = 0x1p-51L * factor * slope.terms * levels;
                 const long double bound =
                     (depth.bits == 32 ? 0.5L : 1.0L) + 0.5L * word + of_vertices + of_gradients;
-                keep_worst(worst, std::abs(stored - std::clamp(plain + move, 0.0L, levels)) / bound);
+                update_worst(worst, std::abs(stored - std::clamp(plain + move, 0.0L, levels)) / bound);
               });
           return worst;
         });
@@ -125,7 +125,7 @@ TEST(DepthOffset, OfFloatsIsRoundedTwice) {
                                 exact = std::clamp(float_of(plain) + move, 0.0L, 1.0L);
               const long double bound = 0x1p-24L * (exact + std::abs(move)) +
                                         0x1p-51L * std::abs(offset.factor) * slope.terms + 0x1p-149L;
-              keep_worst(worst, std::abs(float_of(stored) - exact) / bound);
+              update_worst(worst, std::abs(float_of(stored) - exact) / bound);
             });
         return worst;
       });

@@ -78,7 +78,7 @@ std::vector<std::uint32_t> words_of(DepthFormat format, const std::vector<double
   for (std::size_t i = 0; i < depths.size(); ++i)
     put(frame, {static_cast<int>(i % kRow), height - 1 - static_cast<int>(i / kRow), 1, 1}, depths[i]);
   Renderer({.threads = 1}).finish(frame);
-  std::vector<std::uint32_t> words = depth_words(buffer);
+  std::vector<std::uint32_t> words = stored_depths(buffer);
   words.resize(depths.size());
   return words;
 }
@@ -101,7 +101,7 @@ TEST(DepthRounding, OfClearsAndBitmapsIsToTheNearestLevel) {
     });
     EXPECT_TRUE(bitmaps == clears) << name_of(format);
     long double worst = 0;
-    for (std::size_t i = 0; i < depths.size(); ++i) keep_worst(worst, beyond(format, depths[i], clears[i]));
+    for (std::size_t i = 0; i < depths.size(); ++i) update_worst(worst, beyond(format, depths[i], clears[i]));
     expect_within("depth of clears, " + name_of(format) + ", beyond half a level", worst, beyond_half(format),
                   "levels");
   }
@@ -119,7 +119,7 @@ TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
     t.half_width = t.half_height = t.guard_x = t.guard_y = 32;
     const double rows[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.0 / levels, 1.0 / levels, 0, 0, 0, 1};
     std::copy(std::begin(rows), std::end(rows), t.clip_from_object);
-    t.set_roughness();
+    t.set_error_bounds();
     for (std::uint32_t n = 0; n < 65535; ++n) {
       const std::uint32_t level = bits == 16 ? n : random.next() % levels;
       const float position[] = {0, 0, static_cast<float>(level), 1};
@@ -209,7 +209,7 @@ TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
             frame.draw(meshes[i].view(), state);
           }
           renderer.finish(frame);
-          const auto words = depth_words(buffer);
+          const auto words = stored_depths(buffer);
           for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
               const std::size_t cell =

@@ -27,11 +27,11 @@ struct Window {
 constexpr Window kWindows[] = {{64, 64}, {16384, 8}, {8, 16384}};
 
 // Big and small, to the far corner. Depths are in units that the transform makes something of.
-CaseDraw mesh_in(Dice& dice, const Window& window, const std::function<double()>& depth) {
+CaseDraw mesh_in(Rng& rng, const Window& window, const std::function<double()>& depth) {
   CaseDraw draw{.test_depth = true};
   for (const WindowShape shape : kWindowShapes)
     for (int n = 0; n < 8; ++n)
-      for (const GridPoint& p : random_triangle(dice, shape, window.width, window.height).at)
+      for (const GridPoint& p : random_triangle(rng, shape, window.width, window.height).at)
         for (const double c : {clip_x(p.x, window.width), clip_y(p.y, window.height), depth(), 1.0})
           draw.positions.push_back(static_cast<float>(c));
   return draw;
@@ -84,7 +84,7 @@ TEST(Depth, ParallelSurfacesOneStepApartStayApart) {
     expect_figure(
         "depth, " + std::string(depth.name) + ", one step apart, facing the viewer", 0, "pixels",
         [&](const MakeRenderer& make, bool is_tessera) {
-          Dice dice(11);
+          Rng rng(11);
           long double wrong = 0;
           // Doubles of -1 .. 1 hold twice a float less one exactly from 2^-31 on.
           const std::int64_t first = depth.is_float() ? 0x30000000 : 0,
@@ -96,9 +96,9 @@ TEST(Depth, ParallelSurfacesOneStepApartStayApart) {
                 make({.width = window.width, .height = window.height, .depth = depth.format});
             std::vector<std::int64_t> nearer{first, first + 1, (first + last) / 2, last - 2};
             for (int n = 0; n < (is_tessera && long_tests() ? 500 : window.width == 64 ? 40 : 2); ++n)
-              nearer.push_back(dice.between(first, last - 2));
+              nearer.push_back(rng.between(first, last - 2));
             for (const std::int64_t stored : nearer)
-              wrong += wrong_pixels(*renderer, mesh_in(dice, window, [] { return 0.0; }),
+              wrong += wrong_pixels(*renderer, mesh_in(rng, window, [] { return 0.0; }),
                                     depth_transform(0, depth_of(depth, stored)),
                                     depth_transform(0, depth_of(depth, stored + 1)));
           }
@@ -110,7 +110,7 @@ TEST(Depth, ParallelSurfacesOneStepApartStayApart) {
 TEST(Depth, ParallelSurfacesOneFloatApartStayApartInReversedDepth) {
   expect_figure("depth, floats, reversed, one step apart, facing the viewer", 0, "pixels",
                 [&](const MakeRenderer& make, bool is_tessera) {
-                  Dice dice(15);
+                  Rng rng(15);
                   long double wrong = 0;
                   for (const Window& window : kWindows) {
                     const auto renderer = make({.width = window.width,
@@ -127,10 +127,10 @@ TEST(Depth, ParallelSurfacesOneFloatApartStayApartInReversedDepth) {
                       const std::int64_t first = std::int64_t{exponent} << 23, last = first + 0x7fffff;
                       std::vector<std::int64_t> farther{std::max(first, std::int64_t{1}), last};
                       for (int n = 0; n < (is_tessera && long_tests() ? 50 : 1); ++n)
-                        farther.push_back(dice.between(first + 1, last - 1));
+                        farther.push_back(rng.between(first + 1, last - 1));
                       for (const std::int64_t word : farther)
                         wrong +=
-                            wrong_pixels(*renderer, mesh_in(dice, window, [] { return 0.0; }), flat(word + 1),
+                            wrong_pixels(*renderer, mesh_in(rng, window, [] { return 0.0; }), flat(word + 1),
                                          flat(word), {Compare::greater, Compare::greater});
                     }
                   }
@@ -147,7 +147,7 @@ TEST(Depth, TiltedSurfacesOneLevelApartStayApart) {
           "depth, " + std::string(depth.name) + ", one step apart, tilted, vertices " +
               (on_levels ? "on levels" : "anywhere"),
           0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
-            Dice dice(12);
+            Rng rng(12);
             long double wrong = 0;
             const double level = 1 / static_cast<double>(depth.levels());
             for (const Window& window : kWindows) {
@@ -155,14 +155,14 @@ TEST(Depth, TiltedSurfacesOneLevelApartStayApart) {
                   make({.width = window.width, .height = window.height, .depth = depth.format});
               for (int n = 0; n < (is_tessera && long_tests() ? 500 : window.width == 64 ? 40 : 4); ++n) {
                 const std::int64_t most = std::min<std::int64_t>(depth.levels(), (1 << 24) - 1);
-                const std::int64_t spread = std::int64_t{1} << dice.between(0, 23),
-                                   middle = dice.between(0, most);
-                const CaseDraw mesh = mesh_in(dice, window, [&] {
+                const std::int64_t spread = std::int64_t{1} << rng.between(0, 23),
+                                   middle = rng.between(0, most);
+                const CaseDraw mesh = mesh_in(rng, window, [&] {
                   return static_cast<double>(
-                      std::clamp<std::int64_t>(middle + dice.between(-spread, spread), 2, most - 2));
+                      std::clamp<std::int64_t>(middle + rng.between(-spread, spread), 2, most - 2));
                 });
                 const double scale =
-                    level * (depth.bits == 32 ? 256 : 1) * (on_levels ? 1 : 0.99 * dice.unit());
+                    level * (depth.bits == 32 ? 256 : 1) * (on_levels ? 1 : 0.99 * rng.unit());
                 wrong +=
                     wrong_pixels(*renderer, mesh, depth_transform(scale, 0), depth_transform(scale, level));
               }
@@ -180,18 +180,18 @@ TEST(Depth, TiltedSurfacesOneFloatNearerNeverFallBehindAndTwoAreNearer) {
         std::string("depth, floats, tilted, ") +
             (floats == 1 ? "one step apart, tested by lequal" : "two steps apart"),
         0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
-          Dice dice(13);
+          Rng rng(13);
           long double wrong = 0;
           for (const Window& window : kWindows) {
             const auto renderer =
                 make({.width = window.width, .height = window.height, .depth = DepthFormat::float32});
             for (int n = 0; n < (is_tessera && long_tests() ? 500 : window.width == 64 ? 40 : 4); ++n) {
               // Depths in 2^-24: a step is the smallest difference at 1/2 and more.
-              const std::int64_t spread = std::int64_t{1} << dice.between(0, 23),
-                                 middle = dice.between(0, 1 << 24);
-              const CaseDraw mesh = mesh_in(dice, window, [&] {
+              const std::int64_t spread = std::int64_t{1} << rng.between(0, 23),
+                                 middle = rng.between(0, 1 << 24);
+              const CaseDraw mesh = mesh_in(rng, window, [&] {
                 return static_cast<double>(
-                    std::clamp<std::int64_t>(middle + dice.between(-spread, spread), 1 << 10, (1 << 24) - 3));
+                    std::clamp<std::int64_t>(middle + rng.between(-spread, spread), 1 << 10, (1 << 24) - 3));
               });
               wrong += wrong_pixels(*renderer, mesh, depth_transform(0x1p-24, 0),
                                     depth_transform(0x1p-24, floats * 0x1p-24),
@@ -233,22 +233,22 @@ TEST(Depth, OffsetByAUnitSeparatesWhatLiesInOnePlane) {
           "depth, " + std::string(depth.name) + ", offset by a " +
               (same ? "unit, the same triangles" : "slope and two units, another in the same plane"),
           0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
-            Dice dice(14);
+            Rng rng(14);
             long double hidden = 0;
             long seen = 0;
             const int size = 64;
             const auto renderer = make({.width = size, .height = size, .depth = depth.format});
             for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 200); ++n) {
               const auto flat = [] { return 0.0; };
-              const CaseDraw decal = mesh_in(dice, {size, size}, flat);
+              const CaseDraw decal = mesh_in(rng, {size, size}, flat);
               CaseDraw base{.test_depth = true};
               for (const double c : {-1.5, -1.5, 4.5, -1.5, -1.5, 4.5}) {
                 base.positions.push_back(static_cast<float>(c));
                 if (base.positions.size() % 4 == 2) base.positions.insert(base.positions.end(), {0, 1});
               }
               // Depth is linear in x and y: within 0.1 .. 0.9 all over the window and what reaches beyond it.
-              const double slope = n % 8 == 0 ? 0 : std::exp2(-24 * dice.unit()) * 0.05;
-              const double turn = 6.28318530718 * dice.unit();
+              const double slope = n % 8 == 0 ? 0 : std::exp2(-24 * rng.unit()) * 0.05;
+              const double turn = 6.28318530718 * rng.unit();
               Matrix plane = depth_transform(0, 0.5);
               plane.m[8] = slope * std::cos(turn);
               plane.m[9] = slope * std::sin(turn);

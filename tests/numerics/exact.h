@@ -12,7 +12,7 @@ __extension__ typedef __int128 Int128;
 
 /// Not reduced; the denominator is above 0.
 struct Ratio {
-  Int128 over = 0, under = 1;
+  Int128 numerator = 0, denominator = 1;
 
   /// @pre |value| is 0 or has no bit below 2^-100, and is below 2^30
   static Ratio of(double value) {
@@ -24,16 +24,16 @@ struct Ratio {
     EXPECT_TRUE(exponent > -100 && exponent < 30) << value;
     return exponent >= 0 ? Ratio{Int128{mantissa} << exponent, 1} : Ratio{mantissa, Int128{1} << -exponent};
   }
-  friend Ratio operator*(Ratio a, std::int64_t b) { return {a.over * b, a.under}; }
-  friend Ratio operator/(Ratio a, std::int64_t b) { return {a.over, a.under * b}; }
+  friend Ratio operator*(Ratio a, std::int64_t b) { return {a.numerator * b, a.denominator}; }
+  friend Ratio operator/(Ratio a, std::int64_t b) { return {a.numerator, a.denominator * b}; }
 
-  Int128 floor() const { return over / under - (over % under < 0 ? 1 : 0); }
+  Int128 floor() const { return numerator / denominator - (numerator % denominator < 0 ? 1 : 0); }
   /// The nearest whole number, halves up.
-  Int128 rounded() const { return Ratio{2 * over + under, 2 * under}.floor(); }
+  Int128 rounded() const { return Ratio{2 * numerator + denominator, 2 * denominator}.floor(); }
   /// How far a whole number is from it.
   long double distance(Int128 whole) const {
-    const Int128 off = whole * under - over;
-    return static_cast<long double>(off < 0 ? -off : off) / static_cast<long double>(under);
+    const Int128 off = whole * denominator - numerator;
+    return static_cast<long double>(off < 0 ? -off : off) / static_cast<long double>(denominator);
   }
 };
 

@@ -24,7 +24,7 @@ struct ClipPoint {
 };
 
 /// A square viewport; x, y is its lower left corner, in pixels from the buffer's.
-struct SquareView {
+struct SquareViewport {
   int x = 0, y = 0, side = 64;
 };
 
@@ -49,7 +49,7 @@ inline constexpr int kReach = 9, kReachScale = 2048;
 static_assert(kReach == kReachScale / 256 + kReachScale / 2048);
 
 /// The three coordinates of what is seen at a point of the window, positive multiples of a, b and c above.
-struct SeenPlane {
+struct VisiblePlane {
   std::array<Linear, 3> coordinates;
 
   Linear mix(std::int64_t a, std::int64_t b, std::int64_t c) const {
@@ -58,8 +58,8 @@ struct SeenPlane {
 };
 
 /// Nothing of a plane through the eye.
-inline std::optional<SeenPlane> seen_plane(const std::array<ClipPoint, 3>& p, const SquareView& view) {
-  SeenPlane seen;
+inline std::optional<VisiblePlane> visible_plane(const std::array<ClipPoint, 3>& p, const SquareViewport& view) {
+  VisiblePlane seen;
   Wide determinant = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     // The determinant with q in place of p[k].
@@ -100,13 +100,13 @@ struct ExactRegion {
 
 /// A pixel's centre in half pixels from the viewport's; rows of a buffer that is `height` pixels high from
 /// the top.
-inline std::array<Wide, 2> center_of(int column, int row, int height, const SquareView& view) {
+inline std::array<Wide, 2> center_of(int column, int row, int height, const SquareViewport& view) {
   return {2 * (column - view.x) + 1 - view.side, 2 * (height - 1 - row - view.y) + 1 - view.side};
 }
 
 /// How often a mesh without gaps and overlaps that fills the region covers the pixels of a buffer.
 inline std::vector<Cover> covers_of(const ExactRegion& region, int width, int height,
-                                    const SquareView& view) {
+                                    const SquareViewport& view) {
   std::vector<Cover> covers;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {

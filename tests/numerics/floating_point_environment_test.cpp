@@ -245,7 +245,7 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
   const std::vector<Light> lights{Light{}, spot};
   const Camera camera{.view = look_at({0.1, 0.2, 1.3}, {0, 0, 0}, {0, 1, 0}),
                       .projection = perspective(77, 1.5, 0.1, 9)};
-  const Accum half{.op = AccumOp::load, .value = 0.3337}, back{.op = AccumOp::return_, .value = 2.1};
+  const Accum half{.op = AccumOp::load, .value = 0.3337}, back{.op = AccumOp::return_color, .value = 2.1};
   ReadBack found(format);
   std::string reasons;
   Renderer renderer({.threads = 1});

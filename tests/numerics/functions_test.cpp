@@ -27,7 +27,7 @@ TEST(Functions, SinesAndCosines) {
     const long double turn =
         std::remainder(static_cast<long double>(degrees), 360.0L) * (std::numbers::pi_v<long double> / 180);
     const SinCos found = sin_cos_degrees(degrees);
-    keep_worst(worst, std::abs(found.sine - std::sin(turn)), std::abs(found.cosine - std::cos(turn)));
+    update_worst(worst, std::abs(found.sine - std::sin(turn)), std::abs(found.cosine - std::cos(turn)));
   };
   for (int i = -720 * 1024; i <= 720 * 1024; ++i) check(i / 1024.0);
   for (int i = 0; i < 1000000; ++i)
@@ -56,7 +56,7 @@ TEST(Functions, Reciprocals) {
       std::copy_n(distances.data() + at, kFloatBatch, batch.field[kPositionY]);
       light_points(available_isas().front())(program, batch, kBatchPoints);
       for (std::size_t i = 0; i < kFloatBatch; ++i)
-        keep_worst(worst, ulps(batch.field[kColorR][i], 0x1p-61L / distances[at + i]));
+        update_worst(worst, ulps(batch.field[kColorR][i], 0x1p-61L / distances[at + i]));
     }
   });
   expect_within("1 / sqrt(x x), x in 2^-60 .. 2^60", worst, 0.5, "ulp");
@@ -71,7 +71,7 @@ TEST(Functions, LevelsOfDetail) {
     std::vector<std::int32_t> levels(footprints.size());
     levels_of_detail(available_isas().front())(footprints.data(), levels.data(), footprints.size());
     for (std::size_t i = 0; i < footprints.size(); ++i)
-      keep_worst(worst, std::abs(levels[i] - 32768 * std::log2(static_cast<long double>(footprints[i]))));
+      update_worst(worst, std::abs(levels[i] - 32768 * std::log2(static_cast<long double>(footprints[i]))));
   });
   expect_within("level of detail of 1 to 16384 texels a pixel", worst, 2.01L, "1/65536 level");
 }
@@ -107,7 +107,7 @@ TEST(Functions, PaletteDistances) {
       for (const Rgb8& e : palette.entries) least = std::min(least, squared(e));
       const long double found = squared(palette.entries[search.nearest(at[0], at[1], at[2])]),
                         root = std::sqrt(found);
-      keep_worst(worst, (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
+      update_worst(worst, (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
     }
   }
   expect_within("squared distance of palette entries beyond the least, of its roundings", worst, 1, "");

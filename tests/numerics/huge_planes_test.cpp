@@ -62,8 +62,8 @@ void expect_planes(const std::string& what, bool reversed) {
           const int to_near = reversed ? 1 : -1;
           if (n % 3 == 0) plane.to_u.z = to_near * plane.to_u.w;
           if (n % 6 == 0) plane.to_v.z = to_near * plane.to_v.w;
-          const SquareView view{0, 0, kSide};
-          const std::optional<SeenPlane> seen = plane.seen(view);
+          const SquareViewport view{0, 0, kSide};
+          const std::optional<VisiblePlane> seen = plane.seen(view);
           if (!seen) continue;
           const int size = random.between(10, 110),
                     exponent =
@@ -114,8 +114,8 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
   for (int n = 0; n < (long_tests() ? 100000 : 4000); ++n) {
     MeshRandom random(n);
     const ClipPlane plane = random_plane(random);
-    const SquareView view{0, 0, kSide};
-    const std::optional<SeenPlane> seen = plane.seen(view);
+    const SquareViewport view{0, 0, kSide};
+    const std::optional<VisiblePlane> seen = plane.seen(view);
     if (!seen) continue;
     const int size = random.between(40, 110);
     const Corners corners(random, size, size);
@@ -138,7 +138,7 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
     frame.draw({.positions = positions, .position_components = 4, .colors = colors}, state);
     renderer.finish(frame);
     // The last vertex weighs as much as the other two, whose weights are as their middle is the mean.
-    const std::vector<std::uint32_t> words = color_words(buffer);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
     const ExactRegion region =
         plane.region(*seen, 1 << 12);  // of a far larger triangle, what is seen without the horizon
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -147,7 +147,7 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
       ++seen_pixels;
       for (std::size_t c = 0; c < 3; ++c) {
         const long double expected = 255 * (0.25L * colors[c] + 0.25L * colors[4 + c] + 0.5L * colors[8 + c]);
-        keep_worst(worst, std::abs(static_cast<long double>(words[i] >> (16 - 8 * c) & 255) - expected));
+        update_worst(worst, std::abs(static_cast<long double>(words[i] >> (16 - 8 * c) & 255) - expected));
       }
     }
   }
@@ -174,7 +174,7 @@ TEST(HugePlanes, HaveOutlinesOfAnySize) {
                       rotate(yaw, 0, 1, 0) * translate(0, -1, 0);
     frame.draw({.primitive = Primitive::quads, .positions = positions}, state);
     renderer.finish(frame);
-    return color_words(buffer);
+    return packed_colors(buffer);
   };
   for (const double roll : {0.0, 30.0, -71.0})
     for (const double yaw : {0.0, 20.0, 45.0}) {

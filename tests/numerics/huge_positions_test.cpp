@@ -24,7 +24,7 @@ std::vector<std::uint32_t> words_of(const MeshData& mesh, const DrawState& state
   frame.set_camera(camera);
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1, .instruction_set = set}).finish(frame);
-  return color_words(buffer);
+  return packed_colors(buffer);
 }
 
 MeshData mesh_of(Primitive primitive, std::vector<float> positions) {
@@ -133,8 +133,8 @@ TEST(HugePositions, APowerOfTwoInTheProjectionMovesNothing) {
         frame.draw(mesh.view(), state);
         const FrameStats stats = Renderer({.threads = 1, .instruction_set = set}).finish(frame);
         ASSERT_EQ(stats.dropped_non_finite, 0u) << exponent;
-        std::vector<std::uint32_t> found = color_words(buffer);
-        const std::vector<std::uint32_t> depths = depth_words(buffer);
+        std::vector<std::uint32_t> found = packed_colors(buffer);
+        const std::vector<std::uint32_t> depths = stored_depths(buffer);
         found.insert(found.end(), depths.begin(), depths.end());
         if (expected.empty()) expected = found;
         ASSERT_TRUE(found == expected)

@@ -19,28 +19,28 @@ namespace {
 constexpr int kSide = 128;
 
 // Whole ones, and ones that the near plane, the far plane or the guard band cuts; w apart by up to 10^6.
-std::vector<float> random_positions(Dice& dice) {
+std::vector<float> random_positions(Rng& rng) {
   std::vector<float> positions;
-  const bool is_whole = dice.maybe();
-  const WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), kSide, kSide);
-  const double reach = std::pow(10, 6 * dice.unit());
+  const bool is_whole = rng.maybe();
+  const WindowTriangle t = random_triangle(rng, rng.one_of(kWindowShapes), kSide, kSide);
+  const double reach = std::pow(10, 6 * rng.unit());
   for (const GridPoint& p : t.at) {
-    const double w = std::exp2(20 * dice.unit());
-    const auto within = [&](double most) { return most * (2 * dice.unit() - 1); };
+    const double w = std::exp2(20 * rng.unit());
+    const auto within = [&](double most) { return most * (2 * rng.unit() - 1); };
     if (is_whole)
       for (const double c : {w * clip_x(p.x, kSide), w * clip_y(p.y, kSide), 0.0, w})
         positions.push_back(static_cast<float>(c));
     else
-      for (const double c : {within(dice.maybe() ? reach : 2), within(2), within(1.5),
-                             4 * dice.unit() - (dice.maybe() ? 1 : 0)})
+      for (const double c : {within(rng.maybe() ? reach : 2), within(2), within(1.5),
+                             4 * rng.unit() - (rng.maybe() ? 1 : 0)})
         positions.push_back(static_cast<float>(c));
   }
   return positions;
 }
 
-float random_constant(Dice& dice) {
-  const float c = static_cast<float>(dice.unit());
-  return dice.maybe()
+float random_constant(Rng& rng) {
+  const float c = static_cast<float>(rng.unit());
+  return rng.maybe()
              ? c
              : (std::floor(255 * c) + 0.5f) / 255;  // on the border between two levels, or a hair beside it
 }
@@ -49,11 +49,11 @@ TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
   expect_figure("colours, the same at all vertices: off by", 0, "levels",
                 [](const MakeRenderer& make, bool is_tessera) {
                   const auto renderer = make({.width = kSide, .height = kSide});
-                  Dice dice(51);
+                  Rng rng(51);
                   long double worst = 0, seen = 0;
                   for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
-                    CaseDraw draw{.positions = random_positions(dice)};
-                    const float c[3] = {random_constant(dice), random_constant(dice), 1};
+                    CaseDraw draw{.positions = random_positions(rng)};
+                    const float c[3] = {random_constant(rng), random_constant(rng), 1};
                     for (int k = 0; k < 3; ++k) draw.colors.insert(draw.colors.end(), {c[0], c[1], c[2], 1});
                     for (const std::array<float, 3>& color : renderer->draw({draw}).colors) {
                       if (color[2] == 0) continue;
@@ -62,7 +62,7 @@ TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
                         // Mesa's colours are not rounded to levels.
                         const float expected =
                             is_tessera ? std::floor(std::fma(c[k], 255.0f, 0.5f)) / 255.0f : c[k];
-                        keep_worst(worst, 255 * std::abs(static_cast<long double>(color[k]) - expected));
+                        update_worst(worst, 255 * std::abs(static_cast<long double>(color[k]) - expected));
                       }
                     }
                   }
@@ -77,16 +77,16 @@ TEST(InterpolationConstant, WhateverTheRatiosOfW) {
   expect_figure("white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels",
                 [](const MakeRenderer& make, bool) {
                   const auto renderer = make({.width = kSide, .height = kSide});
-                  Dice dice(57);
+                  Rng rng(57);
                   long double wrong = 0, seen = 0;
                   constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
                   const auto centre = [&] {
-                    return static_cast<std::int64_t>(kSide * dice.unit()) * kGrid + kGrid / 2;
+                    return static_cast<std::int64_t>(kSide * rng.unit()) * kGrid + kGrid / 2;
                   };
                   for (int n = 0; n < 400; ++n) {
-                    const double ratio = dice.one_of(kRatios);
-                    const int heavy = static_cast<int>(3 * dice.unit()),
-                              second = dice.maybe() ? (heavy + 1) % 3 : heavy;
+                    const double ratio = rng.one_of(kRatios);
+                    const int heavy = static_cast<int>(3 * rng.unit()),
+                              second = rng.maybe() ? (heavy + 1) % 3 : heavy;
                     CaseDraw with_ratio, without;
                     for (int k = 0; k < 3; ++k) {
                       const double x = clip_x(centre(), kSide), y = clip_y(centre(), kSide),
@@ -122,19 +122,19 @@ TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
                                                 .texture_height = 2,
                                                 .texture = {32, 255, 255, 32},
                                                 .nearest_texel = nearest});
-                    Dice dice(52);
+                    Rng rng(52);
                     long double worst = 0;
                     long seen = 0;
                     for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
-                      CaseDraw draw{.positions = random_positions(dice), .textured = true};
-                      const float s = dice.maybe() ? 0.5f : random_constant(dice),
-                                  t = dice.maybe() ? 0.5f : random_constant(dice);
+                      CaseDraw draw{.positions = random_positions(rng), .textured = true};
+                      const float s = rng.maybe() ? 0.5f : random_constant(rng),
+                                  t = rng.maybe() ? 0.5f : random_constant(rng);
                       for (int k = 0; k < 3; ++k) draw.texcoords.insert(draw.texcoords.end(), {s, t});
                       float low = 2, high = 0;
                       for (const std::array<float, 3>& color : renderer->draw({draw}).colors)
                         if (color[0] > 0)
                           low = std::min(low, color[0]), high = std::max(high, color[0]), ++seen;
-                      if (high > 0) keep_worst(worst, 255 * (static_cast<long double>(high) - low));
+                      if (high > 0) update_worst(worst, 255 * (static_cast<long double>(high) - low));
                     }
                     EXPECT_GT(seen, 100000);
                     return worst;
@@ -163,7 +163,7 @@ constexpr Way kWays[] = {
 TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
   const std::uint8_t texels[4] = {32, 255, 255, 32};
   const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
-  Dice dice(53);
+  Rng rng(53);
   std::size_t seen = 0;
   for (const InstructionSet set : available_instruction_sets())
     for (const bool defers : {true, false})
@@ -172,12 +172,12 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
         FrameBuffer buffer({.width = kSide, .height = kSide, .samples = samples});
         std::vector<std::uint32_t> words(kSide * kSide), covered(kSide * kSide);
         for (int n = 0; n < (long_tests() ? 500 : 15); ++n) {
-          const std::vector<float> positions = random_positions(dice);
+          const std::vector<float> positions = random_positions(rng);
           std::vector<float> colors, normals, texcoords;
-          const float r = random_constant(dice), g = random_constant(dice),
-                      s = dice.maybe() ? 0.5f : random_constant(dice);
-          const float x = static_cast<float>(dice.unit() - 0.5), y = static_cast<float>(dice.unit() - 0.5),
-                      z = static_cast<float>(dice.unit());
+          const float r = random_constant(rng), g = random_constant(rng),
+                      s = rng.maybe() ? 0.5f : random_constant(rng);
+          const float x = static_cast<float>(rng.unit() - 0.5), y = static_cast<float>(rng.unit() - 0.5),
+                      z = static_cast<float>(rng.unit());
           for (int k = 0; k < 3; ++k) {
             colors.insert(colors.end(), {r, g, 0.9f, 0.7f});
             normals.insert(normals.end(), {x, y, z});

@@ -31,19 +31,19 @@ constexpr long double kUnit = 0x1p-24L;
 using Corners = std::array<float, 3>;
 
 // Steep and flat ones; two corners alike: constant along an edge.
-Corners random_corners(Dice& dice, bool one_sign) {
+Corners random_corners(Rng& rng, bool one_sign) {
   Corners a{};
-  const int kind = static_cast<int>(dice.between(0, 3));
+  const int kind = static_cast<int>(rng.between(0, 3));
   for (float& f : a) {
-    const double part = dice.unit();
+    const double part = rng.unit();
     f = static_cast<float>(kind == 0   ? part
                            : kind == 1 ? 1 + std::floor(8 * part) * 0x1p-23
                            : kind == 2 ? std::exp(20 * part - 10)
                                        : 255 * part);
-    if (!one_sign && dice.maybe()) f = -f;
+    if (!one_sign && rng.maybe()) f = -f;
   }
-  if (dice.maybe())
-    a[static_cast<std::size_t>(dice.between(0, 2))] = a[static_cast<std::size_t>(dice.between(0, 2))];
+  if (rng.maybe())
+    a[static_cast<std::size_t>(rng.between(0, 2))] = a[static_cast<std::size_t>(rng.between(0, 2))];
   return a;
 }
 
@@ -57,27 +57,27 @@ struct Reciprocals {
 template <class Pixel>
 void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tests() ? 200000 : 8000,
                     const Reciprocals& reciprocals = {}) {
-  Dice dice(seed);
+  Rng rng(seed);
   std::vector<float> b1(kTile * kTile), b2(kTile * kTile);
   for (int n = 0; n < count; ++n) {
     const bool is_wide = n % 4 == 0;
     const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile,
               octaves = n % 3 == 0 ? 0 : reciprocals.octaves;
-    WindowTriangle t = random_triangle(dice, dice.one_of(kWindowShapes), width, kTile);
+    WindowTriangle t = random_triangle(rng, rng.one_of(kWindowShapes), width, kTile);
     WindowVertex v[3];
     for (std::size_t k = 0; k < 3; ++k) {
       t.at[k].x += (16384 - width) * kGrid;
       const bool is_largest = octaves == 0 || k == static_cast<std::size_t>(n / 3 % 3);
       v[k] = {
           static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0,
-          reciprocals.largest * (is_largest ? 1.0f : static_cast<float>(std::exp2(-octaves * dice.unit())))};
+          reciprocals.largest * (is_largest ? 1.0f : static_cast<float>(std::exp2(-octaves * rng.unit())))};
     }
     for (const Isa isa : available_isas()) {
       if (!tile_barycentrics(isa)(v, tile_x, 0, kTile, b1.data(), b2.data())) continue;
       for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)
           if (t.contains(WindowTriangle::center(tile_x + x, y)))
-            pixel(dice, t, v,
+            pixel(rng, t, v,
                   BarycentricReference{b1[static_cast<std::size_t>(y * kTile + x)],
                                        b2[static_cast<std::size_t>(y * kTile + x)]},
                   WindowTriangle::center(tile_x + x, y));
@@ -89,13 +89,13 @@ float largest_of(const Corners& a) { return std::max({std::abs(a[0]), std::abs(a
 
 TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
   long double worst[2] = {0, 0}, count = 0;
-  for_each_pixel(41, [&](Dice& dice, const WindowTriangle&, const WindowVertex(&)[3],
+  for_each_pixel(41, [&](Rng& rng, const WindowTriangle&, const WindowVertex(&)[3],
                          const BarycentricReference& at, const GridPoint&) {
     for (const bool one_sign : {false, true}) {
-      const Corners a = random_corners(dice, one_sign);
+      const Corners a = random_corners(rng, one_sign);
       const auto [low, high] = std::minmax({a[0], a[1], a[2]});
       const long double value = at.interpolate(a[0], a[1], a[2]);
-      keep_worst(worst[one_sign], std::max(low - value, value - high) / (kUnit * largest_of(a)));
+      update_worst(worst[one_sign], std::max(low - value, value - high) / (kUnit * largest_of(a)));
       ++count;
     }
   });
@@ -111,7 +111,7 @@ void keep_worst_weight(long double& worst, const WindowTriangle& t, const std::a
   long double weights[3], sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * rw[k];
   for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
-    keep_worst(worst, exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
+    update_worst(worst, exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
 }
 
 // Of what is linear in the window: 1/area, its product with what is left of an edge, and the multiply-add of
@@ -120,7 +120,7 @@ void keep_worst_weight(long double& worst, const WindowTriangle& t, const std::a
 // is a difference, so zero is exactly that.
 TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
   long double worst[2] = {0, 0}, count[2] = {0, 0};
-  for_each_pixel(44, [&](Dice&, const WindowTriangle& t, const WindowVertex(&v)[3],
+  for_each_pixel(44, [&](Rng&, const WindowTriangle& t, const WindowVertex(&v)[3],
                          const BarycentricReference& at, const GridPoint& p) {
     const bool is_affine = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
     keep_worst_weight(worst[is_affine], t, {v[0].rw, v[1].rw, v[2].rw}, at, p);
@@ -152,7 +152,7 @@ TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
   for (const auto& [largest, has_perspective] : cases)
     for_each_pixel(
         45,
-        [&, perspective = has_perspective](Dice&, const WindowTriangle& t, const WindowVertex(&v)[3],
+        [&, perspective = has_perspective](Rng&, const WindowTriangle& t, const WindowVertex(&v)[3],
                                            const BarycentricReference& at, const GridPoint& p) {
           if (v[0].rw == v[1].rw && v[1].rw == v[2].rw) return;
           keep_worst_weight(
@@ -171,9 +171,9 @@ TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
 // themselves; each sum once more by what it comes to, and that is no more than the largest.
 TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
   long double worst = 0;
-  for_each_pixel(42, [&](Dice& dice, const WindowTriangle& t, const WindowVertex(&v)[3],
+  for_each_pixel(42, [&](Rng& rng, const WindowTriangle& t, const WindowVertex(&v)[3],
                          const BarycentricReference& at, const GridPoint& p) {
-    const Corners a = random_corners(dice, false);
+    const Corners a = random_corners(rng, false);
     long double sum = 0, weights = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const long double weight = static_cast<long double>(t.edge(k, p)) * v[k].rw;
@@ -183,7 +183,7 @@ TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
     const long double differences =
         std::abs(static_cast<long double>(a[1]) - a[0]) + std::abs(static_cast<long double>(a[2]) - a[0]);
     const long double bound = kUnit * (10 * differences + 2.01L * largest_of(a));
-    keep_worst(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
+    update_worst(worst, std::abs(at.interpolate(a[0], a[1], a[2]) - sum / weights) / bound);
   });
   expect_within("interpolated, w apart by up to 10^6: error", worst, 1,
                 "of 10 roundings of differences and 2 of the largest");

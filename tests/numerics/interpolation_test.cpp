@@ -29,27 +29,27 @@ struct Window {
 constexpr Window kWindows[] = {{256, 256, 12}, {16384, 16, 2}, {16, 16384, 2}};
 
 // With two bits each, products with window coordinates are exact floats.
-double random_w(Dice& dice, int octaves) {
-  return std::ldexp(dice.maybe() ? 1 : 1.5, static_cast<int>(dice.between(0, octaves)));
+double random_w(Rng& rng, int octaves) {
+  return std::ldexp(rng.maybe() ? 1 : 1.5, static_cast<int>(rng.between(0, octaves)));
 }
 
-WindowTriangle somewhere(Dice& dice, WindowShape shape, const Window& window) {
-  if (shape != WindowShape::small || dice.between(0, 3) == 0)
-    return random_triangle(dice, shape, window.width, window.height);
+WindowTriangle somewhere(Rng& rng, WindowShape shape, const Window& window) {
+  if (shape != WindowShape::small || rng.between(0, 3) == 0)
+    return random_triangle(rng, shape, window.width, window.height);
   const int width = std::min(64, window.width), height = std::min(64, window.height);  // in the far corner
-  WindowTriangle t = random_triangle(dice, shape, width, height);
+  WindowTriangle t = random_triangle(rng, shape, width, height);
   for (GridPoint& p : t.at)
     p = {p.x + (window.width - width) * kGrid, p.y + (window.height - height) * kGrid};
   return t;
 }
 
-using Colors = std::function<float(Dice&)>;
+using Colors = std::function<float(Rng&)>;
 
 // Calls pixel(triangle, x, y, colour) wherever one is seen.
 template <class Pixel>
 void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, int rounds,
                     const Colors& colors, const Pixel& pixel) {
-  Dice dice(80 + static_cast<std::uint32_t>(shape));
+  Rng rng(80 + static_cast<std::uint32_t>(shape));
   std::size_t seen = 0;
   for (const Window& window : kWindows) {
     const auto renderer = make({.width = window.width, .height = window.height});
@@ -60,16 +60,16 @@ void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, in
       std::vector<Colored> all;
       CaseDraw draw;
       for (std::size_t n = 0; n < count; ++n) {
-        Colored t{.triangle = somewhere(dice, shape, window), .w = {}, .color = {}};
+        Colored t{.triangle = somewhere(rng, shape, window), .w = {}, .color = {}};
         for (std::size_t k = 0; k < 3; ++k) {
-          t.w[k] = random_w(dice, octaves);
+          t.w[k] = random_w(rng, octaves);
           for (const double c : {clip_x(t.triangle.at[k].x, window.width),
                                  clip_y(t.triangle.at[k].y, window.height), 0.0, 1.0})
             draw.positions.push_back(static_cast<float>(c * t.w[k]));
           for (float& c : t.color[k])
-            c = k > 0 && dice.between(0, 3) == 0
+            c = k > 0 && rng.between(0, 3) == 0
                     ? t.color[0][static_cast<std::size_t>(&c - t.color[k].data())]
-                    : colors(dice);
+                    : colors(rng);
           draw.colors.insert(draw.colors.end(),
                              {t.color[k][0], t.color[k][1], static_cast<float>(n + 1) / 255, 1});
         }
@@ -106,7 +106,7 @@ TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
             long double worst = 0;
             for_each_pixel(
                 make, shape, octaves, rounds_of(is_tessera),
-                [](Dice& dice) { return static_cast<float>(dice.unit()); },
+                [](Rng& rng) { return static_cast<float>(rng.unit()); },
                 [&](const Colored& t, int x, int y, const std::array<float, 3>& color) {
                   for (std::size_t c = 0; c < 2; ++c) {
                     long double sum = 0, weights = 0;
@@ -116,7 +116,7 @@ TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
                       sum += weight * t.color[k][c];
                       weights += weight;
                     }
-                    keep_worst(worst, std::abs(level_of(color[c]) - 255 * sum / weights));
+                    update_worst(worst, std::abs(level_of(color[c]) - 255 * sum / weights));
                   }
                 });
             return worst;
@@ -133,19 +133,19 @@ bool is_at_border(float color) {
   const float levels = std::fma(color, 255.0f, 0.5f);
   return levels - std::floor(levels) < kHair || levels - std::floor(levels) > 1 - kHair;
 }
-float off_borders(Dice& dice) {
+float off_borders(Rng& rng) {
   for (;;) {
-    const float color = static_cast<float>(dice.unit());
+    const float color = static_cast<float>(rng.unit());
     if (!is_at_border(color)) return color;
   }
 }
 // The colour that is just stored as a level, or just not.
-float at_border(Dice& dice) {
-  const auto level = static_cast<float>(dice.between(1, 255));
+float at_border(Rng& rng) {
+  const auto level = static_cast<float>(rng.between(1, 255));
   float c = (level - 0.5f) / 255;
   while (std::fma(c, 255.0f, 0.5f) < level) c = std::nextafter(c, 2.0f);
   while (std::fma(c, 255.0f, 0.5f) >= level) c = std::nextafter(c, 0.0f);
-  return dice.maybe() ? c : std::nextafter(c, 2.0f);
+  return rng.maybe() ? c : std::nextafter(c, 2.0f);
 }
 
 TEST(Interpolation, OfColorsStaysInTheRangeOfTheVertices) {
@@ -165,7 +165,7 @@ TEST(Interpolation, OfColorsStaysInTheRangeOfTheVertices) {
                       const auto level = [](float each) {
                         return static_cast<long double>(std::floor(std::fma(each, 255.0f, 0.5f)));
                       };
-                      keep_worst(worst, level(low) - level_of(color[c]), level_of(color[c]) - level(high));
+                      update_worst(worst, level(low) - level_of(color[c]), level_of(color[c]) - level(high));
                     }
                   });
             return worst;
@@ -188,15 +188,15 @@ TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
               (borders ? ", of vertices on their borders" : "") + ", beside the range",
           0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
             const auto renderer = make(format);
-            Dice dice(90);
+            Rng rng(90);
             long double worst = 0, seen = 0;
             for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
-              const WindowTriangle t = random_triangle(dice, WindowShape::centers, kSide, kSide);
+              const WindowTriangle t = random_triangle(rng, WindowShape::centers, kSide, kSide);
               CaseDraw draw{.textured = true};
               std::array<std::int64_t, 3> texel{};
               for (std::size_t k = 0; k < 3; ++k) {
-                texel[k] = k > 0 && dice.maybe() ? texel[k - 1] : dice.between(2, kTexels - 2);
-                const double w = random_w(dice, octaves);
+                texel[k] = k > 0 && rng.maybe() ? texel[k - 1] : rng.between(2, kTexels - 2);
+                const double w = random_w(rng, octaves);
                 for (const double c : {clip_x(t.at[k].x, kSide), clip_y(t.at[k].y, kSide), 0.0, 1.0})
                   draw.positions.push_back(static_cast<float>(c * w));
                 draw.texcoords.insert(
@@ -210,7 +210,7 @@ TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
                   const float color = picture.colors[static_cast<std::size_t>(y * kSide + x)][0];
                   if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
                   const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
-                  keep_worst(worst, low - taken, taken - high);
+                  update_worst(worst, low - taken, taken - high);
                   seen += 1;
                 }
             }

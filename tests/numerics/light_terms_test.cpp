@@ -64,25 +64,25 @@ constexpr std::size_t kPoints = 64;
 int rounds(int usual) { return long_tests() ? 100 * usual : usual; }
 
 /// Of whole scenes: bounds are relative, so it makes no difference.
-double any_scale(Draws& draws) { return draws.one_in(2) ? 1 : std::exp2(std::floor(draws.between(-56, 50))); }
+double any_scale(LightingRng& rng) { return rng.one_in(2) ? 1 : std::exp2(std::floor(rng.between(-56, 50))); }
 
 /// Around the scene, with w = 0 or not; the direction of its cone is within some 60 degrees of the scene.
-EyeLight any_light(Draws& draws, bool directional, double scale = 1) {
+EyeLight any_light(LightingRng& rng, bool directional, double scale = 1) {
   EyeLight l{.ambient = {0, 0, 0}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}};
   l.directional = directional;
-  const auto [x, y, z] = draws.direction();
-  const auto distance = static_cast<float>(directional ? 1 : scale * std::exp2(draws.between(-2, 8)));
+  const auto [x, y, z] = rng.direction();
+  const auto distance = static_cast<float>(directional ? 1 : scale * std::exp2(rng.between(-2, 8)));
   l.position = {x * distance, y * distance, z * distance};
-  const Real3 aim = normalized(real3(std::array{-x, -y, -z}) + real3(draws.direction()) * 0.8L);
+  const Real3 aim = normalized(real3(std::array{-x, -y, -z}) + real3(rng.direction()) * 0.8L);
   for (std::size_t c = 0; c < 3; ++c) l.spot_direction[c] = static_cast<float>(aim[c]);
   return l;
 }
 
-std::vector<Point> any_points(Draws& draws, bool of_any_length, double scale = 1) {
+std::vector<Point> any_points(LightingRng& rng, bool of_any_length, double scale = 1) {
   std::vector<Point> points(kPoints);
   for (Point& p : points) {
-    p = {draws.direction(), draws.direction()};
-    const auto size = static_cast<float>(of_any_length ? std::exp2(draws.between(-30, 30)) : 1);
+    p = {rng.direction(), rng.direction()};
+    const auto size = static_cast<float>(of_any_length ? std::exp2(rng.between(-30, 30)) : 1);
     for (float& n : p.normal) n *= size;
     for (float& at : p.position) at *= static_cast<float>(2 * scale);
   }
@@ -92,17 +92,17 @@ std::vector<Point> any_points(Draws& draws, bool of_any_length, double scale = 1
 // Products of colours and their sum, one rounding each: the scene's, and those of lights without a place,
 // which are sums before a point is lit.
 TEST(LightTerms, Ambient) {
-  Draws draws{std::mt19937(21)};
+  LightingRng rng{std::mt19937(21)};
   Real worst = 0;
   for (int n = 0; n < rounds(2000); ++n) {
-    const SurfaceMaterial material{.ambient = {static_cast<float>(draws.unit()), 0, 0}, .diffuse = {0, 0, 0}};
-    const bool directional = draws.one_in(2);
-    EyeLight light = any_light(draws, directional);
-    light.ambient = {static_cast<float>(draws.unit()) / 2, 0, 0};
-    const LightingModel model{.scene_ambient = {static_cast<float>(draws.unit()) / 2, 0, 0}};
+    const SurfaceMaterial material{.ambient = {static_cast<float>(rng.unit()), 0, 0}, .diffuse = {0, 0, 0}};
+    const bool directional = rng.one_in(2);
+    EyeLight light = any_light(rng, directional);
+    light.ambient = {static_cast<float>(rng.unit()) / 2, 0, 0};
+    const LightingModel model{.scene_ambient = {static_cast<float>(rng.unit()) / 2, 0, 0}};
     const Real exact = Real{material.ambient[0]} * (Real{model.scene_ambient[0]} + light.ambient[0]);
-    for (const float found : lit_red(material, light, model, false, any_points(draws, false)))
-      keep_worst(worst, std::abs(found - exact) / exact);
+    for (const float found : lit_red(material, light, model, false, any_points(rng, false)))
+      update_worst(worst, std::abs(found - exact) / exact);
   }
   expect_within("ambient term, relative", worst / kUnit, 2, "2^-24");
 }
@@ -111,25 +111,25 @@ TEST(LightTerms, Ambient) {
 // u), its root once (3.5 u); the denominator is at most 6 u off by its quadratic part (5 u and once
 // more), 5.5 u by its linear one; its reciprocal rounds once. Coefficients of one sign.
 TEST(LightTerms, Attenuation) {
-  Draws draws{std::mt19937(22)};
+  LightingRng rng{std::mt19937(22)};
   Real worst = 0;
   int measured = 0;
   for (int n = 0; n < rounds(3000); ++n) {
-    const double scale = any_scale(draws);
-    EyeLight light = any_light(draws, false, scale);
+    const double scale = any_scale(rng);
+    EyeLight light = any_light(rng, false, scale);
     light.ambient = {0x1p-20f, 0, 0};
     const double distance = static_cast<double>(length(real3(light.position)));
     for (std::size_t k = 0; k < 3; ++k)
-      light.attenuation[k] = draws.one_in(3) ? 0 : static_cast<float>(draws.unit() / std::pow(distance, k));
+      light.attenuation[k] = rng.one_in(3) ? 0 : static_cast<float>(rng.unit() / std::pow(distance, k));
     if (light.attenuation == std::array<float, 3>{0, 0, 0}) continue;
-    const std::vector<Point> points = any_points(draws, false, scale);
+    const std::vector<Point> points = any_points(rng, false, scale);
     const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light,
                                              {.scene_ambient = {0, 0, 0}}, false, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Real att =
-          LightAtPoint(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0, 0).att;
+          LightAtPoint(real_light(light), real_point(points[i], false), false, SpecularModel::blinn, 0, 0).att;
       if (!(att < 0x1p19L)) continue;
-      keep_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
+      update_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
       ++measured;
     }
   }
@@ -142,21 +142,21 @@ TEST(LightTerms, Attenuation) {
 // what is added up, at most the length of the normal, not of the cosine: light that grazes has an absolute
 // bound.
 TEST(LightTerms, Diffuse) {
-  Draws draws{std::mt19937(23)};
+  LightingRng rng{std::mt19937(23)};
   for (const bool directional : {true, false})
     for (const bool renormalize : {false, true}) {
       Real worst = 0;
       for (int n = 0; n < rounds(1000); ++n) {
-        const double scale = any_scale(draws);
-        EyeLight light = any_light(draws, directional, scale);
+        const double scale = any_scale(rng);
+        EyeLight light = any_light(rng, directional, scale);
         light.diffuse = {0.5f, 0, 0};
-        std::vector<Point> points = any_points(draws, renormalize, scale);
+        std::vector<Point> points = any_points(rng, renormalize, scale);
         for (std::size_t i = 0; i < points.size(); i += 2) {  // light that grazes
           const Real3 l = directional ? real3(light.position)
                                       : normalized(real3(light.position) - real3(points[i].position)),
                       normal = real3(points[i].normal);
           const Real3 across =
-              normalized(normal - l * (dot(normal, l) * (1 - std::exp2(draws.between(-30, -2))))) *
+              normalized(normal - l * (dot(normal, l) * (1 - std::exp2(rng.between(-30, -2))))) *
               length(normal);
           for (std::size_t c = 0; c < 3; ++c) points[i].normal[c] = static_cast<float>(across[c]);
         }
@@ -165,10 +165,10 @@ TEST(LightTerms, Diffuse) {
         for (std::size_t i = 0; i < points.size(); ++i) {
           const Real cosine =
               std::max<Real>(LightAtPoint(real_light(light), real_point(points[i], renormalize), false,
-                                          Highlight::blinn, 0, 0)
+                                          SpecularModel::blinn, 0, 0)
                                  .n_dot_l,
                              0);
-          keep_worst(worst, std::abs(2 * found[i] - cosine));
+          update_worst(worst, std::abs(2 * found[i] - cosine));
         }
       }
       expect_within(std::string("max(L.n, 0) of ") + (directional ? "a direction" : "a point") +
@@ -181,38 +181,38 @@ TEST(LightTerms, Diffuse) {
 // (functions_test.cpp), and one rounding. Whole ones are products. @param exponent  of the cosine, or of its
 // square
 Real of_power(Real cosine_error, Real cosine, Real y, Real power, float exponent) {
-  const int whole = whole_power(exponent);
+  const int whole = integer_exponent(exponent);
   return y * cosine_error / cosine + (whole != 0 ? whole : power < 1 / 256.0L ? 230.4L : 17.8L);
 }
 
 // A cosine of L and the axis: L 6.5 u, dot 3 u.
 TEST(LightTerms, Spot) {
-  Draws draws{std::mt19937(24)};
+  LightingRng rng{std::mt19937(24)};
   for (const float y : {0.5f, 1.0f, 20.0f, 64.0f, 128.0f, 10000.0f}) {
     Real share = 0, levels = 0;
     int measured = 0;
     for (int n = 0; n < rounds(500); ++n) {
-      EyeLight light = any_light(draws, false);
+      EyeLight light = any_light(rng, false);
       light.ambient = {0.5f, 0, 0};
       light.spot_cutoff = 90;
       light.spot_exponent = y;
-      std::vector<Point> points = any_points(draws, false);
+      std::vector<Point> points = any_points(rng, false);
       for (Point& p : points) {  // within the cone
-        const Real tilt = draws.between(0, 2) / std::sqrt(std::max(y, 4.0f)),
-                   away = std::exp2(draws.between(-2, 2));
+        const Real tilt = rng.between(0, 2) / std::sqrt(std::max(y, 4.0f)),
+                   away = std::exp2(rng.between(-2, 2));
         const Real3 at = real3(light.position) +
-                         normalized(real3(light.spot_direction) + real3(draws.direction()) * tilt) * away;
+                         normalized(real3(light.spot_direction) + real3(rng.direction()) * tilt) * away;
         for (std::size_t c = 0; c < 3; ++c) p.position[c] = static_cast<float>(at[c]);
       }
       const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light,
                                                {.scene_ambient = {0, 0, 0}}, false, points);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const LightAtPoint exact(real_light(light), real_point(points[i], false), false, Highlight::blinn, 0,
+        const LightAtPoint exact(real_light(light), real_point(points[i], false), false, SpecularModel::blinn, 0,
                                  0);
         const Real spot = exact.spot.high, error = std::abs(2 * found[i] - spot);
         if (exact.spot_cosine < 64 * 9.5L * kUnit || spot < 0x1p-120L) continue;
-        keep_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
-        keep_worst(levels, error * 255);
+        update_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
+        update_worst(levels, error * 255);
         ++measured;
       }
     }
@@ -225,10 +225,10 @@ TEST(LightTerms, Spot) {
 
 /// One of the ways to compute a highlight.
 struct HighlightWay {
-  Highlight kind;
+  SpecularModel kind;
   bool directional, local, renormalize, sharp, unit, squared;
 
-  bool of_square() const { return squared && kind == Highlight::blinn && !sharp && (local || !directional); }
+  bool of_square() const { return squared && kind == SpecularModel::blinn && !sharp && (local || !directional); }
 
   /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot
   /// products, of L + E and, but of squares, its length. Sharp ones take normals and directions for units,
@@ -244,11 +244,11 @@ struct HighlightWay {
     };
     const bool constant_half = directional && !local;  // rounded once; of an L whose length is taken for 1, E
                                                        // has too much or too little weight in it
-    if (kind == Highlight::blinn && constant_half)
+    if (kind == SpecularModel::blinn && constant_half)
       return sharp ? of_difference(l / exact.half_length + 1 + n + 1) : 1 + n + 3;
     // Of squares neither root nor length: the sum of the two cosines u, half of what its square, the square
     // of L + E and their quotient have, u, 5 u and u.
-    if (kind == Highlight::blinn)
+    if (kind == SpecularModel::blinn)
       return sharp ? of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1)
                    : (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
     return sharp ? of_difference(l + v + 2 + 2 * n_dot_l + 2 * n + 1)
@@ -257,22 +257,22 @@ struct HighlightWay {
 };
 
 /// Normals near where the highlight is brightest.
-void face_highlights(Draws& draws, const HighlightWay& way, const EyeLight& light, Real y,
+void face_highlights(LightingRng& rng, const HighlightWay& way, const EyeLight& light, Real y,
                      std::vector<Point>& points) {
   for (Point& p : points) {
     const Real3 at = real3(p.position),
                 l = way.directional ? real3(light.position) : normalized(real3(light.position) - at);
     const Real3 e = way.local ? normalized(at * -1) : Real3{0, 0, 1};
-    const Real off = draws.between(0, 3) / std::sqrt(std::max<Real>(y, 10));
-    const Real3 facing = normalized(normalized(l + e) + real3(draws.direction()) * off) *
-                         (way.renormalize ? draws.between(0.5, 2) : 1);
+    const Real off = rng.between(0, 3) / std::sqrt(std::max<Real>(y, 10));
+    const Real3 facing = normalized(normalized(l + e) + real3(rng.direction()) * off) *
+                         (way.renormalize ? rng.between(0.5, 2) : 1);
     for (std::size_t c = 0; c < 3; ++c) p.normal[c] = static_cast<float>(facing[c]);
   }
 }
 
 TEST(LightTerms, Highlights) {
-  Draws draws{std::mt19937(25)};
-  for (const Highlight kind : {Highlight::blinn, Highlight::phong})
+  LightingRng rng{std::mt19937(25)};
+  for (const SpecularModel kind : {SpecularModel::blinn, SpecularModel::phong})
     for (const float y : {0.1f, 0.5f, 1.0f, 50.0f, 128.0f, 2000.0f, 10000.0f}) {
       Real share = 0, levels = 0;
       int measured = 0;
@@ -284,14 +284,14 @@ TEST(LightTerms, Highlights) {
                                y > kSharpShininess,
                                y > kSharpShininess || (n & 8) != 0,
                                y >= 1 && (n & 8) != 0};
-        EyeLight light = any_light(draws, way.directional);
+        EyeLight light = any_light(rng, way.directional);
         light.specular = {0.5f, 0, 0};
         const LightingModel model{.scene_ambient = {0, 0, 0},
                                   .local_viewer = way.local,
-                                  .phong_highlight = kind == Highlight::phong,
+                                  .phong_highlight = kind == SpecularModel::phong,
                                   .unit_normals = way.unit};
-        std::vector<Point> points = any_points(draws, false);
-        face_highlights(draws, way, light, y, points);
+        std::vector<Point> points = any_points(rng, false);
+        face_highlights(rng, way, light, y, points);
         const std::vector<float> found =
             lit_red({.diffuse = {0, 0, 0}, .specular = {1, 0, 0}, .shininess = y}, light, model,
                     way.renormalize, points);
@@ -305,18 +305,18 @@ TEST(LightTerms, Highlights) {
           if (exact.n_dot_l < 20 * kUnit || exact.highlight_base < 64 * cosine_error * kUnit)
             continue;  // another formula, or none
           // Those below 2^-32 are left out.
-          keep_worst(share, error / (shine *
+          update_worst(share, error / (shine *
                                          of_power(cosine_error, exact.highlight_base, y, shine,
                                                   way.of_square() ? y / 2 : y) *
                                          kUnit +
                                      0x1p-31L));
           // Where light comes from just behind what is seen, nothing is left of L + E but their roundings.
-          if (kind == Highlight::phong || exact.half_length >= 0.125L) keep_worst(levels, error * 255);
+          if (kind == SpecularModel::phong || exact.half_length >= 0.125L) update_worst(levels, error * 255);
           ++measured;
         }
       }
       EXPECT_GT(measured, rounds(1600) * static_cast<int>(kPoints) / 2) << y;
-      const std::string quantity = std::string(kind == Highlight::blinn ? "Blinn" : "Phong") +
+      const std::string quantity = std::string(kind == SpecularModel::blinn ? "Blinn" : "Phong") +
                                    " highlight of exponent " + std::to_string(y).substr(0, 5);
       expect_within(quantity + ", of its roundings", share, 1, "");
       expect_within(quantity + ", absolute", levels, 1, "levels of 255");

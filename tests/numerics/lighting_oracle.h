@@ -80,7 +80,7 @@ struct LightAtPoint {
   Real half_length = 2;  ///< |L + E|, Blinn's
   RealRange spot{1, 1}, highlight{0, 0};
 
-  LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, Highlight kind,
+  LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, SpecularModel kind,
                Real shininess, Real slack) {
     const Real3 offset = light.directional ? light.position : light.position - point.position;
     const Real distance = length(offset);
@@ -103,7 +103,7 @@ struct LightAtPoint {
     n_dot_l = dot(point.normal, l);
     const Real3 e = local_viewer ? normalized(point.position * -1) : Real3{0, 0, 1}, half = l + e;
     half_length = length(half);
-    if (kind == Highlight::blinn) highlight_base = dot(normalized(half), point.normal);
+    if (kind == SpecularModel::blinn) highlight_base = dot(normalized(half), point.normal);
     else highlight_base = dot(point.normal * (2 * n_dot_l) - l, e);
     const Real shine = real_power(highlight_base, shininess),
                reach = slack * std::max<Real>(length(point.normal), 1);

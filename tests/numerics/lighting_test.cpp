@@ -25,7 +25,7 @@ class WholeSums : public testing::TestWithParam<int> {};
 TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
   const auto count = static_cast<std::size_t>(GetParam());
   const int frames = (count > 100 ? 1 : count > 10 ? 3 : 8) * (long_tests() ? 50 : 1);
-  Draws draws{std::mt19937(static_cast<std::uint32_t>(GetParam()))};
+  LightingRng rng{std::mt19937(static_cast<std::uint32_t>(GetParam()))};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
     Real worst = 0;
     LitPatches scene;
@@ -35,19 +35,19 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
         // A quarter of the variants, where both values of each of their bits are.
         if (count > 100 && ((variant ^ variant >> 2) + n) % 4 != 0) continue;
         scene.model.local_viewer = (variant & 1) != 0;
-        scene.model.specular = (variant & 2) != 0 ? Highlight::phong : Highlight::blinn;
+        scene.model.specular = (variant & 2) != 0 ? SpecularModel::phong : SpecularModel::blinn;
         scene.model.two_sided = (variant & 4) != 0;
         scene.normalize = (variant & 8) == 0;
-        scene.model.ambient = any_color(draws, 0.2, false);
-        scene.extent = draws.of({1.0, 0x1p-20, 0x1p20});
-        scene.material = any_material(draws);
-        scene.back_material = any_material(draws);
+        scene.model.ambient = random_color(rng, 0.2, false);
+        scene.extent = rng.of({1.0, 0x1p-20, 0x1p20});
+        scene.material = random_material(rng);
+        scene.back_material = random_material(rng);
         scene.lights.clear();
-        for (std::size_t i = 0; i < count; ++i) scene.lights.push_back(any_light(draws, count, scene.extent));
+        for (std::size_t i = 0; i < count; ++i) scene.lights.push_back(random_light(rng, count, scene.extent));
         scene.view = scene.world_from_eye = {};
-        if (n % 2 != 0 || count > 100) scene.move_camera(draws);
-        any_patches(draws, scene);
-        keep_worst(worst, scene.error_in_levels());
+        if (n % 2 != 0 || count > 100) scene.move_camera(rng);
+        randomize_patches(rng, scene);
+        update_worst(worst, scene.error_in_levels());
       }
     expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) +
                       (count == 1 ? " light" : " lights"),
@@ -60,21 +60,21 @@ INSTANTIATE_TEST_SUITE_P(Lighting, WholeSums, testing::Values(1, 8, 64, 1000));
 // What only one pixel in thousands of random ones would see: each patch faces the highlight, up to an angle
 // where it has all but faded.
 TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
-  Draws draws{std::mt19937(11)};
+  LightingRng rng{std::mt19937(11)};
   for (const float shininess : {0.5f, 128.0f, 10000.0f}) {
     Real worst = 0;
     LitPatches scene;
     for (int n = 0; n < 48 * (long_tests() ? 30 : 1); ++n) {
-      scene.shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong});
-      scene.model.local_viewer = draws.one_in(2);
-      scene.model.specular = draws.of({Highlight::blinn, Highlight::phong});
+      scene.shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong});
+      scene.model.local_viewer = rng.one_in(2);
+      scene.model.specular = rng.of({SpecularModel::blinn, SpecularModel::phong});
       scene.material = {.ambient = {0, 0, 0, 1},
                         .diffuse = {0.1f, 0, 0, 1},
                         .specular = {0.25f, 0.5f, 1, 1},
                         .shininess = shininess};
-      const auto [x, y, z] = draws.direction();
-      scene.lights = {Light{.position = {4 * x, 4 * y, 2 + 2 * std::abs(z), draws.one_in(2) ? 0.0f : 1.0f}}};
-      any_patches(draws, scene);
+      const auto [x, y, z] = rng.direction();
+      scene.lights = {Light{.position = {4 * x, 4 * y, 2 + 2 * std::abs(z), rng.one_in(2) ? 0.0f : 1.0f}}};
+      randomize_patches(rng, scene);
       const RealLight light = real_light(scene.lights[0]);
       for (int p = 0; p < LitPatches::kCount; ++p) {
         Patch& patch = scene.patches[static_cast<std::size_t>(p)];
@@ -84,13 +84,13 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
                       l = light.directional ? light.position : normalized(light.position - at);
           const Real3 e = scene.model.local_viewer ? normalized(at * -1) : Real3{0, 0, 1},
                       peak = normalized(l + e);
-          const double off = draws.between(0, 3) / std::sqrt(std::max(shininess, 10.0f));
-          const std::array<float, 3> bend = draws.direction();
+          const double off = rng.between(0, 3) / std::sqrt(std::max(shininess, 10.0f));
+          const std::array<float, 3> bend = rng.direction();
           for (std::size_t c = 0; c < 3; ++c)
             patch.normals[static_cast<std::size_t>(k)][c] = static_cast<float>(peak[c] + off * bend[c]);
         }
       }
-      keep_worst(worst, scene.error_in_levels());
+      update_worst(worst, scene.error_in_levels());
     }
     expect_within("highlight of exponent " + std::to_string(shininess).substr(0, 7), worst, 1,
                   "levels of 255");
@@ -99,15 +99,15 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
 }
 
 TEST(Lighting, SharpConesAreWithinOneLevel) {
-  Draws draws{std::mt19937(12)};
+  LightingRng rng{std::mt19937(12)};
   for (const float exponent : {0.5f, 128.0f, 10000.0f}) {
     Real worst = 0;
     LitPatches scene;
     for (int n = 0; n < 24 * (long_tests() ? 30 : 1); ++n) {
-      scene.shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong});
+      scene.shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong});
       scene.material = {.ambient = {1, 0.5f, 0, 1}, .diffuse = {0, 0.5f, 1, 1}};
-      any_patches(draws, scene);
-      const auto [x, y, z] = draws.direction();
+      randomize_patches(rng, scene);
+      const auto [x, y, z] = rng.direction();
       // So far that the cone fades within the frame.
       const auto distance = static_cast<float>(std::min(std::sqrt(exponent), 30.0f) + 2);
       scene.lights = {Light{.ambient = {1, 1, 1, 1},
@@ -115,7 +115,7 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
                             .spot_direction = {-x, -y, -std::abs(z)},
                             .spot_exponent = exponent,
                             .spot_cutoff = 60}};
-      keep_worst(worst, scene.error_in_levels());
+      update_worst(worst, scene.error_in_levels());
     }
     expect_within("cone of exponent " + std::to_string(exponent).substr(0, 7), worst, 1, "levels of 255");
     EXPECT_GT(scene.unsaturated, std::size_t{8 * LitPatches::kCount});
@@ -154,27 +154,27 @@ TEST(Lighting, OfALightInTheSurfaceIsItsAmbientPart) {
 
 // There L is 0: neither diffuse light nor highlight, no cone, and of the attenuation the constant part alone.
 TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
-  Draws draws{std::mt19937(13)};
+  LightingRng rng{std::mt19937(13)};
   Real worst = 0;
   for (int n = 0; n < 200 * (long_tests() ? 30 : 1); ++n) {
     LitPatches scene;
-    scene.shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong});
-    scene.model.local_viewer = draws.one_in(2);
-    scene.model.specular = draws.of({Highlight::blinn, Highlight::phong});
-    any_patches(draws, scene);
-    scene.material = any_material(draws);
-    scene.lights = {any_light(draws, 1, 1)};
+    scene.shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong});
+    scene.model.local_viewer = rng.one_in(2);
+    scene.model.specular = rng.of({SpecularModel::blinn, SpecularModel::phong});
+    randomize_patches(rng, scene);
+    scene.material = random_material(rng);
+    scene.lights = {random_light(rng, 1, 1)};
     const int p =
         LitPatches::kSide / 2 *
         (LitPatches::kSide + 1);  // its last corner but two is the eye, if it lies in the plane z = 0
     scene.patches[static_cast<std::size_t>(p)].z.fill(
-        draws.one_in(2) ? 0 : static_cast<float>(draws.between(-2, 2)));
+        rng.one_in(2) ? 0 : static_cast<float>(rng.between(-2, 2)));
     std::array<float, 3> at =
-        draws.one_in(2) ? std::array<float, 3>{0, 0, 0} : scene.corner(p, draws.of({0, 2, 3}));
-    if (draws.one_in(3))  // the middle of the patch, which Phong lights
+        rng.one_in(2) ? std::array<float, 3>{0, 0, 0} : scene.corner(p, rng.of({0, 2, 3}));
+    if (rng.one_in(3))  // the middle of the patch, which Phong lights
       for (std::size_t c = 0; c < 3; ++c) at[c] = (scene.corner(p, 0)[c] + scene.corner(p, 2)[c]) / 2;
     scene.lights[0].position = {at[0], at[1], at[2], 1};
-    keep_worst(worst, scene.error_in_levels());
+    update_worst(worst, scene.error_in_levels());
   }
   expect_within("light at the vertex or at the eye", worst, 1, "levels of 255");
 }
@@ -238,14 +238,14 @@ TEST(Lighting, ConesEndWhereTheyShould) {
 // than they should be, and L and D have roundings of their own.
 TEST(Lighting, NarrowConesEndWhereTheyShould) {
   constexpr double kDegree = std::numbers::pi / 180;
-  Draws draws{std::mt19937(15)};
+  LightingRng rng{std::mt19937(15)};
   LitPatches scene;
   lie_flat(scene);
   scene.material = {.ambient = {1, 1, 1, 1}, .diffuse = {0, 0, 0, 1}};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
     for (const float cutoff : {0.001f, 0.01f, 0.014f, 0.1f, 0.5f, 0.999f}) {
       const double radius = 0.5, distance = radius / std::tan(cutoff * kDegree), slack = 0x1p-21;
-      const auto [x, y, z] = draws.direction();
+      const auto [x, y, z] = rng.direction();
       const double d[3] = {x / 3, y / 3, std::abs(z) + 0.2}, length = std::hypot(d[0], d[1], d[2]);
       Light light{.ambient = {1, 0.5f, 0.25f, 1}, .position = {0, 0, 0, 1}, .spot_cutoff = cutoff};
       for (std::size_t c = 0; c < 3; ++c) {
@@ -266,7 +266,7 @@ TEST(Lighting, NarrowConesEndWhereTheyShould) {
 // more as they are interpolated) is then that much of what is left of them. Where nothing is left, there is
 // no diffuse light.
 TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
-  Draws draws{std::mt19937(14)};
+  LightingRng rng{std::mt19937(14)};
   Real worst = 0;
   LitPatches scene;
   scene.shading = Shading::phong;
@@ -275,16 +275,16 @@ TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
   for (int exponent = -24; exponent <= 0; ++exponent) {
     const Real left = exponent == -24 ? 0 : std::ldexp(1.0L, exponent);  // twice the length of the mean
     for (Patch& patch : scene.patches) {
-      const std::array<float, 3> normal = draws.direction(), other = draws.direction();
+      const std::array<float, 3> normal = rng.direction(), other = rng.direction();
       const Real3 n = real3(normal), across = normalized(real3(other) - n * dot(real3(other), n));
       patch.normals = {normal, other, {}, other};
       for (std::size_t c = 0; c < 3; ++c) patch.normals[2][c] = static_cast<float>(left * across[c] - n[c]);
     }
-    const std::array<float, 3> l = draws.direction();
+    const std::array<float, 3> l = rng.direction();
     scene.lights = {Light{.ambient = {1, 1, 1, 1}, .position = {l[0], l[1], l[2], 0}}};
     const Real error = scene.error_in_levels() - 0.5L;
     if (left == 0) EXPECT_LE(error, 0.001L);
-    else keep_worst(worst, error / 255 / (3 * 0x1p-24L / (left / 2) + kCosineSlack));
+    else update_worst(worst, error / 255 / (3 * 0x1p-24L / (left / 2) + kCosineSlack));
   }
   expect_within("Phong between opposite normals, of 3 * 2^-24 over the length of their mean", worst, 1, "");
 }

@@ -14,7 +14,7 @@
 namespace tessera::test {
 
 /// The same numbers on every machine and library.
-struct Draws {
+struct LightingRng {
   std::mt19937 random;
   double unit() { return static_cast<double>(random()) * 0x1p-32; }
   double between(double low, double high) { return low + (high - low) * unit(); }
@@ -62,10 +62,10 @@ class LitPatches {
 
   /// A camera turned any way, up to 10^4 frames from the world's origin; each light as it was from there, but
   /// for its rounding to floats.
-  void move_camera(Draws& draws) {
-    const auto [ax, ay, az] = draws.direction();
-    const auto [ex, ey, ez] = draws.direction();
-    const double angle = draws.between(0, 360), far = extent * std::exp2(draws.between(-4, 13.28));
+  void move_camera(LightingRng& rng) {
+    const auto [ax, ay, az] = rng.direction();
+    const auto [ex, ey, ez] = rng.direction();
+    const double angle = rng.between(0, 360), far = extent * std::exp2(rng.between(-4, 13.28));
     view = rotate(angle, ax, ay, az) * translate(-far * ex, -far * ey, -far * ez);
     world_from_eye = translate(far * ex, far * ey, far * ez) * rotate(-angle, ax, ay, az);
     const auto moved = [&](const std::array<float, 3>& v, double w) {
@@ -99,7 +99,7 @@ class LitPatches {
       const std::array<RealRange, 3> exact = color(p);
       for (std::size_t c = 0; c < 3; ++c) {
         const Real level = levels[static_cast<std::size_t>(p)][c];
-        keep_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
+        update_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
         unsaturated += level > 0 && level < 255;
       }
     }

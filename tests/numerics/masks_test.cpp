@@ -73,7 +73,7 @@ std::vector<Kind> kinds() {
               s.lighting = true;
               s.shading = Shading::phong;
               s.color_material = ColorMaterial::ambient_and_diffuse;
-              s.material.color_indexes = {{3, 99, 200}};
+              s.material.index_ramp = {{3, 99, 200}};
             })},
       {"textured", true, mesh(window, Primitive::triangles, [](DrawState& s) { s.texture = &texture; })},
       {"a part", false, mesh(corners, Primitive::triangles, [](DrawState&) {})},
@@ -132,13 +132,13 @@ Buffers run(const FrameBufferFormat& format, const std::function<void(Frame&)>& 
   renderer.finish(frame);  // samples, too, begin with one word a pixel
   draw(frame);
   renderer.finish(frame);
-  return {color_words(buffer), depth_words(buffer)};
+  return {packed_colors(buffer), stored_depths(buffer)};
 }
 
 // Operations that look at what is there go through the masks like all others.
 std::vector<FragmentState> operations(const FrameBufferFormat& format) {
   std::vector<FragmentState> all(2);
-  all[1].logic_op = LogicOp::xor_;
+  all[1].logic_op = LogicOp::bit_xor;
   if (format.color_mode == ColorMode::rgb) all.emplace_back().blend.emplace();
   return all;
 }
@@ -167,7 +167,7 @@ TEST(Masks, ChangeTheBitsOfTheirPlanesAlone) {
                                  all_or_none ? red : random.next() % 2 == 0, random.next() % 2 == 0};
           }
           std::uint32_t mask = 0;
-          const Split split(format);
+          const ComponentBits split(format);
           for (std::size_t c = 0; c < 4; ++c)
             if (masked.color_mask[c] && (format.color_mode == ColorMode::rgb || c == 3))
               mask |= static_cast<std::uint32_t>(split.levels(c)) << split.shift[c];

@@ -86,14 +86,14 @@ class NormalProbe {
   Renderer renderer_{RendererOptions{.threads = 1}};
 };
 
-Matrix turn(Draws& draws) {
-  const std::array<float, 3> axis = draws.direction();
-  return rotate(draws.between(0, 360), axis[0], axis[1], axis[2]);
+Matrix turn(LightingRng& rng) {
+  const std::array<float, 3> axis = rng.direction();
+  return rotate(rng.between(0, 360), axis[0], axis[1], axis[2]);
 }
 /// Each axis by up to 10^`decades` or 10^-`decades`, some the other way round.
-Matrix stretch(Draws& draws, double decades) {
+Matrix stretch(LightingRng& rng, double decades) {
   const auto any = [&] {
-    return std::pow(10, draws.between(-decades, decades)) * (draws.one_in(2) ? -1 : 1);
+    return std::pow(10, rng.between(-decades, decades)) * (rng.one_in(2) ? -1 : 1);
   };
   const double x = any(), y = any();
   return scale(x, y, any());
@@ -132,13 +132,13 @@ Real worst_direction(NormalProbe& probe, const std::vector<NormalProbe::Case>& c
     Real error = length(got - normalized(exact));
     if (std::abs(determinant) <= bound.determinant)
       error = std::min(error, length(got + normalized(exact)));  // which side is anybody's guess
-    keep_worst(worst, error / bound.direction);
+    update_worst(worst, error / bound.direction);
   }
   return worst;
 }
 
 TEST(Matrices, NormalsAreThoseOfTheInverseTranspose) {
-  Draws draws{std::mt19937(41)};
+  LightingRng rng{std::mt19937(41)};
   NormalProbe probe;
   for (const double decades : {0.0, 1.0, 6.0, 100.0}) {
     Real worst = 0;
@@ -146,13 +146,13 @@ TEST(Matrices, NormalsAreThoseOfTheInverseTranspose) {
       std::vector<NormalProbe::Case> cases;
       for (int i = 0; i < NormalProbe::kSide * NormalProbe::kSide; ++i) {
         // 10^100 for all axes together: one that is 10^200 times as long as another leaves nothing of it.
-        const double all = decades > 6 ? std::pow(10, draws.between(-decades, decades)) : 1;
-        const Matrix view = draws.one_in(2) ? turn(draws) : turn(draws) * scale(1e6, 1e6, 1e6);
+        const double all = decades > 6 ? std::pow(10, rng.between(-decades, decades)) : 1;
+        const Matrix view = rng.one_in(2) ? turn(rng) : turn(rng) * scale(1e6, 1e6, 1e6);
         cases.push_back(
-            {view, scale(all, all, all) * turn(draws) * stretch(draws, std::min(decades, 6.0)) * turn(draws),
-             draws.direction(), draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
+            {view, scale(all, all, all) * turn(rng) * stretch(rng, std::min(decades, 6.0)) * turn(rng),
+             rng.direction(), rng.one_in(2), rng.of({Shading::gouraud, Shading::phong})});
       }
-      keep_worst(worst, worst_direction(probe, cases));
+      update_worst(worst, worst_direction(probe, cases));
     }
     expect_within("normals under scalings of 10^" + std::to_string(static_cast<int>(decades)) +
                       ", of (12 double eps of the condition + 6 * 2^-24)",
@@ -162,7 +162,7 @@ TEST(Matrices, NormalsAreThoseOfTheInverseTranspose) {
 
 // One row is nearly, or but for rounding, or wholly what the two others make of it; two; all three.
 TEST(Matrices, NormalsUnderNearlySingularTransforms) {
-  Draws draws{std::mt19937(42)};
+  LightingRng rng{std::mt19937(42)};
   NormalProbe probe;
   Real worst = 0;
   for (int n = 0; n < 16 * (long_tests() ? 100 : 1); ++n) {
@@ -170,18 +170,18 @@ TEST(Matrices, NormalsUnderNearlySingularTransforms) {
     for (int i = 0; i < NormalProbe::kSide * NormalProbe::kSide; ++i) {
       Matrix m;
       for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t r = 0; r < 3; ++r) m.m[4 * r + k] = draws.between(-1, 1);
-      const double apart = draws.one_in(4) ? 0 : std::exp2(draws.between(-60, 0)),
-                   of_a = draws.between(-1, 1), of_b = draws.one_in(8) ? 0 : draws.between(-1, 1);
+        for (std::size_t r = 0; r < 3; ++r) m.m[4 * r + k] = rng.between(-1, 1);
+      const double apart = rng.one_in(4) ? 0 : std::exp2(rng.between(-60, 0)),
+                   of_a = rng.between(-1, 1), of_b = rng.one_in(8) ? 0 : rng.between(-1, 1);
       for (std::size_t k = 0; k < 3; ++k) {
-        if (draws.one_in(16)) m.m[4 + k] = m.m[k];
-        m.m[8 + k] = of_a * m.m[k] + of_b * m.m[4 + k] + apart * draws.between(-1, 1);
+        if (rng.one_in(16)) m.m[4 + k] = m.m[k];
+        m.m[8 + k] = of_a * m.m[k] + of_b * m.m[4 + k] + apart * rng.between(-1, 1);
       }
-      cases.push_back({draws.one_in(2) ? Matrix{} : turn(draws),
-                       draws.one_in(20) ? scale(0, draws.between(-1, 1), 0) : m, draws.direction(),
-                       draws.one_in(2), draws.of({Shading::gouraud, Shading::phong})});
+      cases.push_back({rng.one_in(2) ? Matrix{} : turn(rng),
+                       rng.one_in(20) ? scale(0, rng.between(-1, 1), 0) : m, rng.direction(),
+                       rng.one_in(2), rng.of({Shading::gouraud, Shading::phong})});
     }
-    keep_worst(worst, worst_direction(probe, cases));
+    update_worst(worst, worst_direction(probe, cases));
   }
   expect_within("normals under nearly singular transforms, of (12 double eps of the condition + 6 * 2^-24)",
                 worst, 1, "");

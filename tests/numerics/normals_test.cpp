@@ -64,7 +64,7 @@ class FunctionsNormals : public testing::TestWithParam<unsigned> {
         for (std::size_t i = 0; i < kFloatBatch; ++i) {
           const std::array<long double, 3> exact = vectors.unit(at + i);
           for (std::size_t k = 0; k < 3; ++k)
-            if (exact[k] != 0) keep_worst(most, ulps(unit[k][i], exact[k]));
+            if (exact[k] != 0) update_worst(most, ulps(unit[k][i], exact[k]));
         }
       }
     });

@@ -229,7 +229,7 @@ TEST(OddData, WhatIsFiniteIsDrawnTheSameOnEveryInstructionSet) {
       Frame frame(buffer);
       frame.draw(odd.view(), state);
       Renderer({.threads = 1}).finish(frame);
-      const auto words = color_words(buffer);
+      const auto words = packed_colors(buffer);
       for (int y = 0; y < format.height; ++y)
         for (int x = 0; x < format.width; ++x)
           if (!contains(state.viewport, x, y) || !contains(state.scissor, x, y)) {

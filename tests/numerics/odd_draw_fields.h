@@ -20,62 +20,62 @@ inline void add_draw(Fields& f) {
     [[maybe_unused]] const auto& [elements] = m;
   };
   constexpr const char* kCall = "Frame::draw";
-  add_fragments(f, "state", kCall, [](World& w) -> DrawState& { return w.state; });
-  add_material(f, "material", [](World& w) { return &w.state.material; });
+  add_fragments(f, "state", kCall, [](InterfaceCase& w) -> DrawState& { return w.state; });
+  add_material(f, "material", [](InterfaceCase& w) { return &w.state.material; });
   add_material(f, "back_material",
-               [](World& w) { return w.state.back_material ? &*w.state.back_material : nullptr; });
+               [](InterfaceCase& w) { return w.state.back_material ? &*w.state.back_material : nullptr; });
   f.numbers(
-      "transform", kCall, 16, [](World& w) { return w.state.transform.m.data(); }, finite);
+      "transform", kCall, 16, [](InterfaceCase& w) { return w.state.transform.m.data(); }, finite);
   f.numbers(
-      "camera.view", "Frame::set_camera", 16, [](World& w) { return w.camera.view.m.data(); }, finite);
+      "camera.view", "Frame::set_camera", 16, [](InterfaceCase& w) { return w.camera.view.m.data(); }, finite);
   f.numbers(
-      "camera.projection", "Frame::set_camera", 16, [](World& w) { return w.camera.projection.m.data(); },
+      "camera.projection", "Frame::set_camera", 16, [](InterfaceCase& w) { return w.camera.projection.m.data(); },
       finite);
   f.color(
-      "texture_env_color", kCall, [](World& w) { return &w.state.texture_env_color; }, finite);
+      "texture_env_color", kCall, [](InterfaceCase& w) { return &w.state.texture_env_color; }, finite);
   f.number(
-      "point_size", kCall, [](World& w) { return &w.state.point_size; }, above_zero);
+      "point_size", kCall, [](InterfaceCase& w) { return &w.state.point_size; }, above_zero);
   f.number(
-      "line_width", kCall, [](World& w) { return &w.state.line_width; }, above_zero);
+      "line_width", kCall, [](InterfaceCase& w) { return &w.state.line_width; }, above_zero);
   f.number(
-      "depth_near", kCall, [](World& w) { return &w.state.depth_near; }, within(0, 1));
+      "depth_near", kCall, [](InterfaceCase& w) { return &w.state.depth_near; }, within(0, 1));
   f.number(
-      "depth_far", kCall, [](World& w) { return &w.state.depth_far; }, within(0, 1));
+      "depth_far", kCall, [](InterfaceCase& w) { return &w.state.depth_far; }, within(0, 1));
   f.number(
-      "polygon_offset.factor", kCall, [](World& w) { return &w.state.polygon_offset.factor; }, finite);
+      "polygon_offset.factor", kCall, [](InterfaceCase& w) { return &w.state.polygon_offset.factor; }, finite);
   f.number(
-      "polygon_offset.units", kCall, [](World& w) { return &w.state.polygon_offset.units; }, finite);
+      "polygon_offset.units", kCall, [](InterfaceCase& w) { return &w.state.polygon_offset.units; }, finite);
   f.rect(
-      "viewport", kCall, [](World& w) { return &w.state.viewport; }, within(-16384, 16384), within(1, 16384));
+      "viewport", kCall, [](InterfaceCase& w) { return &w.state.viewport; }, within(-16384, 16384), within(1, 16384));
   f.numbers(
       "shadow_on.plane", kCall, 4,
-      [](World& w) { return w.state.shadow_on ? w.state.shadow_on->plane.data() : nullptr; },
+      [](InterfaceCase& w) { return w.state.shadow_on ? w.state.shadow_on->plane.data() : nullptr; },
       finite_for_shadow);
   f.color(
       "shadow_on.color", kCall,
-      [](World& w) { return w.state.shadow_on ? &w.state.shadow_on->color : nullptr; }, finite);
+      [](InterfaceCase& w) { return w.state.shadow_on ? &w.state.shadow_on->color : nullptr; }, finite);
   f.number(
       "shadow_on.light", kCall,
-      [](World& w) { return w.state.shadow_on ? &w.state.shadow_on->light : nullptr; },
+      [](InterfaceCase& w) { return w.state.shadow_on ? &w.state.shadow_on->light : nullptr; },
       [](double v) { return v < 2 ? Verdict::either : Verdict::refused; });
   f.choice(
-      "shading", kCall, [](World& w) { return &w.state.shading; }, Shading::phong);
+      "shading", kCall, [](InterfaceCase& w) { return &w.state.shading; }, Shading::phong);
   f.choice(
-      "color_material", kCall, [](World& w) { return &w.state.color_material; }, ColorMaterial::specular);
+      "color_material", kCall, [](InterfaceCase& w) { return &w.state.color_material; }, ColorMaterial::specular);
   f.choice(
-      "provoking_vertex", kCall, [](World& w) { return &w.state.provoking_vertex; }, ProvokingVertex::first);
+      "provoking_vertex", kCall, [](InterfaceCase& w) { return &w.state.provoking_vertex; }, ProvokingVertex::first);
   f.choice(
-      "texture_env", kCall, [](World& w) { return &w.state.texture_env; }, TextureEnv::add);
+      "texture_env", kCall, [](InterfaceCase& w) { return &w.state.texture_env; }, TextureEnv::add);
   f.choice(
-      "cull", kCall, [](World& w) { return &w.state.cull; }, Cull::front);
+      "cull", kCall, [](InterfaceCase& w) { return &w.state.cull; }, Cull::front);
   f.choice(
-      "front_face", kCall, [](World& w) { return &w.state.front_face; }, FrontFace::cw);
+      "front_face", kCall, [](InterfaceCase& w) { return &w.state.front_face; }, FrontFace::cw);
   f.choice(
-      "front_mode", kCall, [](World& w) { return &w.state.front_mode; }, PolygonMode::point);
+      "front_mode", kCall, [](InterfaceCase& w) { return &w.state.front_mode; }, PolygonMode::point);
   f.choice(
-      "back_mode", kCall, [](World& w) { return &w.state.back_mode; }, PolygonMode::point);
+      "back_mode", kCall, [](InterfaceCase& w) { return &w.state.back_mode; }, PolygonMode::point);
   f.choice(
-      "mesh.primitive", kCall, [](World& w) { return &w.data.primitive; }, Primitive::polygon);
+      "mesh.primitive", kCall, [](InterfaceCase& w) { return &w.data.primitive; }, Primitive::polygon);
 }
 
 /// Strides that rows of `row` bytes cannot have: with others, memory would be read that nobody has.
@@ -90,42 +90,42 @@ inline void add_pixels(Fields& f) {
     [[maybe_unused]] const auto& [texels, texture_width, texture_height, texture_channels, texture_stride,
                                   bottom_row_first] = t;
     [[maybe_unused]] const auto& [mag, min, wrap_s, wrap_t] = s;
-    [[maybe_unused]] const auto& [memory, target_width, target_height, target_stride, order, part] = i;
+    [[maybe_unused]] const auto& [memory, target_width, target_height, target_stride, order, region] = i;
   };
   constexpr const char *kBitmap = "Frame::draw_bitmap", *kImage = "Frame::draw_image", *kTexture = "Texture",
                        *kFinish = "Renderer::finish";
   const auto refused = [](double) { return Verdict::refused; };
-  add_fragments(f, "fragments", kBitmap, [](World& w) -> FragmentState& { return w.fragments; });
+  add_fragments(f, "fragments", kBitmap, [](InterfaceCase& w) -> FragmentState& { return w.fragments; });
   f.number(
-      "bitmap.width", kBitmap, [](World& w) { return &w.bitmap.width; }, within(1, 16384));
+      "bitmap.width", kBitmap, [](InterfaceCase& w) { return &w.bitmap.width; }, within(1, 16384));
   f.number(
-      "bitmap.height", kBitmap, [](World& w) { return &w.bitmap.height; }, within(1, 16384));
-  f.number("bitmap.stride_bytes", kBitmap, [](World& w) { return &w.bitmap.stride_bytes; }, refused, {1, -1});
+      "bitmap.height", kBitmap, [](InterfaceCase& w) { return &w.bitmap.height; }, within(1, 16384));
+  f.number("bitmap.stride_bytes", kBitmap, [](InterfaceCase& w) { return &w.bitmap.stride_bytes; }, refused, {1, -1});
   f.number(
-      "bitmap.x", kBitmap, [](World& w) { return &w.bitmap.x; }, finite);
+      "bitmap.x", kBitmap, [](InterfaceCase& w) { return &w.bitmap.x; }, finite);
   f.number(
-      "bitmap.y", kBitmap, [](World& w) { return &w.bitmap.y; }, finite);
+      "bitmap.y", kBitmap, [](InterfaceCase& w) { return &w.bitmap.y; }, finite);
   f.number(
-      "bitmap.depth", kBitmap, [](World& w) { return &w.bitmap.depth; }, within(0, 1));
+      "bitmap.depth", kBitmap, [](InterfaceCase& w) { return &w.bitmap.depth; }, within(0, 1));
   f.color(
-      "bitmap.color", kBitmap, [](World& w) { return &w.bitmap.color; }, finite);
+      "bitmap.color", kBitmap, [](InterfaceCase& w) { return &w.bitmap.color; }, finite);
   f.number(
-      "image.width", kImage, [](World& w) { return &w.pixels.width; }, within(1, 16384));
+      "image.width", kImage, [](InterfaceCase& w) { return &w.pixels.width; }, within(1, 16384));
   f.number(
-      "image.height", kImage, [](World& w) { return &w.pixels.height; }, within(1, 16384));
+      "image.height", kImage, [](InterfaceCase& w) { return &w.pixels.height; }, within(1, 16384));
   f.number(
-      "image.channels", kImage, [](World& w) { return &w.pixels.channels; }, within(1, 4));
+      "image.channels", kImage, [](InterfaceCase& w) { return &w.pixels.channels; }, within(1, 4));
   f.number(
-      "image.stride_bytes", kImage, [](World& w) { return &w.pixels.stride_bytes; }, refused,
+      "image.stride_bytes", kImage, [](InterfaceCase& w) { return &w.pixels.stride_bytes; }, refused,
       short_strides(7 * 4));
   for (double PixelImage::*member :
        {&PixelImage::x, &PixelImage::y, &PixelImage::zoom_x, &PixelImage::zoom_y})
     f.number(
-        "image's place", kImage, [member](World& w) { return &(w.pixels.*member); }, finite);
+        "image's place", kImage, [member](InterfaceCase& w) { return &(w.pixels.*member); }, finite);
   f.number(
-      "image.depth", kImage, [](World& w) { return &w.pixels.depth; }, within(0, 1));
+      "image.depth", kImage, [](InterfaceCase& w) { return &w.pixels.depth; }, within(0, 1));
   const auto texture = [](auto member) {
-    return [member](World& w) { return w.textured ? &(w.image.*member) : nullptr; };
+    return [member](InterfaceCase& w) { return w.textured ? &(w.image.*member) : nullptr; };
   };
   f.number("texture.width", kTexture, texture(&TextureImage::width), within(1, 16384));
   f.number("texture.height", kTexture, texture(&TextureImage::height), within(1, 16384));
@@ -133,7 +133,7 @@ inline void add_pixels(Fields& f) {
   f.number("texture.stride_bytes", kTexture, texture(&TextureImage::stride_bytes), refused,
            short_strides(8 * 4));
   const auto sampler = [](auto member) {
-    return [member](World& w) { return w.textured ? &(w.sampler.*member) : nullptr; };
+    return [member](InterfaceCase& w) { return w.textured ? &(w.sampler.*member) : nullptr; };
   };
   f.choice("sampler.min", kTexture, sampler(&TextureSampler::min), TextureFilter::linear_mipmap_linear);
   f.choice("sampler.mag", kTexture, sampler(&TextureSampler::mag), TextureFilter::linear_mipmap_linear);
@@ -142,16 +142,16 @@ inline void add_pixels(Fields& f) {
   const std::vector<int> no_size{
       -1, 1, 47, 49, 16384, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
   f.number(
-      "target.width", kFinish, [](World& w) { return &w.target.width; }, refused, no_size);
+      "target.width", kFinish, [](InterfaceCase& w) { return &w.target.width; }, refused, no_size);
   f.number(
-      "target.height", kFinish, [](World& w) { return &w.target.height; }, refused, no_size);
+      "target.height", kFinish, [](InterfaceCase& w) { return &w.target.height; }, refused, no_size);
   f.number(
-      "target.stride_bytes", kFinish, [](World& w) { return &w.target.stride_bytes; }, refused,
+      "target.stride_bytes", kFinish, [](InterfaceCase& w) { return &w.target.stride_bytes; }, refused,
       short_strides(4 * 48));
   f.choice(
-      "target.order", kFinish, [](World& w) { return &w.target.order; }, PixelOrder::bgra8);
+      "target.order", kFinish, [](InterfaceCase& w) { return &w.target.order; }, PixelOrder::bgra8);
   f.rect(
-      "target.part", kFinish, [](World& w) { return &w.target.part; }, anything, not_negative);
+      "target.region", kFinish, [](InterfaceCase& w) { return &w.target.region; }, anything, not_negative);
 }
 
 inline void add_buffer_and_renderer(Fields& f) {
@@ -165,43 +165,43 @@ inline void add_buffer_and_renderer(Fields& f) {
   const auto refused = [](double) { return Verdict::refused; };
   // What fits is tried elsewhere, where what follows fits it, too.
   f.number(
-      "format.width", kBuffer, [](World& w) { return &w.format.width; }, within(1, 16384));
+      "format.width", kBuffer, [](InterfaceCase& w) { return &w.format.width; }, within(1, 16384));
   f.number(
-      "format.height", kBuffer, [](World& w) { return &w.format.height; }, within(1, 16384));
-  f.number("format.color_bits", kBuffer, [](World& w) { return &w.format.color_bits; }, refused,
+      "format.height", kBuffer, [](InterfaceCase& w) { return &w.format.height; }, within(1, 16384));
+  f.number("format.color_bits", kBuffer, [](InterfaceCase& w) { return &w.format.color_bits; }, refused,
            {0, -1, 25, 1 << 30, std::numeric_limits<int>::min()});
-  f.number("format.stencil_bits", kBuffer, [](World& w) { return &w.format.stencil_bits; }, refused,
+  f.number("format.stencil_bits", kBuffer, [](InterfaceCase& w) { return &w.format.stencil_bits; }, refused,
            {-1, 9, 1 << 30, std::numeric_limits<int>::min()});
-  f.number("format.alpha_bits", kBuffer, [](World& w) { return &w.format.alpha_bits; }, refused,
+  f.number("format.alpha_bits", kBuffer, [](InterfaceCase& w) { return &w.format.alpha_bits; }, refused,
            {-8, 1, 7, 9, 16, std::numeric_limits<int>::max()});
-  f.number("format.accumulation_bits", kBuffer, [](World& w) { return &w.format.accumulation_bits; }, refused,
+  f.number("format.accumulation_bits", kBuffer, [](InterfaceCase& w) { return &w.format.accumulation_bits; }, refused,
            {-16, 1, 8, 24, 64, std::numeric_limits<int>::max()});
-  f.number("format.samples", kBuffer, [](World& w) { return &w.format.samples; }, refused,
+  f.number("format.samples", kBuffer, [](InterfaceCase& w) { return &w.format.samples; }, refused,
            {0, -4, 2, 3, 16, std::numeric_limits<int>::max()});
   f.color(
       "format.palette[1]", kBuffer,
-      [](World& w) { return w.format.palette.empty() ? nullptr : &w.format.palette[1]; }, within(0, 1));
+      [](InterfaceCase& w) { return w.format.palette.empty() ? nullptr : &w.format.palette[1]; }, within(0, 1));
   f.choice(
-      "format.color_mode", kBuffer, [](World& w) { return &w.format.color_mode; }, ColorMode::index);
+      "format.color_mode", kBuffer, [](InterfaceCase& w) { return &w.format.color_mode; }, ColorMode::index);
   f.choice(
-      "format.depth", kBuffer, [](World& w) { return &w.format.depth; }, DepthFormat::float32);
+      "format.depth", kBuffer, [](InterfaceCase& w) { return &w.format.depth; }, DepthFormat::float32);
   f.choice(
-      "format.dither", kBuffer, [](World& w) { return &w.format.dither; }, Dither::bayer8);
+      "format.dither", kBuffer, [](InterfaceCase& w) { return &w.format.dither; }, Dither::bayer8);
   f.choice(
-      "kept buffers", "Frame::keep", [](World& w) { return &w.kept[2]; }, Buffer::accumulation);
-  f.number("options.threads", kRenderer, [](World& w) { return &w.options.threads; }, within(0, 1024),
+      "kept buffers", "Frame::keep", [](InterfaceCase& w) { return &w.kept[2]; }, Buffer::accumulation);
+  f.number("options.threads", kRenderer, [](InterfaceCase& w) { return &w.options.threads; }, within(0, 1024),
            {-1, 0, 2, 7, 1025, 1 << 30, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()});
   f.number(
-      "options.tile_size", kRenderer, [](World& w) { return &w.options.tile_size; },
+      "options.tile_size", kRenderer, [](InterfaceCase& w) { return &w.options.tile_size; },
       [](double v) { return v == 0 || v == 32 || v == 64 || v == 128 ? Verdict::fine : Verdict::refused; },
       {-32, 0, 1, 16, 32, 33, 64, 96, 128, 256, std::numeric_limits<int>::max(),
        std::numeric_limits<int>::min()});
   f.number(
-      "options.bin_memory", kRenderer, [](World& w) { return &w.options.bin_memory; },
-      [](double v) { return v >= kLeastBinMemory ? Verdict::fine : Verdict::refused; },
-      {0, 1, kLeastBinMemory - 1, kLeastBinMemory, std::size_t{1} << 40,
+      "options.bin_memory", kRenderer, [](InterfaceCase& w) { return &w.options.bin_memory; },
+      [](double v) { return v >= kMinBinMemory ? Verdict::fine : Verdict::refused; },
+      {0, 1, kMinBinMemory - 1, kMinBinMemory, std::size_t{1} << 40,
        std::numeric_limits<std::size_t>::max()});
-  f.number("options.task_order", kRenderer, [](World& w) { return &w.options.task_order; }, anything,
+  f.number("options.task_order", kRenderer, [](InterfaceCase& w) { return &w.options.task_order; }, anything,
            {0, 1, 48, std::numeric_limits<std::uint32_t>::max()});
 }
 

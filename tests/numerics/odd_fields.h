@@ -19,7 +19,7 @@ struct Field {
   std::string name;
   const char* call;  ///< that refuses it
   std::size_t values = 0;
-  std::function<bool(World&, std::size_t)> set;  ///< false: that world has no such number
+  std::function<bool(InterfaceCase&, std::size_t)> set;  ///< false: that world has no such number
   std::function<Verdict(std::size_t)> verdict;
   std::function<std::vector<std::string>(std::size_t)> found;  ///< how a message may name the value
 };
@@ -31,14 +31,14 @@ std::vector<std::string> texts_of(T value) {
   return {std::to_string(value), shortest};
 }
 
-/// @param at  World& -> T*, null where that world has none
+/// @param at  InterfaceCase& -> T*, null where that world has none
 template <class T, class At, class Rule>
 Field field(std::string name, const char* call, const At& at, const Rule& rule,
             const std::vector<T>& values) {
   return {std::move(name),
           call,
           values.size(),
-          [=](World& world, std::size_t i) {
+          [=](InterfaceCase& world, std::size_t i) {
             T* const place = at(world);
             if (place != nullptr) *place = values[i];
             return place != nullptr;
@@ -50,7 +50,7 @@ Field field(std::string name, const char* call, const At& at, const Rule& rule,
           }};
 }
 template <class At>
-using NumberAt = std::remove_pointer_t<std::invoke_result_t<At, World&>>;
+using NumberAt = std::remove_pointer_t<std::invoke_result_t<At, InterfaceCase&>>;
 
 class Fields {
  public:
@@ -71,7 +71,7 @@ class Fields {
     for (int i = 0; i < count; ++i)
       number(
           name + "[" + std::to_string(i) + "]", call,
-          [at, i](World& w) {
+          [at, i](InterfaceCase& w) {
             auto* first = at(w);
             return first == nullptr ? nullptr : first + i;
           },
@@ -81,7 +81,7 @@ class Fields {
   void color(const std::string& name, const char* call, const At& at, const Rule& rule) {
     numbers(
         name, call, 4,
-        [at](World& w) {
+        [at](InterfaceCase& w) {
           Color* const c = at(w);
           return c == nullptr ? nullptr : &c->r;
         },
@@ -95,12 +95,12 @@ class Fields {
     all.push_back(field<Enum>(name, call, at, [](Enum) { return Verdict::refused; },
                               {static_cast<Enum>(beyond), static_cast<Enum>(127), static_cast<Enum>(255)}));
   }
-  /// @param at  World& -> std::optional<Rect>*
+  /// @param at  InterfaceCase& -> std::optional<Rect>*
   template <class At, class Position, class Size>
   void rect(const std::string& name, const char* call, const At& at, const Position& position,
             const Size& size) {
     const auto part = [at](int Rect::*member) {
-      return [at, member](World& w) -> int* {
+      return [at, member](InterfaceCase& w) -> int* {
         std::optional<Rect>* const rect = at(w);
         return rect != nullptr && *rect ? &((**rect).*member) : nullptr;
       };
@@ -124,15 +124,15 @@ inline Verdict finite_for_shadow(double v) { return std::isfinite(v) ? Verdict::
 inline Verdict cutoff(double v) { return v == 180 ? Verdict::fine : within(0, 90)(v); }
 inline Verdict not_negative(double v) { return v >= 0 ? Verdict::fine : Verdict::refused; }
 
-inline void add_material(Fields& f, const std::string& name, const std::function<Material*(World&)>& at) {
+inline void add_material(Fields& f, const std::string& name, const std::function<Material*(InterfaceCase&)>& at) {
   const auto part = [at](auto member) {
-    return [at, member](World& w) {
+    return [at, member](InterfaceCase& w) {
       Material* const m = at(w);
       return m == nullptr ? nullptr : &(m->*member);
     };
   };
   [[maybe_unused]] const auto know = [](const Material& m) {
-    [[maybe_unused]] const auto& [ambient, diffuse, specular, emission, shininess, color_indexes] = m;
+    [[maybe_unused]] const auto& [ambient, diffuse, specular, emission, shininess, index_ramp] = m;
   };
   f.color(name + ".ambient", "Frame::draw", part(&Material::ambient), finite);
   f.color(name + ".diffuse", "Frame::draw", part(&Material::diffuse), finite);
@@ -140,10 +140,10 @@ inline void add_material(Fields& f, const std::string& name, const std::function
   f.color(name + ".emission", "Frame::draw", part(&Material::emission), finite);
   f.number(name + ".shininess", "Frame::draw", part(&Material::shininess), within(0, 16384));
   f.numbers(
-      name + ".color_indexes", "Frame::draw", 3,
-      [at](World& w) {
+      name + ".index_ramp", "Frame::draw", 3,
+      [at](InterfaceCase& w) {
         Material* const m = at(w);
-        return m == nullptr || !m->color_indexes ? nullptr : m->color_indexes->data();
+        return m == nullptr || !m->index_ramp ? nullptr : m->index_ramp->data();
       },
       finite);
 }
@@ -158,36 +158,36 @@ inline void add_lights(Fields& f) {
     const std::string name = "lights[" + std::to_string(i) + "]";
     constexpr const char* kCall = "Frame::set_lights";
     f.color(
-        name + ".ambient", kCall, [i](World& w) { return &w.lights[i].ambient; }, finite);
+        name + ".ambient", kCall, [i](InterfaceCase& w) { return &w.lights[i].ambient; }, finite);
     f.color(
-        name + ".diffuse", kCall, [i](World& w) { return &w.lights[i].diffuse; }, finite);
+        name + ".diffuse", kCall, [i](InterfaceCase& w) { return &w.lights[i].diffuse; }, finite);
     f.color(
-        name + ".specular", kCall, [i](World& w) { return &w.lights[i].specular; }, finite);
+        name + ".specular", kCall, [i](InterfaceCase& w) { return &w.lights[i].specular; }, finite);
     f.numbers(
-        name + ".position", kCall, 4, [i](World& w) { return w.lights[i].position.data(); }, finite);
+        name + ".position", kCall, 4, [i](InterfaceCase& w) { return w.lights[i].position.data(); }, finite);
     f.numbers(
-        name + ".spot_direction", kCall, 3, [i](World& w) { return w.lights[i].spot_direction.data(); },
+        name + ".spot_direction", kCall, 3, [i](InterfaceCase& w) { return w.lights[i].spot_direction.data(); },
         finite);
     f.number(
-        name + ".spot_exponent", kCall, [i](World& w) { return &w.lights[i].spot_exponent; },
+        name + ".spot_exponent", kCall, [i](InterfaceCase& w) { return &w.lights[i].spot_exponent; },
         within(0, 16384));
     f.number(
-        name + ".spot_cutoff", kCall, [i](World& w) { return &w.lights[i].spot_cutoff; }, cutoff);
+        name + ".spot_cutoff", kCall, [i](InterfaceCase& w) { return &w.lights[i].spot_cutoff; }, cutoff);
     f.number(
-        name + ".attenuation_constant", kCall, [i](World& w) { return &w.lights[i].attenuation_constant; },
+        name + ".attenuation_constant", kCall, [i](InterfaceCase& w) { return &w.lights[i].attenuation_constant; },
         finite);
     f.number(
-        name + ".attenuation_linear", kCall, [i](World& w) { return &w.lights[i].attenuation_linear; },
+        name + ".attenuation_linear", kCall, [i](InterfaceCase& w) { return &w.lights[i].attenuation_linear; },
         finite);
     f.number(
-        name + ".attenuation_quadratic", kCall, [i](World& w) { return &w.lights[i].attenuation_quadratic; },
+        name + ".attenuation_quadratic", kCall, [i](InterfaceCase& w) { return &w.lights[i].attenuation_quadratic; },
         finite);
   }
   f.color(
-      "light_model.ambient", "Frame::set_light_model", [](World& w) { return &w.model.ambient; }, finite);
+      "light_model.ambient", "Frame::set_light_model", [](InterfaceCase& w) { return &w.model.ambient; }, finite);
   f.choice(
-      "light_model.specular", "Frame::set_light_model", [](World& w) { return &w.model.specular; },
-      Highlight::phong);
+      "light_model.specular", "Frame::set_light_model", [](InterfaceCase& w) { return &w.model.specular; },
+      SpecularModel::phong);
 }
 
 inline void add_clear_and_accum(Fields& f) {
@@ -197,26 +197,26 @@ inline void add_clear_and_accum(Fields& f) {
   };
   const auto optional = [](auto& o) { return o ? &*o : nullptr; };
   f.color(
-      "clear.color", "Frame::clear", [=](World& w) { return optional(w.clear.color); }, within(0, 1));
+      "clear.color", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.color); }, within(0, 1));
   f.number(
-      "clear.index", "Frame::clear", [=](World& w) { return optional(w.clear.index); }, within(0, 255));
+      "clear.index", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.index); }, within(0, 255));
   f.number(
-      "clear.depth", "Frame::clear", [=](World& w) { return optional(w.clear.depth); }, within(0, 1));
+      "clear.depth", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.depth); }, within(0, 1));
   f.number(
-      "clear.stencil", "Frame::clear", [=](World& w) { return optional(w.clear.stencil); }, within(0, 31));
+      "clear.stencil", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.stencil); }, within(0, 31));
   f.color(
-      "clear.accumulation", "Frame::clear", [=](World& w) { return optional(w.clear.accumulation); },
+      "clear.accumulation", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.accumulation); },
       within(-1, 1));
   f.rect(
-      "clear.scissor", "Frame::clear", [](World& w) { return &w.clear.scissor; }, anything, not_negative);
+      "clear.scissor", "Frame::clear", [](InterfaceCase& w) { return &w.clear.scissor; }, anything, not_negative);
   f.number(
-      "accum.value", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->value : nullptr; },
+      "accum.value", "Frame::accumulate", [](InterfaceCase& w) { return w.accum ? &w.accum->value : nullptr; },
       finite);
   f.choice(
-      "accum.op", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->op : nullptr; },
-      AccumOp::return_);
+      "accum.op", "Frame::accumulate", [](InterfaceCase& w) { return w.accum ? &w.accum->op : nullptr; },
+      AccumOp::return_color);
   f.rect(
-      "accum.scissor", "Frame::accumulate", [](World& w) { return w.accum ? &w.accum->scissor : nullptr; },
+      "accum.scissor", "Frame::accumulate", [](InterfaceCase& w) { return w.accum ? &w.accum->scissor : nullptr; },
       anything, not_negative);
 }
 
@@ -234,21 +234,21 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
     [[maybe_unused]] const auto& [src, dst, src_alpha, dst_alpha, equation, color] = b;
   };
   f.choice(
-      name + ".depth.test", call, [at](World& w) { return &at(w).depth.test; }, Compare::always);
+      name + ".depth.test", call, [at](InterfaceCase& w) { return &at(w).depth.test; }, Compare::always);
   f.number(
       name + ".alpha_test.ref", call,
-      [at](World& w) { return at(w).alpha_test ? &at(w).alpha_test->ref : nullptr; }, within(0, 1));
+      [at](InterfaceCase& w) { return at(w).alpha_test ? &at(w).alpha_test->ref : nullptr; }, within(0, 1));
   f.choice(
       name + ".alpha_test.func", call,
-      [at](World& w) { return at(w).alpha_test ? &at(w).alpha_test->func : nullptr; }, Compare::always);
+      [at](InterfaceCase& w) { return at(w).alpha_test ? &at(w).alpha_test->func : nullptr; }, Compare::always);
   for (const bool back : {false, true}) {
     const std::string face_name = name + (back ? ".stencil.back" : ".stencil.front");
-    const auto face = [at, back](World& w) -> StencilFace* {
+    const auto face = [at, back](InterfaceCase& w) -> StencilFace* {
       auto& stencil = at(w).stencil;
       return !stencil ? nullptr : !back ? &stencil->front : stencil->back ? &*stencil->back : nullptr;
     };
     const auto part = [face](auto member) {
-      return [face, member](World& w) {
+      return [face, member](InterfaceCase& w) {
         StencilFace* const s = face(w);
         return s == nullptr ? nullptr : &(s->*member);
       };
@@ -262,32 +262,32 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
     f.choice(face_name + ".zpass", call, part(&StencilFace::zpass), StencilOp::decr_wrap);
   }
   f.color(
-      name + ".blend.color", call, [at](World& w) { return at(w).blend ? &at(w).blend->color : nullptr; },
+      name + ".blend.color", call, [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->color : nullptr; },
       within(0, 1));
   f.choice(
-      name + ".blend.src", call, [at](World& w) { return at(w).blend ? &at(w).blend->src : nullptr; },
+      name + ".blend.src", call, [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->src : nullptr; },
       BlendFactor::src_alpha_saturate);
   f.choice(
-      name + ".blend.dst", call, [at](World& w) { return at(w).blend ? &at(w).blend->dst : nullptr; },
+      name + ".blend.dst", call, [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->dst : nullptr; },
       BlendFactor::src_alpha_saturate);
   f.choice(
       name + ".blend.src_alpha", call,
-      [at](World& w) { return at(w).blend ? &at(w).blend->src_alpha.emplace() : nullptr; },
+      [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->src_alpha.emplace() : nullptr; },
       BlendFactor::src_alpha_saturate);
   f.choice(
       name + ".blend.dst_alpha", call,
-      [at](World& w) { return at(w).blend ? &at(w).blend->dst_alpha.emplace() : nullptr; },
+      [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->dst_alpha.emplace() : nullptr; },
       BlendFactor::src_alpha_saturate);
   f.choice(
       name + ".blend.equation", call,
-      [at](World& w) { return at(w).blend ? &at(w).blend->equation : nullptr; }, BlendEquation::max);
+      [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->equation : nullptr; }, BlendEquation::max);
   f.choice(
-      name + ".logic_op", call, [at](World& w) { return at(w).blend ? nullptr : &at(w).logic_op; },
+      name + ".logic_op", call, [at](InterfaceCase& w) { return at(w).blend ? nullptr : &at(w).logic_op; },
       LogicOp::set);
   f.number(
-      name + ".plane_mask", call, [at](World& w) { return &at(w).plane_mask; }, anything);
+      name + ".plane_mask", call, [at](InterfaceCase& w) { return &at(w).plane_mask; }, anything);
   f.rect(
-      name + ".scissor", call, [at](World& w) { return &at(w).scissor; }, anything, not_negative);
+      name + ".scissor", call, [at](InterfaceCase& w) { return &at(w).scissor; }, anything, not_negative);
 }
 
 }  // namespace tessera::test

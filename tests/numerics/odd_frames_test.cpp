@@ -32,7 +32,7 @@ void spoil_mesh(MeshData& mesh, Random& random) {
 }
 
 TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
-  const std::vector<World> all = worlds();
+  const std::vector<InterfaceCase> all = interface_cases();
   std::vector<Field> fields = all_fields();
   std::erase_if(fields, [](const Field& f) {
     return f.name.starts_with("format.") || f.name.starts_with("options.") || f.name.starts_with("target.") ||
@@ -43,7 +43,7 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
   for (std::size_t n = 0; n <= rounds; ++n) {
     const std::size_t round = n < rounds ? n : kWrongOnce;
     Random random(1000 + round);
-    World world = all[random.next() % all.size()];
+    InterfaceCase world = all[random.next() % all.size()];
     SCOPED_TRACE("round " + std::to_string(round) + ", " + world.name);
     world.data.primitive = static_cast<Primitive>(random.next() % 10);
     if (random.next() % 2 == 0)
@@ -65,7 +65,7 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
     std::optional<Outcome> first;
     for (const InstructionSet set : available_instruction_sets())
       for (const int tile_size : {32, 128}) {
-        World copy = world;
+        InterfaceCase copy = world;
         copy.options.tile_size = tile_size;
         copy.options.defer_shading = tile_size == 32;
         const Outcome outcome = run(copy, set);

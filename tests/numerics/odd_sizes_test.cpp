@@ -75,7 +75,7 @@ struct Scene {
     frame.clear({.color = Color{0.5f, 0, 0.5f, 1}, .scissor = Rect{0, 0, 1, 1}});
     if (format.accumulation_bits > 0) {
       frame.accumulate({.op = AccumOp::load, .value = 0.7});
-      frame.accumulate({.op = AccumOp::return_, .value = 1.2, .scissor = Rect{1, 0, 16384, 16384}});
+      frame.accumulate({.op = AccumOp::return_color, .value = 1.2, .scissor = Rect{1, 0, 16384, 16384}});
     }
   }
 };
@@ -125,7 +125,7 @@ std::vector<std::uint8_t> shown(const FrameBuffer& buffer, PixelOrder order, boo
          .height = height,
          .stride_bytes = upwards ? -stride : stride,
          .order = order,
-         .part = part});
+         .region = part});
   for (int y = 0; y < height; ++y) {
     const auto row = memory.begin() + stride * (upwards ? height - 1 - y : y);
     rows.insert(rows.end(), row, row + 4 * width);
@@ -145,9 +145,9 @@ TEST(OddSizes, PlanesWordsReadBackAndScanOutAgree) {
       Frame frame(buffer), shown_frame(presented);
       scene.record(frame, format);
       renderer.finish(frame);
-      const auto words = color_words(buffer);
+      const auto words = packed_colors(buffer);
       expect_planes(buffer, Buffer::color, words);
-      if (format.depth != DepthFormat::none) expect_planes(buffer, Buffer::depth, depth_words(buffer));
+      if (format.depth != DepthFormat::none) expect_planes(buffer, Buffer::depth, stored_depths(buffer));
       if (format.stencil_bits > 0) expect_planes(buffer, Buffer::stencil, stencil_values(buffer));
       std::vector<std::uint8_t> expected;
       for (const PixelOrder order : {PixelOrder::rgba8, PixelOrder::bgra8})
@@ -216,9 +216,9 @@ TEST(OddSizes, ShowWhatALargerBufferShowsThere) {
               ASSERT_EQ(part[here], whole[there]) << what << " at " << x << ", " << y << " from the top";
             }
         };
-        expect_part(color_words(small), color_words(large), "colour");
+        expect_part(packed_colors(small), packed_colors(large), "colour");
         if (smalls[f].depth != DepthFormat::none)
-          expect_part(depth_words(small), depth_words(large), "depth");
+          expect_part(stored_depths(small), stored_depths(large), "depth");
         if (smalls[f].stencil_bits > 0) expect_part(stencil_values(small), stencil_values(large), "stencil");
         if (HasFatalFailure()) return;
       }

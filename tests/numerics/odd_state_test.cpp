@@ -11,8 +11,8 @@ namespace {
 
 // Where neither draw nor image nor accumulation may write, the clear alone may have been; where that was not,
 // what a new buffer holds.
-void expect_nothing_outside(const World& w, const Outcome& outcome) {
-  if (w.accum && w.accum->op == AccumOp::return_) return;
+void expect_nothing_outside(const InterfaceCase& w, const Outcome& outcome) {
+  if (w.accum && w.accum->op == AccumOp::return_color) return;
   const int width = w.format.width, height = w.format.height;
   std::optional<std::uint32_t> cleared, uncleared, far_cleared, far_uncleared;
   for (int y = 0; y < height; ++y)
@@ -41,10 +41,10 @@ void expect_named(const Field& field, std::size_t value, const std::string& mess
       << "\"" << message << "\" does not say \"" << texts.front() << "\"";
 }
 
-void expect_refusal_or_picture(const Field& field, std::size_t value, const World& world) {
+void expect_refusal_or_picture(const Field& field, std::size_t value, const InterfaceCase& world) {
   std::optional<Outcome> first;
   for (const InstructionSet set : available_instruction_sets()) {
-    World copy = world;
+    InterfaceCase copy = world;
     if (!field.set(copy, value)) return;
     const Verdict verdict = field.verdict(value);
     const Outcome outcome = run(copy, set);
@@ -73,18 +73,18 @@ void expect_refusal_or_picture(const Field& field, std::size_t value, const Worl
 
 // Each value in two of the worlds, or in all.
 TEST(OddState, IsRefusedOrDrawn) {
-  const std::vector<World> all = worlds();
+  const std::vector<InterfaceCase> all = interface_cases();
   std::size_t turn = 0, pairs = 0;
   for (const Field& field : all_fields()) {
-    std::vector<const World*> with;
-    for (const World& world : all) {
-      World copy = world;
+    std::vector<const InterfaceCase*> with;
+    for (const InterfaceCase& world : all) {
+      InterfaceCase copy = world;
       if (field.set(copy, 0)) with.push_back(&world);
     }
     if (with.empty()) continue;
     for (std::size_t value = 0; value < field.values; ++value)
       for (std::size_t i = 0; i < (long_tests() ? with.size() : std::min<std::size_t>(2, with.size())); ++i) {
-        const World& world = *with[turn++ % with.size()];
+        const InterfaceCase& world = *with[turn++ % with.size()];
         SCOPED_TRACE(field.name + " is " + field.found(value).front() + ", in \"" + world.name + "\"");
         expect_refusal_or_picture(field, value, world);
         ++pairs;
@@ -98,7 +98,7 @@ TEST(OddState, IsNotLookedForInVain) {
   std::size_t somewhere = 0;
   for (const Field& field : all_fields()) {
     std::size_t with = 0;
-    for (World& world : worlds()) with += field.set(world, 0);
+    for (InterfaceCase& world : interface_cases()) with += field.set(world, 0);
     somewhere += with > 0;
     EXPECT_TRUE(with > 0 || field.name.starts_with("fragments."))
         << field.name << " is in none of the worlds";
@@ -108,11 +108,11 @@ TEST(OddState, IsNotLookedForInVain) {
 
 // Unchanged, each world is drawn, the same on every instruction set, and there is something to see.
 TEST(OddState, BeginsWithPictures) {
-  for (const World& world : worlds()) {
+  for (const InterfaceCase& world : interface_cases()) {
     SCOPED_TRACE(world.name);
     std::optional<Outcome> first;
     for (const InstructionSet set : available_instruction_sets()) {
-      World copy = world;
+      InterfaceCase copy = world;
       const Outcome outcome = run(copy, set);
       ASSERT_EQ(outcome.refused_by, "") << outcome.message;
       expect_nothing_outside(copy, outcome);
@@ -150,7 +150,7 @@ TEST(OddState, OfExecutorsTakesNoMemoryForWorkersBeyondTheMost) {
       Frame frame(buffer);
       frame.clear({.color = Color{1, 0, 0, 1}});
       renderer->finish(frame);
-      EXPECT_EQ(color_words(buffer)[0], 0xff0000u);
+      EXPECT_EQ(packed_colors(buffer)[0], 0xff0000u);
     }
   }
 }

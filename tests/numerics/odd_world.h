@@ -13,7 +13,7 @@ namespace tessera::test {
 
 /// One value for each field of each struct of the interface. `texels` is memory for images of up to 16384
 /// pixels in one direction.
-struct World {
+struct InterfaceCase {
   std::string name;
   RendererOptions options{.threads = 1};
   FrameBufferFormat format{.width = 48, .height = 36};
@@ -33,7 +33,7 @@ struct World {
   ImageTarget target;
   std::vector<Buffer> kept{Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
-  World() {
+  InterfaceCase() {
     static const std::vector<std::uint8_t> texels = [] {
       std::vector<std::uint8_t> bytes(1 << 20);
       Random random(21);
@@ -76,7 +76,7 @@ struct Outcome {
 };
 
 /// Every call, in order, until one throws Error.
-inline Outcome run(World& w, InstructionSet set) {
+inline Outcome run(InterfaceCase& w, InstructionSet set) {
   Outcome outcome;
   const char* call = "Renderer";
   try {
@@ -119,8 +119,8 @@ inline Outcome run(World& w, InstructionSet set) {
     outcome.stats = renderer.finish(frame, target);
     call = "FrameBuffer::read_color_words";
     outcome.fingerprint = fingerprint(buffer);
-    outcome.color = color_words(buffer);
-    if (w.format.depth != DepthFormat::none) outcome.depth = depth_words(buffer);
+    outcome.color = packed_colors(buffer);
+    if (w.format.depth != DepthFormat::none) outcome.depth = stored_depths(buffer);
   } catch (const Error& error) {
     outcome.refused_by = call;
     outcome.message = error.what();
@@ -136,8 +136,8 @@ inline bool contains(const std::optional<Rect>& rect, int x, int y) {
 }
 
 /// Each shows other fields: shadings, primitives, formats, tests, samples.
-inline std::vector<World> worlds() {
-  std::vector<World> all(7);
+inline std::vector<InterfaceCase> interface_cases() {
+  std::vector<InterfaceCase> all(7);
   all[0].name = "gouraud";
   all[0].format.stencil_bits = 5;
   all[0].clear = {
@@ -172,13 +172,13 @@ inline std::vector<World> worlds() {
                    .color_bits = 8,
                    .palette = {{0, 0, 0, 1}, {0.3f, 0.7f, 0.1f, 1}, {1, 1, 1, 1}},
                    .depth = DepthFormat::unorm32};
-  all[3].state.material.color_indexes = {{3, 120, 250}};
-  all[3].state.back_material->color_indexes = {{30, 20, 10}};
+  all[3].state.material.index_ramp = {{3, 120, 250}};
+  all[3].state.back_material->index_ramp = {{30, 20, 10}};
   all[3].clear = {.index = 7u, .depth = 1.0};
   all[4].name = "outlines with an offset, a logic operation";
   all[4].state.front_mode = PolygonMode::line, all[4].state.back_mode = PolygonMode::point;
   all[4].state.polygon_offset = {0.5f, 2};
-  all[4].state.logic_op = LogicOp::xor_;
+  all[4].state.logic_op = LogicOp::bit_xor;
   all[4].state.provoking_vertex = ProvokingVertex::first;
   all[4].format.depth = DepthFormat::unorm32, all[4].format.accumulation_bits = 32,
   all[4].format.dither = Dither::bayer4;
@@ -195,7 +195,7 @@ inline std::vector<World> worlds() {
   all[6].sampler.wrap_s = TextureWrap::mirrored_repeat;
   all[6].format.samples = 8, all[6].format.color_bits = 16;
   all[6].state.color_material = ColorMaterial::ambient_and_diffuse;
-  all[6].target.part = Rect{5, 6, 20, 20};
+  all[6].target.region = Rect{5, 6, 20, 20};
   return all;
 }
 

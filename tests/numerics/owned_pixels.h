@@ -18,16 +18,16 @@ namespace tessera::test {
 /// Drawn into a buffer of kSide x kSide pixels over black, all of it in a window's corners, so that clip
 /// space holds them exactly. Colours, texels and depths of a triangle are everywhere the same, and levels of
 /// all formats.
-class OwnedPixels {
+class VisibilityOracle {
  public:
   static constexpr int kSide = 128;           ///< pixels
   static constexpr int kTextureSide = 64;     ///< texels
-  static constexpr std::size_t kMost = 2047;  ///< triangles: depths are 1 - k/4096, above a half, whose
+  static constexpr std::size_t kMaxTriangleCount = 2047;  ///< triangles: depths are 1 - k/4096, above a half, whose
                                               ///< levels are integers and less than half of one
 
   /// Of all shapes, over each other.
-  static OwnedPixels of_shapes(int n) {
-    OwnedPixels owned;
+  static VisibilityOracle of_shapes(int n) {
+    VisibilityOracle owned;
     RandomTriangles random(static_cast<std::uint32_t>(n), 64);
     while (owned.triangles_.size() < 256) {
       Triangle triangle = random.next();
@@ -35,12 +35,12 @@ class OwnedPixels {
       for (WindowVertex& v : triangle) v.x += dx, v.y += dy;
       owned.add(triangle);
     }
-    owned.find_owners();
+    owned.find_visible_triangles();
     return owned;
   }
   /// A grid of about `cell` pixels a cell, its vertices moved by up to a third of that.
-  static OwnedPixels of_grid(int n, double cell) {
-    OwnedPixels owned;
+  static VisibilityOracle of_grid(int n, double cell) {
+    VisibilityOracle owned;
     MeshRandom random(n);
     const int cells = std::min(30, static_cast<int>(kSide / cell) + 2);
     const double left = random.unit() * (kSide - (cells - 1) * cell) - cell / 2,
@@ -61,7 +61,7 @@ class OwnedPixels {
         owned.add({p, q, r});
         owned.add(random.coin() ? Triangle{p, r, s} : Triangle{s, r, p});
       }
-    owned.find_owners();
+    owned.find_visible_triangles();
     return owned;
   }
 
@@ -95,11 +95,11 @@ class OwnedPixels {
   static double depth_of(std::uint32_t id) { return 1 - (id + 1) / 4096.0; }
 
   void add(const Triangle& triangle) {
-    constexpr std::int32_t kFarthest = 16000 * 256;  // within the guard band
+    constexpr std::int32_t kMaxCoordinate = 16000 * 256;  // within the guard band
     for (const WindowVertex& v : triangle)
-      if (std::max(std::abs(v.x), std::abs(v.y)) > kFarthest) return;
-    if (triangles_.size() == kMost)
-      throw std::length_error("OwnedPixels: no depth is left for another triangle");
+      if (std::max(std::abs(v.x), std::abs(v.y)) > kMaxCoordinate) return;
+    if (triangles_.size() == kMaxTriangleCount)
+      throw std::length_error("VisibilityOracle: no depth is left for another triangle");
     const auto id = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
     const std::uint32_t word = word_of(id);
@@ -114,7 +114,7 @@ class OwnedPixels {
                                          (static_cast<float>(id / kTextureSide) + 0.5f) / kTextureSide});
     }
   }
-  void find_owners() {
+  void find_visible_triangles() {
     for (std::uint32_t id = 0; id < triangles_.size(); ++id)
       reference_of(triangles_[id]).for_each_covered(0, 0, kSide, kSide, [&](int x, int y) {
         const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);

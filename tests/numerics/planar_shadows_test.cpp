@@ -54,18 +54,18 @@ Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
                   8 * kLongDouble * (std::abs(removed) + 1)) *
                  std::abs(x[c]);
     }
-    keep_worst(worst, std::abs(at - exact) / allowed);
+    update_worst(worst, std::abs(at - exact) / allowed);
     from_plane += p[r] * at;
     from_plane_allowed += std::abs(p[r]) * allowed;
   }
-  keep_worst(worst, std::abs(from_plane) / from_plane_allowed);
+  update_worst(worst, std::abs(from_plane) / from_plane_allowed);
   return worst;
 }
 
 // Between light and plane, and beyond the plane.
-Real4 any_point(Draws& draws, const Shadow& shadow) {
-  Real4 x{draws.between(-10, 10), draws.between(-10, 10), draws.between(-10, 10), 1};
-  if (draws.one_in(2)) {  // near the plane
+Real4 any_point(LightingRng& rng, const Shadow& shadow) {
+  Real4 x{rng.between(-10, 10), rng.between(-10, 10), rng.between(-10, 10), 1};
+  if (rng.one_in(2)) {  // near the plane
     const Real4 p = shadow.p();
     const Real off = dot(p, x) / (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     for (std::size_t k = 0; k < 3; ++k) x[k] -= 0.999L * off * p[k];
@@ -73,30 +73,30 @@ Real4 any_point(Draws& draws, const Shadow& shadow) {
   return x;
 }
 
-Shadow any_shadow(Draws& draws) {
+Shadow any_shadow(LightingRng& rng) {
   Shadow s;
-  const std::array<float, 3> n = draws.direction(), d = draws.direction();
-  const double size = std::pow(10, draws.of({0.0, 0.0, -100.0, 100.0, -290.0, 290.0}));
-  s.plane = {n[0] * size, n[1] * size, n[2] * size, draws.between(-10, 10) * size};
-  const float far = static_cast<float>(std::pow(10, draws.of({-20, -3, 0, 3, 20, 36})));
+  const std::array<float, 3> n = rng.direction(), d = rng.direction();
+  const double size = std::pow(10, rng.of({0.0, 0.0, -100.0, 100.0, -290.0, 290.0}));
+  s.plane = {n[0] * size, n[1] * size, n[2] * size, rng.between(-10, 10) * size};
+  const float far = static_cast<float>(std::pow(10, rng.of({-20, -3, 0, 3, 20, 36})));
   for (std::size_t k = 0; k < 3; ++k) s.light.position[k] = d[k] * far;
-  s.light.position[3] = draws.one_in(3) ? 0 : draws.of({1.0f, 2.0f, -1.0f, 1e-20f});
+  s.light.position[3] = rng.one_in(3) ? 0 : rng.of({1.0f, 2.0f, -1.0f, 1e-20f});
   return s;
 }
 
 TEST(PlanarShadows, FallOntoThePlane) {
-  Draws draws{std::mt19937(51)};
+  LightingRng rng{std::mt19937(51)};
   Real worst = 0;
   int cast = 0;
   for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
-    const Shadow shadow = any_shadow(draws);
+    const Shadow shadow = any_shadow(rng);
     const std::optional<Matrix> m = shadow.matrix();
     if (!m) {
       EXPECT_LT(shadow.slope(), 0x1p-21L) << "there is a shadow";
       continue;
     }
     ++cast;
-    for (int k = 0; k < 4; ++k) keep_worst(worst, worst_error(shadow, *m, any_point(draws, shadow)));
+    for (int k = 0; k < 4; ++k) update_worst(worst, worst_error(shadow, *m, any_point(rng, shadow)));
   }
   EXPECT_GT(cast, 19000);
   expect_within("planar shadows, of 4 double eps over the sine between light and plane", worst, 1, "");
@@ -105,12 +105,12 @@ TEST(PlanarShadows, FallOntoThePlane) {
 // From where the light is 2^-30 of its distance off the plane to where it is well off: refused up to 2^-22 of
 // what is added up, right from there on.
 TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
-  Draws draws{std::mt19937(52)};
+  LightingRng rng{std::mt19937(52)};
   Real worst = 0;
   int cast = 0, refused = 0;
   for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
-    Shadow shadow = any_shadow(draws);
-    const double off = std::exp2(draws.between(-30, -8));
+    Shadow shadow = any_shadow(rng);
+    const double off = std::exp2(rng.between(-30, -8));
     // A plane through nearly where the light is, or along it.
     const Real4 l = shadow.l();
     Real4 p = shadow.p();
@@ -129,7 +129,7 @@ TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
     EXPECT_TRUE(!m || slope > 0x1.fp-23L) << static_cast<double>(slope);
     EXPECT_TRUE(m || slope < 0x1.1p-22L) << static_cast<double>(slope);
     if (!m) continue;
-    for (int k = 0; k < 4; ++k) keep_worst(worst, worst_error(shadow, *m, any_point(draws, shadow)));
+    for (int k = 0; k < 4; ++k) update_worst(worst, worst_error(shadow, *m, any_point(rng, shadow)));
   }
   EXPECT_GT(cast, 5000);
   EXPECT_GT(refused, 3000);

@@ -19,8 +19,8 @@ struct ClipPlane {
     const auto on = [&](std::int64_t ClipPoint::*c) { return origin.*c + u * to_u.*c + v * to_v.*c; };
     return {on(&ClipPoint::x), on(&ClipPoint::y), on(&ClipPoint::z), on(&ClipPoint::w)};
   }
-  std::optional<SeenPlane> seen(const SquareView& view) const {
-    return seen_plane({origin, to_u, to_v}, view);
+  std::optional<VisiblePlane> seen(const SquareViewport& view) const {
+    return visible_plane({origin, to_u, to_v}, view);
   }
   /// Adds vertices at points (u, v) of the plane, times a power of two.
   CountedMesh mesh_at(const std::vector<WindowPoint>& points, double scale = 1) const {
@@ -33,7 +33,7 @@ struct ClipPlane {
     return mesh;
   }
   /// Where z and w are between near and far, and u and v within `size`.
-  ExactRegion region(const SeenPlane& seen, std::int64_t size, bool reversed = false) const {
+  ExactRegion region(const VisiblePlane& seen, std::int64_t size, bool reversed = false) const {
     const auto mix = [&](const auto& value) { return seen.mix(value(origin), value(to_u), value(to_v)); };
     ExactRegion region;
     region.inside.push_back(mix([&](const ClipPoint& p) { return reversed ? p.w - p.z : p.w + p.z; }));
@@ -58,10 +58,10 @@ inline ClipPlane random_plane(MeshRandom& random) {
 }
 
 /// u and v from -size to size, inner vertices anywhere in whole numbers.
-inline Grid random_plane_grid(MeshRandom& random, std::int64_t size, int most_cells) {
+inline Grid random_plane_grid(MeshRandom& random, std::int64_t size, int max_cells) {
   Grid grid;
   do {
-    grid = {random.between(1, most_cells), random.between(1, most_cells), {}};
+    grid = {random.between(1, max_cells), random.between(1, max_cells), {}};
     const double jitter = random.unit();
     const auto place = [&](int n, int last) {
       return std::llround(static_cast<double>(size) *

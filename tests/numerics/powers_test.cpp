@@ -27,8 +27,8 @@ struct Errors {
   long double ulp = 0, relative = 0;
   template <class Real>
   void add(float found, Real exact) {
-    keep_worst(ulp, ulps(found, exact));
-    keep_worst(relative, std::abs(found / exact - 1) * Real{0x1p24});
+    update_worst(ulp, ulps(found, exact));
+    update_worst(relative, std::abs(found / exact - 1) * Real{0x1p24});
   }
 };
 
@@ -51,7 +51,7 @@ TEST(Functions, Logarithms) {
   const auto exact = [](float x) { return std::log2(static_cast<long double>(x)); };
   Errors errors;
   // 1 apart: log2(1) is 0, and comes out so.
-  measure(errors, PowerFunction::log2, bits_of(kSmallestNormal), bits_of(1) - 1, exact);
+  measure(errors, PowerFunction::log2, bits_of(kMinNormal), bits_of(1) - 1, exact);
   measure(errors, PowerFunction::log2, bits_of(1) + 1, bits_of(3.4028234e38f), exact);
   expect_within("log2(x), normal x", errors.ulp, 1.61, "ulp");
   expect_within("log2(x), normal x, relative", errors.relative, 2.09, "2^-24");
@@ -60,7 +60,7 @@ TEST(Functions, Logarithms) {
 TEST(Functions, PowersOfTwo) {
   const auto exact = [](float x) { return std::exp2(static_cast<long double>(x)); };
   Errors errors;
-  measure(errors, PowerFunction::exp2, 0, bits_of(kLargestLog2), exact);
+  measure(errors, PowerFunction::exp2, 0, bits_of(kMaxLog2), exact);
   measure(errors, PowerFunction::exp2, bits_of(-0.0f), bits_of(-126.0f), exact);
   expect_within("2^x, x in -126 .. 96", errors.ulp, 1.2, "ulp");
 }
@@ -97,7 +97,7 @@ class FunctionsPowers : public testing::TestWithParam<float> {};
 TEST_P(FunctionsPowers, OfOneExponent) {
   const float y = GetParam();
   PowerErrors errors;
-  const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kSmallestNormal);
+  const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kMinNormal);
   for_floats(
       bits_of(least), bits_of(1),
       [&](const std::vector<float>& arguments) { errors.add<double>(y, arguments); },
@@ -121,7 +121,7 @@ TEST(Functions, PowersOfAnyExponent) {
     for (float& x : arguments)
       x = std::clamp(
           static_cast<float>(std::exp2((random() % 4 == 0 ? -8 : -126) * unit() / static_cast<double>(y))),
-          kSmallestNormal, 1.0f);
+          kMinNormal, 1.0f);
     errors.add<long double>(y, arguments);
   }
   errors.expect("x^y, y in 0 .. 16384");
@@ -143,7 +143,7 @@ TEST_P(FunctionsWholePowers, OfExponents) {
           const std::vector<float> results =
               evaluated(PowerFunction::chosen, static_cast<float>(n), arguments);
           for (std::size_t i = 0; i < arguments.size(); ++i)
-            keep_worst(share,
+            update_worst(share,
                        std::abs(results[i] / std::pow(double{arguments[i]}, n) - 1) * (0x1p24 / (n - 1)));
         },
         kSampled * 16);
@@ -152,7 +152,7 @@ TEST_P(FunctionsWholePowers, OfExponents) {
 }
 INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsWholePowers,
                          testing::Values(WholeExponents{2, 4}, WholeExponents{5, 8}, WholeExponents{9, 16},
-                                         WholeExponents{17, 32}, WholeExponents{33, kLargestWholePower}),
+                                         WholeExponents{17, 32}, WholeExponents{33, kMaxIntegerExponent}),
                          [](const auto& range) {
                            return "Of" + std::to_string(range.param.first) + "To" +
                                   std::to_string(range.param.last);
@@ -164,7 +164,7 @@ TEST(Functions, PowersOfSubnormalFloats) {
   while (subnormal.size() < 16)
     subnormal.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(0x7fffff * subnormal.size() / 15)));
   for (const float y : {0x1p-10f, 0.5f, 0.75f, 1.0f, 16384.0f}) {
-    const float smallest = evaluated(PowerFunction::power, y, std::vector<float>(16, kSmallestNormal))[0];
+    const float smallest = evaluated(PowerFunction::power, y, std::vector<float>(16, kMinNormal))[0];
     EXPECT_LE(ulps(smallest, std::exp2(std::max(-126.0L * y, -126.0L))), 228.2L) << y;
     EXPECT_EQ(evaluated(PowerFunction::power, y, subnormal), std::vector<float>(16, smallest)) << y;
     EXPECT_EQ(evaluated(PowerFunction::power, y, std::vector<float>(16, 0.0f)), std::vector<float>(16, 0.0f))

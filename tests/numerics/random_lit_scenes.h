@@ -12,60 +12,60 @@ namespace tessera::test {
 inline constexpr float kExponents[] = {0, 0.5f, 1, 20, 128, 10000};
 inline constexpr float kCutoffs[] = {0, 20, 89.999f, 90, 180};
 
-inline Color any_color(Draws& draws, double largest, bool negative) {
-  const auto c = [&] { return static_cast<float>(draws.between(negative ? -largest / 2 : 0, largest)); };
+inline Color random_color(LightingRng& rng, double largest, bool negative) {
+  const auto c = [&] { return static_cast<float>(rng.between(negative ? -largest / 2 : 0, largest)); };
   const float r = c(), g = c();
   return {r, g, c(), 1};
 }
 
 /// Anywhere around the scene, of any kind, and so bright that all of them together rarely saturate.
-inline Light any_light(Draws& draws, std::size_t of, double extent) {
+inline Light random_light(LightingRng& rng, std::size_t of, double extent) {
   const double share = std::min(1.5, 8 / static_cast<double>(of));
-  const bool negative = draws.one_in(4);
-  Light l{.ambient = draws.one_in(2) ? Color{0, 0, 0, 1} : any_color(draws, share / 4, negative),
-          .diffuse = any_color(draws, share, negative),
-          .specular = any_color(draws, share, negative)};
-  const auto [x, y, z] = draws.direction();
-  if (draws.one_in(4)) {
+  const bool negative = rng.one_in(4);
+  Light l{.ambient = rng.one_in(2) ? Color{0, 0, 0, 1} : random_color(rng, share / 4, negative),
+          .diffuse = random_color(rng, share, negative),
+          .specular = random_color(rng, share, negative)};
+  const auto [x, y, z] = rng.direction();
+  if (rng.one_in(4)) {
     l.position = {x, y, z, 0};
   } else {
-    const double distance = extent * draws.of({0.1, 1.0, 3.0, 100.0}), w = draws.of({1.0, 2.0, -0.25});
+    const double distance = extent * rng.of({0.1, 1.0, 3.0, 100.0}), w = rng.of({1.0, 2.0, -0.25});
     l.position = {static_cast<float>(x * distance * w), static_cast<float>(y * distance * w),
                   static_cast<float>(z * distance * w), static_cast<float>(w)};
-    l.spot_cutoff = draws.of(kCutoffs);
-    const auto [kc, kl, kq] = draws.of<std::array<double, 3>>(
+    l.spot_cutoff = rng.of(kCutoffs);
+    const auto [kc, kl, kq] = rng.of<std::array<double, 3>>(
         {{1, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}, {0, 1, 0}});
     l.attenuation_constant = static_cast<float>(kc);
     l.attenuation_linear = static_cast<float>(kl / distance);
     l.attenuation_quadratic = static_cast<float>(kq / (distance * distance));
   }
-  if (draws.one_in(2)) l.spot_cutoff = 180;
-  l.spot_exponent = draws.of(kExponents);
-  const auto aim = draws.direction();  // some at the scene, some past it
+  if (rng.one_in(2)) l.spot_cutoff = 180;
+  l.spot_exponent = rng.of(kExponents);
+  const auto aim = rng.direction();  // some at the scene, some past it
   l.spot_direction = {-x + 0.3f * aim[0], -y + 0.3f * aim[1], -z + 0.3f * aim[2]};
   return l;
 }
 
-inline Material any_material(Draws& draws) {
-  Material m{.ambient = any_color(draws, 1, false),
-             .diffuse = any_color(draws, 1, false),
-             .specular = any_color(draws, 1, false),
-             .emission = draws.one_in(2) ? Color{0, 0, 0, 1} : any_color(draws, 0.3, true)};
-  m.shininess = draws.of(kExponents);
+inline Material random_material(LightingRng& rng) {
+  Material m{.ambient = random_color(rng, 1, false),
+             .diffuse = random_color(rng, 1, false),
+             .specular = random_color(rng, 1, false),
+             .emission = rng.one_in(2) ? Color{0, 0, 0, 1} : random_color(rng, 0.3, true)};
+  m.shininess = rng.of(kExponents);
   return m;
 }
 
-inline void any_patches(Draws& draws, LitPatches& scene) {
+inline void randomize_patches(LightingRng& rng, LitPatches& scene) {
   for (Patch& patch : scene.patches) {
-    const std::array<float, 3> normal = draws.direction();
+    const std::array<float, 3> normal = rng.direction();
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::array<float, 3> bend = draws.direction();
-      const double size = scene.normalize ? std::exp2(draws.between(-20, 20)) : draws.between(0.1, 1);
+      const std::array<float, 3> bend = rng.direction();
+      const double size = scene.normalize ? std::exp2(rng.between(-20, 20)) : rng.between(0.1, 1);
       for (std::size_t c = 0; c < 3; ++c)
         patch.normals[k][c] = static_cast<float>((normal[c] + 0.2 * bend[c]) * size / 1.2);
-      patch.z[k] = static_cast<float>(scene.extent * draws.between(-2, 2));
+      patch.z[k] = static_cast<float>(scene.extent * rng.between(-2, 2));
     }
-    patch.front = !draws.one_in(2);
+    patch.front = !rng.one_in(2);
   }
 }
 

@@ -98,7 +98,7 @@ TEST_P(SamplePositions, AreWhereTheSpecSaysToThe256thOfAPixel) {
         frame.draw(triangles.mesh.view(), unlit({1, 1, 1, 1}));
         Renderer({.threads = 1, .instruction_set = set}).finish(frame);
         EXPECT_EQ(covered, corner == 0 || corner == 1 ? samples : 0);
-        ASSERT_TRUE(color_words(buffer) == expected)
+        ASSERT_TRUE(packed_colors(buffer) == expected)
             << "corner " << corner << (turned ? ", turned" : "") << ", " << name(set);
       }
 }
@@ -143,7 +143,7 @@ TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
         frame.draw(triangles[i++].mesh.view(), white);
       }
     renderer.finish(frame);
-    ASSERT_TRUE(color_words(buffer) == expected) << "round " << round;
+    ASSERT_TRUE(packed_colors(buffer) == expected) << "round " << round;
   }
 }
 
@@ -156,7 +156,7 @@ TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
     for (const int alpha_bits : {0, 8}) {
       FrameBufferFormat f = format();
       f.color_bits = color_bits, f.alpha_bits = alpha_bits;
-      const Split split(f);
+      const ComponentBits split(f);
       Triangles triangles;
       std::vector<std::uint32_t> expected(std::size_t{kUsed} * kUsed);
       for (int y = 0; y < kUsed; ++y)
@@ -188,7 +188,7 @@ TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
           state.shading = shading;
           frame.draw(triangles.mesh.view(), state);
           Renderer({.threads = 1, .instruction_set = set}).finish(frame);
-          const auto words = color_words(buffer);
+          const auto words = packed_colors(buffer);
           for (int y = 0; y < kUsed; ++y)
             for (int x = 0; x < kUsed; ++x)
               ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)],
@@ -238,7 +238,7 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
       frame.draw(window.view(), red);
       frame.draw(plane.view(), blue);
       Renderer({.threads = 1}).finish(frame);
-      const auto words = color_words(buffer);
+      const auto words = packed_colors(buffer);
       const auto stencil = stencil_values(buffer);
       std::vector<float> depths(pixel_count(buffer));
       buffer.read_depth(depths);

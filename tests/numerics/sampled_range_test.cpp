@@ -81,7 +81,7 @@ void expect_range(const std::string& what, const Subject& subject) {
         if (subject.shape) subject.shape(mesh, random);
         frame.draw(mesh.view(), state);
         renderer.finish(frame);
-        for (const std::uint32_t word : color_words(buffer))
+        for (const std::uint32_t word : packed_colors(buffer))
           for (const int shift : {0, 8, 16}) {
             const int level = static_cast<int>(word >> shift & 255);
             worst = std::max({worst, kLow - level, level - kHigh});

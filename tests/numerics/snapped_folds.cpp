@@ -40,7 +40,7 @@ std::vector<Point> clip(std::vector<Point> polygon, const std::vector<Point>& pl
 }
 
 // The nearest 1/256 pixel, halves up.
-std::int64_t snap(const mpq_class& coordinate, const mpq_class& w, const SquareView& view) {
+std::int64_t snap(const mpq_class& coordinate, const mpq_class& w, const SquareViewport& view) {
   const mpq_class units = 128 * view.side * coordinate / w + mpq_class(1, 2);
   mpz_class floor;
   mpz_fdiv_q(floor.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
@@ -60,7 +60,7 @@ bool edges_cross(const std::vector<WindowPoint>& p) {
   return false;
 }
 
-bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, const SquareView& view) {
+bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, const SquareViewport& view) {
   std::vector<WindowPoint> snapped;
   for (const Point& p : clip({v.begin(), v.end()}, planes))
     if (p[3] > 0) snapped.push_back({snap(p[0], p[3], view), snap(p[1], p[3], view)});
@@ -75,7 +75,7 @@ bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, cons
 
 }  // namespace
 
-bool snapping_folds(const CountedMesh& mesh, const SquareView& view, bool reversed, const Matrix& transform) {
+bool snapping_folds(const CountedMesh& mesh, const SquareViewport& view, bool reversed, const Matrix& transform) {
   const mpq_class guard(2 * kGuardBand, view.side);
   const std::vector<Point> planes{reversed ? Point{0, 0, -1, 1} : Point{0, 0, 1, 1},
                                   reversed ? Point{0, 0, 1, 0} : Point{0, 0, -1, 1},

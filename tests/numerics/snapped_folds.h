@@ -12,7 +12,7 @@ namespace tessera::test {
 /// one is turned over, or its edges cross.
 ///
 /// @param transform  carries the mesh's positions to clip space
-bool snapping_folds(const CountedMesh& mesh, const SquareView& view, bool reversed = false,
+bool snapping_folds(const CountedMesh& mesh, const SquareViewport& view, bool reversed = false,
                     const Matrix& transform = {});
 
 }  // namespace tessera::test

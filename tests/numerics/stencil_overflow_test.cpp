@@ -80,7 +80,7 @@ class Rows {
   void finish() {
     Renderer({.threads = 1}).finish(frame_);
     values_ = stencil_values(buffer_);
-    words_ = color_words(buffer_);
+    words_ = packed_colors(buffer_);
   }
   std::uint32_t value(int x, int y) const { return values_[at(x, y)]; }
   bool is_drawn(int x, int y) const { return words_[at(x, y)] != 0; }

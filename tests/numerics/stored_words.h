@@ -11,10 +11,10 @@ namespace tessera::test {
 
 /// Of an RGB or luminance buffer: where red, green, blue and alpha stand in a word. Of luminance the first
 /// three are the same bits; a component of no bits reads 1.
-struct Split {
+struct ComponentBits {
   std::array<int, 4> bits{}, shift{};
 
-  Split(int color_bits, int alpha_bits) {
+  ComponentBits(int color_bits, int alpha_bits) {
     if (color_bits <= 2) {
       bits = {color_bits, color_bits, color_bits, alpha_bits};
     } else {
@@ -24,7 +24,7 @@ struct Split {
     }
     shift[3] = color_bits;
   }
-  explicit Split(const FrameBufferFormat& format) : Split(format.color_bits, format.alpha_bits) {}
+  explicit ComponentBits(const FrameBufferFormat& format) : ComponentBits(format.color_bits, format.alpha_bits) {}
   bool is_luminance() const { return shift[0] == 0 && bits[0] <= 2; }
   int levels(std::size_t c) const { return (1 << bits[c]) - 1; }  ///< 1.0 as a level
   std::int64_t level(std::uint32_t word, std::size_t c) const {

@@ -31,21 +31,21 @@ struct Tilted {
   std::array<std::int64_t, 3> z;
 };
 
-inline std::array<std::int64_t, 3> random_depths(Dice& dice) {
+inline std::array<std::int64_t, 3> random_depths(Rng& rng) {
   constexpr std::int64_t kOne = std::int64_t{1} << kFraction;
   std::array<std::int64_t, 3> z{};
-  if (dice.between(0, 3) == 0) {
+  if (rng.between(0, 3) == 0) {
     // A half is on the border between two levels: what is less by a hair has the one below.
     z.fill(kOne / 2);
-    z[static_cast<std::size_t>(dice.between(0, 2))] = dice.between(0, kOne);
+    z[static_cast<std::size_t>(rng.between(0, 2))] = rng.between(0, kOne);
     return z;
   }
-  const std::int64_t spread = dice.maybe() ? kOne : std::int64_t{1} << dice.between(0, kFraction);
+  const std::int64_t spread = rng.maybe() ? kOne : std::int64_t{1} << rng.between(0, kFraction);
   for (std::int64_t& each : z) {
-    switch (dice.between(0, 5)) {
-      case 0: each = dice.maybe() ? 0 : kOne; break;
+    switch (rng.between(0, 5)) {
+      case 0: each = rng.maybe() ? 0 : kOne; break;
       case 1: each = z[0]; break;
-      default: each = std::clamp(z[0] + dice.between(-spread, spread), std::int64_t{0}, kOne); break;
+      default: each = std::clamp(z[0] + rng.between(-spread, spread), std::int64_t{0}, kOne); break;
     }
   }
   return z;
@@ -84,7 +84,7 @@ template <class Pixel>
 std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, WindowShape shape, int rounds,
                            const Pixel& pixel, const TiltedState& state = {}) {
   std::size_t seen = 0;
-  Dice dice(70 + static_cast<std::uint32_t>(shape));
+  Rng rng(70 + static_cast<std::uint32_t>(shape));
   for (const Window& window : state.windows) {
     const auto renderer = make({.width = window.width, .height = window.height, .depth = depth.format});
     // Large ones hide each other, needles hardly have a pixel.
@@ -100,7 +100,7 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
                     .depth_far = state.range.far / 8.0,
                     .offset = state.offset};
       for (std::size_t n = 0; n < count; ++n) {
-        all.push_back({random_triangle(dice, shape, window.width, window.height), random_depths(dice)});
+        all.push_back({random_triangle(rng, shape, window.width, window.height), random_depths(rng)});
         add(draw, all.back(), n, window.width, window.height);
       }
       const CasePicture& picture = renderer->draw({draw});

@@ -44,25 +44,25 @@ struct Sum {
   }
 };
 
-double any_number(Dice& dice, int octaves) {
-  const double size = std::exp2(octaves * (2 * dice.unit() - 1));
-  return dice.between(0, 9) == 0 ? 0 : dice.maybe() ? size : -size;
+double any_number(Rng& rng, int octaves) {
+  const double size = std::exp2(octaves * (2 * rng.unit() - 1));
+  return rng.between(0, 9) == 0 ? 0 : rng.maybe() ? size : -size;
 }
 
 /// Elements within 2^20 of each other, of one size, or whole.
-std::array<double, 16> any_matrix(Dice& dice) {
+std::array<double, 16> any_matrix(Rng& rng) {
   std::array<double, 16> m;
-  const int octaves = static_cast<int>(dice.between(0, 2)) * 10;
-  for (double& element : m) element = any_number(dice, octaves) * (octaves == 0 ? dice.unit() : 1);
+  const int octaves = static_cast<int>(rng.between(0, 2)) * 10;
+  for (double& element : m) element = any_number(rng, octaves) * (octaves == 0 ? rng.unit() : 1);
   return m;
 }
 
 /// Some of them make a row's products cancel out but for what their roundings to floats leave.
-std::array<float, 4> any_point(Dice& dice, const std::array<double, 16>& m) {
+std::array<float, 4> any_point(Rng& rng, const std::array<double, 16>& m) {
   std::array<float, 4> p;
-  for (float& c : p) c = static_cast<float>(any_number(dice, 10));
-  const double* row = m.data() + 4 * dice.between(0, 3);
-  if (dice.maybe() && row[0] != 0)
+  for (float& c : p) c = static_cast<float>(any_number(rng, 10));
+  const double* row = m.data() + 4 * rng.between(0, 3);
+  if (rng.maybe() && row[0] != 0)
     p[0] = static_cast<float>(-(row[1] * p[1] + row[2] * p[2] + row[3] * p[3]) / row[0]);
   return p;
 }
@@ -74,16 +74,16 @@ Sum row_times(const std::array<double, 16>& m, std::size_t row, const std::array
 int rounds(int usual) { return long_tests() ? 100 * usual : usual; }
 
 TEST(TransformRounding, ProductsOfMatrices) {
-  Dice dice(71);
+  Rng rng(71);
   long double worst = 0;
   for (int n = 0; n < rounds(20000); ++n) {
-    Matrix a{any_matrix(dice)}, b{any_matrix(dice)};
-    if (dice.maybe() && a.m[1] != 0)
+    Matrix a{any_matrix(rng)}, b{any_matrix(rng)};
+    if (rng.maybe() && a.m[1] != 0)
       b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];  // cancels out in element 0
     const Matrix product = a * b;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
-        keep_worst(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; },
+        update_worst(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; },
                               [&](std::size_t j) { return b.m[4 * j + k]; })
                               .error(product.m[4 * i + k]));
   }
@@ -105,51 +105,51 @@ long double relative_error(double found, const mpq_class& exact) {
 
 /// Changes the matrix so that a sum of the point's leaves hardly any digit of its terms: w, the distance from
 /// the near or the far plane, or that from the guard band.
-void cancel(Dice& dice, std::array<double, 16>& m, const std::array<float, 4>& p, double guard) {
+void cancel(Rng& rng, std::array<double, 16>& m, const std::array<float, 4>& p, double guard) {
   if (p[0] == 0) return;
-  const auto any_sign = [&](double size) { return dice.maybe() ? size : -size; };
+  const auto any_sign = [&](double size) { return rng.maybe() ? size : -size; };
   const auto last_digit = [&](double d) {
-    return d == 0 || dice.maybe() ? d : std::nextafter(d, any_sign(HUGE_VAL));
+    return d == 0 || rng.maybe() ? d : std::nextafter(d, any_sign(HUGE_VAL));
   };
   const auto row = [&](std::size_t n) { return m.data() + 4 * n; };
-  const std::int64_t kind = dice.between(0, 2);
+  const std::int64_t kind = rng.between(0, 2);
   if (kind == 0) {
     row(3)[0] = last_digit(-(row(3)[1] * p[1] + row(3)[2] * p[2] + row(3)[3] * p[3]) / p[0]);
   } else {
-    const std::size_t beside_w = kind == 1 ? 2 : static_cast<std::size_t>(dice.between(0, 1));
+    const std::size_t beside_w = kind == 1 ? 2 : static_cast<std::size_t>(rng.between(0, 1));
     const double factor = any_sign(kind == 1 ? 1 : guard);
     for (std::size_t k = 0; k < 4; ++k) row(beside_w)[k] = last_digit(factor * row(3)[k]);
   }
 }
 
 TEST(TransformRounding, PositionsInClipSpace) {
-  Dice dice(72);
+  Rng rng(72);
   long double worst = 0, worst_w = 0, worst_rough = 0;
-  int rough = 0, smooth = 0;
+  int inexact = 0, smooth = 0;
   for (int n = 0; n < rounds(50000); ++n) {
-    std::array<double, 16> m = any_matrix(dice);
-    const std::array<float, 4> p = any_point(dice, m);
+    std::array<double, 16> m = any_matrix(rng);
+    const std::array<float, 4> p = any_point(rng, m);
     VertexTransform t;
-    t.half_width = t.half_height = static_cast<double>(dice.between(1, 16384)) / 2;
+    t.half_width = t.half_height = static_cast<double>(rng.between(1, 16384)) / 2;
     t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
-    t.reversed = dice.maybe();
-    if (n % 4 == 0) cancel(dice, m, p, t.guard_x);
+    t.reversed = rng.maybe();
+    if (n % 4 == 0) cancel(rng, m, p, t.guard_x);
     std::copy(m.begin(), m.end(), t.clip_from_object);
-    t.set_roughness();
+    t.set_error_bounds();
     const auto coordinates = [](const ClipPosition& position) {
       return std::array{position.x, position.y, position.z, position.w};
     };
     const std::array<double, 4> rounded = coordinates(clip_position(t, p[0], p[1], p[2], p[3]));
-    for (std::size_t row = 0; row < 4; ++row) keep_worst(worst, row_times(m, row, p).error(rounded[row]));
+    for (std::size_t row = 0; row < 4; ++row) update_worst(worst, row_times(m, row, p).error(rounded[row]));
     const TransformedVertex v = transform_vertex(t, p);
-    (v.is_rough ? rough : smooth) += 1;
+    (v.needs_exact ? inexact : smooth) += 1;
     const std::array<double, 4> found = coordinates(v.position);
-    if (v.is_rough)
+    if (v.needs_exact)
       for (std::size_t row = 0; row < 4; ++row)
-        keep_worst(worst_rough, relative_error(found[row], exact_row_times(m, row, p)));
-    else keep_worst(worst_w, relative_error(found[3], exact_row_times(m, 3, p)));
+        update_worst(worst_rough, relative_error(found[row], exact_row_times(m, row, p)));
+    else update_worst(worst_w, relative_error(found[3], exact_row_times(m, 3, p)));
   }
-  EXPECT_GT(rough, rounds(5000));
+  EXPECT_GT(inexact, rounds(5000));
   EXPECT_GT(smooth, rounds(30000));
   expect_within("clip coordinates, of the sum of sizes", worst / kDouble, 4, "2^-53");
   expect_within("w of vertices that are rounded four times, relative", worst_w * 0x1p20L, 1, "2^-20");
@@ -159,17 +159,17 @@ TEST(TransformRounding, PositionsInClipSpace) {
 
 // w is a product of two numbers, which rounds once, by w of itself.
 TEST(TransformRounding, ReciprocalsOfW) {
-  Dice dice(75);
+  Rng rng(75);
   long double worst = 0;
   const auto any_size = [&] {
-    return (1 + dice.unit()) * std::exp2(static_cast<double>(dice.between(-59, 58)));
+    return (1 + rng.unit()) * std::exp2(static_cast<double>(rng.between(-59, 58)));
   };
   for (int n = 0; n < rounds(1500); ++n) {
     VertexTransform t;
     t.half_width = t.half_height = 32;
     t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
     t.clip_from_object[15] = any_size();
-    t.set_roughness();
+    t.set_error_bounds();
     float positions[kVertexBatch][4] = {};
     for (auto& [x, y, z, w] : positions) w = static_cast<float>(any_size());
     for (const Isa isa : available_isas()) {
@@ -177,7 +177,7 @@ TEST(TransformRounding, ReciprocalsOfW) {
       std::uint8_t codes[kVertexBatch];
       EXPECT_EQ(transform_vertices(isa)(t, {positions[0], 4}, 4, kVertexBatch, found, codes), 0);
       for (std::size_t i = 0; i < kVertexBatch; ++i)
-        keep_worst(worst, std::abs(static_cast<long double>(
+        update_worst(worst, std::abs(static_cast<long double>(
                               Quad{found[i].rw} * Quad{t.clip_from_object[15]} * Quad{positions[i][3]} - 1)));
     }
   }
@@ -185,17 +185,17 @@ TEST(TransformRounding, ReciprocalsOfW) {
 }
 
 TEST(TransformRounding, PositionsInEyeSpace) {
-  Dice dice(73);
+  Rng rng(73);
   long double worst = 0;
   int divided = 0;
   for (int n = 0; n < rounds(1500); ++n) {
-    std::array<double, 16> m = any_matrix(dice);
+    std::array<double, 16> m = any_matrix(rng);
     for (std::size_t k = 0; k < 4 && n % 4 < 2; ++k) m[12 + k] = k == 3;  // w stays what it is
     EyeTransform t;
     std::copy(m.begin(), m.end(), t.eye_from_object);
     std::vector<std::array<float, 4>> points(kVertexBatch);
     for (std::array<float, 4>& p : points) {
-      p = any_point(dice, m);
+      p = any_point(rng, m);
       if (n % 2 == 0) p[3] = 1;
     }
     for (const Isa isa : available_isas()) {
@@ -212,7 +212,7 @@ TEST(TransformRounding, PositionsInEyeSpace) {
                      of_sum = static_cast<long double>(sum.sizes / size),
                      of_w = std::abs(exact) * static_cast<long double>(w.sizes / size);
           const long double bound = kFloat * std::abs(exact) + 5 * kDouble * (of_sum + of_w) + 0x1p-149L;
-          keep_worst(worst, std::abs(found[row][i] - exact) / bound);
+          update_worst(worst, std::abs(found[row][i] - exact) / bound);
         }
       }
     }
@@ -238,36 +238,36 @@ std::array<PlaneDistance, 7> plane_distances(const VertexTransform& t, const Cli
           of(kAboveGuardBand, gy, -y),
           t.reversed ? of(kBeforeNear, w, -z) : of(kBeforeNear, w, z),
           t.reversed ? of(kBehindFar, z, 0) : of(kBehindFar, w, -z),
-          of(kNoPositiveW, w, 0)};
+          of(kNonPositiveW, w, 0)};
 }
 
 // Coordinates within 8 steps of the planes, which the last column of a matrix gives to the vertex 0 0 0 1:
 // where rounding might decide, codes are exact.
 TEST(TransformRounding, ClipCodes) {
-  Dice dice(74);
+  Rng rng(74);
   long double worst = 0;
   std::size_t right = 0, wrong = 0, on_planes = 0;
   for (int n = 0; n < rounds(40000); ++n) {
     VertexTransform t;
-    const auto width = static_cast<double>(dice.between(1, 16384)),
-               height = static_cast<double>(dice.between(1, 16384));
+    const auto width = static_cast<double>(rng.between(1, 16384)),
+               height = static_cast<double>(rng.between(1, 16384));
     t.half_width = width / 2, t.half_height = height / 2;
     t.guard_x = kGuardBandPixels / t.half_width, t.guard_y = kGuardBandPixels / t.half_height;
-    t.reversed = dice.maybe();
-    const double w = any_number(dice, 20);
+    t.reversed = rng.maybe();
+    const double w = any_number(rng, 20);
     const auto beside = [&](double plane) {
-      for (std::int64_t steps = dice.between(0, 8); steps > 0; --steps)
-        plane = std::nextafter(plane, dice.maybe() ? HUGE_VAL : -HUGE_VAL);
+      for (std::int64_t steps = rng.between(0, 8); steps > 0; --steps)
+        plane = std::nextafter(plane, rng.maybe() ? HUGE_VAL : -HUGE_VAL);
       return plane;
     };
-    const auto sign = [&] { return dice.maybe() ? 1.0 : -1.0; };
+    const auto sign = [&] { return rng.maybe() ? 1.0 : -1.0; };
     const double at[4] = {beside(sign() * t.guard_x * w), beside(sign() * t.guard_y * w),
-                          t.reversed && dice.maybe() ? 0 : beside(sign() * w), w};
+                          t.reversed && rng.maybe() ? 0 : beside(sign() * w), w};
     for (std::size_t row = 0; row < 4; ++row) t.clip_from_object[4 * row + 3] = at[row];
     const ClipPosition position{at[0], at[1], at[2], at[3]};
-    t.set_roughness();
+    t.set_error_bounds();
     const float vertex[4] = {0, 0, 0, 1};
-    std::vector<std::uint8_t> codes{transform_vertex(t, {0, 0, 0, 1}).code};
+    std::vector<std::uint8_t> codes{transform_vertex(t, {0, 0, 0, 1}).outcode};
     for (const Isa isa : available_isas()) {
       WindowVertex window;
       std::uint8_t code = 0;
@@ -275,7 +275,7 @@ TEST(TransformRounding, ClipCodes) {
       codes.push_back(code);
     }
     for (const PlaneDistance& plane : plane_distances(t, position)) {
-      const bool outside = plane.bit == kNoPositiveW ? !(plane.distance > 0) : plane.distance < 0;
+      const bool outside = plane.bit == kNonPositiveW ? !(plane.distance > 0) : plane.distance < 0;
       on_planes += plane.distance == 0 ? 1 : 0;
       for (const std::uint8_t code : codes) {
         if (outside == ((code & plane.bit) != 0)) {
@@ -283,7 +283,7 @@ TEST(TransformRounding, ClipCodes) {
           continue;
         }
         ++wrong;
-        keep_worst(worst, plane.size == 0 ? HUGE_VALL
+        update_worst(worst, plane.size == 0 ? HUGE_VALL
                                           : std::abs(static_cast<long double>(plane.distance / plane.size)));
       }
     }

@@ -54,9 +54,9 @@ std::size_t drawn(const std::vector<std::uint32_t>& words) {
       std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; }));
 }
 
-Matrix turn(Draws& draws) {
-  const std::array<float, 3> axis = draws.direction();
-  return rotate(draws.between(0, 360), axis[0], axis[1], axis[2]);
+Matrix turn(LightingRng& rng) {
+  const std::array<float, 3> axis = rng.direction();
+  return rotate(rng.between(0, 360), axis[0], axis[1], axis[2]);
 }
 Real3 transformed(const Matrix& m, const Real3& v) {
   Real3 r{};
@@ -72,16 +72,16 @@ Real3 cross(const Real3& a, const Real3& b) {
 // plane is what the inverse transpose makes of the object's; which side is seen is the window's matter: a
 // mirrored triangle turns the other way round, and shows its back where its normal faces the eye.
 TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
-  Draws draws{std::mt19937(61)};
+  LightingRng rng{std::mt19937(61)};
   Canvas canvas;
   Real worst = 0;
   int fronts = 0, backs = 0, mirrored = 0;
   for (int n = 0; n < 2000 * (long_tests() ? 30 : 1); ++n) {
-    const double x = std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1),
-                 y = std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1);
-    const Matrix transform = scale(1, 1, 1e-3) * turn(draws) *
-                             scale(x, y, std::exp2(draws.between(-3, 3)) * (draws.one_in(2) ? -1 : 1)) *
-                             turn(draws);
+    const double x = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1),
+                 y = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1);
+    const Matrix transform = scale(1, 1, 1e-3) * turn(rng) *
+                             scale(x, y, std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1)) *
+                             turn(rng);
     const std::array<float, 9> corners{-1, -1, 0, 1, -1, 0, 0, 1.5f, 0};
     Real3 at[3];
     for (std::size_t k = 0; k < 3; ++k)
@@ -96,20 +96,20 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
     // by a mirror.
     const Real3 m0 = transformed(transform, {1, 0, 0}), m1 = transformed(transform, {0, 1, 0}),
                 m2 = transformed(transform, {0, 0, 1});
-    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, clockwise = draws.one_in(2),
+    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, clockwise = rng.one_in(2),
                front = (area > 0) != clockwise;
     const Real3 normal = normalized(cross(m0, m1) * (is_mirrored ? -1 : 1));
     const std::array<float, 3> up{0, 0, 1};
     std::vector<float> normals;
     for (int k = 0; k < 3; ++k) normals.insert(normals.end(), up.begin(), up.end());
     DrawState state{.transform = transform,
-                    .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}),
+                    .shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong}),
                     .depth = {.enabled = false}};
     state.front_face = clockwise ? FrontFace::cw : FrontFace::ccw;
     state.material = {.ambient = {0, 0, 0, 1}, .diffuse = {1, 0, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
     state.back_material =
         Material{.ambient = {0, 0, 0, 1}, .diffuse = {0, 1, 0.5f, 1}, .emission = {0, 0, 0.25f, 1}};
-    const std::array<float, 3> l = draws.direction();
+    const std::array<float, 3> l = rng.direction();
     const std::vector<Light> lights{Light{.position = {l[0], l[1], l[2], 0}}};
     const LightModel model{.ambient = {0, 0, 0, 1}, .two_sided = true};
     // Shallow in depth, so that it lies in the view volume; the stretch of the normals is the oracle's, too.
@@ -119,7 +119,7 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
                                  kCosineSlack, front);
     for (std::size_t c = 0; c < 3; ++c) {
       const Real level = word >> (16 - 8 * c) & 255;
-      keep_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
+      update_worst(worst, exact[c].low * 255 - level, level - exact[c].high * 255);
     }
     (front ? fronts : backs) += 1;
     mirrored += is_mirrored;
@@ -201,7 +201,7 @@ TEST(SingularTransforms, DrawWhatTheyLeave) {
       const bool has_area = axes[0] != 0 && axes[1] != 0;
       if (primitive == Primitive::triangles) {
         EXPECT_EQ(drawn(expected) > 0, has_area);
-        EXPECT_EQ(canvas.stats.zero_area + canvas.stats.outside, has_area ? 0u : 1u);
+        EXPECT_EQ(canvas.stats.zero_area + canvas.stats.trivially_rejected, has_area ? 0u : 1u);
       }
       EXPECT_TRUE(primitive != Primitive::points || drawn(expected) > 0);
     }
@@ -210,7 +210,7 @@ TEST(SingularTransforms, DrawWhatTheyLeave) {
 
 // Lit under singular and huge transforms: nothing that is no number eats the ambient part.
 TEST(SingularTransforms, KeepTheAmbientPart) {
-  Draws draws{std::mt19937(62)};
+  LightingRng rng{std::mt19937(62)};
   Canvas canvas;
   const std::vector<float> origin{0, 0, 0};
   const std::vector<Light> lights{Light{.ambient = {0.5f, 0.5f, 0.5f, 1}},
@@ -220,17 +220,17 @@ TEST(SingularTransforms, KeepTheAmbientPart) {
     for (std::size_t i = 0; i < 12; ++i)
       if (i % 4 != 3)
         transform.m[i] =
-            draws.one_in(2) ? 0 : draws.of({1.0, -1.0, 1e-300, 1e300, 1e-160, 1e160, 1e20, draws.unit()});
+            rng.one_in(2) ? 0 : rng.of({1.0, -1.0, 1e-300, 1e300, 1e-160, 1e160, 1e20, rng.unit()});
     const std::array<float, 3> normal =
-        draws.one_in(4) ? std::array<float, 3>{0, 0, 3e38f} : draws.direction();
+        rng.one_in(4) ? std::array<float, 3>{0, 0, 3e38f} : rng.direction();
     DrawState state{.transform = transform,
-                    .shading = draws.of({Shading::flat, Shading::gouraud, Shading::phong}),
-                    .normalize = draws.one_in(2),
+                    .shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong}),
+                    .normalize = rng.one_in(2),
                     .depth = {.enabled = false}};
     state.material = {.ambient = {1, 1, 1, 1}, .specular = {1, 1, 1, 1}, .shininess = 3};
     const LightModel model{.ambient = {0, 0, 0, 1},
-                           .local_viewer = draws.one_in(2),
-                           .specular = draws.of({Highlight::blinn, Highlight::phong})};
+                           .local_viewer = rng.one_in(2),
+                           .specular = rng.of({SpecularModel::blinn, SpecularModel::phong})};
     const std::uint32_t word =
         canvas.draw({.primitive = Primitive::points, .positions = origin, .normals = normal}, state, {},
                     lights, model)[kMiddle];

@@ -136,7 +136,7 @@ TEST(Translation, ChangesNeitherColorsNorDepths) {
                     return changes.colors;
                   });
     expect_within("moved by whole pixels: depths change, " + depth.name, ours.depths, 0, "pixels");
-    if (has_mesa) set_beside("moved by whole pixels: depths change, " + depth.name, mesas.depths);
+    if (has_mesa) report_mesa_figure("moved by whole pixels: depths change, " + depth.name, mesas.depths);
   }
 }
 
@@ -249,7 +249,7 @@ TEST(Translation, ReachesTheFarCornerOfTheLargestBuffer) {
                             .width = width,
                             .height = height,
                             .stride_bytes = std::ptrdiff_t{4} * width,
-                            .part = place});
+                            .region = place});
     EXPECT_EQ(buffer.allocated_bytes(Buffer::color) + buffer.allocated_bytes(Buffer::depth) +
                   buffer.allocated_bytes(Buffer::stencil),
               0u);

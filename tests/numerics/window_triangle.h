@@ -58,9 +58,9 @@ inline double clip_y(std::int64_t y, int height) {
 }
 
 /// The same numbers on every machine and library.
-struct Dice {
+struct Rng {
   std::mt19937 random;
-  explicit Dice(std::uint32_t seed) : random(seed) {}
+  explicit Rng(std::uint32_t seed) : random(seed) {}
   double unit() { return static_cast<double>(random()) * 0x1p-32; }
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>((std::uint64_t{random()} << 32 | random()) %
@@ -84,10 +84,10 @@ inline constexpr WindowShape kWindowShapes[] = {WindowShape::small, WindowShape:
                                                 WindowShape::sliver, WindowShape::needle};
 
 /// Of some area; near enough to the window to be drawn without a cut.
-inline WindowTriangle random_triangle(Dice& dice, WindowShape shape, int width, int height) {
+inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, int height) {
   const std::int64_t w = std::int64_t{width} * kGrid, h = std::int64_t{height} * kGrid;
   const auto anywhere = [&] {
-    return GridPoint{dice.between(-kGrid, w + kGrid), dice.between(-kGrid, h + kGrid)};
+    return GridPoint{rng.between(-kGrid, w + kGrid), rng.between(-kGrid, h + kGrid)};
   };
   for (;;) {
     WindowTriangle t{{anywhere(), anywhere(), anywhere()}};
@@ -96,29 +96,29 @@ inline WindowTriangle random_triangle(Dice& dice, WindowShape shape, int width, 
       case WindowShape::any: break;
       case WindowShape::small:
         for (GridPoint* p : {&b, &c})
-          *p = {a.x + dice.between(-4 * kGrid, 4 * kGrid), a.y + dice.between(-4 * kGrid, 4 * kGrid)};
+          *p = {a.x + rng.between(-4 * kGrid, 4 * kGrid), a.y + rng.between(-4 * kGrid, 4 * kGrid)};
         break;
       case WindowShape::centers:
-        if (dice.maybe())
+        if (rng.maybe())
           for (GridPoint* p : {&b, &c})
-            *p = {a.x + dice.between(-8 * kGrid, 8 * kGrid), a.y + dice.between(-8 * kGrid, 8 * kGrid)};
+            *p = {a.x + rng.between(-8 * kGrid, 8 * kGrid), a.y + rng.between(-8 * kGrid, 8 * kGrid)};
         for (GridPoint& p : t.at) p = {(p.x & -kGrid) + kGrid / 2, (p.y & -kGrid) + kGrid / 2};
         break;
       case WindowShape::sliver: {
-        if (width > height) a.x = dice.between(-kGrid, kGrid), b.x = w - dice.between(-kGrid, kGrid);
-        else a.y = dice.between(-kGrid, kGrid), b.y = h - dice.between(-kGrid, kGrid);
-        const double along = dice.unit();
-        c = {a.x + std::llround(along * static_cast<double>(b.x - a.x)) + dice.between(-4, 4),
-             a.y + std::llround(along * static_cast<double>(b.y - a.y)) + dice.between(-4, 4)};
+        if (width > height) a.x = rng.between(-kGrid, kGrid), b.x = w - rng.between(-kGrid, kGrid);
+        else a.y = rng.between(-kGrid, kGrid), b.y = h - rng.between(-kGrid, kGrid);
+        const double along = rng.unit();
+        c = {a.x + std::llround(along * static_cast<double>(b.x - a.x)) + rng.between(-4, 4),
+             a.y + std::llround(along * static_cast<double>(b.y - a.y)) + rng.between(-4, 4)};
         break;
       }
       case WindowShape::needle: {
         // From a pixel's centre through other centres; Euclid's algorithm finds the third vertex, nearest to
         // the line.
         a = {(a.x & -kGrid) + kGrid / 2, (a.y & -kGrid) + kGrid / 2};
-        const std::int64_t turns = dice.between(1, 4);
+        const std::int64_t turns = rng.between(1, 4);
         const std::int64_t dx = (b.x - a.x) / kGrid * kGrid, dy = (b.y - a.y) / kGrid * kGrid;
-        const std::int64_t step_x = dx + dice.between(-1, 1), step_y = dy + dice.between(-1, 1);
+        const std::int64_t step_x = dx + rng.between(-1, 1), step_y = dy + rng.between(-1, 1);
         b = {a.x + step_x, a.y + step_y};
         std::int64_t r0 = step_x, r1 = step_y, s0 = 1, s1 = 0, t0 = 0, t1 = 1;
         while (r1 != 0) {
@@ -136,8 +136,8 @@ inline WindowTriangle random_triangle(Dice& dice, WindowShape shape, int width, 
              std::abs(p.x - w / 2) < 16000 * kGrid && std::abs(p.y - h / 2) < 16000 * kGrid;
     });
     if (drawn_whole && t.area() > 0) {
-      std::rotate(t.at.begin(), t.at.begin() + dice.between(0, 2), t.at.end());
-      if (dice.maybe()) std::swap(t.at[1], t.at[2]);
+      std::rotate(t.at.begin(), t.at.begin() + rng.between(0, 2), t.at.end());
+      if (rng.maybe()) std::swap(t.at[1], t.at[2]);
       return t;
     }
   }

@@ -30,7 +30,7 @@ WorkloadEntry grid_of(int columns, int draws = 1) {
 }
 
 TracedFrame cost_of(const WorkloadEntry& entry, int workers) {
-  return costs_of_frames(entry, {.width = 256, .height = 256, .options = {.tile_size = 32}},
+  return measure_frame_costs(entry, {.width = 256, .height = 256, .options = {.tile_size = 32}},
                          std::array{workers}, 0)
       .front();
 }
@@ -41,19 +41,19 @@ TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
   for (const int workers : {1, 2, 64}) {
     const TracedFrame frame = cost_of(grid, workers);
     EXPECT_GT(frame.tasks.size(), 64u) << workers;
-    EXPECT_GT(frame.seconds_taking, 0) << workers;
-    EXPECT_GT(frame.seconds, frame.seconds_taking + frame.seconds_in_tasks()) << workers;
+    EXPECT_GT(frame.dispatch_seconds, 0) << workers;
+    EXPECT_GT(frame.seconds, frame.dispatch_seconds + frame.task_seconds()) << workers;
     const TracedFrame tasks =
-        cost_of_tasks(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
-    EXPECT_DOUBLE_EQ(tasks.seconds, tasks.seconds_taking + tasks.seconds_in_tasks()) << workers;
+        measure_task_costs(grid, {.width = 256, .height = 256, .options = {.tile_size = 32}}, workers);
+    EXPECT_DOUBLE_EQ(tasks.seconds, tasks.dispatch_seconds + tasks.task_seconds()) << workers;
   }
 }
 
 TEST(FrameCosts, CountCallsForWorkersThatNoTaskTellsOf) {
-  EXPECT_EQ(cost_of(grid_of(64), 2).calls_without_tasks, 0);
-  EXPECT_EQ(cost_of(grid_of(256), 2).calls_without_tasks, 1)
+  EXPECT_EQ(cost_of(grid_of(64), 2).untraced_calls, 0);
+  EXPECT_EQ(cost_of(grid_of(256), 2).untraced_calls, 1)
       << "so many indices that recording asks for help";
-  EXPECT_EQ(cost_of(grid_of(4, 17), 2).calls_without_tasks, 1) << "so many draws that planning does";
+  EXPECT_EQ(cost_of(grid_of(4, 17), 2).untraced_calls, 1) << "so many draws that planning does";
   const WorkloadEntry onto_planes = drawn("onto", "", [](int, int, std::uint32_t) {
     Drawing drawing{.format = {.width = 256, .height = 256}};
     drawing.before = [](const Drawing&, Frame& frame) {
@@ -62,7 +62,7 @@ TEST(FrameCosts, CountCallsForWorkersThatNoTaskTellsOf) {
     drawing.record = [](const Drawing&, Frame&) {};
     return drawing;
   });
-  EXPECT_EQ(cost_of(onto_planes, 2).calls_without_tasks, 0)
+  EXPECT_EQ(cost_of(onto_planes, 2).untraced_calls, 0)
       << "what is drawn before the first frame is none of it";
 }
 
@@ -93,7 +93,7 @@ TEST(FrameCosts, AreMeasuredInTurns) {
   const WorkloadEntry entry{.name = "noted", .what = "", .make = [&log](const WorkloadSetup& setup) {
                               return std::make_unique<Noted>(log, setup.options.threads);
                             }};
-  const std::vector<TracedFrame> costs = costs_of_frames(entry, {}, std::array{1, 64}, 0);
+  const std::vector<TracedFrame> costs = measure_frame_costs(entry, {}, std::array{1, 64}, 0);
   ASSERT_EQ(costs.size(), 2u);
   for (const TracedFrame& cost : costs) EXPECT_GE(cost.seconds, 0);
   // The first two frames of each, and then three turns of three frames with tasks noted and three without.
@@ -107,7 +107,7 @@ TEST(FrameCosts, AreMeasuredInTurns) {
   EXPECT_EQ(log.frames[16].second, log.frames[0].second) << "the same in each turn";
   EXPECT_NE(log.frames[7].second, log.frames[0].second);
   const auto start = std::chrono::steady_clock::now();
-  costs_of_frames(entry, {}, std::array{1, 64}, 0.1);
+  measure_frame_costs(entry, {}, std::array{1, 64}, 0.1);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100))
       << "they go on for their time";
 }
@@ -132,7 +132,7 @@ class Traced : public Workload {
   Picture picture_{1, 1};
 };
 std::size_t tasks_of(const std::vector<std::size_t>& tasks) {
-  return cost_of_tasks(
+  return measure_task_costs(
              {.name = "traced",
               .what = "",
               .make = [&](const WorkloadSetup& setup) { return std::make_unique<Traced>(setup, tasks); }},

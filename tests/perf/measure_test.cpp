@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "perf/bench/limits.h"
-#include "perf/bench/rivalry.h"
+#include "perf/bench/rival_comparisons.h"
 
 namespace tessera::bench {
 namespace {
@@ -59,13 +59,13 @@ struct Made {
   Picture picture = grey(100);
   std::string fault{};
   int fails_at = -1;  // the frame
-  Limit limit = Limit::none;
-  std::uint64_t limited_bytes = 1 << 20;
+  Roofline roofline = Roofline::none;
+  std::uint64_t roofline_bytes = 1 << 20;
   std::uint64_t tile_bytes = 0;
 };
 Candidate counting(Log& log, int number, const Made& made = {}) {
   const FrameWork work{
-      .pixels = 1, .limit = made.limit, .limited_bytes = made.limited_bytes, .tile_bytes = made.tile_bytes};
+      .pixels = 1, .roofline = made.roofline, .roofline_bytes = made.roofline_bytes, .tile_bytes = made.tile_bytes};
   return {.name = "counting",
           .make =
               [=, &log] {
@@ -96,20 +96,20 @@ TEST(BenchMeasure, TakesTurnsAsOftenEach) {
 
 TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
   MeasureOptions options = kFewFrames;
-  options.takes_limits = true;
-  for (const Limit limit : {Limit::l1_stores, Limit::tile_stores, Limit::memory_stores, Limit::memory_copies,
-                            Limit::memory_loads}) {
+  options.measures_rooflines = true;
+  for (const Roofline roofline : {Roofline::l1_stores, Roofline::tile_stores, Roofline::memory_stores, Roofline::memory_copies,
+                            Roofline::memory_loads}) {
     Log log;
     const std::vector<Row> rows =
-        measure(std::vector{counting(log, 0, {.limit = limit, .tile_bytes = 1 << 20}), counting(log, 1)},
+        measure(std::vector{counting(log, 0, {.roofline = roofline, .tile_bytes = 1 << 20}), counting(log, 1)},
                 options, HardwareCounters());
     ASSERT_EQ(rows.size(), 2u);
-    const double alone = measure_limit(limit, 1, 1 << 20);  // and on a busy machine
-    EXPECT_GT(rows[0].limit, alone / 30);
-    EXPECT_LT(rows[0].limit, alone * 30);
-    EXPECT_EQ(rows[1].limit, 0) << "there is none";
+    const double alone = measure_bandwidth(roofline, 1, 1 << 20);  // and on a busy machine
+    EXPECT_GT(rows[0].roofline, alone / 30);
+    EXPECT_LT(rows[0].roofline, alone * 30);
+    EXPECT_EQ(rows[1].roofline, 0) << "there is none";
     for (const Row& row : rows) EXPECT_EQ(row.frames, 7u);
-    // Of the two alone whoever follows the other draws a frame more; with the limit some of those that follow
+    // Of the two alone whoever follows the other draws a frame more; with the roofline some of those that follow
     // themselves do.
     const std::vector<int> turns(log.frames.begin() + 2 + 2 * 3, log.frames.end());
     std::size_t changes = 1;
@@ -117,7 +117,7 @@ TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
     EXPECT_GT(turns.size(), 2 * 7 + changes) << "it stood between them";
     Log without;
     EXPECT_EQ(
-        measure(std::vector{counting(without, 0, {.limit = limit})}, kFewFrames, HardwareCounters())[0].limit,
+        measure(std::vector{counting(without, 0, {.roofline = roofline})}, kFewFrames, HardwareCounters())[0].roofline,
         0)
         << "nobody asked";
   }
@@ -125,25 +125,25 @@ TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
 
 TEST(BenchMeasure, WhatTilesStoreIsHeldAgainstTheFirstCacheToo) {
   MeasureOptions options = kFewFrames;
-  options.takes_limits = true;
+  options.measures_rooflines = true;
   Log log;
   const auto row_of = [&](std::uint64_t tile_bytes) {
     return measure(
         std::vector{counting(
-            log, 0, {.limit = Limit::tile_stores, .limited_bytes = 1 << 14, .tile_bytes = tile_bytes})},
+            log, 0, {.roofline = Roofline::tile_stores, .roofline_bytes = 1 << 14, .tile_bytes = tile_bytes})},
         options, HardwareCounters())[0];
   };
   const Row small = row_of(1 << 14), large = row_of(1 << 26);
   for (const Row& row : {small, large}) {
     EXPECT_EQ(row.frames, 7u);
-    EXPECT_GT(row.limit, 0);
+    EXPECT_GT(row.roofline, 0);
     EXPECT_GT(row.l1_stores, 0);
   }
 #ifndef __SANITIZE_THREAD__  // what it notes of each byte takes as long, wherever that is
-  EXPECT_LT(large.limit, large.l1_stores / 2) << "no cache next to a core holds so much";
+  EXPECT_LT(large.roofline, large.l1_stores / 2) << "no cache next to a core holds so much";
 #endif
   const Row other =
-      measure(std::vector{counting(log, 0, {.limit = Limit::memory_stores})}, options, HardwareCounters())[0];
+      measure(std::vector{counting(log, 0, {.roofline = Roofline::memory_stores})}, options, HardwareCounters())[0];
   EXPECT_EQ(other.l1_stores, 0) << "it is not for tiles";
 }
 
@@ -152,49 +152,49 @@ TEST(BenchMeasure, FramesFillTheirSecondsWhateverTheirLimitTakes) {
   // less.
   Log log;
   const std::vector<Row> rows =
-      measure(std::vector{counting(log, 0, {.limit = Limit::l1_stores})},
-              {.seconds = 0.01, .warm_up_seconds = 0, .takes_limits = true}, HardwareCounters());
+      measure(std::vector{counting(log, 0, {.roofline = Roofline::l1_stores})},
+              {.seconds = 0.01, .warm_up_seconds = 0, .measures_rooflines = true}, HardwareCounters());
   EXPECT_GT(rows[0].frames, 15u);
-  EXPECT_GT(rows[0].limit, 0);
+  EXPECT_GT(rows[0].roofline, 0);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
 TEST(BenchMeasure, ARowIsTimedThoughThereIsNoMemoryForItsLimit) {
   Log log;
-  for (const Limit limit : {Limit::memory_stores, Limit::memory_copies}) {
+  for (const Roofline roofline : {Roofline::memory_stores, Roofline::memory_copies}) {
     MeasureOptions options = kFewFrames;
-    options.takes_limits = true;
+    options.measures_rooflines = true;
     const std::vector<Row> rows =
-        measure(std::vector{counting(log, 0, {.limit = limit, .limited_bytes = std::uint64_t{1} << 60})},
+        measure(std::vector{counting(log, 0, {.roofline = roofline, .roofline_bytes = std::uint64_t{1} << 60})},
                 options, HardwareCounters());
     EXPECT_EQ(rows[0].fault, "");
     EXPECT_EQ(rows[0].frames, 7u);
-    EXPECT_EQ(rows[0].limit, 0);
+    EXPECT_EQ(rows[0].roofline, 0);
   }
 }
 #endif
 
-TEST(BenchLimits, CountWhatTheyMove) {
-  EXPECT_EQ(LimitMoves(Limit::memory_stores, 2, 1000, 1000).bytes(), 1000);
-  EXPECT_EQ(LimitMoves(Limit::memory_loads, 1, 1000, 2000).bytes(), 2000);
-  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 4000, 12000).bytes(), 12000) << "half of them are read";
-  EXPECT_EQ(LimitMoves(Limit::memory_copies, 8, 4, 4).bytes(), 16) << "each thread something";
-  EXPECT_EQ(LimitMoves(Limit::memory_stores, 2, 5000, 12000).bytes(), 10000) << "whole memories";
-  EXPECT_EQ(LimitMoves(Limit::memory_copies, 2, 5000, 1000).bytes(), 5000) << "once";
-  EXPECT_EQ(LimitMoves(Limit::memory_stores, 1, 16, 64 << 20).bytes(), 16e6)
+TEST(BenchBandwidth, CountWhatTheyMove) {
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 1000, 1000).bytes(), 1000);
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_loads, 1, 1000, 2000).bytes(), 2000);
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 4000, 12000).bytes(), 12000) << "half of them are read";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 8, 4, 4).bytes(), 16) << "each thread something";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 5000, 12000).bytes(), 10000) << "whole memories";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 5000, 1000).bytes(), 5000) << "once";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 1, 16, 64 << 20).bytes(), 16e6)
       << "a million times, and no more";
-  EXPECT_EQ(LimitMoves(Limit::l1_stores, 3, 5000, 1000).bytes(), 20000.0 * 3 * 16384)
+  EXPECT_EQ(BandwidthKernel(Roofline::l1_stores, 3, 5000, 1000).bytes(), 20000.0 * 3 * 16384)
       << "the first caches', whatever the frame";
 }
 
-TEST(BenchLimits, AreTheFramesOwn) {
-  EXPECT_EQ(limit_for({.limit = Limit::memory_stores, .limited_bytes = 1000, .tile_bytes = 8}, 2, 1).bytes(),
+TEST(BenchBandwidth, AreTheFramesOwn) {
+  EXPECT_EQ(bandwidth_kernel_for({.roofline = Roofline::memory_stores, .roofline_bytes = 1000, .tile_bytes = 8}, 2, 1).bytes(),
             1000);
-  EXPECT_EQ(limit_for({.limit = Limit::tile_stores, .limited_bytes = 8, .tile_bytes = 1000}, 2, 1).bytes(),
+  EXPECT_EQ(bandwidth_kernel_for({.roofline = Roofline::tile_stores, .roofline_bytes = 8, .tile_bytes = 1000}, 2, 1).bytes(),
             2000)
       << "a tile for each thread";
-  EXPECT_EQ(limit_for({.limit = Limit::l1_stores, .limited_bytes = 8, .tile_bytes = 8}, 1, 1).bytes(),
+  EXPECT_EQ(bandwidth_kernel_for({.roofline = Roofline::l1_stores, .roofline_bytes = 8, .tile_bytes = 8}, 1, 1).bytes(),
             20000.0 * 16384);
 }
 
@@ -205,7 +205,7 @@ TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
               HardwareCounters());
   EXPECT_EQ(rows[0].fault, "");
   EXPECT_EQ(rows[1].fault, "a pixel is off");
-  EXPECT_FALSE(rows[1].is_stopped);
+  EXPECT_FALSE(rows[1].is_aborted);
   for (const Row& row : rows) EXPECT_EQ(row.frames, 0u);
   EXPECT_EQ(log.frames.size(), 2u);
 }
@@ -216,7 +216,7 @@ TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
     const std::vector<Row> rows =
         measure(std::vector{counting(log, 0, {.fails_at = frame})}, kFewFrames, HardwareCounters());
     EXPECT_EQ(rows[0].fault, "out of memory") << frame;
-    EXPECT_TRUE(rows[0].is_stopped) << frame;
+    EXPECT_TRUE(rows[0].is_aborted) << frame;
     EXPECT_EQ(rows[0].frames, 0u) << frame;
     EXPECT_EQ(log.alive, 0) << frame;
   }
@@ -235,35 +235,35 @@ TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
   EXPECT_EQ(measure(std::vector{unmade}, kFewFrames, HardwareCounters())[0].fault, "no such mesh");
 }
 
-TEST(BenchDuel, IsFoughtOverTheSamePicture) {
+TEST(BenchComparison, IsFoughtOverTheSamePicture) {
   Log log;
   Made off;
   for (std::size_t i = 0; i < 5; ++i) off.picture.rgba[4 * i + i % 3] = 103;  // five pixels of a hundred
   off.picture.rgba[400 - 4] = 102;                                            // two levels are none
   off.picture.rgba[400 - 5] = 0;                                              // nor is alpha
-  const Duel even = duel(counting(log, 0), counting(log, 1, off), 0.05, kFewFrames, HardwareCounters());
+  const Comparison even = compare_with_rival(counting(log, 0), counting(log, 1, off), 0.05, kFewFrames, HardwareCounters());
   EXPECT_EQ(even.fault(), "");
-  EXPECT_DOUBLE_EQ(even.share_off, 0.05);
+  EXPECT_DOUBLE_EQ(even.mismatch_share, 0.05);
   EXPECT_EQ(even.ours.frames, 7u);
   EXPECT_EQ(even.rivals.frames, 7u);
-  const Duel odd = duel(counting(log, 0), counting(log, 1, off), 0.049, kFewFrames, HardwareCounters());
+  const Comparison odd = compare_with_rival(counting(log, 0), counting(log, 1, off), 0.049, kFewFrames, HardwareCounters());
   EXPECT_EQ(odd.fault(),
             "the rival's picture differs by more than two levels in 5.000 % of the pixels, expected 4.900 % "
             "at most");
   EXPECT_EQ(odd.ours.frames, 0u);
 }
 
-TEST(BenchDuel, SaysWhoIsWrong) {
+TEST(BenchComparison, SaysWhoIsWrong) {
   Log log;
   EXPECT_EQ(
-      duel(counting(log, 0, {.fault = "ours"}), counting(log, 1), 1, kFewFrames, HardwareCounters()).fault(),
+      compare_with_rival(counting(log, 0, {.fault = "ours"}), counting(log, 1), 1, kFewFrames, HardwareCounters()).fault(),
       "ours");
   EXPECT_EQ(
-      duel(counting(log, 0), counting(log, 1, {.fault = "the rival's"}), 1, kFewFrames, HardwareCounters())
+      compare_with_rival(counting(log, 0), counting(log, 1, {.fault = "the rival's"}), 1, kFewFrames, HardwareCounters())
           .fault(),
       "the rival's");
   EXPECT_EQ(
-      duel(counting(log, 0), counting(log, 1, {.picture = Picture(10, 9)}), 1, kFewFrames, HardwareCounters())
+      compare_with_rival(counting(log, 0), counting(log, 1, {.picture = Picture(10, 9)}), 1, kFewFrames, HardwareCounters())
           .fault(),
       "the rival's picture has another size");
 }

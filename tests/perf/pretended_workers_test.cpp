@@ -14,7 +14,7 @@ struct Seen {
   std::vector<std::thread::id> threads;
 };
 
-Seen run_twice(PretendedWorkers& workers) {
+Seen run_twice(SimulatedWorkers& workers) {
   Seen seen;
   const auto note = [](void* context, int worker) {
     auto& s = *static_cast<Seen*>(context);
@@ -27,7 +27,7 @@ Seen run_twice(PretendedWorkers& workers) {
   return seen;
 }
 
-void expect_one_by_one(PretendedWorkers& workers, bool on_caller) {
+void expect_one_by_one(SimulatedWorkers& workers, bool on_caller) {
   EXPECT_EQ(workers.workers(), 64);
   const Seen seen = run_twice(workers);
   EXPECT_EQ(seen.workers, (std::vector<int>{0, 1, 2, 0, 1}));
@@ -41,17 +41,17 @@ void expect_one_by_one(PretendedWorkers& workers, bool on_caller) {
   EXPECT_EQ(workers.take_calls(), 0);
 }
 
-TEST(PretendedWorkers, RunOneByOneOnTheCaller) {
-  WorkersOnCaller workers(64);
+TEST(SimulatedWorkers, RunOneByOneOnTheCaller) {
+  WorkersOnCallingThread workers(64);
   expect_one_by_one(workers, true);
 }
 
-TEST(PretendedWorkers, RunOneByOneElsewhere) {
-  WorkersElsewhere workers(64, allowed_cores().back(), 1 << 16);
+TEST(SimulatedWorkers, RunOneByOneElsewhere) {
+  WorkersOnOtherCore workers(64, allowed_cores().back(), 1 << 16);
   expect_one_by_one(workers, false);
 }
 
-TEST(PretendedWorkers, MayNeverRun) { WorkersElsewhere(64, allowed_cores().back(), 0); }
+TEST(SimulatedWorkers, MayNeverRun) { WorkersOnOtherCore(64, allowed_cores().back(), 0); }
 
 }  // namespace
 }  // namespace tessera::bench

@@ -15,30 +15,30 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEST(Report, NamesCountersOnlyWhereSomethingRan) {
   const std::string kNone = "hardware counters: the system gives none";
-  EXPECT_FALSE(has(table_ending({.rows = {kFaulty}}), kNone));
-  EXPECT_TRUE(has(table_ending({.rows = {kFaulty, kTimed}}), kNone));
+  EXPECT_FALSE(has(table_summary({.rows = {kFaulty}}), kNone));
+  EXPECT_TRUE(has(table_summary({.rows = {kFaulty, kTimed}}), kNone));
   Row counted = kTimed;
   counted.counts = {.cycles = 3000000, .instructions = 6000000};
-  const std::string text = table_ending({.rows = {kTimed, counted}});
+  const std::string text = table_summary({.rows = {kTimed, counted}});
   EXPECT_FALSE(has(text, kNone)) << text;
   EXPECT_TRUE(has(text, "3.00 million cycles a frame, 2.00 instructions a cycle")) << text;
 }
 
 TEST(Report, SaysWhatThereWasNoMemoryFor) {
   Row limited = kTimed;
-  limited.work.limit = Limit::memory_copies;
-  limited.work.limited_bytes = 8000000;
-  const Report without{.limits = {.l1_stores = 90.5, .memory_loads_of_one_core = 7},
+  limited.work.roofline = Roofline::memory_copies;
+  limited.work.roofline_bytes = 8000000;
+  const Report without{.bandwidth = {.l1_stores = 90.5, .memory_loads_single_core = 7},
                        .rows = {kTimed, limited}};
-  const std::string text = table_ending(without);
+  const std::string text = table_summary(without);
   EXPECT_TRUE(has(text, "stores in L1 90.5, of 64 KiB a thread (no memory), of a frame (no memory),"))
       << text;
   EXPECT_TRUE(has(text, "loads of 256 MiB (no memory) (by one core 7.0)\n")) << text;
   EXPECT_TRUE(text.ends_with("timed                  no memory for copies of as much\n")) << text;
-  const nlohmann::ordered_json rates = report_json(without)["limits_gigabytes_per_second"];
-  EXPECT_EQ(rates, (nlohmann::ordered_json{{"l1_stores", 90.5}, {"memory_loads_of_one_core", 7.0}}));
-  limited.limit = 16;  // of which two milliseconds for 8 MB are a quarter
-  const std::string share = table_ending({.rows = {limited}});
+  const nlohmann::ordered_json rates = report_json(without)["bandwidth_gigabytes_per_second"];
+  EXPECT_EQ(rates, (nlohmann::ordered_json{{"l1_stores", 90.5}, {"memory_loads_single_core", 7.0}}));
+  limited.roofline = 16;  // of which two milliseconds for 8 MB are a quarter
+  const std::string share = table_summary({.rows = {limited}});
   EXPECT_TRUE(
       share.ends_with("timed                  moves 4.0 GB/s, 25 % of copies of as much (16.0 GB/s)\n"))
       << share;
@@ -46,22 +46,22 @@ TEST(Report, SaysWhatThereWasNoMemoryFor) {
 
 TEST(Report, HoldsTilesAgainstTheirOwnStoresAndTheFirstCaches) {
   Row filled = kTimed;
-  filled.work.limit = Limit::tile_stores;
-  filled.work.limited_bytes = 8000000;
-  filled.limit = 8;
+  filled.work.roofline = Roofline::tile_stores;
+  filled.work.roofline_bytes = 8000000;
+  filled.roofline = 8;
   filled.l1_stores = 40;
-  const std::string text = table_ending({.rows = {filled}});
+  const std::string text = table_summary({.rows = {filled}});
   EXPECT_TRUE(
       text.ends_with("timed                  moves 4.0 GB/s, 50 % of stores of a tile's words (8.0 GB/s), 10 "
                      "% of stores in L1 (40.0 GB/s)\n"))
       << text;
   const nlohmann::ordered_json row = report_json({.rows = {filled}})["workloads"][0];
-  EXPECT_EQ(row["limit"], "stores of a tile's words");
-  EXPECT_EQ(row["share_of_limit"], 0.5);
+  EXPECT_EQ(row["roofline"], "stores of a tile's words");
+  EXPECT_EQ(row["share_of_roofline"], 0.5);
   EXPECT_EQ(row["l1_stores_gigabytes_per_second"], 40);
   EXPECT_EQ(row["share_of_l1_stores"], 0.1);
   filled.l1_stores = 0;  // there was no memory for it
-  EXPECT_TRUE(table_ending({.rows = {filled}}).ends_with("stores of a tile's words (8.0 GB/s)\n"));
+  EXPECT_TRUE(table_summary({.rows = {filled}}).ends_with("stores of a tile's words (8.0 GB/s)\n"));
 }
 
 TEST(Report, TablesForProgramsHaveFaultyRowsToo) {

@@ -12,13 +12,13 @@ namespace {
 TEST(BenchStatistics, OfOneValueAreThatValue) {
   const Statistics s = statistics_of({3});
   for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99,
-                             s.least, s.low_median, s.high_median})
+                             s.min, s.median_ci_low, s.median_ci_high})
     EXPECT_EQ(value, 3);
 }
 
 TEST(BenchStatistics, AreMeasuredValuesInWhateverOrderTheyCome) {
   const Statistics five = statistics_of({50, 10, 40, 20, 30});
-  EXPECT_EQ(five.least, 10);
+  EXPECT_EQ(five.min, 10);
   EXPECT_EQ(five.low_quartile, 20) << "two of five are not above it, one would be too few";
   EXPECT_EQ(five.median, 30);
   EXPECT_EQ(five.high_quartile, 40);
@@ -31,7 +31,7 @@ TEST(BenchStatistics, HavePercentilesOfAHundred) {
   for (int i = 0; i < 200; ++i)
     values.push_back((i * 73 + 5) % 200 + 1);  // each of 1 .. 200 once: 73 and 200 have no common factor
   const Statistics s = statistics_of(values);
-  EXPECT_EQ(s.least, 1);
+  EXPECT_EQ(s.min, 1);
   EXPECT_EQ(s.low_quartile, 50);
   EXPECT_EQ(s.median, 100);
   EXPECT_EQ(s.high_quartile, 150);
@@ -50,9 +50,9 @@ TEST(BenchStatistics, BoundsHoldTheMedianNineteenTimesOfTwenty) {
       std::vector<double> values(count);
       for (double& value : values) value = lopsided(random);
       const Statistics s = statistics_of(values);
-      EXPECT_LE(s.low_median, s.median);
-      EXPECT_GE(s.high_median, s.median);
-      held += s.low_median <= std::log(2.0) && std::log(2.0) <= s.high_median ? 1 : 0;
+      EXPECT_LE(s.median_ci_low, s.median);
+      EXPECT_GE(s.median_ci_high, s.median);
+      held += s.median_ci_low <= std::log(2.0) && std::log(2.0) <= s.median_ci_high ? 1 : 0;
     }
     EXPECT_GT(held, 0.94 * kRuns) << count;
     EXPECT_LT(held, 0.985 * kRuns) << count << ": wider than need be";
@@ -60,8 +60,8 @@ TEST(BenchStatistics, BoundsHoldTheMedianNineteenTimesOfTwenty) {
 }
 
 TEST(BenchStatistics, RatiosAreAsWideAsBothMedians) {
-  const Statistics a{.median = 6, .low_median = 5, .high_median = 8},
-      b{.median = 3, .low_median = 2, .high_median = 4};
+  const Statistics a{.median = 6, .median_ci_low = 5, .median_ci_high = 8},
+      b{.median = 3, .median_ci_low = 2, .median_ci_high = 4};
   const Ratio ratio = ratio_of(a, b);
   EXPECT_EQ(ratio.value, 2);
   EXPECT_EQ(ratio.low, 1.25);

@@ -35,7 +35,7 @@ TracedFrame three_tiles() {
   return frame;
 }
 
-TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().seconds_in_tasks(), 1e-4 + 28e-9, 1e-15); }
+TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().task_seconds(), 1e-4 + 28e-9, 1e-15); }
 
 TEST(TracedFrame, IsAChromeTrace) {
   TracedFrame other = three_tiles();
@@ -67,7 +67,7 @@ TEST(TracedFrame, IsAChromeTrace) {
 
 TEST(TracedFrame, IsAPictureOfWhatItsTilesCost) {
   const Heatmap map = heatmap(three_tiles());
-  EXPECT_NEAR(map.most_ns_a_pixel, 3, 1e-6);
+  EXPECT_NEAR(map.max_ns_per_pixel, 3, 1e-6);
   const auto pixel = [&](int x, int y) {  // from the top
     const std::uint8_t* p = map.picture.rgba.data() + 4 * (4 * y + x);
     return std::vector<int>(p, p + 4);
@@ -84,7 +84,7 @@ TEST(TracedFrame, WithoutTilesIsNoPicture) {
   TracedFrame frame = three_tiles();
   frame.tasks.resize(1);
   const Heatmap map = heatmap(frame);
-  EXPECT_EQ(map.most_ns_a_pixel, 0);
+  EXPECT_EQ(map.max_ns_per_pixel, 0);
   EXPECT_TRUE(map.picture.rgba.empty());
 }
 

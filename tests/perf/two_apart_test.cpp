@@ -1,5 +1,5 @@
 // Two workloads at once, which wait for each other to be sure of it.
-#include "perf/bench/two_apart.h"
+#include "perf/bench/independent_renderers.h"
 
 #include <algorithm>
 #include <chrono>
@@ -51,30 +51,30 @@ WorkloadEntry meets(Meeting& meeting, bool fails) {
           }};
 }
 
-TEST(TwoApart, DrawAtOnce) {
+TEST(IndependentRenderers, DrawAtOnce) {
   const ThreadLimit limit(2);
   Meeting meeting;
-  TwoApart apart(meets(meeting, false), {.options = {.threads = 8}});
+  IndependentRenderers apart(meets(meeting, false), {.options = {.threads = 8}});
   const FrameStats stats = apart.draw();
   EXPECT_EQ(meeting.most_inside, 2);
-  EXPECT_EQ(meeting.frames, 2 * TwoApart::kFrames);
+  EXPECT_EQ(meeting.frames, 2 * IndependentRenderers::kFrames);
   EXPECT_EQ(apart.fault(), "");
   EXPECT_EQ(apart.work(stats).pixels, 7u);
   EXPECT_EQ(apart.picture().width, 1) << "the first one's";
 }
 
-TEST(TwoApart, FailIfOneDoes) {
+TEST(IndependentRenderers, FailIfOneDoes) {
   const ThreadLimit limit(2);
   Meeting meeting{.most_inside = 2};
-  TwoApart apart(meets(meeting, true), {});
+  IndependentRenderers apart(meets(meeting, true), {});
   EXPECT_EQ(apart.fault(), "no picture");
   EXPECT_THROW(apart.draw(), Error);
 }
 
 // Six frames in the time of two.
-TEST(TwoApart, AreThreeTimesAsFastIfTheirFramesTakeTheTimeOfTwo) {
-  const Ratio speed = TwoApart::speed_up({.median = 2, .low_median = 1, .high_median = 4},
-                                         {.median = 4, .low_median = 2, .high_median = 4});
+TEST(IndependentRenderers, AreThreeTimesAsFastIfTheirFramesTakeTheTimeOfTwo) {
+  const Ratio speed = IndependentRenderers::speed_up({.median = 2, .median_ci_low = 1, .median_ci_high = 4},
+                                         {.median = 4, .median_ci_low = 2, .median_ci_high = 4});
   EXPECT_DOUBLE_EQ(speed.value, 3);
   EXPECT_DOUBLE_EQ(speed.low, 1.5);
   EXPECT_DOUBLE_EQ(speed.high, 12);

@@ -26,10 +26,10 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
       for (Bins* const to : {&bins[b], &unlimited[b]}) {
         std::uint32_t id = static_cast<std::uint32_t>(i);
         if (i % 9 == 0) {
-          Piece& piece = to->add_piece(id, 3, 8);
-          std::fill_n(to->attributes(piece), 24, static_cast<float>(i));
-          id = to->id_of_last_piece();
-          if (i % 2 == 0) to->drop_last_piece();
+          DerivedPrimitive& derived = to->add_derived(id, 3, 8);
+          std::fill_n(to->attributes(derived), 24, static_cast<float>(i));
+          id = to->last_derived_id();
+          if (i % 2 == 0) to->drop_last_derived();
         }
         if (i % 18 != 0) to->push(tile, draw, id);
       }
@@ -131,14 +131,14 @@ TEST(BinBatches, TilesReadThoseThatHoldSomethingOfThemInOrder) {
         }
       }
       batches.set(bins, kTiles, kFirst);
-      for (int t = 0; t < kTiles; t += 5) batches.look_through(kFirst + t, std::min(5, kTiles - t));
+      for (int t = 0; t < kTiles; t += 5) batches.index_batches(kFirst + t, std::min(5, kTiles - t));
       for (int t = 0; t < kTiles; ++t) {
         EXPECT_EQ(batches.triangles(kFirst + t), triangles[t]);
         EXPECT_EQ(read_by(batches, kFirst + t), expected[t]) << count;
-        EXPECT_EQ(batches.untouched(kFirst + t), expected[t].empty());
+        EXPECT_EQ(batches.known_empty(kFirst + t), expected[t].empty());
       }
-      for (std::uint32_t b = 0; b < count; ++b) EXPECT_EQ(batches.ahead(b), &batches.read(b));
-      EXPECT_EQ(batches.ahead(static_cast<std::uint32_t>(count)), nullptr);
+      for (std::uint32_t b = 0; b < count; ++b) EXPECT_EQ(batches.peek(b), &batches.read(b));
+      EXPECT_EQ(batches.peek(static_cast<std::uint32_t>(count)), nullptr);
     }
   }
 }
@@ -147,13 +147,13 @@ TEST(BinBatches, OneByOneAreAllRead) {
   Bins place;
   std::vector<std::uint32_t> filled;
   BinBatches batches;
-  batches.set_one_by_one(place, 70, [&](std::uint32_t b) { filled.push_back(b); });
-  batches.look_through(7, 1);
+  batches.set_streamed(place, 70, [&](std::uint32_t b) { filled.push_back(b); });
+  batches.index_batches(7, 1);
   EXPECT_EQ(batches.triangles(7), 0);
-  EXPECT_FALSE(batches.untouched(7)) << "nobody looked";
+  EXPECT_FALSE(batches.known_empty(7)) << "nobody looked";
   const std::vector<std::uint32_t> read = read_by(batches, 7);
   ASSERT_EQ(read.size(), 70);
-  EXPECT_EQ(batches.ahead(0), nullptr) << "it would take the place of the one before";
+  EXPECT_EQ(batches.peek(0), nullptr) << "it would take the place of the one before";
   for (std::uint32_t b = 0; b < 70; ++b) {
     EXPECT_EQ(read[b], b);
     EXPECT_EQ(&batches.read(b), &place);

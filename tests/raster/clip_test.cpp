@@ -38,8 +38,8 @@ struct RandomClip {
   }
 };
 
-std::uint8_t codes_of(const VertexTransform& t, const ClipVertex (&v)[3]) {
-  return clip_code(t, v[0].position) | clip_code(t, v[1].position) | clip_code(t, v[2].position);
+std::uint8_t outcodes_of(const VertexTransform& t, const ClipVertex (&v)[3]) {
+  return compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) | compute_outcode(t, v[2].position);
 }
 double magnitude(const ClipVertex (&v)[3]) {
   double most = 0;
@@ -62,7 +62,7 @@ TEST(Clip, LeavesWhatLiesInsideAndKeepsAttributesLinear) {
           c.attributes[1] = static_cast<float>(c.position.w);
           c.attributes[2] = 0.1f;
         }
-        const ClippedPolygon polygon = clip_triangle(t, v, codes_of(t, v), 3);
+        const ClippedPolygon polygon = clip_triangle(t, v, outcodes_of(t, v), 3);
         ASSERT_LE(polygon.count, 9);
         const double size = magnitude(v);
         for (int i = 0; i < polygon.count; ++i) {
@@ -100,7 +100,7 @@ TEST(Clip, CutsASharedEdgeAtTheVerySamePoints) {
     c.attributes[0] = d.attributes[0] = 1;  // 0 stays exactly 0 along the edge from a to b alone
     const auto on_edge = [&](const ClipVertex& first, const ClipVertex& second, const ClipVertex& third) {
       const ClipVertex v[3] = {first, second, third};
-      const ClippedPolygon polygon = clip_triangle(t, v, codes_of(t, v), 1);
+      const ClippedPolygon polygon = clip_triangle(t, v, outcodes_of(t, v), 1);
       std::vector<std::tuple<double, double, double, double>> points;
       for (int i = 0; i < polygon.count; ++i) {
         const ClipPosition& p = polygon.vertices[i].position;
@@ -136,7 +136,7 @@ TEST(Clip, KeepsAllNineVertices) {
                  x = 2 * kInradius * std::cos(angle), y = 2 * kInradius * std::sin(angle);
     corners[k].position = {2 * (x * u[0] + y * v[0]), 2 * (x * u[1] + y * v[1]), x * u[2] + y * v[2], 1};
   }
-  const ClippedPolygon polygon = clip_triangle(t, corners, codes_of(t, corners), 0);
+  const ClippedPolygon polygon = clip_triangle(t, corners, outcodes_of(t, corners), 0);
   EXPECT_EQ(polygon.count, 9);
   double area = 0;
   const auto at = [&](int i, const double(&axis)[3]) {
@@ -151,11 +151,11 @@ TEST(Clip, KeepsAllNineVertices) {
 TEST(Clip, OfTrianglesBehindTheEyeLeavesNothing) {
   const VertexTransform t = identity(100);
   const ClipVertex behind[3] = {{{0, 0, 0, -1}, {}}, {{1, 0, 0, -2}, {}}, {{0, 1, 0, -1}, {}}};
-  EXPECT_EQ(clip_triangle(t, behind, codes_of(t, behind), 0).count, 0);
+  EXPECT_EQ(clip_triangle(t, behind, outcodes_of(t, behind), 0).count, 0);
   const ClipVertex in_its_plane[3] = {{{0, 0, 0, 0}, {}}, {{1, 0, 0, 0}, {}}, {{0, 1, 0, 0}, {}}};
-  EXPECT_EQ(clip_triangle(t, in_its_plane, codes_of(t, in_its_plane), 0).count, 0);
+  EXPECT_EQ(clip_triangle(t, in_its_plane, outcodes_of(t, in_its_plane), 0).count, 0);
   const ClipVertex touching[3] = {{{0, 0, 0, 0}, {}}, {{1, 0, 0, -1}, {}}, {{0, 1, 0, -1}, {}}};
-  EXPECT_EQ(clip_triangle(t, touching, codes_of(t, touching), 0).count, 0);
+  EXPECT_EQ(clip_triangle(t, touching, outcodes_of(t, touching), 0).count, 0);
 }
 
 // Sizes from 2^-1000 to 2^1023 in one triangle, where a cut has no digit left of w: what is drawn of it, if
@@ -184,15 +184,15 @@ TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
       if (random.in(0, 1) < 0.5) c.position.z = 0;
       if (random.in(0, 1) < 0.5) c.position.w = std::abs(c.position.w);
     }
-    const std::uint8_t codes = codes_of(t, v);
-    if ((codes & kNonFinite) != 0 || codes == 0) continue;
-    const ClippedPolygon polygon = clip_triangle(t, v, codes, 0);
+    const std::uint8_t outcodes = outcodes_of(t, v);
+    if ((outcodes & kNonFinite) != 0 || outcodes == 0) continue;
+    const ClippedPolygon polygon = clip_triangle(t, v, outcodes, 0);
     for (int i = 0; i < polygon.count; ++i) check(polygon.vertices[i].position);
     std::vector<ClipVertex> outline{v[0], v[1], v[2]};
-    PolygonClipper().clip(t, outline, codes, 0);
+    PolygonClipper().clip(t, outline, outcodes, 0);
     for (const ClipVertex& corner : outline) check(corner.position);
     ClipVertex line[2] = {v[0], v[1]};
-    const std::uint8_t line_codes = clip_code(t, v[0].position) | clip_code(t, v[1].position);
+    const std::uint8_t line_codes = compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position);
     if (line_codes != 0 && clip_line(t, line, line_codes, 0))
       for (const ClipVertex& end : line) check(end.position);
   }
@@ -237,16 +237,16 @@ TEST(Clip, PaintsWhatARayHits) {
           (l[0] * v[0].position.z + l[1] * v[1].position.z + l[2] * v[2].position.z) / scale;  // w is 1 there
       return depth >= -1 && depth <= 1;
     };
-    TileStage stage(kSize, kSize, kSize);
+    TileHarness stage(kSize, kSize, kSize);
     WindowVertex vertices[3];
-    std::uint8_t codes[3];
+    std::uint8_t outcodes[3];
     const Isa isa = available_isas()[static_cast<std::size_t>(round) % available_isas().size()];
-    const std::uint8_t any = transform_vertices(isa)(t, {positions, 4}, 4, 3, vertices, codes);
-    stage.add_draw(vertices).word = 1;
+    const std::uint8_t any = transform_vertices(isa)(t, {positions, 4}, 4, 3, vertices, outcodes);
+    stage.add_draw(vertices).packed_color = 1;
     BinDraw bin;
     bin.vertices = vertices;
-    bin.codes = codes;
-    bin.any_code = any != 0;
+    bin.outcodes = outcodes;
+    bin.any_outcode = any != 0;
     bin.rect = {0, 0, kSize, kSize};
     bin.transform = &t;
     bin.positions = {positions, 4};

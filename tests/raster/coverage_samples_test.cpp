@@ -32,13 +32,13 @@ constexpr int kBits = 24;
 // Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
 void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds, bool with_operations) {
   RandomTriangles source(seed, tile_size);
-  TileStage stage(tile_size, tile_size, tile_size);
+  TileHarness stage(tile_size, tile_size, tile_size);
   stage.frame().samples = samples;
   const FragmentOps operations{};
   std::vector<WindowVertex> vertices(3 * kBits);
   std::vector<Triangle> triangles(kBits);
   for (int round = 0; round < rounds; ++round) {
-    stage.forget_draws();
+    stage.clear_draws();
     std::vector<std::uint32_t> expected[kMaxSamples];
     for (auto& sample : expected) sample.assign(static_cast<std::size_t>(tile_size * tile_size), 0);
     const PixelRect rect = round % 3 == 2
@@ -50,11 +50,11 @@ void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds,
       std::copy(triangles[bit].begin(), triangles[bit].end(), vertices.begin() + 3 * bit);
       TileDraw& draw = stage.add_draw(vertices.data() + 3 * bit);
       draw.rect = rect;
-      draw.word = 0xffffffu;
+      draw.packed_color = 0xffffffu;
       draw.write_mask = 1u << bit;
       if (with_operations) {
         draw.ops = &operations;
-        draw.number = TileDraw::Number::draw;
+        draw.id_output = TileDraw::IdOutput::draw;
       }
       if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
       stage.push(0, bit, 0);

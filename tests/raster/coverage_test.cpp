@@ -26,13 +26,13 @@ constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
 void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect,
                      DepthKind depth = DepthKind::none) {
   RandomTriangles source(seed, tile_size);
-  TileStage stage(tile_size, tile_size, tile_size, depth);
+  TileHarness stage(tile_size, tile_size, tile_size, depth);
   std::vector<WindowVertex> vertices(3 * 32);
   std::vector<Triangle> triangles(32);
   std::vector<std::uint32_t> expected(static_cast<std::size_t>(tile_size * tile_size));
   std::array<int, static_cast<std::size_t>(Shape::kCount)> drawn{}, seen{};
   for (int round = 0; round < rounds; ++round) {
-    stage.forget_draws();
+    stage.clear_draws();
     std::fill(expected.begin(), expected.end(), 0u);
     for (std::uint32_t bit = 0; bit < 32; ++bit) {
       const auto shape = static_cast<std::size_t>(source.any_shape());
@@ -42,7 +42,7 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
       TileDraw& draw = stage.add_draw(vertices.data() + 3 * bit);
       draw.rect = rect;
       draw.uses_depth = depth != DepthKind::none;
-      draw.word = 0xffffffffu;
+      draw.packed_color = 0xffffffffu;
       draw.write_mask = 1u << bit;
       if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
       stage.push(0, bit, 0);
@@ -106,11 +106,11 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
   constexpr DepthKind kDepths[] = {DepthKind::none, DepthKind::unorm24, DepthKind::float32};
   for (int round = 0; round < (long_tests() ? 2000 : 90); ++round) {
     const DepthKind depth = kDepths[round % 3];
-    TileStage stage(kTile, kTile, kTile, depth);
+    TileHarness stage(kTile, kTile, kTile, depth);
     TileDraw& draw = stage.add_draw(vertices.data());
     draw.uses_depth = depth != DepthKind::none;
-    draw.source = ColorSource::triangle_word;
-    draw.words[0] = draw.words[1] = words.data();
+    draw.source = ColorSource::per_triangle_packed;
+    draw.packed_colors[0] = draw.packed_colors[1] = words.data();
     std::fill(expected.begin(), expected.end(), 0u);
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       Triangle t = source.next(round % 4 == 0 ? Shape::tiny : source.any_shape());

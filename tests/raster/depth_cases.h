@@ -25,7 +25,7 @@ struct DepthTriangle {
 
 /// A vertex's depth word as raster/fixed_point.h defines it.
 inline std::uint32_t vertex_depth_word(DepthKind kind, double z) {
-  if (kind == DepthKind::float32) return depth_word(kind, z);
+  if (kind == DepthKind::float32) return quantize_depth(kind, z);
   const int bits = depth_bits(kind);
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(
       std::floor((z * (std::ldexp(1.0, bits) - 1) + 0.5) * std::ldexp(1.0, 32 - bits))));

@@ -16,10 +16,10 @@ namespace {
 constexpr int kTile = 64;
 
 // A stage with one triangle that always passes and writes depth alone.
-struct DepthStage : TileStage {
-  explicit DepthStage(DepthKind kind) : TileStage(kTile, kTile, kTile, kind) {}
+struct DepthStage : TileHarness {
+  explicit DepthStage(DepthKind kind) : TileHarness(kTile, kTile, kTile, kind) {}
   TileDraw& set(const DepthTriangle& t, CompareOp test = CompareOp::always) {
-    forget_draws();
+    clear_draws();
     TileDraw& draw = add_draw(t.corners.data());
     draw.uses_depth = true;
     draw.depth_test = test;
@@ -53,7 +53,7 @@ void expect_levels(DepthKind kind, Shape shape, std::uint32_t seed, int count) {
     for (const Isa isa : available_isas()) {
       stage.render(isa, 0);
       reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-        const std::int64_t level = depth_word_from_key(kind, stage.depth(x, y)),
+        const std::int64_t level = stored_depth_from_key(kind, stage.depth(x, y)),
                            exact = exact_level(reference, t, kind, x, y);
         worst = std::max(worst, std::abs(level - exact));
         ASSERT_LE(std::abs(level - exact), tolerance)
@@ -75,7 +75,7 @@ TEST(Depth, OfOrdinaryTrianglesIsWithinItsLevels) {
 }
 TEST(Depth, OfVeryLargeTrianglesIsWithinItsLevels) {
   for (const DepthKind kind : kUnormKinds)
-    for (const Shape shape : {Shape::nearly_wide, Shape::wide}) expect_levels(kind, shape, 12, rounds(100));
+    for (const Shape shape : {Shape::edges64st_edges32, Shape::edges64}) expect_levels(kind, shape, 12, rounds(100));
 }
 TEST(Depth, OfSliversIsWithinItsLevels) {
   for (const DepthKind kind : kUnormKinds) expect_levels(kind, Shape::sliver, 13, rounds(20000));
@@ -152,7 +152,7 @@ TEST(Depth, OfScreenParallelTrianglesIsExact) {
       for (const Isa isa : available_isas()) {
         stage.render(isa, 0);
         reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-          ASSERT_EQ(depth_word_from_key(kind, stage.depth(x, y)), depth_word(kind, t.depth(0)))
+          ASSERT_EQ(stored_depth_from_key(kind, stage.depth(x, y)), quantize_depth(kind, t.depth(0)))
               << name_of(kind) << " " << name_of(isa) << " " << Describe{t.corners};
         });
       }
@@ -165,19 +165,19 @@ TEST(Depth, OfScreenParallelTrianglesIsExact) {
 TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
   for (const DepthKind kind : kDepthKinds) {
     RandomTriangles source(16, kTile);
-    TileStage stage(kTile, kTile, kTile, kind);
+    TileHarness stage(kTile, kTile, kTile, kind);
     for (int i = 0; i < rounds(300); ++i) {
       DepthTriangle t = with_random_depths(source, source.next());
       set_words(t, kind);
       const TriangleReference reference = reference_of(t.corners);
       if (reference.area == 0) continue;
-      stage.forget_draws();
+      stage.clear_draws();
       const auto add = [&](PixelRect rect, CompareOp test, std::uint32_t word) {
         TileDraw& draw = stage.add_draw(t.corners.data());
         draw.rect = rect;
         draw.uses_depth = true;
         draw.depth_test = test;
-        draw.word = word;
+        draw.packed_color = word;
         stage.push(0, stage.draw_count() - 1, 0);
       };
       add({0, 0, kTile, kTile}, CompareOp::always, 1);
@@ -226,7 +226,7 @@ TEST(Depth, FunctionsPassWhatTheyName) {
   for (const DepthKind kind : kDepthKinds) {
     for (const std::uint32_t stored_16 : stored_words) {
       for (const std::uint32_t incoming_16 : stored_words) {
-        const std::int32_t stored = depth_key_from_word(kind, depth_word(kind, stored_16 / 65535.0));
+        const std::int32_t stored = depth_key_from_stored(kind, quantize_depth(kind, stored_16 / 65535.0));
         const double incoming = incoming_16 / 65535.0;
         for (int test = 0; test < 8; ++test) {
           const int order = incoming_16 < stored_16    ? 1
@@ -239,18 +239,18 @@ TEST(Depth, FunctionsPassWhatTheyName) {
             for (WindowVertex& v : t) v.z = vertex_depth_word(kind, incoming);
             for (const bool write : {false, true}) {
               for (const Isa isa : available_isas()) {
-                TileStage stage(kTile, kTile, kTile, kind);
+                TileHarness stage(kTile, kTile, kTile, kind);
                 TileDraw& draw = stage.add_draw(t.data());
                 draw.uses_depth = true;
                 draw.depth_test = static_cast<CompareOp>(test);
                 draw.depth_write = write;
-                draw.word = 7;
+                draw.packed_color = 7;
                 stage.push(0, 0, 0);
                 stage.render(isa, 0, 1, stored);
                 EXPECT_EQ(stage.color(0, 0), passes ? 7u : 1u)
                     << "function " << test << " " << name_of(kind) << " " << name_of(isa);
-                EXPECT_EQ(depth_word_from_key(kind, stage.depth(0, 0)),
-                          depth_word(kind, passes && write ? incoming : stored_16 / 65535.0));
+                EXPECT_EQ(stored_depth_from_key(kind, stage.depth(0, 0)),
+                          quantize_depth(kind, passes && write ? incoming : stored_16 / 65535.0));
                 EXPECT_EQ(stage.color(63, 63), 1u);
                 EXPECT_EQ(stage.depth(63, 63), stored);
               }

@@ -1,4 +1,4 @@
-// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the moved segment meets its
+// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the perturbed segment meets its
 // open diamond and its end lies outside of it, in exact fractions whose numerators carry the move's e and
 // e^2.
 #pragma once
@@ -17,28 +17,28 @@ namespace tessera::test {
 __extension__ using Wide = __int128;
 
 // v[0] + v[1] e + v[2] e^2: e is smaller than every fraction.
-struct Moved {
+struct Perturbed {
   std::array<Wide, 3> v{};
-  Moved operator-(const Moved& o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
-  Moved operator+(const Moved& o) const { return {{v[0] + o.v[0], v[1] + o.v[1], v[2] + o.v[2]}}; }
-  Moved times(Wide k) const { return {{v[0] * k, v[1] * k, v[2] * k}}; }
+  Perturbed operator-(const Perturbed& o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
+  Perturbed operator+(const Perturbed& o) const { return {{v[0] + o.v[0], v[1] + o.v[1], v[2] + o.v[2]}}; }
+  Perturbed times(Wide k) const { return {{v[0] * k, v[1] * k, v[2] * k}}; }
   bool negative() const { return v[0] != 0 ? v[0] < 0 : v[1] != 0 ? v[1] < 0 : v[2] < 0; }
-  friend bool operator<(const Moved& a, const Moved& b) { return (a - b).negative(); }
+  friend bool operator<(const Perturbed& a, const Perturbed& b) { return (a - b).negative(); }
 };
-inline Moved whole(Wide n) { return {{n, 0, 0}}; }
+inline Perturbed whole(Wide n) { return {{n, 0, 0}}; }
 
-struct MovedPoint {
-  Moved x, y;
+struct PerturbedPoint {
+  Perturbed x, y;
 };
-inline MovedPoint moved(LinePoint p) { return {{{p.x, -1, 0}}, {{p.y, 0, 1}}}; }  // (-e, -e^2) with y up
+inline PerturbedPoint perturbed(LinePoint p) { return {{{p.x, -1, 0}}, {{p.y, 0, 1}}}; }  // (-e, -e^2) with y up
 
 inline constexpr int kSigns[4][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
 // How far a point lies from a pixel's centre in one of the four directions that bound a diamond.
-inline Moved towards(const MovedPoint& p, int x, int y, const int (&sign)[2]) {
+inline Perturbed towards(const PerturbedPoint& p, int x, int y, const int (&sign)[2]) {
   return (p.x - whole(256 * x + 128)).times(sign[0]) + (p.y - whole(256 * y + 128)).times(sign[1]);
 }
-inline bool inside(const MovedPoint& p, int x, int y) {
+inline bool inside(const PerturbedPoint& p, int x, int y) {
   for (const auto& sign : kSigns)
     if (!(towards(p, x, y, sign) < whole(128))) return false;
   return true;
@@ -46,15 +46,15 @@ inline bool inside(const MovedPoint& p, int x, int y) {
 
 // Whether a + t (b - a) is inside for some t in 0..1.
 inline bool meets(const LinePoint& a, const LinePoint& b, int x, int y) {
-  const MovedPoint from = moved(a);
+  const PerturbedPoint from = perturbed(a);
   // t is above each of `above` and below each of `below`: numerators over positive denominators.
   struct Fraction {
-    Moved numerator;
+    Perturbed numerator;
     Wide denominator;
   };
   std::vector<Fraction> above, below;
   for (const auto& sign : kSigns) {
-    const Moved room = whole(128) - towards(from, x, y, sign);  // at t = 0
+    const Perturbed room = whole(128) - towards(from, x, y, sign);  // at t = 0
     const Wide speed = Wide{sign[0]} * (b.x - a.x) + Wide{sign[1]} * (b.y - a.y);
     if (speed == 0) {
       if (!(whole(0) < room)) return false;
@@ -75,11 +75,11 @@ inline bool meets(const LinePoint& a, const LinePoint& b, int x, int y) {
 }
 
 /// Pixels in raster space, y down.
-inline std::set<std::pair<int, int>> by_the_rule(const LinePoint& a, const LinePoint& b) {
+inline std::set<std::pair<int, int>> diamond_exit_pixels(const LinePoint& a, const LinePoint& b) {
   std::set<std::pair<int, int>> pixels;
   for (int y = (std::min(a.y, b.y) >> 8) - 1; y <= (std::max(a.y, b.y) >> 8) + 1; ++y)
     for (int x = (std::min(a.x, b.x) >> 8) - 1; x <= (std::max(a.x, b.x) >> 8) + 1; ++x)
-      if (meets(a, b, x, y) && !inside(moved(b), x, y)) pixels.insert({x, y});
+      if (meets(a, b, x, y) && !inside(perturbed(b), x, y)) pixels.insert({x, y});
   return pixels;
 }
 

@@ -15,7 +15,7 @@ void check_every_set() {
     std::vector<int> set;
     for (int l = 0; l < kLanes; ++l)
       if ((bits >> l & 1) != 0) set.push_back(l);
-    const LaneNumbers packing = packing_numbers<kLanes>(bits), unpacking = unpacking_numbers<kLanes>(bits);
+    const LaneShuffle packing = compress_lanes<kLanes>(bits), unpacking = expand_lanes<kLanes>(bits);
     for (std::size_t j = 0; j < set.size(); ++j) {
       ASSERT_EQ(packing.byte[j], set[j]) << "lanes " << bits;
       ASSERT_EQ(unpacking.byte[set[j]], j) << "lanes " << bits;

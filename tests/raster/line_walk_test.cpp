@@ -36,7 +36,7 @@ void expect_the_rule(const LinePoint& a, const LinePoint& b) {
   const Pixels found = walked(a, b);
   const std::set<std::pair<int, int>> once(found.begin(), found.end());
   ASSERT_EQ(once.size(), found.size()) << text(a, b) << ": a pixel twice";
-  ASSERT_EQ(once, by_the_rule(a, b)) << text(a, b);
+  ASSERT_EQ(once, diamond_exit_pixels(a, b)) << text(a, b);
 }
 
 TEST(LineWalk, FollowsTheDiamondExitRuleAnywhere) {
@@ -142,7 +142,7 @@ TEST(LineWalk, WideLinesRepeatTheirPixelsAcross) {
     const LinePoint from{a.x - (x_major ? 0 : aside), a.y + (x_major ? aside : 0)},
         to{b.x - (x_major ? 0 : aside), b.y + (x_major ? aside : 0)};
     std::set<std::pair<int, int>> expected;
-    for (const auto& [x, y] : by_the_rule(from, to))
+    for (const auto& [x, y] : diamond_exit_pixels(from, to))
       for (int k = 0; k < width; ++k) expected.insert({x_major ? x : x + k, x_major ? y - k : y});
     const Pixels found = walked(a, b, width);
     ASSERT_EQ(std::set(found.begin(), found.end()), expected) << text(a, b) << ", width " << width;

@@ -24,8 +24,8 @@ enum class Shape {
   tiny,          // within 4x4 pixels
   medium,        // up to 30 pixels
   large,         // up to 300
-  nearly_wide,   // as wide as the 32-bit path allows
-  wide,          // up to the widest there is
+  widest_edges32,   // as wide as the 32-bit path allows
+  edges64,       // up to the widest there is
   sliver,        // long, and a few 1/256 pixel thick
   needle,        // long, and thinner than 1/256 pixel
   on_centers,    // vertices on pixel centres
@@ -112,12 +112,12 @@ class RandomTriangles {
       case Shape::tiny: return around(0, 2);
       case Shape::medium: return around(1, 16);
       case Shape::large: return around(10, 300);
-      case Shape::nearly_wide: {
+      case Shape::edges64st_edges32: {
         Triangle t = around(900, 992);
         if (between(0, 1) != 0) t[1] = {t[0].x + 1984 * 256, t[0].y - between(0, 1984 * 256), 0, 1};
         return t;
       }
-      case Shape::wide: {
+      case Shape::edges64: {
         if (between(0, 1) != 0) return around(1000, 16383);
         const std::int32_t far = 16383 * 256;
         Triangle t{WindowVertex{-far, between(-far, far), 0, 1}, WindowVertex{far, between(-far, far), 0, 1},

@@ -129,10 +129,10 @@ std::size_t expect_each_pixel_once(const IndexedMesh& mesh, int width_px, int he
   const auto covered = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
 
   for (const Isa isa : available_isas()) {
-    TileStage stage(width_px, height_px, tile_size);
+    TileHarness stage(width_px, height_px, tile_size);
     TileDraw& draw = stage.add_draw(mesh.vertices.data());
     draw.indices = mesh.indices.data();
-    draw.word = 1;
+    draw.packed_color = 1;
     BinDraw bin;
     bin.vertices = mesh.vertices.data();
     bin.indices = mesh.indices.data();

@@ -14,9 +14,9 @@ inline std::string name_of(Isa isa) {
   return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "scalar";
 }
 
-class TileStage {
+class TileHarness {
  public:
-  TileStage(int width_px, int height_px, int tile_size, DepthKind depth_kind = DepthKind::none) {
+  TileHarness(int width_px, int height_px, int tile_size, DepthKind depth_kind = DepthKind::none) {
     frame_.grid = {width_px, height_px, tile_size};
     frame_.layout = rgb_layout(24);
     frame_.depth_kind = depth_kind;
@@ -31,7 +31,7 @@ class TileStage {
     draws_.push_back(draw);
     return draws_.back();
   }
-  void forget_draws() {
+  void clear_draws() {
     draws_.clear();
     bins_.reset(frame_.grid.count());
   }
@@ -52,7 +52,7 @@ class TileStage {
     frame_.draws = draws_.data();
     frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
     batches_.set({&bins_, 1}, frame_.grid.count());
-    batches_.look_through(tile, 1);
+    batches_.index_batches(tile, 1);
     frame_.batches = &batches_;
     if (frame_.samples > 1) workspace_.allocate_samples();
     frame_.loads_color = frame_.loads_depth = true;

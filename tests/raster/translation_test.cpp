@@ -22,7 +22,7 @@ struct Seen {
 // The window of kWindow^2 pixels whose first is (shift_x, shift_y), of a triangle moved along.
 Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthKind kind, Isa isa,
                 int tile_size, int shift_x, int shift_y) {
-  TileStage stage(shift_x + kWindow + 1, shift_y + kWindow + 1, tile_size, kind);
+  TileHarness stage(shift_x + kWindow + 1, shift_y + kWindow + 1, tile_size, kind);
   Triangle moved = t.corners;
   for (WindowVertex& v : moved) v.x += shift_x * 256, v.y += shift_y * 256;
   TileDraw& draw = stage.add_draw(moved.data());

@@ -1,5 +1,5 @@
 // The vertex stage: the kernel against its scalar twins bit for bit, both against long double, and the edges
-// of the clip codes.
+// of the clip outcodes.
 #include "raster/vertex_transform.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ class RandomTransforms {
     t.reversed = one_in(2);
     if (one_in(3)) t.depth_near = in(0, 1), t.depth_far = in(0, 1);
     t.depth = static_cast<DepthKind>(round % 5);
-    t.set_roughness();
+    t.set_error_bounds();
     return t;
   }
   /// Of such rounds sums of large numbers are small ones, and 0.
@@ -73,7 +73,7 @@ class RandomTransforms {
 
 TEST(VertexTransform, HasTheBitsOfItsTwins) {
   RandomTransforms random(1);
-  std::size_t usable = 0, coded = 0, odd = 0, rough = 0, packed = 0;
+  std::size_t usable = 0, coded = 0, odd = 0, inexact = 0, packed = 0;
   for (int round = 0; round < (long_tests() ? 60000 : 2000); ++round) {
     const VertexTransform t = random.next(round);
     const int components = 3 + round / kVertexBatch % 2;
@@ -84,24 +84,24 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
       p = random.is_cancelling(round) ? random.large_coordinate() : random.coordinate();
     for (const Isa isa : available_isas()) {
       std::vector<WindowVertex> vertices(count);
-      std::vector<std::uint8_t> codes(count);
+      std::vector<std::uint8_t> outcodes(count);
       const std::uint8_t all =
           transform_vertices(isa)(t, {positions.data(), static_cast<std::size_t>(components)}, components,
-                                  count, vertices.data(), codes.data());
+                                  count, vertices.data(), outcodes.data());
       std::uint8_t seen = 0;
       for (std::size_t i = 0; i < count; ++i) {
         const float* p = positions.data() + i * static_cast<std::size_t>(components);
-        const auto [clip, code, is_rough] =
+        const auto [clip, outcode, needs_exact] =
             transform_vertex(t, {p[0], p[1], p[2], components == 4 ? p[3] : 1.0f});
-        rough += is_rough ? 1 : 0;
-        seen |= codes[i];
-        if ((code & kNonFinite) != 0) {
+        inexact += needs_exact ? 1 : 0;
+        seen |= outcodes[i];
+        if ((outcode & kNonFinite) != 0) {
           ++odd;
-          ASSERT_NE(codes[i] & kNonFinite, 0);  // its other bits say nothing
+          ASSERT_NE(outcodes[i] & kNonFinite, 0);  // its other bits say nothing
         } else {
-          ASSERT_EQ(codes[i], code) << name_of(isa);
+          ASSERT_EQ(outcodes[i], outcode) << name_of(isa);
         }
-        if (codes[i] != 0) {
+        if (outcodes[i] != 0) {
           ++coded;
           ASSERT_EQ(vertices[i].x, t.center_x);
           ASSERT_EQ(vertices[i].y, t.center_y);
@@ -121,7 +121,7 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
   EXPECT_GT(packed, 0u);
   EXPECT_GT(usable, coded / 20);
   EXPECT_GT(odd, 100u);
-  EXPECT_GT(rough, 1000u);
+  EXPECT_GT(inexact, 1000u);
 }
 
 VertexTransform transform_of(const std::array<double, 16>& rows, bool reversed) {
@@ -131,7 +131,7 @@ VertexTransform transform_of(const std::array<double, 16>& rows, bool reversed) 
   t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
   t.reversed = reversed;
   t.depth = DepthKind::float32;
-  t.set_roughness();
+  t.set_error_bounds();
   return t;
 }
 
@@ -168,7 +168,7 @@ TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
     const VertexTransform t = transform_of(c.rows, c.reversed);
     for (int n = 0; n < 1000; ++n) {
       const float z = c.at == 0 ? c.z : c.z + c.spread * unit();
-      ASSERT_FALSE(transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).is_rough)
+      ASSERT_FALSE(transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).needs_exact)
           << c.what << ", vertex " << n;
     }
   }
@@ -191,19 +191,19 @@ TEST(VertexTransform, RoundsWhereDoublesEnd) {
     const VertexTransform t = transform_of(c.rows, false);
     const ClipPosition rounded = clip_position(t, c.object[0], c.object[1], c.object[2], c.object[3]);
     const TransformedVertex v = transform_vertex(t, c.object);
-    EXPECT_FALSE(v.is_rough);
-    EXPECT_EQ(v.code, clip_code(t, rounded));
+    EXPECT_FALSE(v.needs_exact);
+    EXPECT_EQ(v.outcode, compute_outcode(t, rounded));
     EXPECT_EQ(v.position.x, rounded.x);
     EXPECT_EQ(v.position.w, rounded.w);
     for (const Isa isa : available_isas()) {
       WindowVertex vertex;
-      std::uint8_t code = 0;
-      transform_vertices(isa)(t, {c.object.data(), 4}, 4, 1, &vertex, &code);
-      EXPECT_EQ(code, v.code) << name_of(isa);
+      std::uint8_t outcode = 0;
+      transform_vertices(isa)(t, {c.object.data(), 4}, 4, 1, &vertex, &outcode);
+      EXPECT_EQ(outcode, v.outcode) << name_of(isa);
       EXPECT_LE(std::abs(vertex.x), kGuardBandPixels * kSubpixelScale) << name_of(isa);
     }
   }
-  EXPECT_EQ(transform_vertex(transform_of(cases[3].rows, false), cases[3].object).code, 0);  // it is seen
+  EXPECT_EQ(transform_vertex(transform_of(cases[3].rows, false), cases[3].object).outcode, 0);  // it is seen
 }
 
 // Small whole numbers beside others 2^58 times as large, of which often nothing is left but the small ones.
@@ -225,23 +225,23 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
     for (std::size_t row = 0; row < 4; ++row)
       for (std::size_t column = 0; column < 4; ++column)
         t.clip_from_object[4 * row + column] = static_cast<double>(matrix[row][column] = small());
-    t.set_roughness();
+    t.set_error_bounds();
     const Whole x = sum(matrix[0], point), y = sum(matrix[1], point), z = sum(matrix[2], point),
                 w = sum(matrix[3], point);
-    const auto bit = [](bool is_outside, ClipCode code) { return is_outside ? int{code} : 0; };
+    const auto bit = [](bool is_outside, Outcode outcode) { return is_outside ? int{outcode} : 0; };
     const int expected = bit(x + 512 * w < 0, kLeftOfGuardBand) | bit(512 * w - x < 0, kRightOfGuardBand) |
                          bit(y + 512 * w < 0, kBelowGuardBand) | bit(512 * w - y < 0, kAboveGuardBand) |
                          bit((t.reversed ? w - z : z + w) < 0, kBeforeNear) |
-                         bit((t.reversed ? z : w - z) < 0, kBehindFar) | bit(w <= 0, kNoPositiveW);
+                         bit((t.reversed ? z : w - z) < 0, kBehindFar) | bit(w <= 0, kNonPositiveW);
     const float p[4] = {static_cast<float>(point[0]), static_cast<float>(point[1]),
                         static_cast<float>(point[2]), static_cast<float>(point[3])};
     for (const Isa isa : available_isas()) {
       WindowVertex vertex;
-      std::uint8_t code = 0;
-      transform_vertices(isa)(t, {p, 4}, 4, 1, &vertex, &code);
-      ASSERT_EQ(code, expected) << name_of(isa) << ", case " << n;
+      std::uint8_t outcode = 0;
+      transform_vertices(isa)(t, {p, 4}, 4, 1, &vertex, &outcode);
+      ASSERT_EQ(outcode, expected) << name_of(isa) << ", case " << n;
     }
-    misjudged += clip_code(t, clip_position(t, p[0], p[1], p[2], p[3])) != expected ? 1 : 0;
+    misjudged += compute_outcode(t, clip_position(t, p[0], p[1], p[2], p[3])) != expected ? 1 : 0;
   }
   EXPECT_GT(misjudged, 100u);  // by roundings alone
 }
@@ -257,7 +257,7 @@ TEST(VertexTransform, IsWithinOneStepOfTheTruth) {
     const float p[3] = {static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1)),
                         static_cast<float>(random.in(-1, 1))};
     const ClipPosition clip = clip_position(t, p[0], p[1], p[2], 1);
-    if (clip_code(t, clip) != 0 || clip.w < 1e-3) continue;
+    if (compute_outcode(t, clip) != 0 || clip.w < 1e-3) continue;
     long double c[4];
     for (int r = 0; r < 4; ++r) {
       const double* m = t.clip_from_object + 4 * r;
@@ -296,7 +296,7 @@ TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
     std::array<float, 4> position;
     int moving;
     float towards;
-    std::uint8_t code;
+    std::uint8_t outcode;
     bool reversed = false;
   };
   const float w = 1.25f;
@@ -313,10 +313,10 @@ TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
     moved = std::nextafter(moved, edge.towards);
     for (const Isa isa : available_isas()) {
       WindowVertex vertices[2];
-      std::uint8_t codes[2];
-      EXPECT_EQ(transform_vertices(isa)(t, {positions.data(), 4}, 4, 2, vertices, codes), edge.code);
-      EXPECT_EQ(codes[0], 0) << name_of(isa) << ": on the plane " << int{edge.code};
-      EXPECT_EQ(codes[1], edge.code) << name_of(isa) << ": beyond it";
+      std::uint8_t outcodes[2];
+      EXPECT_EQ(transform_vertices(isa)(t, {positions.data(), 4}, 4, 2, vertices, outcodes), edge.outcode);
+      EXPECT_EQ(outcodes[0], 0) << name_of(isa) << ": on the plane " << int{edge.outcode};
+      EXPECT_EQ(outcodes[1], edge.outcode) << name_of(isa) << ": beyond it";
       // The guard band's end is the farthest that a vertex gets.
       EXPECT_LE(std::abs(vertices[0].x), kGuardBandPixels * 256);
       EXPECT_LE(std::abs(vertices[0].y), kGuardBandPixels * 256);
@@ -332,9 +332,9 @@ TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
     const float position[4] = {0, 0, 0, w};
     for (const Isa isa : available_isas()) {
       WindowVertex vertex;
-      std::uint8_t code;
-      transform_vertices(isa)(t, {position, 4}, 4, 1, &vertex, &code);
-      EXPECT_NE(code & kNoPositiveW, 0) << name_of(isa) << " w = " << w;
+      std::uint8_t outcode;
+      transform_vertices(isa)(t, {position, 4}, 4, 1, &vertex, &outcode);
+      EXPECT_NE(outcode & kNonPositiveW, 0) << name_of(isa) << " w = " << w;
     }
   }
 }
@@ -347,7 +347,7 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
     const bool keeps_w = round % 4 < 2;
     for (std::size_t k = 0; k < 4 && keeps_w; ++k) t.eye_from_object[12 + k] = k == 3;
     for (double& m : t.normal_matrix) m = random.in(-3, 3);
-    t.normal_lengths = std::array{kUnitNormals, kNormalsAsTheyAre,
+    t.normal_lengths = std::array{kUnitNormals, kUnscaledNormals,
                                   NormalLengths{0.5, 2}}[static_cast<std::size_t>(round % 3)];
     std::vector<float> in(4 * kVertexBatch);
     for (float& p : in) p = static_cast<float>(random.in(-2, 2));

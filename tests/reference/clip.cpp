@@ -32,9 +32,9 @@ std::vector<Plane> planes_of(const ClipVolume& volume) {
 ClipVertex crossing(const ClipVertex& inside, const ClipVertex& outside, double t) {
   const auto mix = [t](double a, double b) { return a + t * (b - a); };
   const Vec4 p = inside.position, q = outside.position;
-  ClipVertex vertex{{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, inside.share};
-  for (std::size_t i = 0; i < vertex.share.size(); ++i)
-    vertex.share[i] = mix(inside.share[i], outside.share[i]);
+  ClipVertex vertex{{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, inside.weights};
+  for (std::size_t i = 0; i < vertex.weights.size(); ++i)
+    vertex.weights[i] = mix(inside.weights[i], outside.weights[i]);
   return vertex;
 }
 
@@ -54,8 +54,8 @@ std::vector<ClipVertex> clipped(const std::vector<ClipVertex>& polygon, const Pl
 }  // namespace
 
 ClipVertex corner_vertex(Vec4 position, std::size_t index, std::size_t count) {
-  ClipVertex vertex{position, Share(count, 0.0)};
-  vertex.share[index] = 1;
+  ClipVertex vertex{position, CornerWeights(count, 0.0)};
+  vertex.weights[index] = 1;
   return vertex;
 }
 

@@ -9,12 +9,12 @@ namespace tessera::reference {
 
 /// How much of each of a primitive's corners a point of it is made of; the shares sum to 1. Every quantity
 /// that is linear in object space is the same mixture of its values at the corners.
-using Share = std::vector<double>;
+using CornerWeights = std::vector<double>;
 
 /// A corner of what is left after clipping, or of what goes in.
 struct ClipVertex {
   Vec4 position;
-  Share share;
+  CornerWeights weights;
 };
 
 /// Corner `index` of a primitive of `count` corners, at `position`.

@@ -117,7 +117,7 @@ class MeshDrawing {
     if (draw_.cull == (is_back ? Cull::kBack : Cull::kFront)) return;
     const PrimitiveShader shader(corners, is_back, colors_);
     FragmentPipeline pipeline = this->pipeline(shader, is_back);
-    const TakeFragment take = [&](const Fragment& fragment) { pipeline.take(fragment); };
+    const FragmentCallback take = [&](const Fragment& fragment) { pipeline.take(fragment); };
     const double offset = depth_offset(draw_.polygon_offset, triangles, buffers_.format().depth);
     switch (draw_.polygon_mode[is_back ? 1 : 0]) {
       case PolygonMode::kFill:
@@ -130,14 +130,14 @@ class MeshDrawing {
 
   // Edges that clipping has made are part of the boundary [GL 2.1, 2.12]; those along the guard band are out
   // of sight.
-  void draw_outline(const std::vector<ClipVertex>& polygon, double offset, const TakeFragment& take) const {
+  void draw_outline(const std::vector<ClipVertex>& polygon, double offset, const FragmentCallback& take) const {
     for (std::size_t i = 0; i < polygon.size(); ++i)
       rasterize_line(window_vertex(polygon[i], window_),
                      window_vertex(polygon[(i + 1) % polygon.size()], window_), draw_.line_width, offset,
                      window_, take);
   }
 
-  void draw_corners(const std::vector<ClipVertex>& polygon, double offset, const TakeFragment& take) const {
+  void draw_corners(const std::vector<ClipVertex>& polygon, double offset, const FragmentCallback& take) const {
     for (const ClipVertex& vertex : polygon)
       if (is_between_sides(vertex.position))
         rasterize_point(window_vertex(vertex, window_), draw_.point_size, offset, window_, take);

@@ -31,7 +31,7 @@ void FragmentPipeline::take(const Fragment& fragment) {
     if (planes_ == 0) continue;
     std::uint32_t& word = buffers_.word(fragment.x, fragment.y, s);
     word = (word & ~planes_) | (new_word(shaded(), word, dither) & planes_);
-    buffers_.sign(fragment.x, fragment.y, source_.command, source_.primitive);
+    buffers_.record_writer(fragment.x, fragment.y, source_.command, source_.primitive);
   }
 }
 

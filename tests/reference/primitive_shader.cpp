@@ -10,9 +10,9 @@ namespace {
 
 /// The mixture of what `of` says of each corner.
 template <class Of>
-auto mix(const Share& share, const Of& of) {
-  auto sum = share[0] * of(0);
-  for (std::size_t i = 1; i < share.size(); ++i) sum = sum + share[i] * of(i);
+auto mix(const CornerWeights& weights, const Of& of) {
+  auto sum = weights[0] * of(0);
+  for (std::size_t i = 1; i < weights.size(); ++i) sum = sum + weights[i] * of(i);
   return sum;
 }
 
@@ -32,11 +32,11 @@ Vec4 higher(Vec4 a, Vec4 b) {
 /// The same, of a polygon within the range of its corners: a pixel's centre may lie outside where only
 /// samples are covered.
 template <class Of>
-auto mix_within(const Share& share, const Of& of) {
-  const auto mixed = mix(share, of);
-  if (share.size() < 3) return mixed;
+auto mix_within(const CornerWeights& weights, const Of& of) {
+  const auto mixed = mix(weights, of);
+  if (weights.size() < 3) return mixed;
   auto low = of(0), high = of(0);
-  for (std::size_t i = 1; i < share.size(); ++i) low = lower(low, of(i)), high = higher(high, of(i));
+  for (std::size_t i = 1; i < weights.size(); ++i) low = lower(low, of(i)), high = higher(high, of(i));
   return lower(higher(mixed, low), high);
 }
 
@@ -80,10 +80,10 @@ PrimitiveShader::PrimitiveShader(const Corners& corners, bool is_back, const Dra
 }
 
 Shade PrimitiveShader::shade(const Fragment& fragment) const {
-  const Share& share = fragment.share;
+  const CornerWeights& weights = fragment.weights;
   if (is_lit_at_pixels(colors_.draw)) {
     const auto mixed = [&](auto member) {
-      return mix_within(share, [&](std::size_t i) { return corners_.all[i].*member; });
+      return mix_within(weights, [&](std::size_t i) { return corners_.all[i].*member; });
     };
     const SurfacePoint point{mixed(&Corner::position_eye), normalize(mixed(&Corner::normal_eye)),
                              mixed(&Corner::color)};
@@ -91,7 +91,7 @@ Shade PrimitiveShader::shade(const Fragment& fragment) const {
     return {textured(clamp01(color(point)), fragment), {}};
   }
   const auto interpolated = [&](const auto& values) {
-    return values.size() == 1 ? values[0] : mix_within(share, [&](std::size_t i) { return values[i]; });
+    return values.size() == 1 ? values[0] : mix_within(weights, [&](std::size_t i) { return values[i]; });
   };
   if (has_index_) return {{}, interpolated(corner_indices_)};
   return {textured(clamp01(interpolated(corner_colors_)), fragment), {}};
@@ -102,9 +102,9 @@ Vec4 PrimitiveShader::textured(Vec4 color, const Fragment& fragment) const {
   const TextureSampler& texture = *colors_.texture;
   const auto texcoord = [&](std::size_t i) { return corners_.all[i].texcoord; };
   const double level =
-      texture.level_of_detail(mix(fragment.share_dx, texcoord), mix(fragment.share_dy, texcoord));
+      texture.level_of_detail(mix(fragment.weights_dx, texcoord), mix(fragment.weights_dy, texcoord));
   return reference::textured(colors_.draw.texture_env, color,
-                             texture.sample(mix_within(fragment.share, texcoord), level), texture.channels(),
+                             texture.sample(mix_within(fragment.weights, texcoord), level), texture.channels(),
                              colors_.draw.texture_env_color);
 }
 

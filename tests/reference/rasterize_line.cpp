@@ -11,10 +11,10 @@ namespace {
 class Line {
  public:
   Line(const WindowVertex& a, const WindowVertex& b, double depth_offset, const Window& window,
-       const TakeFragment& take)
+       const FragmentCallback& take)
       : a_(a), b_(b), along_(b.at - a.at), depth_offset_(depth_offset), window_(window), take_(take) {
-    fragment_.share.resize(a.share.size());
-    fragment_.share_dx = fragment_.share_dy = Share(a.share.size(), 0.0);
+    fragment_.weights.resize(a.weights.size());
+    fragment_.weights_dx = fragment_.weights_dy = CornerWeights(a.weights.size(), 0.0);
   }
 
   void rasterize_pixels(std::int64_t width) {
@@ -106,8 +106,8 @@ class Line {
       fragment_.depth[i] =
           std::clamp(a_.depth + t_at(centre + offsets[i]) * (b_.depth - a_.depth) + depth_offset_, 0.0, 1.0);
     const double t = t_at(centre), wa = (1 - t) * a_.inverse_w, wb = t * b_.inverse_w;
-    for (std::size_t i = 0; i < fragment_.share.size(); ++i)
-      fragment_.share[i] = wa / (wa + wb) * a_.share[i] + wb / (wa + wb) * b_.share[i];
+    for (std::size_t i = 0; i < fragment_.weights.size(); ++i)
+      fragment_.weights[i] = wa / (wa + wb) * a_.weights[i] + wb / (wa + wb) * b_.weights[i];
     if (window_.derivatives) set_derivatives(wa + wb);
     take_(fragment_);
   }
@@ -116,9 +116,9 @@ class Line {
   void set_derivatives(double sum) {
     const double length =
         std::hypot(static_cast<double>(along_.x), static_cast<double>(along_.y)) / kSubpixels;
-    for (std::size_t i = 0; i < fragment_.share.size(); ++i)
-      fragment_.share_dx[i] = (b_.inverse_w * b_.share[i] - a_.inverse_w * a_.share[i] -
-                               fragment_.share[i] * (b_.inverse_w - a_.inverse_w)) /
+    for (std::size_t i = 0; i < fragment_.weights.size(); ++i)
+      fragment_.weights_dx[i] = (b_.inverse_w * b_.weights[i] - a_.inverse_w * a_.weights[i] -
+                               fragment_.weights[i] * (b_.inverse_w - a_.inverse_w)) /
                               sum / length;
   }
 
@@ -127,14 +127,14 @@ class Line {
   Point along_;
   double depth_offset_;
   const Window& window_;
-  const TakeFragment& take_;
+  const FragmentCallback& take_;
   Fragment fragment_;
 };
 
 }  // namespace
 
 void rasterize_line(const WindowVertex& a, const WindowVertex& b, double width, double depth_offset,
-                    const Window& window, const TakeFragment& take) {
+                    const Window& window, const FragmentCallback& take) {
   const double used = std::min(width, kMaxSize);
   Line line(a, b, depth_offset, window, take);
   if (window.samples > 1) line.rasterize_samples(used);

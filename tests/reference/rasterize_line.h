@@ -11,6 +11,6 @@ namespace tessera::reference {
 /// @param width  in pixels, above 0
 /// @param depth_offset  added to the depth before it is clamped to 0..1
 void rasterize_line(const WindowVertex& a, const WindowVertex& b, double width, double depth_offset,
-                    const Window& window, const TakeFragment& take);
+                    const Window& window, const FragmentCallback& take);
 
 }  // namespace tessera::reference

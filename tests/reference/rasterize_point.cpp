@@ -24,11 +24,11 @@ bool is_in_disc(Point p, double diameter) {
 }  // namespace
 
 void rasterize_point(const WindowVertex& vertex, double size, double depth_offset, const Window& window,
-                     const TakeFragment& take) {
+                     const FragmentCallback& take) {
   Fragment fragment;
   fragment.depth.fill(std::clamp(vertex.depth + depth_offset, 0.0, 1.0));
-  fragment.share = vertex.share;
-  fragment.share_dx = fragment.share_dy = Share(vertex.share.size(), 0.0);
+  fragment.weights = vertex.weights;
+  fragment.weights_dx = fragment.weights_dy = CornerWeights(vertex.weights.size(), 0.0);
   const double used = std::min(size, kMaxSize);
   const auto whole = std::max(std::int64_t{1}, static_cast<std::int64_t>(std::floor(used + 0.5)));
   const auto reach = static_cast<std::int64_t>(std::ceil(used)) * kSubpixels;

@@ -10,6 +10,6 @@ namespace tessera::reference {
 /// @param size  in pixels, above 0
 /// @param depth_offset  added to the depth before it is clamped to 0..1
 void rasterize_point(const WindowVertex& vertex, double size, double depth_offset, const Window& window,
-                     const TakeFragment& take);
+                     const FragmentCallback& take);
 
 }  // namespace tessera::reference

@@ -51,9 +51,9 @@ void set_share(Fragment& fragment, const Part& part, Point p) {
   const Edges e = edges(part, p);
   const double wa = ratio(e.a, part.area) * part.a.inverse_w, wb = ratio(e.b, part.area) * part.b.inverse_w,
                wc = ratio(e.c, part.area) * part.c.inverse_w, sum = wa + wb + wc;
-  fragment.share.resize(part.a.share.size());
-  for (std::size_t i = 0; i < fragment.share.size(); ++i)
-    fragment.share[i] = wa / sum * part.a.share[i] + wb / sum * part.b.share[i] + wc / sum * part.c.share[i];
+  fragment.weights.resize(part.a.weights.size());
+  for (std::size_t i = 0; i < fragment.weights.size(); ++i)
+    fragment.weights[i] = wa / sum * part.a.weights[i] + wb / sum * part.b.weights[i] + wc / sum * part.c.weights[i];
 }
 
 /// How the edge functions change from pixel to pixel.
@@ -76,17 +76,17 @@ void set_derivatives(Fragment& fragment, const Part& part, Point p) {
                 ratio(e.c, part.area) * part.c.inverse_w};
   };
   const auto derivative = [&](Vec3 step, double sum, std::size_t i) {
-    const double numerator = step.x * part.a.share[i] + step.y * part.b.share[i] + step.z * part.c.share[i];
-    return (numerator - fragment.share[i] * (step.x + step.y + step.z)) / sum;
+    const double numerator = step.x * part.a.weights[i] + step.y * part.b.weights[i] + step.z * part.c.weights[i];
+    return (numerator - fragment.weights[i] * (step.x + step.y + step.z)) / sum;
   };
   const Vec3 at = weights(edges(part, p));
   const EdgeSteps steps = edge_steps(part);
-  const std::size_t count = fragment.share.size();
-  fragment.share_dx.resize(count);
-  fragment.share_dy.resize(count);
+  const std::size_t count = fragment.weights.size();
+  fragment.weights_dx.resize(count);
+  fragment.weights_dy.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    fragment.share_dx[i] = derivative(weights(steps.dx), at.x + at.y + at.z, i);
-    fragment.share_dy[i] = derivative(weights(steps.dy), at.x + at.y + at.z, i);
+    fragment.weights_dx[i] = derivative(weights(steps.dx), at.x + at.y + at.z, i);
+    fragment.weights_dy[i] = derivative(weights(steps.dy), at.x + at.y + at.z, i);
   }
 }
 
@@ -128,7 +128,7 @@ double WindowPolygon::largest_depth() const {
   return largest;
 }
 
-void WindowPolygon::for_each_fragment(double depth_offset, const TakeFragment& take) const {
+void WindowPolygon::for_each_fragment(double depth_offset, const FragmentCallback& take) const {
   if (parts_.empty()) return;
   const auto [left, right] = std::ranges::minmax(vertices_, {}, [](const WindowVertex& v) { return v.at.x; });
   const auto [low, high] = std::ranges::minmax(vertices_, {}, [](const WindowVertex& v) { return v.at.y; });

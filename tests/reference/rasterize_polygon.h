@@ -24,7 +24,7 @@ class WindowPolygon {
 
   /// Calls `take` for each pixel covered.
   /// @param depth_offset  added to every depth before it is clamped to 0..1.
-  void for_each_fragment(double depth_offset, const TakeFragment& take) const;
+  void for_each_fragment(double depth_offset, const FragmentCallback& take) const;
 
  private:
   /// Counter-clockwise, of positive area.

@@ -43,7 +43,7 @@ class Renderer {
         const double dither = dither_threshold(format_.dither, x, y);
         buffers_.write_word(x, y, clear.index ? *clear.index : buffers_.colors().word(*clear.color, dither),
                             kAllPlanes);
-        buffers_.sign(x, y, -1, -1);
+        buffers_.record_writer(x, y, -1, -1);
       }
       for (int s = 0; s < format_.samples; ++s) {
         SampleBuffers::Sample& sample = buffers_.sample(x, y, s);

@@ -25,7 +25,7 @@ void SampleBuffers::write_word(int x, int y, std::uint32_t word_in, std::uint32_
   }
 }
 
-void SampleBuffers::sign(int x, int y, std::int32_t command, std::int32_t primitive) {
+void SampleBuffers::record_writer(int x, int y, std::int32_t command, std::int32_t primitive) {
   commands_[pixel(x, y)] = command;
   primitives_[pixel(x, y)] = primitive;
 }

@@ -43,7 +43,7 @@ class SampleBuffers {
   void write_word(int x, int y, std::uint32_t word, std::uint32_t planes);
 
   /// Notes which primitive of which command wrote the colour last.
-  void sign(int x, int y, std::int32_t command, std::int32_t primitive);
+  void record_writer(int x, int y, std::int32_t command, std::int32_t primitive);
 
   /// Everything as it is now.
   Picture picture() const;

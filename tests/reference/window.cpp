@@ -52,7 +52,7 @@ WindowVertex window_vertex(const ClipVertex& vertex, const Window& window) {
        snap(p.y / p.w * viewport.height / 2) + viewport.height * kSubpixels / 2},
       window.depth_range[0] + (window.depth_range[1] - window.depth_range[0]) * std::clamp(depth, 0.0, 1.0),
       1 / p.w,
-      vertex.share};
+      vertex.weights};
 }
 
 std::span<const Point> sample_offsets(int samples) {

@@ -51,7 +51,7 @@ struct WindowVertex {
   Point at;
   double depth = 0;  ///< after the depth range
   double inverse_w = 1;
-  Share share;
+  CornerWeights weights;
 };
 
 WindowVertex window_vertex(const ClipVertex& vertex, const Window& window);
@@ -68,14 +68,14 @@ struct Fragment {
   std::uint32_t coverage = 0;  ///< bit i: sample i is covered
   std::array<double, kMaxSamples>
       depth{};  ///< of each covered sample: after depth range and offset, 0..1, not yet rounded to a level
-  Share share;  ///< perspective-correct, of each of the primitive's corners, at the pixel's centre, covered
+  CornerWeights weights;  ///< perspective-correct, of each of the primitive's corners, at the pixel's centre, covered
                 ///< or not
   /// Derivatives of the shares there, for each pixel, if the window asks for them. Of a line the one along it
   /// stands in x [GL 2.1, equation 3.15]; of a point they are 0.
-  Share share_dx, share_dy;
+  CornerWeights weights_dx, weights_dy;
 };
 
-using TakeFragment = std::function<void(const Fragment&)>;
+using FragmentCallback = std::function<void(const Fragment&)>;
 
 /// The visible pixels from column and row `first` to `last`, numbered from the viewport's lower left corner.
 struct Pixels {

@@ -15,15 +15,15 @@ void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout,
     Colors source;
     for (int c = 0; c < 4; ++c) source.c[c] = hn::LoadU(kFloat, arrays.source[c] + i);
     const Int stored = hn::LoadU(kInt, arrays.stored + i);
-    if (ops.blend) source = blended_colors(ops, source, stored_colors(layout, stored));
-    const Int words = words_of(layout, source, splat(arrays.threshold));
-    hn::StoreU(ops.logic == Logic::copy ? words : logic_words(ops.logic, words, stored), kInt,
+    if (ops.blend) source = blend_lanes(ops, source, unpack_colors(layout, stored));
+    const Int words = pack_colors(layout, source, splat(arrays.threshold));
+    hn::StoreU(ops.logic == Logic::copy ? words : logic_op_lanes(ops.logic, words, stored), kInt,
                arrays.words + i);
   }
 }
 
 void test_stencil_lanes(const StencilSide& side, std::int32_t most, const test::FragmentArrays& arrays) {
-  const StencilSteps steps = stencil_steps(side, most);
+  const StencilTestConstants steps = stencil_test_constants(side, most);
   for (std::size_t i = 0; i < arrays.count; i += kLanes) {
     const Int stored = hn::LoadU(kInt, arrays.stored + i), outcome = hn::LoadU(kInt, arrays.outcome + i);
     const LaneMask covered = hn::Gt(outcome, hn::Zero(kInt)), deep = hn::Gt(outcome, splat(1));

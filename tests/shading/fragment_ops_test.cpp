@@ -84,7 +84,7 @@ TEST(FragmentOps, CompareAndLogicTables) {
                   reference::passes(static_cast<reference::Compare>(op), a, b));
   constexpr std::uint32_t kSource = 0x0f5a33c5u, kStored = 0x3355aa0fu;
   for (int logic = 0; logic < kLogics; ++logic)
-    EXPECT_EQ(logic_word(static_cast<Logic>(logic), kSource, kStored),
+    EXPECT_EQ(logic_op_reference(static_cast<Logic>(logic), kSource, kStored),
               reference::combined(static_cast<reference::LogicOp>(logic), kSource, kStored))
         << logic;
 }
@@ -146,9 +146,9 @@ TEST(FragmentOps, BlendFactorsAndEquations) {
           test::store_fragments(isa)(ops, layout, samples.arrays(0.5f));
           for (std::size_t i = 0; i < samples.stored.size(); ++i) {
             const Rgba source{samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]};
-            const Rgba destination = stored_components(layout, static_cast<std::uint32_t>(samples.stored[i])),
-                       result = blended(ops, source, destination);
-            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), stored_word(layout, result, 0.5f))
+            const Rgba destination = unpack_color_reference(layout, static_cast<std::uint32_t>(samples.stored[i])),
+                       result = blend_reference(ops, source, destination);
+            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), pack_color(layout, result, 0.5f))
                 << "pair " << pair << " equation " << equation << " bits " << layout.bits;
             const reference::Vec4 exact =
                 reference::blended(blend, {source[0], source[1], source[2], source[3]},
@@ -173,11 +173,11 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
         for (const Isa isa : available_isas()) {
           test::store_fragments(isa)(ops, layout, samples.arrays(threshold));
           for (std::size_t i = 0; i < samples.stored.size(); ++i) {
-            const std::uint32_t word = stored_word(
+            const std::uint32_t word = pack_color(
                 layout, {samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]}, threshold);
             ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]),
-                      logic_word(ops.logic, word, static_cast<std::uint32_t>(samples.stored[i])));
-            ASSERT_EQ(word & ~(layout.word_mask() | layout.alpha_mask()), 0u);
+                      logic_op_reference(ops.logic, word, static_cast<std::uint32_t>(samples.stored[i])));
+            ASSERT_EQ(word & ~(layout.value_mask() | layout.alpha_mask()), 0u);
           }
         }
     }

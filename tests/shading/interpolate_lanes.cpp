@@ -22,12 +22,12 @@ bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int 
   set_up_edges(g, tile_x, tile_y, {0, 0, tile_size, tile_size});
   set_up_weights(g);
   if (g.mask == 0) return false;
-  const bool is_wide = g.wide[0] != 0;
+  const bool is_wide = g.needs_edges64[0] != 0;
   ShadedTriangle t;
-  WideEdges wide;
-  t.edges = tile_edges(g, 0);
-  if (is_wide && !tile_edges_of_wide(g, 0, tile_x, tile_y, tile_size, t.edges, wide)) return false;
-  t.wide = is_wide ? 0 : -1;
+  Edges64 wide;
+  t.edges = tile_edges32(g, 0);
+  if (is_wide && !tile_edges64(g, 0, tile_x, tile_y, tile_size, t.edges, wide)) return false;
+  t.edges64_index = is_wide ? 0 : -1;
   t.affine = g.affine[0] != 0;
   for (int k = 0; k < 3; ++k) {
     t.scale[k] = is_wide ? g.unit_scale[k][0] : g.scale[k][0];
@@ -59,19 +59,19 @@ void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, co
     attributes[k][0] = at_vertices[k];
     t.attributes[k] = attributes[k];
   }
-  const Corners one = corners(t, 0), kept = corners(t, 0, true);
-  const CornerArrays several(t, 0, 1);
-  CornerLanes lanes;
+  const Interpolant one = make_interpolant(t, 0), kept = make_interpolant(t, 0, true);
+  const InterpolantArrays several(t, 0, 1);
+  InterpolantLanes lanes;
   lanes.set(one);
-  RangeLanes kept_lanes;
+  ClampedInterpolantLanes kept_lanes;
   kept_lanes.set(kept);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Barycentric at{hn::LoadU(kFloat, b1 + i), hn::LoadU(kFloat, b2 + i), splat(1.0f)};
     hn::StoreU(interpolate(at, one), kFloat, values.alone + i);
     hn::StoreU(interpolate(at, lanes), kFloat, values.in_lanes + i);
     hn::StoreU(interpolate(at, several[0]), kFloat, values.of_several + i);
-    hn::StoreU(interpolate_within(at, kept), kFloat, values.within + i);
-    hn::StoreU(interpolate_within(at, kept_lanes), kFloat, values.within_lanes + i);
+    hn::StoreU(interpolate_clamped(at, kept), kFloat, values.within + i);
+    hn::StoreU(interpolate_clamped(at, kept_lanes), kFloat, values.within_lanes + i);
   }
 }
 

@@ -16,8 +16,8 @@ TileBarycentrics* tile_barycentrics(Isa isa);
 
 /// A value at `count` points, a multiple of 16, by each of the kernels' ways.
 struct InterpolatedValues {
-  float *alone, *in_lanes, *of_several;  ///< Corners, CornerLanes, CornerArrays
-  float *within, *within_lanes;          ///< kept within the range of the vertices: Corners, RangeLanes
+  float *alone, *in_lanes, *of_several;  ///< Interpolant, InterpolantLanes, InterpolantArrays
+  float *within, *within_lanes;          ///< kept within the range of the vertices: Interpolant, ClampedInterpolantLanes
 };
 using InterpolateValues = void(const float (&at_vertices)[3], const float* b1, const float* b2,
                                std::size_t count, const InterpolatedValues& values);

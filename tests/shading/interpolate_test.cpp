@@ -80,7 +80,7 @@ TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
             sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
           const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)),
                        error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
-          keep_worst(worst, error1, error2);
+          update_worst(worst, error1, error2);
           ASSERT_LE(worst, 9 * 0x1p-24) << Describe{t};
           ASSERT_GE(b1, 0);
           ASSERT_GE(b2, 0);

@@ -17,7 +17,7 @@ namespace {
 // others know nothing of it.
 TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
   for (const float length : {1.5f, 3.0f, 100.0f}) {
-    Special s;
+    KnownColorCase s;
     s.c.material.specular = {1, 0, 0};
     s.c.material.shininess = 1000;
     s.light().diffuse = {0, 0, 0};
@@ -44,7 +44,7 @@ TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
     for (const Row& row :
          {Row{{2, 0, 0}, 0.5}, Row{{1, 0.1f, 0}, 0}, Row{{1, 0, 0.1f}, 0}, Row{{4, 1e-45f, 0}, 0.25},
           Row{{-1, 0, 0}, 1e6}, Row{{1, -1, 0}, 1e6}, Row{{1, 0, -1}, 1e6}}) {
-      Special s;
+      KnownColorCase s;
       s.light().ambient = s.light().diffuse = s.light().specular = {0, 0, 0};
       s.light().ambient[1] = row.factor > 1 ? 1e-6f : 1.0f;
       s.light().position = {0, 0, 1};
@@ -70,7 +70,7 @@ std::vector<EndlessLight> endless_lights() {
   constexpr float kThird = 0.57735026f, kSixth = 0.4082483f, kMost = std::numeric_limits<float>::max();
   std::vector<EndlessLight> all;
   const auto add = [&](const char* name, const std::array<float, 3>& normal, const auto& change) {
-    EyeLight light = Special().light();
+    EyeLight light = KnownColorCase().light();
     light.ambient = light.diffuse = light.specular = {0, 1, 0};
     all.push_back({name, normal, {0, 0, -2}, light});
     change(all.back());
@@ -114,7 +114,7 @@ TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
   for (const EndlessLight& endless : endless_lights())
     for (const bool tracked : {false, true})
       for (const float ambient : {0.0f, 1.0f}) {
-        Special s;
+        KnownColorCase s;
         s.light() = endless.light;
         s.light().ambient[1] = ambient;
         s.c.material.diffuse = {1, 1, 1};
@@ -153,7 +153,7 @@ TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
 // Vertex colours are any numbers, and what is between them may be none: black light makes nothing of them.
 TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  Special s;
+  KnownColorCase s;
   s.c.tracked.diffuse = true;
   s.light().diffuse = {1, 0, 0};
   s.light().ambient = s.light().specular = {0, 0, 0};
@@ -171,7 +171,7 @@ TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
 // masked.
 TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
   for (const float brightness : {1e20f, 3e38f}) {
-    Special s;
+    KnownColorCase s;
     s.light().diffuse = s.light().ambient = {0, 0, 0};
     s.light().specular = {brightness, brightness, brightness};
     s.light().attenuation = {1e-30f, 0, 0};
@@ -187,7 +187,7 @@ TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
 // What has an end is not cut: a normal as long as numbers go, under a light or on a material as weak as they
 // are.
 TEST(LightingSpecialCase, LongNormalsAndWeakColorsMakeUpForEachOther) {
-  Special s;
+  KnownColorCase s;
   s.light().ambient = s.light().specular = {0, 0, 0};
   s.light().diffuse = {1e-19f, 1e-19f, 1e-19f};
   s.c.material.diffuse = {1e-19f, 1e-19f, 1e-19f};

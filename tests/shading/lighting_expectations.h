@@ -45,10 +45,10 @@ inline double distance_to_formula(const LightingCase& c, const std::vector<Light
 }
 
 /// A point light at the eye and a surface before it that faces both.
-struct Special {
+struct KnownColorCase {
   LightingCase c;
   std::vector<LightingPoint> points = std::vector<LightingPoint>(16);
-  Special() {
+  KnownColorCase() {
     c.material = {{0.1f, 0.1f, 0.1f}, {0.5f, 0.5f, 0.5f}, {0.25f, 0.25f, 0.25f}, {0.05f, 0, 0}, 10};
     EyeLight l;
     l.directional = false;

@@ -11,12 +11,12 @@ namespace tessera::test {
 namespace {
 
 TEST(LightingSpecialCase, HeadOnEverythingIsSeen) {
-  Special().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular);
+  KnownColorCase().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular);
 }
 TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
   for (const std::array<float, 3>& coefficients :
        {std::array<float, 3>{0, 0, 0}, {1, -1, 0}, {1, 0, -1}, {2, -1, 0}}) {
-    Special s;
+    KnownColorCase s;
     s.light().attenuation = coefficients;
     s.light().diffuse = s.light().specular = {0, 0, 0};
     s.light().ambient = {2e-6f, 2e-6f, 2e-6f};
@@ -24,7 +24,7 @@ TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
   }
 }
 TEST(LightingSpecialCase, LightAtThePointGivesItsAmbientPartAlone) {
-  Special s;
+  KnownColorCase s;
   s.light().position = {0, 0, -2};
   s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
   s.light().attenuation = {2, 5, 7};
@@ -33,7 +33,7 @@ TEST(LightingSpecialCase, LightAtThePointGivesItsAmbientPartAlone) {
   s.expect(kGlow + kBase, kBase);
 }
 TEST(LightingSpecialCase, ZeroNormalsSeeTheAmbientPartAlone) {
-  Special s;
+  KnownColorCase s;
   for (LightingPoint& p : s.points) p.normal = {0, 0, 0};
   s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
   s.c.renormalize = true;
@@ -44,7 +44,7 @@ TEST(LightingSpecialCase, ZeroNormalsSeeTheAmbientPartAlone) {
 TEST(LightingSpecialCase, SurfacesThatFaceAwayHaveNoHighlight) {
   for (const float shininess : {0.0f, 1.0f, 10.0f}) {
     for (const bool phong : {false, true}) {
-      Special s;
+      KnownColorCase s;
       s.c.material.shininess = shininess;
       s.c.model.phong_highlight = phong;
       for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
@@ -55,14 +55,14 @@ TEST(LightingSpecialCase, SurfacesThatFaceAwayHaveNoHighlight) {
   }
 }
 TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightWhereTheLightFalls) {
-  Special s;
+  KnownColorCase s;
   s.c.material.shininess = 0;
   for (LightingPoint& p : s.points) p.normal = {0.8f, 0, 0.6f};
   s.expect(kGlow + kBase + kAmbient + 0.6 * kDiffuse + kSpecular,
            kBase + kAmbient + 0.6 * kDiffuse + kSpecular);
 }
 TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
-  Special s;
+  KnownColorCase s;
   s.light().position = {0, 0, -4};  // L = (0, 0, -1), E = (0, 0, 1)
   for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
   s.expect(kGlow + kBase + kAmbient + kDiffuse, kBase + kAmbient + kDiffuse);
@@ -72,7 +72,7 @@ TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
                 2e-6);
 }
 TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
-  Special s;
+  KnownColorCase s;
   s.light().spot_direction = {0, 0, -1};
   for (const float exponent : {0.0f, 1.0f, 16384.0f}) {
     s.light().spot_exponent = exponent;
@@ -98,7 +98,7 @@ TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
     EXPECT_GT(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse - 2e-6);
 }
 TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
-  Special s;
+  KnownColorCase s;
   s.c.lights.push_back(s.light());
   for (std::size_t k = 0; k < 3; ++k) {
     s.light().diffuse[k] = 4;  // far above 1 before the second takes some back
@@ -113,7 +113,7 @@ TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
 // x^0 is 1 for every x: where R.E has no end, too.
 TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
   for (const float size : {1.0f, 1e20f, 3e38f}) {
-    Special s;
+    KnownColorCase s;
     s.c.model.phong_highlight = true;
     s.c.material.shininess = 0;
     s.light().directional = true;
@@ -127,7 +127,7 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
 }
 // Roots as high as the tenth make something of cosines that have next to nothing left.
 TEST(LightingSpecialCase, SmallExponentsKeepTheSmallestCosines) {
-  Special s;
+  KnownColorCase s;
   s.light().position = {0x1p-62f, 0, 1};  // S = (2^-63, 0, 1)
   s.c.renormalize = s.c.model.unit_normals = true;
   for (LightingPoint& p : s.points) p = {{1, 0, 0}, {0, 0, 0}, {1, 1, 1}};

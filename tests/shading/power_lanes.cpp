@@ -13,7 +13,7 @@ namespace HWY_NAMESPACE {
 void evaluate_power_lanes(test::PowerFunction function, const float* arguments, float exponent,
                           float* results, std::size_t count) {
   if (function == test::PowerFunction::chosen)
-    return with_power(power_with(exponent), [&](const auto& raise) HWY_ATTR {
+    return with_power(make_power(exponent), [&](const auto& raise) HWY_ATTR {
       for (std::size_t i = 0; i < count; i += kLanes) {
         Float x[] = {hn::LoadU(kFloat, arguments + i)};
         raise(x);

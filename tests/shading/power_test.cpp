@@ -81,27 +81,27 @@ TEST(Power, IsChosenAsItsTwinIs) {
     expect_same_bits(PowerFunction::chosen, all_magnitudes(), y,
                      [y](float x) { return power_of_reference(x, y); });
     expect_same_bits(PowerFunction::chosen, cosines(), y, [y](float x) { return power_of_reference(x, y); });
-    EXPECT_EQ(whole_power(y) != 0, y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64)
+    EXPECT_EQ(integer_exponent(y) != 0, y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64)
         << y;
   }
-  EXPECT_EQ(whole_power(std::numeric_limits<float>::quiet_NaN()), 0);
+  EXPECT_EQ(integer_exponent(std::numeric_limits<float>::quiet_NaN()), 0);
   EXPECT_EQ(power_of_reference(0.75f, 3), 0.421875f);
 }
 // In exact products, of numbers with one digit; and no product on the way is subnormal.
 TEST(Power, OfWholeExponentsIsExactWhereDigitsAreFew) {
-  for (int n = 1; n <= kLargestWholePower; ++n) {
+  for (int n = 1; n <= kMaxIntegerExponent; ++n) {
     for (const float tiny : {0x1p-149f, 0x1p-126f, exp2_reference(-126.1f / static_cast<float>(n))}) {
-      const float least = whole_power_reference(tiny, n);
-      EXPECT_TRUE(least >= kSmallestNormal && least <= 1.01f * kSmallestNormal) << n << ": " << least;
+      const float least = integer_power_reference(tiny, n);
+      EXPECT_TRUE(least >= kMinNormal && least <= 1.01f * kMinNormal) << n << ": " << least;
     }
     for (int e = -1; e * n >= -125; --e)
-      EXPECT_EQ(whole_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
-    EXPECT_EQ(whole_power_reference(1, n), 1.0f);
-    EXPECT_EQ(whole_power_reference(0x1p90f, n), n == 1 ? 0x1p90f : 0x1p96f) << n;
-    EXPECT_EQ(whole_power_reference(std::numeric_limits<float>::infinity(), n), 0x1p96f) << n;
+      EXPECT_EQ(integer_power_reference(std::ldexp(1.0f, e), n), std::ldexp(1.0f, e * n)) << n;
+    EXPECT_EQ(integer_power_reference(1, n), 1.0f);
+    EXPECT_EQ(integer_power_reference(0x1p90f, n), n == 1 ? 0x1p90f : 0x1p96f) << n;
+    EXPECT_EQ(integer_power_reference(std::numeric_limits<float>::infinity(), n), 0x1p96f) << n;
     for (const float x :
          {0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
-      EXPECT_EQ(whole_power_reference(x, n), 0.0f) << n;
+      EXPECT_EQ(integer_power_reference(x, n), 0.0f) << n;
   }
 }
 TEST(Power, Log2HasTheBitsOfItsTwin) {
@@ -113,7 +113,7 @@ TEST(Power, Log2HasTheBitsOfItsTwin) {
   long double worst = 0;
   for (const float x : arguments) {
     const long double exact = std::log2(static_cast<long double>(x));
-    if (exact != 0) keep_worst(worst, std::abs((log2_reference(x) - exact) / exact));
+    if (exact != 0) update_worst(worst, std::abs((log2_reference(x) - exact) / exact));
   }
   std::printf("[  figure  ] log2, largest relative error: %.3Lg\n", worst);
   EXPECT_LE(worst, 9.2e-8L);
@@ -127,7 +127,7 @@ TEST(Power, Exp2HasTheBitsOfItsTwin) {
   long double worst = 0;
   for (const float x : arguments) {
     const long double exact = std::exp2(static_cast<long double>(x));
-    keep_worst(worst, std::abs((exp2_reference(x) - exact) / exact));
+    update_worst(worst, std::abs((exp2_reference(x) - exact) / exact));
   }
   std::printf("[  figure  ] exp2, largest relative error: %.3Lg\n", worst);
   EXPECT_LE(worst, 7.2e-8L);
@@ -158,9 +158,9 @@ TEST(Power, IsAsExactAsItSays) {
       const int exponent = std::ilogb(static_cast<float>(exact));
       const double error = static_cast<double>(std::abs(power - exact)),
                    ulp = error / std::ldexp(1.0, exponent - 23);
-      keep_worst(absolute, error);
-      keep_worst(any, ulp);
-      if (exact >= 1 / 256.0L) keep_worst(visible, ulp);
+      update_worst(absolute, error);
+      update_worst(any, ulp);
+      if (exact >= 1 / 256.0L) update_worst(visible, ulp);
     }
     std::printf(
         "[  figure  ] x^%g for x in 0..1: absolute error at most %.3g, %.3g ulp where it is at least 1/256, "

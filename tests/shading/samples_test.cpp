@@ -23,7 +23,7 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
   for (int bits = 1; bits <= 24; ++bits)
     for (const int alpha : {0, 8})
       for (const int samples : {4, 8}) {
-        TileStage stage(kTile, kTile, kTile);
+        TileHarness stage(kTile, kTile, kTile);
         stage.frame().layout = rgb_layout(bits);
         stage.frame().layout.alpha_bits = alpha;
         stage.frame().samples = samples;
@@ -32,18 +32,18 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
           triangles.push_back(source.next(i % 2 == 0 ? Shape::medium : Shape::tiny));
         for (const Triangle& triangle : triangles) {
           TileDraw& draw = stage.add_draw(triangle.data());
-          draw.word = static_cast<std::uint32_t>(source.random()());
+          draw.packed_color = static_cast<std::uint32_t>(source.random()());
           if (reference_of(triangle).area != 0) stage.push(0, stage.draw_count() - 1, 0);
         }
         for (const Isa isa : available_isas()) {
           stage.render(isa, 0, 0x87654321u);
           const ColorLayout& layout = stage.frame().layout;
-          const std::uint32_t mask = layout.word_mask() | layout.alpha_mask();
+          const std::uint32_t mask = layout.value_mask() | layout.alpha_mask();
           for (int y = 0; y < kTile; ++y)
             for (int x = 0; x < kTile; ++x) {
               std::uint32_t words[kMaxSamples];
               for (int s = 0; s < samples; ++s) words[s] = stage.sample_color(s, x, y);
-              ASSERT_EQ(stage.color(x, y) & mask, resolved_word(layout, words, samples))
+              ASSERT_EQ(stage.color(x, y) & mask, resolve_reference(layout, words, samples))
                   << name_of(isa) << ", " << bits << " bits, " << alpha << " of alpha";
             }
         }
@@ -53,11 +53,11 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
 // The twin by hand: halves go up, and components do not run into each other.
 TEST(Samples, MeanRoundsHalvesUp) {
   const std::uint32_t words[8] = {0xff0000, 0xff0001, 0xff0101, 0xff01ff, 0, 0, 0, 0};
-  EXPECT_EQ(resolved_word(rgb_layout(24), words, 4),
+  EXPECT_EQ(resolve_reference(rgb_layout(24), words, 4),
             0xff0140u);  // green 2/4 -> 1, blue (1 + 1 + 255)/4 = 64.25
-  EXPECT_EQ(resolved_word(rgb_layout(24), words, 8), 0x800020u);  // red 127.5, green 0.25, blue 32.125
+  EXPECT_EQ(resolve_reference(rgb_layout(24), words, 8), 0x800020u);  // red 127.5, green 0.25, blue 32.125
   const std::uint32_t greys[4] = {0, 1, 1, 0};
-  EXPECT_EQ(resolved_word(rgb_layout(1), greys, 4), 1u);
+  EXPECT_EQ(resolve_reference(rgb_layout(1), greys, 4), 1u);
 }
 
 // How draws of interpolated colours go through a tile.
@@ -84,7 +84,7 @@ struct InterpolatedDraws {
   InterpolatedDraws(RandomTriangles& source, int round, DepthKind depth_kind) {
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       const bool wide = round % 3 == 2 && i % 13 == 0;
-      const Triangle triangle = source.next(wide         ? Shape::wide
+      const Triangle triangle = source.next(wide         ? Shape::edges64
                                             : i % 3 == 0 ? Shape::large
                                             : i % 3 == 1 ? Shape::medium
                                                          : Shape::tiny);
@@ -107,8 +107,8 @@ struct InterpolatedDraws {
               source.between(20, kTile)};
   }
 
-  void add_to(TileStage& stage, Way way, const FragmentOps& operations) const {
-    stage.forget_draws();
+  void add_to(TileHarness& stage, Way way, const FragmentOps& operations) const {
+    stage.clear_draws();
     for (std::uint32_t d = 0; d < kDraws; ++d) {
       TileDraw& draw = stage.add_draw(vertices.data());
       draw.source = ColorSource::interpolated;
@@ -122,7 +122,7 @@ struct InterpolatedDraws {
       draw.deferred = way == Way::later || way == Way::later_one_by_one || (way == Way::mixed && d != 1);
       draw.ops = way == Way::with_operations ? &operations : nullptr;
     }
-    stage.frame().shade_at_once = way == Way::later_one_by_one;
+    stage.frame().shade_immediately = way == Way::later_one_by_one;
     for (const std::uint32_t id : visible) stage.push(0, id / (kTriangles / kDraws), id);
   }
 };
@@ -133,7 +133,7 @@ TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
   RandomTriangles source(22, kTile);
   const FragmentOps operations{};
   for (const int samples : {4, 8}) {
-    TileStage stage(kTile, kTile, kTile, GetParam());
+    TileHarness stage(kTile, kTile, kTile, GetParam());
     stage.frame().samples = samples;
     for (int round = 0; round < 60; ++round) {
       const InterpolatedDraws draws(source, round, GetParam());

@@ -50,7 +50,7 @@ TEST(TextureEnv, IsTheTableAndHasTheBitsOfItsTwin) {
           texture_colors(isa)(texture, out, texels);
           for (int i = 0; i < 16; ++i) {
             const auto twin =
-                textured_color(texture, {colors[0][i], colors[1][i], colors[2][i], colors[3][i]},
+                texture_env_reference(texture, {colors[0][i], colors[1][i], colors[2][i], colors[3][i]},
                                {texels[0][i], texels[1][i], texels[2][i], texels[3][i]});
             const Rgba table =
                 by_the_table(function, has_alpha, {{colors[0][i], colors[1][i], colors[2][i]}, colors[3][i]},

@@ -23,7 +23,7 @@ void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], 
     for (int l = 0; l < kLanes; ++l) component[l] = components[i + l];
     const Int one = hn::Load(kInt, component), two = twice(one);
     hn::StoreU(unit_component(one), kFloat, units + i);
-    hn::Store(words_of_texels({two, two}), kInt, word);
+    hn::Store(pack_texels({two, two}), kInt, word);
     for (int l = 0; l < kLanes; ++l) words[i + l] = static_cast<std::uint32_t>(word[l]);
   }
 }
@@ -33,7 +33,7 @@ void color_lanes(const DrawTexture& texture, float (&colors)[4][16], const float
     Colors color, texel;
     for (int c = 0; c < 4; ++c)
       color.c[c] = hn::LoadU(kFloat, colors[c] + i), texel.c[c] = hn::LoadU(kFloat, texels[c] + i);
-    color = textured_lanes(texture, color, texel);
+    color = texture_env_lanes(texture, color, texel);
     for (int c = 0; c < 4; ++c) hn::StoreU(color.c[c], kFloat, colors[c] + i);
   }
 }
@@ -49,12 +49,12 @@ bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&at
   set_up_edges(g, 0, 0, {0, 0, tile_size, tile_size});
   set_up_weights(g);
   if (g.mask == 0) return false;
-  const bool is_wide = g.wide[0] != 0;
+  const bool is_wide = g.needs_edges64[0] != 0;
   ShadedTriangle triangle;
-  WideEdges wide;
-  triangle.edges = tile_edges(g, 0);
-  if (is_wide && !tile_edges_of_wide(g, 0, 0, 0, tile_size, triangle.edges, wide)) return false;
-  triangle.wide = is_wide ? 0 : -1;
+  Edges64 wide;
+  triangle.edges = tile_edges32(g, 0);
+  if (is_wide && !tile_edges64(g, 0, 0, 0, tile_size, triangle.edges, wide)) return false;
+  triangle.edges64_index = is_wide ? 0 : -1;
   triangle.affine = g.affine[0] != 0;
   for (int k = 0; k < 3; ++k) {
     triangle.scale[k] = is_wide ? g.unit_scale[k][0] : g.scale[k][0];

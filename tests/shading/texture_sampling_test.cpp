@@ -32,7 +32,7 @@ struct TestTexture {
     levels.mag_linear = mag_linear;
     levels.min_linear = min == Min::linear || min == Min::linear_nearest || min == Min::linear_linear;
     levels.blends_levels = min == Min::nearest_linear || min == Min::linear_linear;
-    levels.most_magnified =
+    levels.magnification_limit =
         mag_linear && (min == Min::nearest_nearest || min == Min::nearest_linear) ? 2.0f : 1.0f;
     levels.wrap_s = wrap_s;
     levels.wrap_t = wrap_t;
@@ -150,14 +150,14 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
       while (!is_clear(texture, s, t));
       batch.field[kTextureS][i] = s;
       batch.field[kTextureT][i] = t;
-      batch.field[kTexelsSquared][i] = static_cast<float>(std::exp2(2.0 * lambda[i]));
+      batch.field[kFootprintSquared][i] = static_cast<float>(std::exp2(2.0 * lambda[i]));
     }
     for (const Isa isa : available_isas()) {
       ShadingBatch out = batch;
       sample_texture(isa)(texture.levels, out, kBatchPoints);
       for (int i = 0; i < kBatchPoints; ++i) {
         const double t = texture.levels.level[0].height == 1 ? 0 : double{batch.field[kTextureT][i]};
-        const double detail = 0.5 * std::log2(double{batch.field[kTexelsSquared][i]});
+        const double detail = 0.5 * std::log2(double{batch.field[kFootprintSquared][i]});
         for (int c = 0; c < 4; ++c) {
           const double expected = expected_component(texture, batch.field[kTextureS][i], t, detail, c),
                        off = std::abs(255.0 * out.field[kTexelR + c][i] - expected);
@@ -212,7 +212,7 @@ TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
   ShadingBatch batch{};
   for (int i = 0; i < kBatchPoints; ++i) {
     batch.field[kTextureS][i] = batch.field[kTextureT][i] = 0.3f;
-    batch.field[kTexelsSquared][i] = std::exp2(static_cast<float>(2 * (i % 6) + 1));
+    batch.field[kFootprintSquared][i] = std::exp2(static_cast<float>(2 * (i % 6) + 1));
   }
   for (const Isa isa : available_isas()) {
     sample_texture(isa)(texture.levels, batch, kBatchPoints);
@@ -233,7 +233,7 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
           i % 3 == 0 ? any() : static_cast<float>(static_cast<int>(random() % 64)) / 16.0f - 2;
       batch.field[kTextureT][i] =
           i % 5 == 0 ? any() : static_cast<float>(static_cast<int>(random() % 64)) / 16.0f - 2;
-      batch.field[kTexelsSquared][i] =
+      batch.field[kFootprintSquared][i] =
           i % 2 == 0 ? any() : std::exp2(static_cast<float>(random() % 24) - 3.0f);
     }
     constexpr float kInfinity = std::numeric_limits<float>::infinity(),
@@ -242,7 +242,7 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
                               -1e-30f,   1e-45f,     -1e-45f, 0.0f,  -0.0f,  1.0f};
     for (int i = 0; i < 12; ++i)
       batch.field[kTextureS][i] = kOdd[i], batch.field[kTextureT][16 + i] = kOdd[i],
-      batch.field[kTexelsSquared][32 + i] = kOdd[i];
+      batch.field[kFootprintSquared][32 + i] = kOdd[i];
     ShadingBatch expected = batch;
     sample_texture(Isa::scalar)(texture.levels, expected, kBatchPoints);
     TextureLevels levels = texture.levels;
@@ -258,7 +258,7 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
                       std::bit_cast<std::uint32_t>(expected.field[kTexelR + c][i]))
                 << name_of(isa) << (gathers ? ", gathers" : "") << ", s " << batch.field[kTextureS][i]
                 << ", t " << batch.field[kTextureT][i] << ", texels squared "
-                << batch.field[kTexelsSquared][i];
+                << batch.field[kFootprintSquared][i];
             ASSERT_TRUE(out.field[kTexelR + c][i] >= 0 && out.field[kTexelR + c][i] <= 1);
           }
       }
@@ -293,7 +293,7 @@ TEST(TextureSampling, OneColorStaysExact) {
     for (int i = 0; i < kBatchPoints; ++i) {
       batch.field[kTextureS][i] = 0.173f * static_cast<float>(i);
       batch.field[kTextureT][i] = 0.091f * static_cast<float>(i);
-      batch.field[kTexelsSquared][i] = 0.7f * static_cast<float>(i);
+      batch.field[kFootprintSquared][i] = 0.7f * static_cast<float>(i);
     }
     for (const Isa isa : available_isas()) {
       sample_texture(isa)(texture.levels, batch, kBatchPoints);

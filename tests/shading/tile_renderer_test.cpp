@@ -58,7 +58,7 @@ Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthKind k
   for (float& a : mesh.attributes) a = static_cast<float>(low + (high - low) * source.unit());
   return mesh;
 }
-TileDraw& add(TileStage& stage, const Mesh& mesh, std::span<const std::uint32_t> triangles) {
+TileDraw& add(TileHarness& stage, const Mesh& mesh, std::span<const std::uint32_t> triangles) {
   TileDraw& draw = stage.add_draw(mesh.vertices.data());
   draw.source = ColorSource::interpolated;
   draw.attributes = mesh.attributes.data();
@@ -66,16 +66,16 @@ TileDraw& add(TileStage& stage, const Mesh& mesh, std::span<const std::uint32_t>
   for (const std::uint32_t id : triangles) stage.push(0, stage.draw_count() - 1, id);
   return draw;
 }
-TileDraw& add(TileStage& stage, const Mesh& mesh) { return add(stage, mesh, mesh.visible); }
+TileDraw& add(TileHarness& stage, const Mesh& mesh) { return add(stage, mesh, mesh.visible); }
 
 TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
   for (const int bits : {3, 8, 16, 24}) {
     RandomTriangles source(static_cast<std::uint32_t>(41 + bits), kTile);
-    TileStage stage(kTile, kTile, kTile);
+    TileHarness stage(kTile, kTile, kTile);
     stage.frame().layout = rgb_layout(bits);
     const ColorLayout layout = stage.frame().layout;
     for (int round = 0; round < 100; ++round) {
-      stage.forget_draws();
+      stage.clear_draws();
       Mesh mesh = random_mesh(source, 1, 3, DepthKind::none, 0, 1);
       const float levels[3] = {static_cast<float>((1 << layout.r_bits) - 1),
                                static_cast<float>((1 << layout.g_bits) - 1),
@@ -101,7 +101,7 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
 }
 
 std::int32_t farthest_key(DepthKind kind) {
-  return depth_key_from_word(kind, kind == DepthKind::float32 ? 0x3f800000u
+  return depth_key_from_stored(kind, kind == DepthKind::float32 ? 0x3f800000u
                                    : kind == DepthKind::none  ? 0xffffffu
                                                               : 0xffffffffu >> (32 - depth_bits(kind)));
 }
@@ -110,7 +110,7 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
   for (const DepthKind kind :
        {DepthKind::none, DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32}) {
     RandomTriangles source(42, kTile);
-    TileStage stage(kTile, kTile, kTile, kind);
+    TileHarness stage(kTile, kTile, kTile, kind);
     for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
       const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 3, kind, 0.5, 255.5,
                                     round % 2 == 0 ? Sides::both : Sides::one);
@@ -118,11 +118,11 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
         std::vector<std::uint32_t> colors[3];
         std::vector<std::int32_t> depths[3];
         for (int way = 0; way < 3; ++way) {
-          stage.forget_draws();
+          stage.clear_draws();
           TileDraw& draw = add(stage, mesh);
           draw.uses_depth = kind != DepthKind::none;
           draw.deferred = way != 0;
-          stage.frame().shade_at_once = way == 2;
+          stage.frame().shade_immediately = way == 2;
           stage.render(isa, 0, 0x123456, farthest_key(kind));
           colors[way] = stage.colors();
           depths[way] = stage.depths();
@@ -140,7 +140,7 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
 // Draws may have a colour for each side: what others of a group show does not matter.
 TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
   RandomTriangles source(49, kTile);
-  TileStage stage(kTile, kTile, kTile);
+  TileHarness stage(kTile, kTile, kTile);
   for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
     const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::none, 0.5, 255.5);
     std::vector<Facing> facing(mesh.vertices.size() / 3);  // of polygons that the triangles were cut from
@@ -152,7 +152,7 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
                          : is_clockwise({corners[0], corners[1], corners[2]}) != front_is_clockwise;
     };
     for (const Isa isa : available_isas()) {
-      stage.forget_draws();
+      stage.clear_draws();
       TileDraw& draw = add(stage, mesh);
       draw.color_attribute[1] = 3;
       draw.facing = of_polygons ? facing.data() : nullptr;
@@ -160,7 +160,7 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
       draw.deferred = deferred;
       stage.render(isa, 0);
       const std::vector<std::uint32_t> both = stage.colors();
-      stage.forget_draws();
+      stage.clear_draws();
       for (const std::uint32_t& id : mesh.visible) {
         TileDraw& one = add(stage, mesh, std::span(&id, 1));
         one.color_attribute[0] = one.color_attribute[1] = shows_back(id) ? 3 : 0;
@@ -176,11 +176,11 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
   for (const bool deferred : {false, true}) {
     for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
       const DepthKind depth = round % 3 == 0 ? DepthKind::float32 : DepthKind::unorm24;
-      TileStage stage(kTile, kTile, kTile, depth);
+      TileHarness stage(kTile, kTile, kTile, depth);
       const Mesh mesh = random_mesh(source, 1, 3, depth, 0.5, 255.5);
       const Isa isa = available_isas()[static_cast<std::size_t>(round / 3) % available_isas().size()];
       const auto draw_in = [&](int step) {
-        stage.forget_draws();
+        stage.clear_draws();
         for (int y = 0; y < kTile; y += step) {
           for (int x = 0; x < kTile; x += step) {
             TileDraw& draw = add(stage, mesh);
@@ -203,7 +203,7 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
 TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
   RandomTriangles source(44, kTile);
   for (int round = 0; round < 200; ++round) {
-    TileStage stage(kTile, kTile, kTile);
+    TileHarness stage(kTile, kTile, kTile);
     Mesh mesh = random_mesh(source, 8, 3, DepthKind::none, 0, 0);
     const std::uint32_t r = static_cast<std::uint32_t>(source.between(0, 255)),
                         g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
@@ -249,7 +249,7 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
     std::vector<std::uint32_t> first;
     for (const Isa isa : available_isas()) {
       for (const bool at_once : {false, true}) {
-        TileStage stage(kTile, kTile, kTile, DepthKind::unorm24);
+        TileHarness stage(kTile, kTile, kTile, DepthKind::unorm24);
         TileDraw& draw = add(stage, mesh);
         draw.source = ColorSource::per_pixel;
         draw.deferred = true;
@@ -257,7 +257,7 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
         draw.programs[0] = &front;
         draw.programs[1] = &back;
         for (std::uint8_t k = 0; k < 6; ++k) draw.fields[k] = static_cast<std::uint8_t>(kNormalX + k);
-        stage.frame().shade_at_once = at_once;
+        stage.frame().shade_immediately = at_once;
         fill_with_odd_values(stage.workspace().memory().batch, source);
         stage.render(isa, 0, 0x123456, 0xffffff);
         if (first.empty()) first = stage.colors();
@@ -270,14 +270,14 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
 // More triangles wait for their colours than a tile collects.
 TEST(TileRenderer, CollectingInPortionsChangesNothing) {
   RandomTriangles source(47, kTile);
-  Mesh mesh = random_mesh(source, static_cast<int>(2 * kMaxCollected) + 100, 3, DepthKind::none, 0.5, 255.5);
-  TileStage stage(kTile, kTile, kTile);
+  Mesh mesh = random_mesh(source, static_cast<int>(2 * kMaxVisibleTriangles) + 100, 3, DepthKind::none, 0.5, 255.5);
+  TileHarness stage(kTile, kTile, kTile);
   for (const Isa isa : available_isas()) {
-    stage.forget_draws();
+    stage.clear_draws();
     add(stage, mesh).deferred = false;
     stage.render(isa, 0);
     const std::vector<std::uint32_t> expected = stage.colors();
-    stage.forget_draws();
+    stage.clear_draws();
     add(stage, mesh).deferred = true;
     stage.render(isa, 0);
     EXPECT_EQ(stage.colors(), expected) << name_of(isa);
@@ -308,7 +308,7 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
       const std::uint32_t mask = source.between(0, 2) == 0 ? 0x5a5a5au : 0xffffffffu;
       for (const Isa isa : available_isas()) {
         const auto draw_with = [&](const FragmentOps& ops) {
-          TileStage stage(kTile, kTile, kTile, kind);
+          TileHarness stage(kTile, kTile, kTile, kind);
           TileDraw& draw = add(stage, mesh);
           if (constant) draw.source = ColorSource::constant;
           draw.ops = &ops;
@@ -343,10 +343,10 @@ TEST(TileRenderer, MasksChooseBitsOfWhatIsDrawnWithoutThem) {
     for (const ColorSource colors : {ColorSource::constant, ColorSource::interpolated})
       for (const Isa isa : available_isas()) {
         const auto draw_through = [&](std::uint32_t mask) {
-          TileStage stage(kTile, kTile, kTile);
+          TileHarness stage(kTile, kTile, kTile);
           TileDraw& draw = add(stage, mesh);
           draw.source = colors;
-          draw.word = 0xabcdef;
+          draw.packed_color = 0xabcdef;
           draw.rect = window;
           draw.write_mask = mask;
           stage.render(isa, 0, kBackground);
