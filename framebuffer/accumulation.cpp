@@ -5,7 +5,7 @@
 
 #include "framebuffer/check.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 struct Range {
@@ -35,7 +35,7 @@ std::int32_t accumulation_level(double value, int bits) {
   return saturated(rounded(value * accumulation_one(bits), kMaxTerm), range_of(bits));
 }
 
-Accumulation::Accumulation(AccumulationOp op, double value, int bits, const ColorLayout& layout)
+Accumulation::Accumulation(AccumOp op, double value, int bits, const ColorLayout& layout)
     : op_(op), value_(value), bits_(bits), layout_(layout), terms_{} {
   TESSERA_ASSERT((bits == 16 || bits == 32) && std::isfinite(value) && !layout.index);
   const Field alpha{layout.bits, layout.alpha_bits}, grey{0, layout.bits};
@@ -45,7 +45,7 @@ Accumulation::Accumulation(AccumulationOp op, double value, int bits, const Colo
                                                     Field{0, layout.b_bits}, alpha};
   const double one = accumulation_one(bits);
   for (std::size_t c = 0; c < 4; ++c) {
-    if (op == AccumulationOp::add || fields_[c].bits == 0) {
+    if (op == AccumOp::add || fields_[c].bits == 0) {
       terms_[c][0] = rounded(value * one, kMaxTerm);
       continue;
     }
@@ -57,7 +57,8 @@ Accumulation::Accumulation(AccumulationOp op, double value, int bits, const Colo
 }
 
 template <bool kAccumulates>
-void Accumulation::add_colors(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const {
+void Accumulation::add_colors(const std::uint32_t* packed_colors, const AccumulatedPixels& levels,
+                              int count) const {
   const Range range = range_of(bits_);
   for (std::size_t c = 0; c < 4; ++c) {
     const auto [shift, bits] = fields_[c];
@@ -70,12 +71,12 @@ void Accumulation::add_colors(const std::uint32_t* packed_colors, const Accumula
 }
 
 void Accumulation::run(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const {
-  TESSERA_ASSERT(op_ != AccumulationOp::give_back);
+  TESSERA_ASSERT(op_ != AccumOp::return_color);
   const Range range = range_of(bits_);
   switch (op_) {
-    case AccumulationOp::accumulate: return add_colors<true>(packed_colors, levels, count);
-    case AccumulationOp::load: return add_colors<false>(packed_colors, levels, count);
-    case AccumulationOp::add:
+    case AccumOp::accum: return add_colors<true>(packed_colors, levels, count);
+    case AccumOp::load: return add_colors<false>(packed_colors, levels, count);
+    case AccumOp::add:
       for (std::size_t c = 0; c < 4; ++c)
         for (int i = 0; i < count; ++i) levels[c][i] = saturated(levels[c][i] + terms_[c][0], range);
       return;
@@ -102,4 +103,4 @@ std::uint32_t Accumulation::packed_color(const AccumulatedPixel& levels, double 
          level(color(1), layout_.g_bits) << layout_.g_shift() | level(color(2), layout_.b_bits);
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -9,18 +9,11 @@
 #include <cstdint>
 
 #include "framebuffer/format.h"
+#include "framebuffer/tessera/enums.hpp"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kMaxLevels = 256;  ///< of a stored colour component
-
-enum class AccumulationOp : std::uint8_t {
-  accumulate,  ///< acc += v c
-  load,        ///< acc = v c
-  add,         ///< acc += v
-  multiply,    ///< acc *= v
-  give_back    ///< c = clamp(v acc)
-};
 
 /// Levels of red, green, blue, alpha: of one pixel, or where those of many start.
 using AccumulatedPixel = std::array<std::int32_t, 4>;
@@ -42,9 +35,9 @@ class Accumulation {
   /// @param value   finite
   /// @param layout  of the colour buffer: RGB or luminance, whose grey counts as red, green and blue; without
   /// alpha planes alpha is 1.
-  Accumulation(AccumulationOp op, double value, int bits, const ColorLayout& layout);
+  Accumulation(AccumOp op, double value, int bits, const ColorLayout& layout);
 
-  AccumulationOp op() const { return op_; }
+  AccumOp op() const { return op_; }
   /// Changes the levels of `count` pixels. Not for give_back.
   /// @param packed_colors  packed colours of these pixels; read by accumulate and load alone
   void run(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
@@ -60,7 +53,7 @@ class Accumulation {
   template <bool kAccumulates>
   void add_colors(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
 
-  AccumulationOp op_;
+  AccumOp op_;
   double value_;
   int bits_;
   ColorLayout layout_;
@@ -68,4 +61,4 @@ class Accumulation {
   std::array<Terms, 4> terms_;  ///< accumulate, load: by the component's level; add: the first
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -7,7 +7,7 @@
 
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Bit b of byte k goes to bit k of byte b.
 inline std::uint64_t transpose_8x8(std::uint64_t x) noexcept {
@@ -22,4 +22,4 @@ inline std::uint64_t transpose_8x8(std::uint64_t x) noexcept {
 inline int strip_index(int i) noexcept { return i / kBlockSize * kBlockPixels + i % kBlockSize; }
 inline int byte_shift(int i) noexcept { return 8 * (7 - i); }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -22,7 +22,7 @@
 
 #ifndef TESSERA_BIT_TRANSPOSE_ONCE
 #define TESSERA_BIT_TRANSPOSE_ONCE
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);  // a strip's bits are stored as one integer
@@ -42,11 +42,11 @@ StripRows strip_rows(std::span<const std::uint32_t* const> tiles, const TilePlac
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -79,8 +79,8 @@ HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mas
 template <int kWholeBytes>
 HWY_INLINE void store_strip(const std::uint32_t* pixels, __m256i flips, int inside_px, StripBits to,
                             std::uint32_t mask) noexcept {
-  // In each group of 4 pixels: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the leftmost
-  // pixel but byte 0 gives bit 0 of a sign mask.
+  // In each group of 4 pixels: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the
+  // leftmost pixel but byte 0 gives bit 0 of a sign mask.
   const __m256i split = _mm256_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3,  //
                                          12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3);
   const __m256i a = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 0), flips), split);
@@ -216,23 +216,23 @@ void store_planes_per_line(std::span<const std::uint32_t* const> tiles, const Ti
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
-static bool has_lines(Isa isa) { return isa == Isa::avx512 && machine_has_gfni(); }
-int tiles_per_store(Isa isa, int tile_size) noexcept {
+namespace tessera::detail {
+static bool has_lines(InstructionSet isa) { return isa == InstructionSet::avx512 && machine_has_gfni(); }
+int tiles_per_store(InstructionSet isa, int tile_size) noexcept {
   return has_lines(isa) ? kLinePixels / tile_size : 1;
 }
-StorePlanesFn* store_planes_for(Isa isa) noexcept {
+StorePlanesFn* store_planes_for(InstructionSet isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
   if (has_lines(isa)) return &N_AVX3::store_planes_per_line;
 #endif
   return store_planes_per_tile(isa);
 }
-StorePlanesFn* store_planes_per_tile([[maybe_unused]] Isa isa) noexcept {
+StorePlanesFn* store_planes_per_tile([[maybe_unused]] InstructionSet isa) noexcept {
   return TESSERA_KERNEL(isa, store_planes);
 }
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif

@@ -11,7 +11,7 @@
 #include "framebuffer/bitplane.h"
 #include "framebuffer/instruction_set.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Where a tile lies in the picture, and what changes on the way.
 struct TilePlace {
@@ -44,12 +44,12 @@ using StorePlanesFn = void(std::span<const std::uint32_t* const> tiles, const Ti
 using LoadPlanesFn = void(std::uint32_t* tile, const TilePlace& place, const BitplaneStack& planes) noexcept;
 
 /// The fastest that this machine can run for `isa`.
-StorePlanesFn* store_planes_for(Isa isa) noexcept;
+StorePlanesFn* store_planes_for(InstructionSet isa) noexcept;
 /// How many tiles that wants at once: those of a line where it writes whole lines, else 1.
-int tiles_per_store(Isa isa, int tile_size) noexcept;
+int tiles_per_store(InstructionSet isa, int tile_size) noexcept;
 /// What store_planes_for() gives where whole lines have no way of their own; tests hold both against the
 /// reference.
-StorePlanesFn* store_planes_per_tile(Isa isa) noexcept;
-LoadPlanesFn* load_planes_for(Isa isa) noexcept;
+StorePlanesFn* store_planes_per_tile(InstructionSet isa) noexcept;
+LoadPlanesFn* load_planes_for(InstructionSet isa) noexcept;
 
-}  // namespace tessera
+}  // namespace tessera::detail

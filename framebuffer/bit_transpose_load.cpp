@@ -19,7 +19,7 @@
 
 #ifndef TESSERA_BIT_TRANSPOSE_LOAD_ONCE
 #define TESSERA_BIT_TRANSPOSE_LOAD_ONCE
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 /// What of a tile is loaded, and from where.
@@ -33,11 +33,11 @@ struct LoadedRows {
 };
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -184,11 +184,13 @@ void load_planes(std::uint32_t* tile, const TilePlace& place, const BitplaneStac
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
-LoadPlanesFn* load_planes_for([[maybe_unused]] Isa isa) noexcept { return TESSERA_KERNEL(isa, load_planes); }
-}  // namespace tessera
+namespace tessera::detail {
+LoadPlanesFn* load_planes_for([[maybe_unused]] InstructionSet isa) noexcept {
+  return TESSERA_KERNEL(isa, load_planes);
+}
+}  // namespace tessera::detail
 #endif

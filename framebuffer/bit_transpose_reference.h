@@ -6,7 +6,7 @@
 #include "framebuffer/bit_transpose.h"
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline void store_planes_reference(const std::uint32_t* tile, const TilePlace& place, BitplaneStack& planes,
                                    std::uint32_t plane_store_mask) noexcept {
@@ -15,7 +15,7 @@ inline void store_planes_reference(const std::uint32_t* tile, const TilePlace& p
       const std::uint32_t incoming = tile[tile_index(x, y, place.tile_size)] ^ place.flip;
       const std::uint32_t stored = planes.pixel(place.x0_px + x, place.y0_px + y);
       planes.set_pixel(place.x0_px + x, place.y0_px + y,
-                      (stored & ~plane_store_mask) | (incoming & plane_store_mask));
+                       (stored & ~plane_store_mask) | (incoming & plane_store_mask));
     }
 }
 
@@ -29,4 +29,4 @@ inline void load_planes_reference(std::uint32_t* tile, const TilePlace& place,
     }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

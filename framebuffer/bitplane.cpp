@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace tessera {
+namespace tessera::detail {
 
 BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexcept
     : width_px_(width_px), height_px_(height_px), plane_count_(plane_count) {
@@ -18,8 +18,8 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
 void BitplaneStack::allocate(std::uint32_t word) {
   if (allocated() || plane_count_ == 0) return;
   memory_.reset(external_memory_ != nullptr ? external_memory_
-                                 : static_cast<std::uint8_t*>(
-                                       ::operator new (needed_bytes(), std::align_val_t{kPlaneAlignment})));
+                                            : static_cast<std::uint8_t*>(::operator new (
+                                                  needed_bytes(), std::align_val_t{kPlaneAlignment})));
   fill(word);
 }
 
@@ -55,4 +55,4 @@ void BitplaneStack::set_pixel(int x, int y, std::uint32_t word) noexcept {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -14,7 +14,7 @@
 
 #include "framebuffer/check.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kMaxPlanes = 32;
 inline constexpr int kPlaneAlignment = 64;               ///< bytes; rows of a plane are padded to it
@@ -106,4 +106,4 @@ class BitplaneStack {
   std::uint8_t* external_memory_ = nullptr;  // the caller's memory; else the stack takes its own
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -2,14 +2,16 @@
 //
 // In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so
 // plane k is bit k; alpha planes follow above. A pixel's depth is a signed key whose order is the order of
-// depths: see DepthKind.
+// depths: see DepthFormat.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
-namespace tessera {
+#include "framebuffer/tessera/enums.hpp"
+
+namespace tessera::detail {
 
 /// How b colour bits are split: 1 and 2 bits luminance, else b/3 each, one odd bit to green, a second to red.
 struct ColorLayout {
@@ -70,24 +72,25 @@ constexpr std::uint32_t display_level(std::uint32_t v, int bits) {
   return levels == 0 ? 0 : (2 * 255 * v + levels) / (2 * levels);
 }
 
-enum class DepthKind : std::uint8_t { none, unorm16, unorm24, unorm32, float32 };
-
-constexpr int depth_bits(DepthKind kind) {
-  return kind == DepthKind::none ? 0 : kind == DepthKind::unorm16 ? 16 : kind == DepthKind::unorm24 ? 24 : 32;
+constexpr int depth_bits(DepthFormat kind) {
+  return kind == DepthFormat::none      ? 0
+         : kind == DepthFormat::unorm16 ? 16
+         : kind == DepthFormat::unorm24 ? 24
+                                        : 32;
 }
 
 // A depth key is the stored level for 16 and 24 bits, the level with its top bit flipped for 32 bits, and the
 // bits of the float (never negative) for float32: in each case a signed comparison of keys compares depths.
-constexpr std::int32_t depth_key_from_stored(DepthKind kind, std::uint32_t word) {
-  return static_cast<std::int32_t>(kind == DepthKind::unorm32 ? word ^ 0x80000000u : word);
+constexpr std::int32_t depth_key_from_stored(DepthFormat kind, std::uint32_t word) {
+  return static_cast<std::int32_t>(kind == DepthFormat::unorm32 ? word ^ 0x80000000u : word);
 }
-constexpr std::uint32_t stored_depth_from_key(DepthKind kind, std::int32_t key) {
-  return kind == DepthKind::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u
-                                    : static_cast<std::uint32_t>(key);
+constexpr std::uint32_t stored_depth_from_key(DepthFormat kind, std::int32_t key) {
+  return kind == DepthFormat::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u
+                                      : static_cast<std::uint32_t>(key);
 }
 /// floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
-inline std::uint32_t quantize_depth(DepthKind kind, double z) {
-  if (kind == DepthKind::float32) {
+inline std::uint32_t quantize_depth(DepthFormat kind, double z) {
+  if (kind == DepthFormat::float32) {
     const float f = static_cast<float>(z) + 0.0f;  // + 0: no negative zero
     std::uint32_t word;
     std::memcpy(&word, &f, sizeof word);
@@ -96,8 +99,8 @@ inline std::uint32_t quantize_depth(DepthKind kind, double z) {
   const double levels = std::ldexp(1.0, depth_bits(kind)) - 1;
   return static_cast<std::uint32_t>(std::floor(z * levels + 0.5));
 }
-inline double dequantize_depth(DepthKind kind, std::uint32_t word) {
-  if (kind == DepthKind::float32) {
+inline double dequantize_depth(DepthFormat kind, std::uint32_t word) {
+  if (kind == DepthFormat::float32) {
     float f;
     std::memcpy(&f, &word, sizeof f);
     return f;
@@ -105,4 +108,4 @@ inline double dequantize_depth(DepthKind kind, std::uint32_t word) {
   return word / (std::ldexp(1.0, depth_bits(kind)) - 1);
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

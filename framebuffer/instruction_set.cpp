@@ -3,7 +3,7 @@
 #include "framebuffer/lanes.h"
 
 #if HWY_ONCE
-namespace tessera {
+namespace tessera::detail {
 
 // What each set needs is what Highway compiles its target with (HWY_TARGET_STR), and AVX512CD: see
 // duplicate_lanes().
@@ -22,15 +22,15 @@ static bool machine_has_avx512() {
 }
 #endif
 
-std::vector<Isa> available_isas() {
-  std::vector<Isa> found;
+std::vector<InstructionSet> available_isas() {
+  std::vector<InstructionSet> found;
 #if HWY_TARGETS & HWY_AVX3
-  if (machine_has_avx512()) found.push_back(Isa::avx512);
+  if (machine_has_avx512()) found.push_back(InstructionSet::avx512);
 #endif
 #if HWY_TARGETS & HWY_AVX2
-  if (machine_has_avx2()) found.push_back(Isa::avx2);
+  if (machine_has_avx2()) found.push_back(InstructionSet::avx2);
 #endif
-  found.push_back(Isa::scalar);
+  found.push_back(InstructionSet::scalar);
   return found;
 }
 
@@ -51,5 +51,5 @@ bool machine_has_fast_gather() {
 #endif
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif  // HWY_ONCE

@@ -1,16 +1,16 @@
 // The one place where the instruction set is chosen. Kernels are compiled once for each set (see lanes.h) and
-// picked from a table by Isa, once a frame; algorithms do not know which one runs.
+// picked from a table by InstructionSet, once a frame; algorithms do not know which one runs.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-namespace tessera {
+#include "framebuffer/tessera/enums.hpp"
 
-enum class Isa : std::uint8_t { scalar, avx2, avx512 };
+namespace tessera::detail {
 
 /// Those compiled in that this machine can run, best first; always ends with scalar (the build's baseline).
-std::vector<Isa> available_isas();
+std::vector<InstructionSet> available_isas();
 
 /// Whether this machine has AVX-512 with products of bit matrices (GFNI): the storing of planes has a faster
 /// way with them, to the same bits.
@@ -19,4 +19,4 @@ bool machine_has_gfni();
 /// Intel's since Sapphire Rapids. These two are all that is chosen beside the set.
 bool machine_has_fast_gather();
 
-}  // namespace tessera
+}  // namespace tessera::detail

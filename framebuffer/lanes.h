@@ -7,8 +7,8 @@
 //   namespace tessera { namespace HWY_NAMESPACE { void kernel(...) {...} } }
 //   HWY_AFTER_NAMESPACE();
 //   #if HWY_ONCE
-//   namespace tessera { KernelFn* kernel_for(Isa isa) { return TESSERA_KERNEL(isa, kernel); } }
-//   #endif
+//   namespace tessera::detail { KernelFn* kernel_for(InstructionSet isa) { return TESSERA_KERNEL(isa,
+//   kernel); } } #endif
 //
 // Highway's SSSE3 and SSE4 targets are disabled: they have no fused multiply-add, so their bits would differ.
 // Older x86 takes the scalar path, whose multiply-adds are fused by std::fma.
@@ -35,12 +35,12 @@
 #include "hwy/highway.h"
 
 #if HWY_TARGETS & HWY_AVX3
-#define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::Isa::avx512 ? &N_AVX3::fn:
+#define TESSERA_KERNEL_AVX512(isa, fn) (isa) == ::tessera::InstructionSet::avx512 ? &N_AVX3::fn:
 #else
 #define TESSERA_KERNEL_AVX512(isa, fn)
 #endif
 #if HWY_TARGETS & HWY_AVX2
-#define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::Isa::avx2 ? &N_AVX2::fn:
+#define TESSERA_KERNEL_AVX2(isa, fn) (isa) == ::tessera::InstructionSet::avx2 ? &N_AVX2::fn:
 #else
 #define TESSERA_KERNEL_AVX2(isa, fn)
 #endif
@@ -48,10 +48,3 @@
 #define TESSERA_KERNEL(isa, fn) \
   (static_cast<void>(isa),      \
    TESSERA_KERNEL_AVX512(isa, fn) TESSERA_KERNEL_AVX2(isa, fn) & HWY_STATIC_DISPATCH(fn))
-
-// Beside vectors the scalar path is for machines that have none, and the kernels' specification: small before
-// fast. So is what follows the kernels in their files, which runs once for many vertices or pixels.
-#if HWY_TARGET == HWY_SCALAR && HWY_TARGETS != HWY_SCALAR && defined(__OPTIMIZE__) && defined(__GNUC__) && \
-    !defined(__clang__)
-#pragma GCC optimize("Os")
-#endif

@@ -5,7 +5,7 @@
 
 #include "framebuffer/format.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 namespace {
 
@@ -111,4 +111,4 @@ Palette default_palette_of(int bits) {
   return {.bits = bits, .entries = *palette_entries(default_palette_name(bits), bits)};
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -8,7 +8,7 @@
 
 #include "framebuffer/check.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// A stored colour: 0 .. 255 each.
 struct Rgb8 {
@@ -43,4 +43,4 @@ std::string_view default_palette_name(int bits) noexcept;
 /// That palette.
 Palette default_palette_of(int bits);
 
-}  // namespace tessera
+}  // namespace tessera::detail

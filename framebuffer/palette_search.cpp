@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace tessera {
+namespace tessera::detail {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::uint32_t PaletteSearch::nearest_unclamped(float r, float g, float b) const 
   return search(r, g, b);
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -10,7 +10,7 @@
 
 #include "framebuffer/palette.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 class PaletteSearch {
  public:
@@ -47,4 +47,4 @@ class PaletteSearch {
   std::vector<std::uint32_t> candidates_;  ///< positions in entries_, ascending in each cell
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -3,7 +3,7 @@
 
 #include "framebuffer/palette.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// As PaletteSearch::nearest().
 inline std::uint32_t nearest_reference(const Palette& palette, float r, float g, float b) noexcept {
@@ -24,4 +24,4 @@ inline std::uint32_t nearest_reference(const Palette& palette, float r, float g,
   return nearest;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -24,7 +24,7 @@
 
 #if HWY_TARGET == HWY_AVX3
 HWY_PUSH_ATTRIBUTES(HWY_TARGET_STR ",gfni")
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 inline constexpr int kQuarterPixels = kLinePixels / 4;
@@ -142,7 +142,7 @@ inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_POP_ATTRIBUTES
 #endif
 

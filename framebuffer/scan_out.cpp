@@ -17,7 +17,7 @@
 #include "framebuffer/tile_grid.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -72,7 +72,8 @@ struct RedFirstPixels {
     const hn::Repartition<std::uint8_t, PackedTag> bytes;
     alignas(16) static constexpr std::uint8_t kRedFirst[16] = {2,  1, 0, 3,  6,  5,  4,  7,
                                                                10, 9, 8, 11, 14, 13, 12, 15};
-    const auto exchanged = hn::TableLookupBytes(hn::BitCast(bytes, packed_pixels), hn::LoadDup128(bytes, kRedFirst));
+    const auto exchanged =
+        hn::TableLookupBytes(hn::BitCast(bytes, packed_pixels), hn::LoadDup128(bytes, kRedFirst));
     return hn::Or(hn::BitCast(d, exchanged), hn::Set(d, 0xff000000u));
 #endif
   }
@@ -104,7 +105,9 @@ HWY_INLINE PackedVec load_pixels(PackedTag d, const std::uint32_t* packed_pixels
     } else {
       const hn::Half<hn::Half<PackedTag>> quarter;
       return hn::Combine(
-          d, hn::Combine(half, hn::LoadU(quarter, packed_pixels + 3 * kStep), hn::LoadU(quarter, packed_pixels + 2 * kStep)),
+          d,
+          hn::Combine(half, hn::LoadU(quarter, packed_pixels + 3 * kStep),
+                      hn::LoadU(quarter, packed_pixels + 2 * kStep)),
           hn::Combine(half, hn::LoadU(quarter, packed_pixels + kStep), hn::LoadU(quarter, packed_pixels)));
     }
   }
@@ -124,7 +127,8 @@ HWY_INLINE void store_pixels(PackedTag d, PackedVec pixels, std::uint8_t* to) no
 #endif
 }
 
-/// One row; groups of 4 pixels stand kStep packed_pixels apart: kBlockPixels in a tile, kBlockSize in a plain row.
+/// One row; groups of 4 pixels stand kStep packed_pixels apart: kBlockPixels in a tile, kBlockSize in a plain
+/// row.
 template <int kStep, class Pixels>
 HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels, int width_px,
                                   std::uint8_t* row) noexcept {
@@ -134,8 +138,8 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* pac
   for (; x + kUnit <= width_px; x += kUnit, packed_pixels += kUnit / kBlockSize * kStep, row += 4 * kUnit)
     for (int i = 0; i < kUnit; i += kLanes)
       store_pixels(d, pixels(d, load_pixels<kStep>(d, packed_pixels + i)), row + 4 * i);
-  // The rest, in memory of its own: neither the packed_pixels beyond the last pixel nor the bytes beyond the row are
-  // touched.
+  // The rest, in memory of its own: neither the packed_pixels beyond the last pixel nor the bytes beyond the
+  // row are touched.
   const int rest_px = width_px - x;
   if (rest_px <= 0) return;
   HWY_ALIGN std::uint32_t rest[kUnit] = {};
@@ -148,8 +152,9 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* pac
 /// Four rows, by blocks of 16 pixels: a block's rows are the quarters of a vector, and four blocks exchange
 /// them.
 template <class Pixels>
-HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels, int width_px,
-                                        std::uint8_t* first_row, std::ptrdiff_t stride_bytes) noexcept {
+HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels,
+                                        int width_px, std::uint8_t* first_row,
+                                        std::ptrdiff_t stride_bytes) noexcept {
   const PackedTag d;
   constexpr int kUnit = 4 * kBlockSize;
   int x = 0;
@@ -186,7 +191,7 @@ HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* ti
   const auto fetch = [&](int y) HWY_ATTR {
     if (y < height_px)
       prefetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px,
-                  std::min(kBlockSize, height_px - y));
+                     std::min(kBlockSize, height_px - y));
   };
   fetch(0);
   for (int y = 0; y < height_px; y += kBlockSize) {
@@ -200,7 +205,8 @@ HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* ti
     }
 #endif
     for (int row = 0; row < std::min(kBlockSize, height_px - y); ++row)
-      scan_out_row_with<kBlockPixels>(pixels, packed_pixels + row * kBlockSize, width_px, to + row * stride_bytes);
+      scan_out_row_with<kBlockPixels>(pixels, packed_pixels + row * kBlockSize, width_px,
+                                      to + row * stride_bytes);
   }
 }
 
@@ -234,11 +240,11 @@ void scan_out_row(const ScanOutRule& rule, const std::uint32_t* packed_pixels, i
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
+namespace tessera::detail {
 
 static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int byte_shift) {
   // 255 v / mask lies at least 1 / (2 mask) from the next half, mask being odd; v times the scale's rounding
@@ -246,15 +252,16 @@ static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int 
   return {.shift = shift, .mask = mask, .scale = ((255u << 16) + mask / 2) / mask, .byte_shift = byte_shift};
 }
 
-ScanOut::ScanOut(const ColorLayout& layout, const Palette* palette, ByteOrder order, [[maybe_unused]] Isa isa)
+ScanOut::ScanOut(const ColorLayout& layout, const Palette* palette, PixelOrder order,
+                 [[maybe_unused]] InstructionSet isa)
     : tile_fn_(TESSERA_KERNEL(isa, scan_out_tile)), row_fn_(TESSERA_KERNEL(isa, scan_out_row)) {
   set(layout, palette, order);
 }
 
-void ScanOut::set(const ColorLayout& layout, const Palette* palette, ByteOrder order) {
+void ScanOut::set(const ColorLayout& layout, const Palette* palette, PixelOrder order) {
   rule_ = {};
   pixels_.clear();
-  const int r_byte = order == ByteOrder::rgba8 ? 0 : 16, b_byte = 16 - r_byte;
+  const int r_byte = order == PixelOrder::rgba8 ? 0 : 16, b_byte = 16 - r_byte;
   if (layout.alpha_bits == 8) rule_.alpha_shift = 24 - layout.bits;
   if (layout.index) {
     TESSERA_ASSERT(palette != nullptr && palette->bits == layout.bits &&
@@ -280,5 +287,5 @@ void ScanOut::set(const ColorLayout& layout, const Palette* palette, ByteOrder o
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif

@@ -10,14 +10,12 @@
 #include "framebuffer/format.h"
 #include "framebuffer/instruction_set.h"
 #include "framebuffer/palette.h"
+#include "framebuffer/tessera/enums.hpp"
 
-namespace tessera {
+namespace tessera::detail {
 
-/// Bytes of a pixel in memory, in this order.
-enum class ByteOrder : std::uint8_t { rgba8, bgra8 };
-
-/// How packed pixels become display pixels. A component is `(word >> shift & mask) * scale`, rounded from 16 fraction bits,
-/// and goes to `byte_shift` of the pixel; an index is looked up.
+/// How packed pixels become display pixels. A component is `(word >> shift & mask) * scale`, rounded from 16
+/// fraction bits, and goes to `byte_shift` of the pixel; an index is looked up.
 struct ScanOutRule {
   struct Component {
     int shift = 0;            ///< of its lowest bit in the word
@@ -43,9 +41,9 @@ class ScanOut {
  public:
   /// @param palette  for index layouts, with layout.bits bits; copied. Ignored (may be null) for the others.
   /// Throws std::bad_alloc only.
-  ScanOut(const ColorLayout& layout, const Palette* palette, ByteOrder order, Isa isa);
+  ScanOut(const ColorLayout& layout, const Palette* palette, PixelOrder order, InstructionSet isa);
   /// For another frame, in the same memory. Throws std::bad_alloc only; then it may but be set again.
-  void set(const ColorLayout& layout, const Palette* palette, ByteOrder order);
+  void set(const ColorLayout& layout, const Palette* palette, PixelOrder order);
   ScanOut(ScanOut&&) noexcept = default;
   ScanOut& operator=(ScanOut&&) noexcept = default;
 
@@ -71,4 +69,4 @@ class ScanOut {
   ScanOutRowFn* row_fn_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

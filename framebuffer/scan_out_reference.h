@@ -5,11 +5,11 @@
 #include "framebuffer/palette.h"
 #include "framebuffer/scan_out.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// The four bytes of a pixel, the first one lowest.
-inline std::uint32_t scan_out_pixel_reference(const ColorLayout& layout, const Palette* palette, ByteOrder order,
-                                           std::uint32_t word) noexcept {
+inline std::uint32_t scan_out_pixel_reference(const ColorLayout& layout, const Palette* palette,
+                                              PixelOrder order, std::uint32_t word) noexcept {
   std::uint32_t r, g, b;
   if (layout.index) {
     const Rgb8 entry = (*palette)[word & layout.value_mask()];
@@ -22,7 +22,7 @@ inline std::uint32_t scan_out_pixel_reference(const ColorLayout& layout, const P
     b = display_level(word & layout.b_mask(), layout.b_bits);
   }
   const std::uint32_t a = layout.alpha_bits == 0 ? 255 : (word & layout.alpha_mask()) >> layout.bits;
-  return order == ByteOrder::rgba8 ? r | g << 8 | b << 16 | a << 24 : b | g << 8 | r << 16 | a << 24;
+  return order == PixelOrder::rgba8 ? r | g << 8 | b << 16 | a << 24 : b | g << 8 | r << 16 | a << 24;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -12,7 +12,7 @@
 #include "framebuffer/check.h"
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline void assert_tile_fits([[maybe_unused]] const TilePlace& place,
                              [[maybe_unused]] const BitplaneStack& planes) noexcept {
@@ -60,4 +60,4 @@ struct StripRows {
   }
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kBlockSize = 4;  ///< pixels; a block is 4x4, stored in 16 consecutive words
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
@@ -38,4 +38,4 @@ constexpr PixelRect intersect(PixelRect a, PixelRect b) {
           a.y1 < b.y1 ? a.y1 : b.y1};
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

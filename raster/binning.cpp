@@ -9,13 +9,13 @@
 #include "raster/binning.h"
 #include "raster/lanes-inl.h"
 
-namespace tessera {
+namespace tessera::detail {
 #ifndef TESSERA_BINNING_SHARED
 #define TESSERA_BINNING_SHARED
 /// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges
 /// may touch.
 void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
-                        const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1);
+                             const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1);
 /// Clips one triangle and bins what is left of it.
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
                           std::uint8_t outcodes);
@@ -26,10 +26,10 @@ inline bool passes_face_culling(const BinDraw& draw, std::uint32_t triangle, dou
   return front ? draw.keep_front : draw.keep_back;
 }
 #endif
-}  // namespace tessera
+}  // namespace tessera::detail
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 // A group of triangles as arrays, so that bounds and areas become lanes.
@@ -41,10 +41,10 @@ struct BinningGroup {
   alignas(64) double area[kBinningGroupSize];
   alignas(64) std::int32_t area_sign[kBinningGroupSize];  // the area's sign
   alignas(64) std::int32_t px0[kBinningGroupSize], py0[kBinningGroupSize], px1[kBinningGroupSize],
-      py1[kBinningGroupSize];                            // pixels whose centres the bounds hold, inclusive
+      py1[kBinningGroupSize];  // pixels whose centres the bounds hold, inclusive
   alignas(64) std::int32_t passes_culling[kBinningGroupSize];      // 1: the side that is seen is
-  alignas(64) std::int32_t extent[kBinningGroupSize];    // the greater one of width and height
-  alignas(64) std::int32_t tile[kBinningGroupSize];      // of the first pixel
+  alignas(64) std::int32_t extent[kBinningGroupSize];              // the greater one of width and height
+  alignas(64) std::int32_t tile[kBinningGroupSize];                // of the first pixel
   alignas(64) std::int32_t second_tile_offset[kBinningGroupSize];  // from there to the other one, of two
   alignas(64) std::int32_t triangle_class[kBinningGroupSize];
 
@@ -114,11 +114,15 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
   }
   if (draw.facing != nullptr) {
     for (int k = 0; k < g.count; ++k)
-      g.passes_culling[k] = (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
+      g.passes_culling[k] =
+          (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
   } else {
-    const std::int32_t keeps_negative = is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back,
-                       keeps_positive = is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
-    for (int k = 0; k < kBinningGroupSize; ++k) g.passes_culling[k] = g.area_sign[k] < 0 ? keeps_negative : keeps_positive;
+    const std::int32_t keeps_negative =
+                           is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back,
+                       keeps_positive =
+                           is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
+    for (int k = 0; k < kBinningGroupSize; ++k)
+      g.passes_culling[k] = g.area_sign[k] < 0 ? keeps_negative : keeps_positive;
   }
   const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
   const std::int32_t reach = draw.sample_reach, two_tiles = 2 << (shift + kSubpixelBits);
@@ -136,11 +140,13 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
     const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
     g.second_tile_offset[k] = down == 0 ? 1 : columns;
     g.extent[k] = max_of(high_x - low_x, high_y - low_y);
-    const std::int32_t multi_tile_class = across + down == 1 && g.extent[k] <= two_tiles
-                                     ? kInTwoTiles
-                                     : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
+    const std::int32_t multi_tile_class =
+        across + down == 1 && g.extent[k] <= two_tiles
+            ? kInTwoTiles
+            : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
     const std::int32_t visible_class = across + down == 0 ? kInOneTile : multi_tile_class;
-    const std::int32_t kept_class = ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : visible_class;
+    const std::int32_t kept_class =
+        ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : visible_class;
     g.triangle_class[k] = g.area_sign[k] == 0 ? kZeroArea : g.passes_culling[k] == 0 ? kCulled : kept_class;
   }
 }
@@ -150,7 +156,8 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
 HWY_INLINE void cull_between_samples(BinningGroup& g) {
   for (int first = 0; first < kBinningGroupSize; first += kLanes) {
     const auto load = [first](const std::int32_t* array) HWY_ATTR { return hn::Load(kInt, array + first); };
-    const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0), triangle_class = load(g.triangle_class);
+    const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0),
+              triangle_class = load(g.triangle_class);
     const Int max_pixel_extent = hn::Max(hn::Sub(load(g.px1), px0), hn::Sub(load(g.py1), py0));
     const auto is_small =
         hn::And(hn::Lt(max_pixel_extent, splat(2)),
@@ -182,15 +189,17 @@ HWY_INLINE void cull_between_samples(BinningGroup& g) {
     }
     const auto is_missed =
         hn::Lt(hn::And(hn::And(outside[0], outside[1]), hn::And(outside[2], outside[3])), zero);
-    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), triangle_class), kInt,
-              g.triangle_class + first);
+    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), triangle_class),
+              kInt, g.triangle_class + first);
   }
 }
 
 HWY_INLINE std::uint32_t class_mask(const BinningGroup& g, TriangleClass triangle_class) {
   std::uint32_t bits = 0;
   for (int k = 0; k < kBinningGroupSize; k += kLanes)
-    bits |= mask_bits(kInt, hn::TestBit(hn::Load(kInt, g.triangle_class + k), splat(std::int32_t{triangle_class}))) << k;
+    bits |= mask_bits(kInt,
+                      hn::TestBit(hn::Load(kInt, g.triangle_class + k), splat(std::int32_t{triangle_class})))
+            << k;
   return bits & low_bits_mask(g.count);
 }
 
@@ -247,7 +256,7 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
                                       &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)],
                                       &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
     bin_multi_tile_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift,
-                       g.px1[k] >> shift, g.py1[k] >> shift);
+                            g.px1[k] >> shift, g.py1[k] >> shift);
   }
   cache.push();
   g.count = 0;
@@ -255,8 +264,8 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
 
 /// What is to be done with a triangle of which some vertex has a code.
 enum class ClipDecision { unusable, outside, clipped };
-HWY_INLINE ClipDecision clip_decision(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0, std::uint8_t c1,
-                       std::uint8_t c2) {
+HWY_INLINE ClipDecision clip_decision(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0,
+                                      std::uint8_t c1, std::uint8_t c2) {
   if (((c0 | c1 | c2) & kNonFinite) != 0 ||
       (draw.facing != nullptr && draw.facing[triangle] == Facing::dropped))
     return ClipDecision::unusable;
@@ -300,19 +309,19 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
+namespace tessera::detail {
 
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
-                   std::uint32_t last, Isa isa) {
+                   std::uint32_t last, InstructionSet isa) {
   TESSERA_KERNEL(isa, bin_triangles_lanes)(bins, grid, draw, first, last);
 }
 
 void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
-                        const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
+                             const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
   // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the
   // tile is outside. Ties at 0 belong to the fill rule and are left to the tile.
   const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits, reach = side - kSubpixelScale;
@@ -397,10 +406,10 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     ++bins.counts.binned;
     const WindowVertex* const v[3] = {&derived.vertices[0], &derived.vertices[1], &derived.vertices[2]};
     bin_multi_tile_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.last_derived_id(),
-                       px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size,
-                       py1 / grid.tile_size);
+                            px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size,
+                            py1 / grid.tile_size);
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif

@@ -8,6 +8,7 @@
 
 #include "framebuffer/check.h"
 #include "framebuffer/instruction_set.h"
+#include "framebuffer/tessera/enums.hpp"
 #include "framebuffer/tile_grid.h"
 #include "raster/bins.h"
 #include "raster/polygon_facing.h"
@@ -15,14 +16,11 @@
 #include "raster/vertex_transform.h"
 #include "raster/window_polygon.h"
 
-namespace tessera {
-
-/// How polygons are drawn: filled, as their boundary's lines, or as points at their corners.
-enum class PolygonStyle : std::uint8_t { fill, line, point };
+namespace tessera::detail {
 
 /// What binning needs besides of a draw whose polygons are not all filled.
 struct PolygonModes {
-  PolygonStyle style[2] = {};  ///< of fronts and backs
+  PolygonMode style[2] = {};   ///< of fronts and backs
   std::uint32_t draw[3] = {};  ///< the numbers in the frame of what is filled, of lines, of points
   float line_width = 1, point_size = 1;
   std::size_t triangles = 1;                ///< that each polygon was split into
@@ -68,8 +66,8 @@ std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint
 /// A vertex with its attributes, before clipping.
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
 
-/// A triangle after clipping, with the attributes that are asked for. @param outcodes  the three vertices' outcodes
-/// or-ed
+/// A triangle after clipping, with the attributes that are asked for. @param outcodes  the three vertices'
+/// outcodes or-ed
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t outcodes,
                              int attribute_count);
 
@@ -87,13 +85,13 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
 /// clipping leaves of a polygon the edges that clipping made are lines, too. Throws std::bad_alloc. @pre
 /// draw.modes and draw.facing
 void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
-                  std::uint32_t last, Isa isa);
+                  std::uint32_t last, InstructionSet isa);
 /// Pieces of points and lines that stand last in the list of clipped ones. False if they are outside.
 bool bin_derived_point(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 bool bin_derived_line(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 
 /// Culls and bins triangles [first, last) of a draw.
 void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
-                   std::uint32_t last, Isa isa);
+                   std::uint32_t last, InstructionSet isa);
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tessera {
+namespace tessera::detail {
 
 std::size_t Bins::bytes() const {
   return tile_lists_.capacity() * sizeof(TileList) + triangles_.capacity() * sizeof(std::uint32_t) +
@@ -118,10 +118,10 @@ void BinBatches::index_batches(int first_tile, int count) {
 }
 
 void BinBatches::set_streamed(const Bins& place, std::uint32_t count,
-                                std::function<void(std::uint32_t)> fill) {
+                              std::function<void(std::uint32_t)> fill) {
   bins_ = &place;
   count_ = count;
   fill_ = std::move(fill);
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -12,7 +12,7 @@
 
 #include "raster/clip.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 // A bin entry is a triangle of the current draw, or a marker that makes another draw current; a bitmap or an
 // image is a marker alone.
@@ -135,16 +135,21 @@ class Bins {
     for (std::size_t i = 0; i < sizeof(Block); i += kLineBytes) __builtin_prefetch(bytes + i);
   }
 
-  /// A new derived primitive at the end of the list, with room for the attributes of its corners. After an overflow it is
-  /// the only one. Throws std::bad_alloc.
+  /// A new derived primitive at the end of the list, with room for the attributes of its corners. After an
+  /// overflow it is the only one. Throws std::bad_alloc.
   DerivedPrimitive& add_derived(std::uint32_t source, int corners, int attribute_count);
   void drop_last_derived();
   const DerivedPrimitive& last_derived() const { return derived_.back(); }
-  std::uint32_t last_derived_id() const { return kDerivedBit | static_cast<std::uint32_t>(derived_.size() - 1); }
+  std::uint32_t last_derived_id() const {
+    return kDerivedBit | static_cast<std::uint32_t>(derived_.size() - 1);
+  }
   const DerivedPrimitive& derived(std::uint32_t id) const { return derived_[id & ~kDerivedBit]; }
-  /// Attributes of a derived primitive, corner by corner; behind the last one kAttributePadding more floats may be read.
+  /// Attributes of a derived primitive, corner by corner; behind the last one kAttributePadding more floats
+  /// may be read.
   float* attributes(const DerivedPrimitive& derived) { return attributes_.data() + derived.first_attribute; }
-  const float* attributes(const DerivedPrimitive& derived) const { return attributes_.data() + derived.first_attribute; }
+  const float* attributes(const DerivedPrimitive& derived) const {
+    return attributes_.data() + derived.first_attribute;
+  }
 
   BinCounts counts;
   ClippedBoundary boundary;  ///< memory for one polygon after the other
@@ -232,4 +237,4 @@ class BinBatches {
   std::function<void(std::uint32_t)> fill_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

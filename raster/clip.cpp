@@ -5,15 +5,15 @@
 #include <span>
 #include <utility>
 
-#include "raster/exact_cut.h"
+#include "raster/exact_intersection.h"
 #include "raster/exact_vertex.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 // Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
 constexpr Outcode kPlanes[] = {kBeforeNear,       kBehindFar,      kLeftOfGuardBand,
-                                kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand};
+                               kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand};
 // A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the
 // first cut every plane is looked at.
 bool may_clip(Outcode plane, std::uint8_t outcodes) {
@@ -55,7 +55,8 @@ int side(const VertexTransform& t, Outcode plane, const ClipVertex& v) {
 // The polygon as it was, of which things are cut off.
 class UnclippedPolygon {
  public:
-  UnclippedPolygon(const VertexTransform& transform, std::span<const ClipVertex> vertices, int attribute_count)
+  UnclippedPolygon(const VertexTransform& transform, std::span<const ClipVertex> vertices,
+                   int attribute_count)
       : transform_(transform), vertices_(vertices), attribute_count_(attribute_count) {}
 
   // The point of the edge from `a` to `b` on a plane, of which one is inside. It is the same whichever end is
@@ -63,16 +64,17 @@ class UnclippedPolygon {
   ClipVertex cut(Outcode plane, const ClipCorner& a, const ClipVertex& b, bool a_is_inside) const {
     if (a.edge >= 0) {
       const auto first = static_cast<std::size_t>(a.edge);
-      if (const auto v =
-              cut_whole_edge(plane, vertices_[first], vertices_[first + 1 == vertices_.size() ? 0 : first + 1]))
+      if (const auto v = cut_whole_edge(plane, vertices_[first],
+                                        vertices_[first + 1 == vertices_.size() ? 0 : first + 1]))
         return *v;
     }
-    const InterpolatedVertex interpolated = a_is_inside ? interpolate(plane, a.vertex, b) : interpolate(plane, b, a.vertex);
+    const InterpolatedVertex interpolated =
+        a_is_inside ? interpolate(plane, a.vertex, b) : interpolate(plane, b, a.vertex);
     if (interpolated.is_accurate || a.edge >= 0) return on_plane(plane, interpolated.vertex);
     for (std::size_t i = 2; i < vertices_.size() && exact_cuts_left_ > 0;
          ++i, --exact_cuts_left_)  // the triangles from the first vertex to all others
-      if (const auto v = exact_two_plane_intersection(transform_, plane, a.plane, vertices_[0], vertices_[i - 1],
-                                        vertices_[i], attribute_count_))
+      if (const auto v = exact_two_plane_intersection(transform_, plane, a.plane, vertices_[0],
+                                                      vertices_[i - 1], vertices_[i], attribute_count_))
         return on_plane(plane, *v);
     return on_plane(plane, interpolated.vertex);
   }
@@ -81,10 +83,11 @@ class UnclippedPolygon {
     const bool a_inside = side(transform_, plane, a) >= 0, b_inside = side(transform_, plane, b) >= 0;
     if (a_inside == b_inside) return std::nullopt;
     const InterpolatedVertex interpolated = a_inside ? interpolate(plane, a, b) : interpolate(plane, b, a);
-    return on_plane(plane, interpolated.is_accurate ? interpolated.vertex
-                                         : exact_edge_intersection(transform_, plane, a_inside ? a : b, a_inside ? b : a,
-                                                     attribute_count_)
-                                               .value_or(interpolated.vertex));
+    return on_plane(plane, interpolated.is_accurate
+                               ? interpolated.vertex
+                               : exact_edge_intersection(transform_, plane, a_inside ? a : b,
+                                                         a_inside ? b : a, attribute_count_)
+                                     .value_or(interpolated.vertex));
   }
 
  private:
@@ -101,14 +104,18 @@ class UnclippedPolygon {
     const double t = is_crossed ? first / apart : 0;
     const auto interpolate = [t](double a, double b) { return std::fma(t, b - a, a); };
     const ClipPosition &p = from.position, &q = to.position;
-    InterpolatedVertex interpolated{{.position = {interpolate(p.x, q.x), interpolate(p.y, q.y), interpolate(p.z, q.z), interpolate(p.w, q.w)}}, false};
+    InterpolatedVertex interpolated{{.position = {interpolate(p.x, q.x), interpolate(p.y, q.y),
+                                                  interpolate(p.z, q.z), interpolate(p.w, q.w)}},
+                                    false};
     for (int k = 0; k < attribute_count_; ++k) {
       const float a = from.attributes[k], b = to.attributes[k];
-      interpolated.vertex.attributes[k] = std::clamp(static_cast<float>(interpolate(a, b)), std::min(a, b), std::max(a, b));
+      interpolated.vertex.attributes[k] =
+          std::clamp(static_cast<float>(interpolate(a, b)), std::min(a, b), std::max(a, b));
     }
-    // What is interpolated is off by some 2^-50 of what that end is the sum of, and by as much more as the edge is
-    // long for its way through the plane; by its share, also of the other end's. With less than 2^20 of what
-    // is seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14 pixels.
+    // What is interpolated is off by some 2^-50 of what that end is the sum of, and by as much more as the
+    // edge is long for its way through the plane; by its share, also of the other end's. With less than 2^20
+    // of what is seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14
+    // pixels.
     const double guard = (plane & (kBeforeNear | kBehindFar)) != 0               ? 1
                          : (plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0 ? transform_.guard_x
                                                                                  : transform_.guard_y;
@@ -150,7 +157,7 @@ bool is_usable(const ClipPosition& p) {
 // What of a polygon is inside of one plane, vertex by vertex.
 template <class Keep>
 void clip_to_plane(const VertexTransform& transform, const UnclippedPolygon& unclipped, Outcode plane,
-                 std::span<const ClipCorner> corners, const Keep& keep) {
+                   std::span<const ClipCorner> corners, const Keep& keep) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ClipCorner &a = corners[i], &b = corners[i + 1 == corners.size() ? 0 : i + 1];
     const int of_a = side(transform, plane, a.vertex), of_b = side(transform, plane, b.vertex);
@@ -196,7 +203,7 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
     if (!may_clip(plane, outcodes)) continue;
     Polygon kept;
     clip_to_plane(transform, unclipped, plane, {polygon.corners, polygon.count},
-                [&kept](const ClipCorner& corner) { kept.add(corner); });
+                  [&kept](const ClipCorner& corner) { kept.add(corner); });
     polygon = kept;
     if (polygon.count < 3) return {};
   }
@@ -219,7 +226,7 @@ void PolygonClipper::clip(const VertexTransform& transform, std::vector<ClipVert
     if (!may_clip(plane, outcodes)) continue;
     kept_.clear();
     clip_to_plane(transform, unclipped, plane, corners_,
-                [this](const ClipCorner& corner) { kept_.push_back(corner); });
+                  [this](const ClipCorner& corner) { kept_.push_back(corner); });
     std::swap(corners_, kept_);
   }
   polygon.clear();
@@ -252,4 +259,4 @@ bool is_in_view(const VertexTransform& transform, const ClipPosition& p) {
          distance(transform, kBehindFar, p) >= 0;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -8,7 +8,7 @@
 
 #include "raster/vertex_transform.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Floats of an attribute record are interpolated linearly in clip space, as the position is.
 inline constexpr int kMaxAttributes =
@@ -27,12 +27,12 @@ struct ClipVertex {
 
 inline constexpr int kMaxClippedVertices = 3 + 6;
 
-/// The part of the triangle inside every plane in `outcodes` (the three vertices' outcodes or-ed), as a convex
-/// polygon of at most kMaxClippedVertices vertices in the triangle's own order; empty if nothing is left.
-/// Whatever else has been cut off before, an edge is cut between the triangle's own vertices, and either way
-/// round alike, so neighbours that share it get the very same point. In double; exactly where doubles have
-/// not the digits, since what is cut is very much larger than what is seen of it. Based on: I. Sutherland, G.
-/// Hodgman, Reentrant Polygon Clipping, CACM 1974.
+/// The part of the triangle inside every plane in `outcodes` (the three vertices' outcodes or-ed), as a
+/// convex polygon of at most kMaxClippedVertices vertices in the triangle's own order; empty if nothing is
+/// left. Whatever else has been cut off before, an edge is cut between the triangle's own vertices, and
+/// either way round alike, so neighbours that share it get the very same point. In double; exactly where
+/// doubles have not the digits, since what is cut is very much larger than what is seen of it. Based on: I.
+/// Sutherland, G. Hodgman, Reentrant Polygon Clipping, CACM 1974.
 struct ClippedPolygon {
   ClipVertex vertices[kMaxClippedVertices];
   int count = 0;
@@ -43,7 +43,7 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
 /// A vertex of what is left, and what the edge from it to the next lies on.
 struct ClipCorner {
   ClipVertex vertex;
-  int edge = 0;         ///< the polygon's own, from its vertex of that number on; or
+  int edge = 0;        ///< the polygon's own, from its vertex of that number on; or
   Outcode plane = {};  ///< if that is below 0
 };
 /// The same of convex polygons of any number of vertices. Its memory is used for one after the other.
@@ -65,4 +65,4 @@ bool is_in_view(const VertexTransform& transform, const ClipPosition& position);
 /// The same without a look at the near and far planes.
 bool is_inside_side_planes(const ClipPosition& position);
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -17,7 +17,7 @@
 #include "raster/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// Sets up the 32-bit edges of lane i for coverage.
@@ -30,10 +30,10 @@ HWY_INLINE Edges32 tile_edges32(const TriangleGroup& g, int i) {
   return t;
 }
 
-/// The same for a triangle whose edges need 64 bits: an edge that the whole tile is inside of is dropped, any other fits 32 bits
-/// in the tile. False if the tile is outside. `edges64` gets the undivided edges.
-inline HWY_NOINLINE bool tile_edges64(const TriangleGroup& g, int i, int tile_x, int tile_y,
-                                            int tile_size, Edges32& edges, Edges64& edges64) {
+/// The same for a triangle whose edges need 64 bits: an edge that the whole tile is inside of is dropped, any
+/// other fits 32 bits in the tile. False if the tile is outside. `edges64` gets the undivided edges.
+inline HWY_NOINLINE bool tile_edges64(const TriangleGroup& g, int i, int tile_x, int tile_y, int tile_size,
+                                      Edges32& edges, Edges64& edges64) {
   bool touched = true;
   for (int k = 0; k < 3; ++k) {
     const int p = (k + 1) % 3;
@@ -117,7 +117,7 @@ HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
 /// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their
 /// first. Each sum is the edge's value at one of those pixels, so that it fits (fixed_point.h).
 HWY_INLINE std::int32_t min_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns,
-                                           int rows) {
+                                        int rows) {
   return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
 }
 
@@ -127,8 +127,8 @@ HWY_INLINE std::int32_t min_over_blocks(std::int32_t first, std::int32_t a, std:
 /// whole rows of the bounds where all are full. Lanes are blocks: those of a row, or of several short rows;
 /// where all blocks are full nothing is sorted. @pre the offsets are those of the edges
 template <class BlockFunction>
-HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, int x0, int y0, int x1,
-                               int y1, BlockFunction& block) {
+HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1,
+                               BlockFunction& block) {
   const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1,
             rows = ((y1 - first_y) >> 2) + 1;
   const bool is_box = columns <= 4 && rows <= kBoxRows;
@@ -236,7 +236,7 @@ inline HWY_NOINLINE void cover_small(const TriangleGroup& g, int first, std::uin
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "raster/fixed_point.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 __extension__ using Exact = __int128;
 
@@ -66,4 +66,4 @@ struct TriangleReference {
   }
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -20,7 +20,7 @@
 #include "raster/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 using Uint64Tag = hn::Repartition<std::uint64_t, FloatTag>;
@@ -41,8 +41,8 @@ struct UnormDepth {
   int shift;
   alignas(64) std::uint64_t offset[16];  // of a block's pixels
 
-  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind kind) {
-    shift = kind == DepthKind::unorm16 ? 16 : 8;
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat kind) {
+    shift = kind == DepthFormat::unorm16 ? 16 : 8;
     base = g.fixed_base[i];
     dx = g.fixed_dx[i];
     dy = g.fixed_dy[i];
@@ -81,7 +81,7 @@ struct UnormDepth {
     return samples.fixed_base[s][i];
   }
   /// No pixel or sample of triangle i has a smaller key: its vertices' smallest but for the plane's rounding.
-  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthKind kind) {
+  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthFormat kind) {
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])) >>
                                      (32 - depth_bits(kind))) -
            1;
@@ -127,7 +127,7 @@ struct UnormDepth {
 
 /// 32 bits: see kUnorm32RangeBias.
 struct Unorm32Depth : UnormDepth {
-  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind) {
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat) {
     shift = 0;
     base = g.fixed_base[i];
     dx = g.fixed_dx[i];
@@ -141,7 +141,7 @@ struct Unorm32Depth : UnormDepth {
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }
   static std::int32_t nearest_key(const TriangleGroup& g, int i,
-                                  DepthKind kind) = delete;  // keys are others than above
+                                  DepthFormat kind) = delete;  // keys are others than above
   struct Block {
     std::uint64_t start;
   };
@@ -162,7 +162,7 @@ struct Float32Depth {
   double z0, dx, dy, first_x,
       first_y;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
   float low, high;
-  HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthKind) {
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthFormat) {
     float z[3], at_anchor;
     for (int k = 0; k < 3; ++k) std::memcpy(&z[k], &g.z[k][i], sizeof z[k]);
     std::memcpy(&at_anchor, &g.anchor_z[i], sizeof at_anchor);
@@ -189,7 +189,7 @@ struct Float32Depth {
     return from_anchor(g, i, at, tile_x, tile_y);
   }
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i,
-                                             DepthKind) {  // of floats that are not negative: their bits
+                                             DepthFormat) {  // of floats that are not negative: their bits
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));
   }
   HWY_INLINE std::int32_t key(int x, int y) const {
@@ -228,7 +228,7 @@ struct Float32Depth {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

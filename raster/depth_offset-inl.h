@@ -13,7 +13,7 @@
 #include "raster/depth-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// max(|dz/dx|, |dz/dy|), in the units of the vertices' depth words (unorm) or of depth.
@@ -27,9 +27,9 @@ struct OffsetUnormDepth : UnormDepth {
   int fraction_bits = kUnormFraction;
   std::int64_t range_bias = 0, polygon_offset = 0;
   std::uint32_t flip = 0;
-  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthKind kind) {
+  HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat kind) {
     shift = 32 - depth_bits(kind);
-    if (kind == DepthKind::unorm32) {
+    if (kind == DepthFormat::unorm32) {
       fraction_bits = kUnorm32Fraction;
       range_bias = kUnorm32RangeBias;
       flip = 0x80000000u;
@@ -76,7 +76,7 @@ struct OffsetFloat32Depth : Float32Depth {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

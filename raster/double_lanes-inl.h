@@ -10,7 +10,7 @@
 #include "raster/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 inline constexpr int kDoubleParts = kLanes > 1 ? 2 : 1;
@@ -77,7 +77,7 @@ HWY_INLINE Float to_floats(const Doubles& a) {
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tessera {
+namespace tessera::detail {
 
 /// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while no product is
 /// below 2^-960; NaN once anything overflows. Source: J. Shewchuk, Adaptive Precision Floating-Point
@@ -82,4 +82,4 @@ class ExactSum {
   int count_ = 0;
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

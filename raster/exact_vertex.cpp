@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace tessera {
+namespace tessera::detail {
 
 ExactVertex::ExactVertex(const VertexTransform& t, const std::array<float, 4>& object, int exponent) {
   for (std::size_t row = 0; row < 4; ++row)
@@ -42,4 +42,4 @@ std::uint8_t ExactVertex::outcode(const VertexTransform& t) const {
   return outcode;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -6,7 +6,7 @@
 #include "raster/exact_sum.h"
 #include "raster/vertex_transform.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 class ExactVertex {
  public:
@@ -28,4 +28,4 @@ class ExactVertex {
   ExactSum coordinates_[4];
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

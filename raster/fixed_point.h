@@ -9,7 +9,7 @@
 
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kSubpixelBits = 8;
 inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
@@ -43,7 +43,8 @@ inline constexpr std::int64_t kMaxEdges32Extent = 1984;
 constexpr std::int64_t edges32_bound(std::int64_t extent) {
   return 2 * kSubpixelScale * extent * (extent + kMaxTileSize + 1);
 }
-static_assert(edges32_bound(kMaxEdges32Extent) <= INT32_MAX && edges32_bound(kMaxEdges32Extent + 1) > INT32_MAX,
+static_assert(edges32_bound(kMaxEdges32Extent) <= INT32_MAX &&
+                  edges32_bound(kMaxEdges32Extent + 1) > INT32_MAX,
               "the widest that fits, and not a pixel more");
 // All others: an edge that crosses a tile is smaller in the whole tile than its own span from the first
 // pixel's centre to the last one's.
@@ -53,7 +54,8 @@ static_assert((kMaxTileSize - 1) * 2 * kMaxTriangleExtent * kSubpixelScale <= IN
 static_assert(2 * (kMaxTriangleExtent * kSubpixelScale) * (kMaxTriangleExtent * kSubpixelScale) <
               (std::int64_t{1} << 53));
 // Binning looks at the undivided edges at the corners of tiles, in 64 bits.
-static_assert(2 * (kMaxTriangleExtent * kSubpixelScale) * ((kMaxTriangleExtent + 2 * kMaxTileSize) * kSubpixelScale) <
+static_assert(2 * (kMaxTriangleExtent * kSubpixelScale) *
+                  ((kMaxTriangleExtent + 2 * kMaxTileSize) * kSubpixelScale) <
               INT64_MAX / 4);
 // The numerators of a depth plane: two products of a coordinate's difference and a depth word's.
 static_assert(2 * kMaxTriangleExtent * kSubpixelScale * std::int64_t{0xffffffff} < (std::int64_t{1} << 57));
@@ -70,7 +72,9 @@ static_assert(sizeof(WindowVertex) == 16);
 
 // By value, unlike std::min and max, of whose references no lanes are made.
 constexpr std::int32_t min_of(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
-constexpr std::int32_t min_of(std::int32_t a, std::int32_t b, std::int32_t c) { return min_of(a, min_of(b, c)); }
+constexpr std::int32_t min_of(std::int32_t a, std::int32_t b, std::int32_t c) {
+  return min_of(a, min_of(b, c));
+}
 constexpr std::int32_t max_of(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
 constexpr std::int32_t max_of(std::int32_t a, std::int32_t b, std::int32_t c) {
   return max_of(a, max_of(b, c));
@@ -80,4 +84,4 @@ constexpr std::int32_t max_of(std::int32_t a, std::int32_t b, std::int32_t c) {
 constexpr int first_pixel(std::int32_t low) { return (low + kHalfPixel - 1) >> kSubpixelBits; }
 constexpr int last_pixel(std::int32_t high) { return (high - kHalfPixel) >> kSubpixelBits; }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -10,7 +10,7 @@
 #include "raster/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// Not IndicesFromVec itself: where that checks, it wants Highway's library, which nothing else does.
@@ -30,7 +30,7 @@ HWY_INLINE auto expand_indices(Tag tag, std::uint32_t bits) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace tessera {
+namespace tessera::detail {
 
 /// For each set of eight bits a word of eight bytes.
 using LaneTable = std::array<std::uint64_t, 256>;
@@ -63,4 +63,4 @@ LaneShuffle expand_lanes(std::uint32_t bits) {
   return lane_shuffle<kLanes>(kBitRanks, bits, 8, std::popcount(bits & 255));
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

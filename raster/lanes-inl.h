@@ -12,7 +12,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -160,7 +160,7 @@ HWY_INLINE Int block_columns(int chunk) { return hn::Load(kInt, kBlockColumn + c
 HWY_INLINE Int block_rows(int chunk) { return hn::Load(kInt, kBlockRow + chunk * kLanes); }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 // Several maxima side by side, which become lanes.
@@ -22,4 +22,4 @@ Index largest(std::span<const Index> indices) {
 std::uint32_t largest_index(std::span<const std::uint32_t> indices) { return largest(indices); }
 std::uint16_t largest_index(std::span<const std::uint16_t> indices) { return largest(indices); }
 
-}  // namespace tessera
+}  // namespace tessera::detail

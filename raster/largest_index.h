@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <span>
 
-namespace tessera {
+namespace tessera::detail {
 
 /// 0 of none.
 std::uint32_t largest_index(std::span<const std::uint32_t> indices);
 std::uint16_t largest_index(std::span<const std::uint16_t> indices);
 
-}  // namespace tessera
+}  // namespace tessera::detail

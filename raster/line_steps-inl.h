@@ -21,7 +21,7 @@
 #include "raster/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// A point in raster space in each lane.
@@ -123,7 +123,7 @@ class LineSteps {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -15,7 +15,7 @@
 #include "framebuffer/tile_grid.h"
 #include "raster/fixed_point.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// A point in raster space (y down), 1/256 pixel.
 struct LinePoint {
@@ -119,4 +119,4 @@ class LineWalk {
   int first_ = 0, last_ = 0;  // steps, inclusive
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

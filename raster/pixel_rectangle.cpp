@@ -5,7 +5,7 @@
 
 #include "raster/sample_positions.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 // Where a sample lies in the window; exact.
@@ -94,4 +94,4 @@ void texel_rows(const PixelRectangle& texels, int y0, int y1, int frame_height, 
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

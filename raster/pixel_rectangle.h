@@ -8,7 +8,7 @@
 
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 struct PixelRectangle {
   double x = 0,
@@ -43,4 +43,4 @@ void texel_columns(const PixelRectangle& texels, int x0, int x1, int samples, in
 void texel_rows(const PixelRectangle& texels, int y0, int y1, int frame_height, int samples, int sample,
                 std::int32_t* rows);
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -5,7 +5,7 @@
 #include "raster/binning.h"
 #include "raster/point_line_coverage.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 LinePoint point_of(const WindowVertex& v) { return {v.x, v.y}; }
@@ -80,7 +80,8 @@ bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::ui
   DerivedPrimitive& derived = bins.add_derived(line, 2, draw.attribute_count);
   for (int k = 0; k < 2; ++k) {
     derived.vertices[k] = project(*draw.transform, ends[k].position);
-    std::copy_n(ends[k].attributes, draw.attribute_count, bins.attributes(derived) + k * draw.attribute_count);
+    std::copy_n(ends[k].attributes, draw.attribute_count,
+                bins.attributes(derived) + k * draw.attribute_count);
   }
   return true;
 }
@@ -120,7 +121,8 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
   counts.triangles_in += last - first;
   for (std::uint32_t line = first; line < last; ++line) {
     const std::uint32_t i0 = vertex_index<2>(draw, line, 0), i1 = vertex_index<2>(draw, line, 1);
-    const std::uint8_t c0 = draw.any_outcode ? draw.outcodes[i0] : 0, c1 = draw.any_outcode ? draw.outcodes[i1] : 0;
+    const std::uint8_t c0 = draw.any_outcode ? draw.outcodes[i0] : 0,
+                       c1 = draw.any_outcode ? draw.outcodes[i1] : 0;
     if (((c0 | c1) & kNonFinite) != 0) {
       ++counts.non_finite;
       continue;
@@ -138,4 +140,4 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -9,7 +9,7 @@
 #include "framebuffer/tile_grid.h"
 #include "raster/line_walk.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Points and lines that are larger, in pixels, are drawn at this size, which more than covers any frame
 /// buffer.
@@ -114,4 +114,4 @@ class LineRectangle {
   bool meets_border_ = false;
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

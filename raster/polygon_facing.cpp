@@ -2,7 +2,7 @@
 
 #include "raster/binning.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle, bool of_all) {
@@ -36,12 +36,13 @@ Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {
 
 }  // namespace
 
-void classify_polygon_facing(const BinDraw& draw, std::size_t per_polygon, std::size_t first, std::size_t last,
-                   Facing* facing) {
-  for (std::size_t begin = (first + per_polygon - 1) / per_polygon * per_polygon; begin < last; begin += per_polygon) {
+void classify_polygon_facing(const BinDraw& draw, std::size_t per_polygon, std::size_t first,
+                             std::size_t last, Facing* facing) {
+  for (std::size_t begin = (first + per_polygon - 1) / per_polygon * per_polygon; begin < last;
+       begin += per_polygon) {
     const Facing of_polygon = facing_of(draw, begin, begin + per_polygon);
     for (std::size_t t = begin; t < begin + per_polygon; ++t) facing[t] = of_polygon;
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

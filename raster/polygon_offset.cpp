@@ -7,18 +7,18 @@
 
 #include "raster/binning.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
-double depth_of(DepthKind kind, std::uint32_t z) {
-  if (kind != DepthKind::float32) return z;
+double depth_of(DepthFormat kind, std::uint32_t z) {
+  if (kind != DepthFormat::float32) return z;
   float depth;
   std::memcpy(&depth, &z, sizeof depth);
   return depth;
 }
 
 // max(|dz/dx|, |dz/dy|), per pixel. `area` is doubled.
-double slope_of(DepthKind kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c,
+double slope_of(DepthFormat kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c,
                 double area) {
   const double z = depth_of(kind, a.z), to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
   const double by_x = to_b * (c.y - a.y) - to_c * (b.y - a.y), by_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
@@ -40,7 +40,7 @@ WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
                        draw.vertices[vertex_index<3>(draw, triangle, 2)]);
 }
 
-double slope_of(DepthKind kind, const WindowPolygon& triangle) {
+double slope_of(DepthFormat kind, const WindowPolygon& triangle) {
   double slope = 0, largest = 0;
   for (const WindowPolygon::Corners& corner : triangle.triangles()) {
     const WindowVertex &a = triangle.window[corner[0]], &b = triangle.window[corner[1]],
@@ -54,7 +54,7 @@ double slope_of(DepthKind kind, const WindowPolygon& triangle) {
 }
 
 double offset_of(const BinDraw& draw, float factor, float units, std::size_t first, std::size_t last) {
-  const DepthKind kind = draw.transform->depth;
+  const DepthFormat kind = draw.transform->depth;
   double slope = 0, largest_area = 0, largest_depth = 0;
   for (std::size_t t = first; t < last; ++t) {
     const WindowPolygon triangle = in_window(draw, static_cast<std::uint32_t>(t));
@@ -64,7 +64,7 @@ double offset_of(const BinDraw& draw, float factor, float units, std::size_t fir
     largest_area = std::abs(triangle.area);
     slope = slope_of(kind, triangle);
   }
-  const int exponent = kind != DepthKind::float32
+  const int exponent = kind != DepthFormat::float32
                            ? 32 - depth_bits(kind)
                            : std::max(largest_depth > 0 ? std::ilogb(largest_depth) : -126, -126) - 23;
   return double{factor} * slope + std::ldexp(double{units}, exponent);
@@ -72,20 +72,22 @@ double offset_of(const BinDraw& draw, float factor, float units, std::size_t fir
 
 }  // namespace
 
-void offset_polygons(const BinDraw& draw, std::size_t per_polygon, float factor, float units, std::size_t first,
-                     std::size_t last, double* offsets) {
-  for (std::size_t begin = (first + per_polygon - 1) / per_polygon * per_polygon; begin < last; begin += per_polygon) {
+void offset_polygons(const BinDraw& draw, std::size_t per_polygon, float factor, float units,
+                     std::size_t first, std::size_t last, double* offsets) {
+  for (std::size_t begin = (first + per_polygon - 1) / per_polygon * per_polygon; begin < last;
+       begin += per_polygon) {
     if (draw.facing == nullptr) {
       const std::uint8_t outcodes = outcodes_of(draw, static_cast<std::uint32_t>(begin));
       const bool is_cut = outcodes != 0 && (outcodes & kNonFinite) == 0;
       offsets[begin] = is_cut ? offset_of(draw, factor, units, begin, begin + 1)
                               : std::numeric_limits<double>::quiet_NaN();
     } else {
-      std::fill_n(
-          offsets + begin, per_polygon,
-          draw.facing[begin] != Facing::dropped ? offset_of(draw, factor, units, begin, begin + per_polygon) : 0.0);
+      std::fill_n(offsets + begin, per_polygon,
+                  draw.facing[begin] != Facing::dropped
+                      ? offset_of(draw, factor, units, begin, begin + per_polygon)
+                      : 0.0);
     }
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

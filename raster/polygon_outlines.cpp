@@ -4,7 +4,7 @@
 
 #include "raster/binning.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 /// Returns whether it was cut, and not left out as a whole.
@@ -31,8 +31,8 @@ bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_
   return shared == 0;
 }
 
-void add_corner(Bins& bins, const BinDraw& draw, DerivedPrimitive& derived, int k, const ClippedBoundary& boundary,
-                std::size_t corner) {
+void add_corner(Bins& bins, const BinDraw& draw, DerivedPrimitive& derived, int k,
+                const ClippedBoundary& boundary, std::size_t corner) {
   derived.vertices[k] = boundary.window[corner];
   std::copy_n(boundary.vertices[corner].attributes, draw.attribute_count,
               bins.attributes(derived) + k * draw.attribute_count);
@@ -68,35 +68,35 @@ bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Cl
 }  // namespace
 
 void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
-                  std::uint32_t last, Isa isa) {
+                  std::uint32_t last, InstructionSet isa) {
   const PolygonModes& modes = *draw.modes;
   const auto per_polygon = static_cast<std::uint32_t>(modes.triangles);
   BinDraw filled = draw, lines = draw, corners = draw;
-  filled.draw = modes.draw[static_cast<int>(PolygonStyle::fill)];
-  lines.draw = modes.draw[static_cast<int>(PolygonStyle::line)];
+  filled.draw = modes.draw[static_cast<int>(PolygonMode::fill)];
+  lines.draw = modes.draw[static_cast<int>(PolygonMode::line)];
   lines.size = modes.line_width;
-  corners.draw = modes.draw[static_cast<int>(PolygonStyle::point)];
+  corners.draw = modes.draw[static_cast<int>(PolygonMode::point)];
   corners.size = modes.point_size;
   BinCounts& counts = bins.counts;
   for (std::uint32_t t = (first + per_polygon - 1) / per_polygon * per_polygon; t < last; t += per_polygon) {
     const Facing facing = draw.facing[t];
     const bool front = facing == Facing::front;
-    const PolygonStyle style = modes.style[front ? 0 : 1];
+    const PolygonMode style = modes.style[front ? 0 : 1];
     if (facing == Facing::dropped) {
       counts.non_finite += per_polygon;
     } else if (!(front ? draw.keep_front : draw.keep_back)) {
       counts.culled += per_polygon;
-    } else if (style == PolygonStyle::fill) {
+    } else if (style == PolygonMode::fill) {
       bin_triangles(bins, grid, filled, t, t + per_polygon, isa);
       continue;
     } else {
       if (set_up(bins.boundary, draw, t)) counts.clipped += per_polygon;
-      const bool is_seen = style == PolygonStyle::line ? bin_lines(bins, grid, lines, bins.boundary, t)
-                                                       : bin_corners(bins, grid, corners, bins.boundary, t);
+      const bool is_seen = style == PolygonMode::line ? bin_lines(bins, grid, lines, bins.boundary, t)
+                                                      : bin_corners(bins, grid, corners, bins.boundary, t);
       (is_seen ? counts.binned : counts.outside) += per_polygon;
     }
     counts.triangles_in += per_polygon;
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

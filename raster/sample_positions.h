@@ -5,7 +5,7 @@
 
 #include "raster/fixed_point.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kMaxSamples = 8;
 
@@ -39,4 +39,4 @@ constexpr std::int32_t sample_reach(int samples) {
   return samples == 4 ? 6 * kSampleUnit : samples == 8 ? 7 * kSampleUnit : 0;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-namespace tessera {
+namespace tessera::detail {
 
 /// The number is that of the vertices of each.
 enum class Topology : std::uint8_t { points = 1, lines = 2, triangles = 3 };
 
 constexpr int corners_of(Topology topology) { return static_cast<int>(topology); }
 
-}  // namespace tessera
+}  // namespace tessera::detail

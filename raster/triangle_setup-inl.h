@@ -23,7 +23,7 @@
 #include "raster/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// A bit for each triangle of a group whose number is not 0.
@@ -112,8 +112,9 @@ HWY_INLINE std::uint64_t fixed_modulo(double value) {
 /// What depth 0 is in a plane.
 template <int kFraction>
 inline constexpr std::uint64_t kPlaneZero =
-    kFraction == kUnorm32Fraction ? (std::uint64_t{kUnorm32RangeBias} << kUnorm32Fraction) + kUnorm32RoundingBias
-                                  : std::uint64_t{kUnormRoundingBias};
+    kFraction == kUnorm32Fraction
+        ? (std::uint64_t{kUnorm32RangeBias} << kUnorm32Fraction) + kUnorm32RoundingBias
+        : std::uint64_t{kUnormRoundingBias};
 
 /// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the
 /// anchor's pixel.
@@ -254,19 +255,19 @@ HWY_INLINE void set_up_gradients(TriangleGroup& g, double (&dz)[3][kGroupSize]) 
   }
 }
 
-inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthKind kind, int tile_x, int tile_y) {
+inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthFormat kind, int tile_x, int tile_y) {
   alignas(64) double dz[3][kGroupSize];
   set_up_anchors(g);
-  if (kind == DepthKind::float32) return set_up_gradients<true>(g, dz);
+  if (kind == DepthFormat::float32) return set_up_gradients<true>(g, dz);
   set_up_gradients<false>(g, dz);
-  if (kind == DepthKind::unorm32) set_up_unorm_depth<kUnorm32Fraction>(g, dz, tile_x, tile_y);
+  if (kind == DepthFormat::unorm32) set_up_unorm_depth<kUnorm32Fraction>(g, dz, tile_x, tile_y);
   else set_up_unorm_depth<kUnormFraction>(g, dz, tile_x, tile_y);
 }
 
 /// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has
 /// unorm depth, set_up_depth
-inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples, DepthKind kind,
-                                        int tile_x, int tile_y) {
+inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples,
+                                        DepthFormat kind, int tile_x, int tile_y) {
   const SamplePosition* const positions = sample_positions(samples);
   for (int k = 0; k < 3; ++k) {
     alignas(64) std::int32_t highest[kGroupSize], at_center[kGroupSize];
@@ -286,26 +287,26 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
       for (int i = 0; i < kGroupSize; ++i) to.edge_delta[s][k][i] -= highest[i];
     for (int i = 0; i < kGroupSize; ++i)
       to.max_edge[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(g.e[k][i]) +
-                                                   static_cast<std::uint32_t>(highest[i]));
+                                                    static_cast<std::uint32_t>(highest[i]));
   }
   for (int s = 0; s < samples; ++s) {
     const SamplePosition at = positions[s];
-    if (kind == DepthKind::unorm32) {
+    if (kind == DepthFormat::unorm32) {
       for (int i = 0; i < kGroupSize; ++i)
         to.fixed_base[s][i] =
             fixed_base<kUnorm32Fraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
-    } else if (kind != DepthKind::none && kind != DepthKind::float32) {
+    } else if (kind != DepthFormat::none && kind != DepthFormat::float32) {
       for (int i = 0; i < kGroupSize; ++i)
         to.fixed_base[s][i] =
             fixed_base<kUnormFraction>(g, i, g.fixed_dx[i], g.fixed_dy[i], at, tile_x, tile_y);
     }
-    if (kind == DepthKind::none || kind == DepthKind::float32) continue;
+    if (kind == DepthFormat::none || kind == DepthFormat::float32) continue;
     for (std::uint32_t left = g.extra_bias_mask; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
       if ((g.exact_depth_mask >> i & 1) != 0)
         to.fixed_base[s][i] =
-            (kind == DepthKind::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y)
-                                        : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y))
+            (kind == DepthFormat::unorm32 ? exact_depth<kUnorm32Fraction>(g, i, at, tile_x, tile_y)
+                                          : exact_depth<kUnormFraction>(g, i, at, tile_x, tile_y))
                 .base;
       to.fixed_base[s][i] += g.extra_bias[i];
     }
@@ -333,7 +334,7 @@ inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

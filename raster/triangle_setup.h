@@ -7,7 +7,7 @@
 #include "raster/fixed_point.h"
 #include "raster/sample_positions.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kGroupSize = 16;  ///< triangles set up at a time
 
@@ -37,7 +37,8 @@ struct TriangleGroup {
   // Edges at pixel centres, divided by 256 and rounded down, the fill rule's bias included: E(x, y) = e + a x
   // + b y with x, y counted in pixels from the tile's first. Exact for narrow triangles.
   alignas(64) std::int32_t a[3][kGroupSize], b[3][kGroupSize], e[3][kGroupSize];
-  alignas(64) float edge_fraction[3][kGroupSize];  ///< the exact edge is 256 E + edge_fraction, without the bias; 0 .. 256
+  alignas(64) float edge_fraction[3][kGroupSize];  ///< the exact edge is 256 E + edge_fraction, without the
+                                                   ///< bias; 0 .. 256
   alignas(64) std::int32_t flip[kGroupSize];
   alignas(64) double signed_area[kGroupSize], area[kGroupSize];  ///< doubled area, exact
   alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize],
@@ -51,10 +52,11 @@ struct TriangleGroup {
   alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
   alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
-  std::uint32_t mask = 0;   ///< those with a pixel in the tile
-  std::uint32_t extra_bias_mask = 0;  ///< of these, those whose unorm depth is rounded by more than planes are lifted
-                            ///< by, and so lifted further
-  std::uint32_t exact_depth_mask = 0;  ///< of those, the ones whose unorm depth is worked out in exact integers
+  std::uint32_t mask = 0;             ///< those with a pixel in the tile
+  std::uint32_t extra_bias_mask = 0;  ///< of these, those whose unorm depth is rounded by more than planes
+                                      ///< are lifted by, and so lifted further
+  std::uint32_t exact_depth_mask =
+      0;  ///< of those, the ones whose unorm depth is worked out in exact integers
   std::uint64_t extra_bias[kGroupSize];  ///< triangles of extra_bias_mask
 };
 
@@ -62,8 +64,8 @@ struct TriangleGroup {
 /// first pixel.
 struct SampleGroup {
   alignas(64) std::int32_t max_edge[3][kGroupSize];  ///< e of the sample that has the greatest
-  alignas(64)
-      std::int32_t edge_delta[kMaxSamples][3][kGroupSize];  ///< what a sample's e has more than that: 0 or less
+  alignas(64) std::int32_t
+      edge_delta[kMaxSamples][3][kGroupSize];  ///< what a sample's e has more than that: 0 or less
   alignas(64) std::uint64_t fixed_base[kMaxSamples][kGroupSize];
 };
 
@@ -84,4 +86,4 @@ struct Edges64 {
   double a[3], b[3], e[3];  ///< undivided edge at pixel (x, y) of the tile: e + a x + b y
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -16,7 +16,7 @@
 #include "raster/vertex_transform.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -94,7 +94,8 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     c += probe == 0 ? 0.0 : bit(kNonFinite);
     outcode[i] = c;
     const double xyz = larger(larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), __builtin_fabs(p.z[i]));
-    const double size = __builtin_fma(t.max_row_norm_xyz, xyz, t.max_abs_translation * __builtin_fabs(p.w[i]));
+    const double size =
+        __builtin_fma(t.max_row_norm_xyz, xyz, t.max_abs_translation * __builtin_fabs(p.w[i]));
     double r = __builtin_fabs(near_z) <= t.near_error * size ? 1.0 : 0.0;
     r += __builtin_fabs(far_z) <= t.far_error * size ? 1.0 : 0.0;
     r += __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.guard_x_error * size ? 1.0 : 0.0;
@@ -129,12 +130,12 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     depth[i] = low < 1 ? low : 1;
   }
   alignas(64) std::uint32_t sz[kVertexBatch];
-  if (t.depth == DepthKind::float32) {
+  if (t.depth == DepthFormat::float32) {
     for (int i = 0; i < kVertexBatch; ++i) {
       const float f = static_cast<float>(depth[i]);
       std::memcpy(&sz[i], &f, sizeof f);
     }
-  } else if (t.depth != DepthKind::none) {
+  } else if (t.depth != DepthFormat::none) {
     const int bits = depth_bits(t.depth);
     const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1),
                  fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
@@ -212,8 +213,8 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
     });
     return;
   }
-  const double min_squared = shortest * shortest, max_squared = longest * longest, per_shortest = 1 / shortest,
-               per_longest = 1 / longest;
+  const double min_squared = shortest * shortest, max_squared = longest * longest,
+               per_shortest = 1 / shortest, per_longest = 1 / longest;
   carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
     const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
     const bool is_short = squared > 0 && squared<min_squared, is_long = squared> max_squared;
@@ -226,15 +227,17 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
+namespace tessera::detail {
 
-TransformVertices* transform_vertices(Isa isa) { return TESSERA_KERNEL(isa, transform_vertices_lanes); }
-EyePositions* eye_positions(Isa isa) { return TESSERA_KERNEL(isa, eye_positions_lanes); }
-EyeNormals* eye_normals(Isa isa) { return TESSERA_KERNEL(isa, eye_normals_lanes); }
+TransformVertices* transform_vertices(InstructionSet isa) {
+  return TESSERA_KERNEL(isa, transform_vertices_lanes);
+}
+EyePositions* eye_positions(InstructionSet isa) { return TESSERA_KERNEL(isa, eye_positions_lanes); }
+EyeNormals* eye_normals(InstructionSet isa) { return TESSERA_KERNEL(isa, eye_normals_lanes); }
 
 ClipPosition clip_position(const VertexTransform& t, double x, double y, double z, double w) {
   const auto row = [&](int r) {
@@ -281,7 +284,8 @@ void VertexTransform::set_error_bounds() {
   const double* const m = clip_from_object;
   max_row_norm_xyz = max_abs_translation = 0;
   for (int row = 0; row < 16; row += 4) {
-    max_row_norm_xyz = std::max(max_row_norm_xyz, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
+    max_row_norm_xyz =
+        std::max(max_row_norm_xyz, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
     max_abs_translation = std::max(max_abs_translation, std::abs(m[row + 3]));
   }
   constexpr double kOfDepth = 0x1p-48, kNever = -1;
@@ -348,9 +352,9 @@ WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   const double ranged = std::fma(unit, t.depth_far - t.depth_near, t.depth_near);
   const double z =
       ranged > 0 ? std::min(ranged, 1.0) : 0;  // also where an infinite quotient met a range of no depth
-  if (t.depth == DepthKind::float32) {
-    v.z = quantize_depth(DepthKind::float32, z);
-  } else if (t.depth != DepthKind::none) {
+  if (t.depth == DepthFormat::float32) {
+    v.z = quantize_depth(DepthFormat::float32, z);
+  } else if (t.depth != DepthFormat::none) {
     const int bits = depth_bits(t.depth);
     const double levels = std::ldexp(1.0, bits) - 1;
     const double fraction = std::ldexp(1.0, 32 - bits), level = z * levels + 0.5;
@@ -360,5 +364,5 @@ WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   return v;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif

@@ -13,7 +13,7 @@
 #include "framebuffer/instruction_set.h"
 #include "raster/fixed_point.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kVertexBatch = 64;  ///< vertices transformed at a time
 
@@ -53,7 +53,7 @@ struct VertexTransform {
   std::int32_t center_x = 0, center_y = 0;  ///< the viewport's centre in raster space, 1/256 pixel
   bool reversed = false;                    ///< z runs 0..w, else -w..w
   double depth_near = 0, depth_far = 1;
-  DepthKind depth = DepthKind::none;
+  DepthFormat depth = DepthFormat::none;
   /// Distances from the near and far planes, from the guard band's, and w, that roundings may have made, of a
   /// vertex whose terms have a size of 1. Negative: they make none.
   double near_error = 0, far_error = 0, guard_x_error = 0, guard_y_error = 0, w_error = 0;
@@ -71,8 +71,8 @@ struct VertexTransform {
 
 /// A vertex in clip space. Each coordinate is rounded four times, beside sums of sizes that may be far larger
 /// than itself; where that might be on the wrong side of a plane, or w too small beside them for the place in
-/// the window, `needs_exact`: then coordinates are rounded once, and the outcode is that of the exact ones; but not
-/// where those leave the range of doubles with all their digits, or their terms do.
+/// the window, `needs_exact`: then coordinates are rounded once, and the outcode is that of the exact ones;
+/// but not where those leave the range of doubles with all their digits, or their terms do.
 struct TransformedVertex {
   ClipPosition position;
   std::uint8_t outcode = 0;
@@ -93,7 +93,7 @@ WindowVertex project(const VertexTransform& transform, const ClipPosition& posit
 using TransformVertices = std::uint8_t(const VertexTransform& transform, StridedFloats positions,
                                        int components, std::size_t count, WindowVertex* vertices,
                                        std::uint8_t* outcodes);
-TransformVertices* transform_vertices(Isa isa);
+TransformVertices* transform_vertices(InstructionSet isa);
 
 /// Which lengths normals may have in eye space; those that are shorter or longer become as long as this, but
 /// normals of 0 stay.
@@ -121,7 +121,7 @@ using EyePositions = void(const EyeTransform& transform, StridedFloats positions
 /// Eye-space normals.
 using EyeNormals = void(const EyeTransform& transform, StridedFloats normals, std::size_t count, float* x,
                         float* y, float* z);
-EyePositions* eye_positions(Isa isa);
-EyeNormals* eye_normals(Isa isa);
+EyePositions* eye_positions(InstructionSet isa);
+EyeNormals* eye_normals(InstructionSet isa);
 
-}  // namespace tessera
+}  // namespace tessera::detail

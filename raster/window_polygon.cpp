@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace tessera {
+namespace tessera::detail {
 
 WindowPolygon::WindowPolygon(const VertexTransform& transform, const ClippedPolygon& polygon)
     : clipped(polygon) {
@@ -65,8 +65,8 @@ void WindowPolygon::add_ears() {
         const bool is_corner = std::any_of(ear.begin(), ear.end(), [&](int c) {
           return window[c].x == window[other].x && window[c].y == window[other].y;
         });
-        return !is_corner && oriented_area({ear[0], ear[1], other}) >= 0 && oriented_area({ear[1], ear[2], other}) >= 0 &&
-               oriented_area({ear[2], ear[0], other}) >= 0;
+        return !is_corner && oriented_area({ear[0], ear[1], other}) >= 0 &&
+               oriented_area({ear[1], ear[2], other}) >= 0 && oriented_area({ear[2], ear[0], other}) >= 0;
       };
       return oriented_area(ear) == 0 ||
              (oriented_area(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
@@ -84,4 +84,4 @@ void WindowPolygon::add_ears() {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

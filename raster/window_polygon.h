@@ -8,7 +8,7 @@
 
 #include "raster/clip.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
   return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
@@ -42,4 +42,4 @@ struct WindowPolygon {
   int count_ = 0;
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -12,7 +12,7 @@
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// What the points of a batch share: one draw, one face.
@@ -23,7 +23,7 @@ struct BatchSurface {
   int first_attribute = 0, attribute_count = 0;
   float* target[kMaxAttributes];
   bool adjacent = false;                 // the arrays follow each other
-  bool clamps_to_range = false;              // of the triangles' vertices
+  bool clamps_to_range = false;          // of the triangles' vertices
   const DrawTexture* texture = nullptr;  // or none
   TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
 
@@ -50,7 +50,8 @@ HWY_INLINE bool attributes_clamp_to_range(const TileContext& context, const Tile
 }
 
 /// Makes the batch one of another surface. @pre it is empty
-HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface, const ShadedTriangle& triangle) {
+HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
+                              const ShadedTriangle& triangle) {
   const TileDraw& draw = context.frame.draws[triangle.draw];
   const bool per_pixel = draw.source == ColorSource::per_pixel, back = triangle.back;
   surface.draw = triangle.draw;
@@ -75,7 +76,8 @@ HWY_INLINE const TextureCoordinates& coordinates_in(const TileContext& context, 
                                                     const ShadedTriangle& triangle) {
   if (surface.coordinates.triangle != &triangle)
     surface.coordinates.set_up(triangle, context.memory.edges64.data(), *surface.texture,
-                               context.frame.draws[surface.draw].topology == Topology::lines, context.samples);
+                               context.frame.draws[surface.draw].topology == Topology::lines,
+                               context.samples);
   return surface.coordinates;
 }
 HWY_INLINE bool has_coordinates(const BatchSurface& surface) {
@@ -93,8 +95,8 @@ inline HWY_NOINLINE void gather_coordinates(const TileContext& context, BatchSur
 }
 
 /// How many attributes a surface has, where they stand in adjacent arrays and are not kept within a range,
-/// where there are no texture coordinates, and where the number is one that gather_block_span() is made for; else
-/// 0.
+/// where there are no texture coordinates, and where the number is one that gather_block_span() is made for;
+/// else 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
   return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.clamps_to_range &&
@@ -118,8 +120,9 @@ HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& body) {
 /// @param values  TriangleInterpolants or InterpolantArrays of the surface's attributes
 /// @param at      Barycentric of a chunk
 template <int kCount, class Values, class At>
-HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface, const ShadedTriangle& triangle,
-                              const Values& values, const At& at, std::uint32_t covered, int first) {
+HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
+                              const ShadedTriangle& triangle, const Values& values, const At& at,
+                              std::uint32_t covered, int first) {
   const int count = kCount > 0 ? kCount : surface.attribute_count;
   float* const adjacent = kCount > 0 ? surface.target[0] : nullptr;
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
@@ -142,27 +145,30 @@ HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
 }
 /// Compiled once: few triangles are wide, but points and lines all are.
 inline HWY_NOINLINE void gather_edges64(const TileContext& context, BatchSurface& surface,
-                                     const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
-                                     int first) {
+                                        const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
+                                        int first) {
   const Edges64& edges = context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)];
   const InterpolantArrays values(triangle, surface.first_attribute, surface.attribute_count);
   gather_values<0>(
       context, surface, triangle, values,
-      [&](int chunk) HWY_ATTR { return barycentric_edges64(triangle, edges, bx, by, chunk); }, covered, first);
+      [&](int chunk) HWY_ATTR { return barycentric_edges64(triangle, edges, bx, by, chunk); }, covered,
+      first);
 }
 /// gather_values() in the block at (bx, by).
 template <int kCount, class Values>
-HWY_INLINE void gather_block_span(const TileContext& context, BatchSurface& surface, const ShadedTriangle& triangle,
-                             const Values& values, int bx, int by, std::uint32_t covered, int first) {
-  if (HWY_UNLIKELY(triangle.edges64_index >= 0)) return gather_edges64(context, surface, triangle, bx, by, covered, first);
+HWY_INLINE void gather_block_span(const TileContext& context, BatchSurface& surface,
+                                  const ShadedTriangle& triangle, const Values& values, int bx, int by,
+                                  std::uint32_t covered, int first) {
+  if (HWY_UNLIKELY(triangle.edges64_index >= 0))
+    return gather_edges64(context, surface, triangle, bx, by, covered, first);
   const BlockEdges32 edges(triangle, bx, by);
   gather_values<kCount>(
-      context, surface, triangle, values, [&](int chunk) HWY_ATTR { return edges.barycentric(chunk); }, covered,
-      first);
+      context, surface, triangle, values, [&](int chunk) HWY_ATTR { return edges.barycentric(chunk); },
+      covered, first);
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -15,12 +15,12 @@
 #include "framebuffer/check.h"
 #include "raster/coverage-inl.h"
 #include "raster/depth-inl.h"
-#include "shading/draw_kinds-inl.h"
 #include "shading/interpolate-inl.h"
+#include "shading/pixel_paths-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// Which draws have them, where no rectangle cuts through blocks.
@@ -52,8 +52,8 @@ struct BoxGroup {
   HWY_NOINLINE void set_up(const TileContext& context, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first)
                         HWY_ATTR { return hn::Load(kInt, array + first); };
-    hn::Store(context.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))), kInt,
-              to_block);
+    hn::Store(context.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))),
+              kInt, to_block);
     for (int first = 0; first < kGroupSize; first += kLanes) {
       const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)),
                 one = splat(1), zero = hn::Zero(kInt);
@@ -132,10 +132,10 @@ struct BoxPixels {
   std::int32_t value;  // the colour's word, or the number of a triangle that is collected
   Int writable;
   Int offset[3][kChunksPerBlock];  // of the edges at a block's pixels
-  std::uint32_t visible = 0;          // how many pixels, or whether any that wait for their colour
+  std::uint32_t visible = 0;       // how many pixels, or whether any that wait for their colour
 
-  HWY_INLINE BoxPixels(TileContext& tile_context, const TileDraw& draw, const BoxGroup& group_boxes, int triangle,
-                       std::int32_t word_or_number, bool back)
+  HWY_INLINE BoxPixels(TileContext& tile_context, const TileDraw& draw, const BoxGroup& group_boxes,
+                       int triangle, std::int32_t word_or_number, bool back)
       : context(tile_context),
         boxes(group_boxes),
         i(triangle),
@@ -149,7 +149,7 @@ struct BoxPixels {
       };
       color.set_up(from(0), from(1), from(2), context.frame.layout);
     }
-    depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
+    depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_format);
     depth.prepare_blocks();
   }
 
@@ -214,15 +214,16 @@ struct BoxPixels {
         return;  // packed colors are stored without a look at the mask: a branch on it could not be foretold
       visible += static_cast<std::uint32_t>(std::popcount(bits));
       Int packed = splat(value);
-      if constexpr (kColorWrite == ColorWrite::interpolated) packed = color.packed(weights.at(edge[0], edge[1], edge[2]));
+      if constexpr (kColorWrite == ColorWrite::interpolated)
+        packed = color.packed(weights.at(edge[0], edge[1], edge[2]));
       store_packed(context.color + index, packed, mask, writable);
     }
   }
 };
 
 template <class Depth, ColorWrite kColorWrite, bool kSingle>
-HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileContext& context, const TileDraw& draw, const BoxGroup& boxes, int i,
-                                            std::int32_t value, bool back) {
+HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileContext& context, const TileDraw& draw, const BoxGroup& boxes,
+                                            int i, std::int32_t value, bool back) {
   BoxPixels<Depth, kColorWrite> pixels(context, draw, boxes, i, value, back);
   if constexpr (kSingle) pixels.draw_single_box();
   else pixels.draw_boxes();
@@ -232,16 +233,17 @@ HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileContext& context, const TileDraw
 /// @param value  the colour's word, or the number of a triangle that is collected
 /// @return how many pixels were visible; if they wait for their colour, whether any was
 template <class Depth, ColorWrite kColorWrite>
-HWY_INLINE std::uint32_t draw_in_boxes(TileContext& context, const TileDraw& draw, const BoxGroup& boxes, int i,
-                                       std::int32_t value, bool back) {
+HWY_INLINE std::uint32_t draw_in_boxes(TileContext& context, const TileDraw& draw, const BoxGroup& boxes,
+                                       int i, std::int32_t value, bool back) {
   if constexpr (BoxGroup::kMaxBoxes > 1) {
-    if (!boxes.is_single(i)) return draw_in_boxes_of<Depth, kColorWrite, false>(context, draw, boxes, i, value, back);
+    if (!boxes.is_single(i))
+      return draw_in_boxes_of<Depth, kColorWrite, false>(context, draw, boxes, i, value, back);
   }
   return draw_in_boxes_of<Depth, kColorWrite, true>(context, draw, boxes, i, value, back);
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

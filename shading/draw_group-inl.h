@@ -13,14 +13,14 @@
 #include "raster/coverage-inl.h"
 #include "raster/triangle_setup-inl.h"
 #include "shading/box_pixels-inl.h"
-#include "shading/deferred-inl.h"
-#include "shading/draw_kinds-inl.h"
-#include "shading/fragment_word.h"
-#include "shading/small_pixels-inl.h"
+#include "shading/deferred_shading-inl.h"
+#include "shading/fragment_scalar.h"
+#include "shading/pixel_paths-inl.h"
+#include "shading/small_triangle_pixels-inl.h"
 #include "shading/triangle_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t element) {
@@ -31,7 +31,8 @@ HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t elem
 
 /// The word of triangle i of the group, where it has one.
 HWY_INLINE std::uint32_t packed_color_of(const TileContext& context, const TileDraw& draw, int i, bool back) {
-  if (draw.source == ColorSource::per_triangle_packed) return draw.packed_colors[back ? 1 : 0][context.memory.source[i]];
+  if (draw.source == ColorSource::per_triangle_packed)
+    return draw.packed_colors[back ? 1 : 0][context.memory.source[i]];
   if (draw.source != ColorSource::per_vertex_packed) return draw.packed_color;
   return draw.packed_colors[back ? 1 : 0][provoking_vertex(draw, context.memory.source[i])];
 }
@@ -46,23 +47,24 @@ HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, b
 
 /// Everything but pixels of triangle i of the group.
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
-HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kDepthTest, kColorWrite>& pixels, TileContext& context, const TileDraw& draw,
-                              int i, bool back) {
+HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kDepthTest, kColorWrite>& pixels, TileContext& context,
+                              const TileDraw& draw, int i, bool back) {
   const TriangleGroup& g = context.memory.group;
-  pixels.depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
+  pixels.depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_format);
   if constexpr (kColorWrite == ColorWrite::interpolated)
     pixels.color.set_up(pixels.triangle, draw.color_attribute[back ? 1 : 0], context.frame.layout);
   if constexpr (kColorWrite == ColorWrite::blended)
     pixels.color.set_up(pixels.triangle, draw,
                         draw.flat ? flat_color(draw, context.memory.source[i], back) : nullptr);
-  if constexpr (kColorWrite == ColorWrite::deferred) pixels.id = static_cast<std::int32_t>(context.memory.visible_triangles.size());
+  if constexpr (kColorWrite == ColorWrite::deferred)
+    pixels.id = static_cast<std::int32_t>(context.memory.visible_triangles.size());
   if constexpr (kColorWrite == ColorWrite::constant)
     pixels.packed_color = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
 }
 
 /// The triangle as shading sees it.
-inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileContext& context, std::uint32_t draw,
-                                              int i, bool back) {
+inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileContext& context,
+                                              std::uint32_t draw, int i, bool back) {
   const TriangleGroup& g = context.memory.group;
   set_tile_edges32(t.edges, g, i);  // in place: a copy would have to wait for each of its parts
   for (int k = 0; k < 3; ++k) {
@@ -76,15 +78,15 @@ inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileConte
   t.edges64_index = -1;
 }
 
-HWY_INLINE void store_edges64(ShadedTriangle& triangle, TileWorkspace::Memory& memory,
-                                const Edges64& edges) {
+HWY_INLINE void store_edges64(ShadedTriangle& triangle, TileWorkspace::Memory& memory, const Edges64& edges) {
   triangle.edges64_index = static_cast<std::int32_t>(memory.edges64.size());
   memory.edges64.push_back(edges);
 }
 
 /// The small triangles that were added, whose colours are interpolated.
 template <class Depth, DepthTestPath kDepthTest>
-HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& draw, SmallTrianglePixels& pixels) {
+HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& draw,
+                                       SmallTrianglePixels& pixels) {
   const TriangleGroup& g = context.memory.group;
   std::uint32_t* const color = context.color;
   std::int32_t* const stored_depth = context.memory.depth;
@@ -96,18 +98,19 @@ HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& dra
     for (const bool back : {false, true}) stencil[back ? 1 : 0] = pixel_stencil(context, draw, back);
   std::uint64_t visible = 0;
   constexpr bool kHasKeys = SmallTrianglePixels::kHasKeys<Depth>;
-  if constexpr (kHasKeys) pixels.set_up_keys(g, context.frame.depth_kind);
+  if constexpr (kHasKeys) pixels.set_up_keys(g, context.frame.depth_format);
   Depth depth;
   for (int p = 0; p < pixels.count; ++p) {
     const int i = pixels.triangle(p), index = pixels.index[p];
     const std::size_t face = tests_stencil && is_back(context, draw, i) ? 1 : 0;
     if (tests_stencil && !stencil[face].passes(index)) continue;
     if constexpr (kHasDepth<Depth>) {
-      if constexpr (!kHasKeys) depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_kind);
+      if constexpr (!kHasKeys) depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_format);
       const std::int32_t key = kHasKeys ? pixels.key[p]
                                         : depth.key(pixels.place[p] & 255, pixels.place[p] >> 8 & 255),
                          stored = stored_depth[index];
-      const bool passes = kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
+      const bool passes =
+          kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
       if (tests_stencil) stencil[face].store_after_depth(index, passes);
       if (!passes) continue;
       if (kDepthTest == DepthTestPath::less_write || draw.depth_write) stored_depth[index] = key;
@@ -126,7 +129,7 @@ HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& dra
 /// Keeps triangle i of the group, some of whose pixels were visible, until these are shaded.
 /// @param wide_edges  of a wide triangle; else null
 inline HWY_NOINLINE void defer_triangle(TileContext& context, std::uint32_t draw_number, int i, bool back,
-                                          const Edges64* wide_edges) {
+                                        const Edges64* wide_edges) {
   TileWorkspace::Memory& memory = context.memory;
   ShadedTriangle& triangle = memory.visible_triangles.emplace_back();
   fill_shaded_triangle(triangle, context, draw_number, i, back);
@@ -145,7 +148,7 @@ void draw_group(TileContext& context, std::uint32_t draw_number) {
   const TileDraw& draw = context.frame.draws[draw_number];
   set_up_edges(g, context.tile_x, context.tile_y, context.rect);
   if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_kind, context.tile_x, context.tile_y);
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
   if constexpr (is_interpolated(kColorWrite) || kColorWrite == ColorWrite::deferred) set_up_weights(g);
 
   alignas(64) std::uint32_t hits[kGroupSize];
@@ -182,7 +185,8 @@ void draw_group(TileContext& context, std::uint32_t draw_number) {
         std::int32_t value = 0;
         if constexpr (kColorWrite == ColorWrite::constant)
           value = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
-        if constexpr (kColorWrite == ColorWrite::deferred) value = static_cast<std::int32_t>(memory.visible_triangles.size());
+        if constexpr (kColorWrite == ColorWrite::deferred)
+          value = static_cast<std::int32_t>(memory.visible_triangles.size());
         const std::uint32_t visible = draw_in_boxes<Depth, kColorWrite>(context, draw, boxes, i, value, back);
         if constexpr (kColorWrite != ColorWrite::deferred) context.counts.shaded_pixels += visible;
         else if (visible != 0) defer_triangle(context, draw_number, i, back, nullptr);
@@ -191,7 +195,8 @@ void draw_group(TileContext& context, std::uint32_t draw_number) {
     }
     Edges32 edges = tile_edges32(g, i);
     Edges64 wide_edges;
-    if (wide && !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges)) continue;
+    if (wide && !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
+      continue;
 
     ShadedTriangle triangle;
     if constexpr (is_interpolated(kColorWrite)) {
@@ -224,7 +229,7 @@ void draw_group(TileContext& context, std::uint32_t draw_number) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

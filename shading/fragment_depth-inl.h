@@ -13,11 +13,11 @@
 #include "shading/tile_renderer.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE bool has_depth(const TileFrame& frame, const TileDraw& draw) {
-  return draw.uses_depth && frame.depth_kind != DepthKind::none;
+  return draw.uses_depth && frame.depth_format != DepthFormat::none;
 }
 
 class FragmentDepth {
@@ -26,19 +26,21 @@ class FragmentDepth {
   HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i,
                            std::uint32_t source, int tile_x, int tile_y) {
     if (!has_depth(frame, draw)) return;
-    const bool has_offset = draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
+    const bool has_offset =
+        draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
     const auto move = [&](auto& depth) HWY_ATTR {
       if (draw.depth_offsets != nullptr && !std::isnan(draw.depth_offsets[source]))
         depth.set_polygon_offset_value(draw.depth_offsets[source]);
       else if (has_offset) depth.set_polygon_offset(g, i, draw.offset_factor, draw.offset_units);
     };
-    if (frame.depth_kind == DepthKind::float32) {
+    if (frame.depth_format == DepthFormat::float32) {
       format_ = has_offset ? Format::offset_float32 : Format::float32;
-      float32_.set_up(g, i, tile_x, tile_y, frame.depth_kind);
+      float32_.set_up(g, i, tile_x, tile_y, frame.depth_format);
       move(float32_);
     } else {
-      format_ = has_offset || frame.depth_kind == DepthKind::unorm32 ? Format::offset_unorm : Format::unorm;
-      unorm_.set_up(g, i, tile_x, tile_y, frame.depth_kind);
+      format_ =
+          has_offset || frame.depth_format == DepthFormat::unorm32 ? Format::offset_unorm : Format::unorm;
+      unorm_.set_up(g, i, tile_x, tile_y, frame.depth_format);
       move(unorm_);
       unorm_.prepare_blocks();
     }
@@ -70,7 +72,7 @@ class FragmentDepth {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -9,25 +9,25 @@
 #include "framebuffer/format.h"
 #include "raster/lanes-inl.h"
 #include "shading/fragment_ops.h"
-#include "shading/stencil_steps.h"
+#include "shading/stencil_constants.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE LaneMask no_lanes() { return hn::Gt(hn::Zero(kInt), hn::Zero(kInt)); }
 
 template <class Vector>
-HWY_INLINE auto compare_lanes(Vector a, CompareOp op, Vector b) {
+HWY_INLINE auto compare_lanes(Vector a, Compare op, Vector b) {
   const auto less = hn::Lt(a, b), equal = hn::Eq(a, b), greater = hn::Lt(b, a);
   switch (op) {
-    case CompareOp::never: return hn::And(less, greater);
-    case CompareOp::less: return less;
-    case CompareOp::equal: return equal;
-    case CompareOp::lequal: return hn::Or(less, equal);
-    case CompareOp::greater: return greater;
-    case CompareOp::notequal: return hn::Or(less, greater);
-    case CompareOp::gequal: return hn::Or(greater, equal);
+    case Compare::never: return hn::And(less, greater);
+    case Compare::less: return less;
+    case Compare::equal: return equal;
+    case Compare::lequal: return hn::Or(less, equal);
+    case Compare::greater: return greater;
+    case Compare::notequal: return hn::Or(less, greater);
+    case Compare::gequal: return hn::Or(greater, equal);
     default: return hn::Or(hn::Or(less, equal), greater);
   }
 }
@@ -47,8 +47,8 @@ HWY_INLINE Int stencil_op_lanes(const StencilOpConstants& step, Int stored) {
 
 /// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what
 /// passed both.
-HWY_INLINE Int stencil_result(const StencilTestConstants& stencil, Int stored, LaneMask failed, LaneMask zfailed,
-                              LaneMask zpassed) {
+HWY_INLINE Int stencil_result(const StencilTestConstants& stencil, Int stored, LaneMask failed,
+                              LaneMask zfailed, LaneMask zpassed) {
   Int value = stored;
   if (stencil.fail_writes) value = hn::IfThenElse(failed, stencil_op_lanes(stencil.fail, stored), value);
   if (stencil.zfail_writes) value = hn::IfThenElse(zfailed, stencil_op_lanes(stencil.zfail, stored), value);
@@ -87,24 +87,25 @@ HWY_INLINE Colors unpack_colors(const ColorLayout& layout, Int packed) {
            a}};
 }
 
-HWY_INLINE Float blend_factor_lanes(Factor factor, int c, const Colors& s, const Colors& d,
-                           const std::array<float, 4>& constant) {
+HWY_INLINE Float blend_factor_lanes(BlendFactor factor, int c, const Colors& s, const Colors& d,
+                                    const std::array<float, 4>& constant) {
   const Float one = splat(1.0f);
   switch (factor) {
-    case Factor::zero: return hn::Zero(kFloat);
-    case Factor::one: return one;
-    case Factor::src_color: return s.c[c];
-    case Factor::one_minus_src_color: return hn::Sub(one, s.c[c]);
-    case Factor::dst_color: return d.c[c];
-    case Factor::one_minus_dst_color: return hn::Sub(one, d.c[c]);
-    case Factor::src_alpha: return s.c[3];
-    case Factor::one_minus_src_alpha: return hn::Sub(one, s.c[3]);
-    case Factor::dst_alpha: return d.c[3];
-    case Factor::one_minus_dst_alpha: return hn::Sub(one, d.c[3]);
-    case Factor::constant_color: return splat(constant[static_cast<std::size_t>(c)]);
-    case Factor::one_minus_constant_color: return hn::Sub(one, splat(constant[static_cast<std::size_t>(c)]));
-    case Factor::constant_alpha: return splat(constant[3]);
-    case Factor::one_minus_constant_alpha: return hn::Sub(one, splat(constant[3]));
+    case BlendFactor::zero: return hn::Zero(kFloat);
+    case BlendFactor::one: return one;
+    case BlendFactor::src_color: return s.c[c];
+    case BlendFactor::one_minus_src_color: return hn::Sub(one, s.c[c]);
+    case BlendFactor::dst_color: return d.c[c];
+    case BlendFactor::one_minus_dst_color: return hn::Sub(one, d.c[c]);
+    case BlendFactor::src_alpha: return s.c[3];
+    case BlendFactor::one_minus_src_alpha: return hn::Sub(one, s.c[3]);
+    case BlendFactor::dst_alpha: return d.c[3];
+    case BlendFactor::one_minus_dst_alpha: return hn::Sub(one, d.c[3]);
+    case BlendFactor::constant_color: return splat(constant[static_cast<std::size_t>(c)]);
+    case BlendFactor::one_minus_constant_color:
+      return hn::Sub(one, splat(constant[static_cast<std::size_t>(c)]));
+    case BlendFactor::constant_alpha: return splat(constant[3]);
+    case BlendFactor::one_minus_constant_alpha: return hn::Sub(one, splat(constant[3]));
     default: {
       const Float rest = hn::Sub(one, d.c[3]);
       return c == 3 ? one : lesser_of(rest, s.c[3]);
@@ -119,10 +120,10 @@ HWY_INLINE Colors blend_lanes(const FragmentOps& ops, const Colors& s, const Col
                 df = blend_factor_lanes(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
     Float sum;
     switch (ops.equation) {
-      case Equation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
-      case Equation::subtract: sum = mul_add(s.c[c], sf, hn::Neg(hn::Mul(d.c[c], df))); break;
-      case Equation::reverse_subtract: sum = neg_mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
-      case Equation::min: sum = lesser_of(d.c[c], s.c[c]); break;
+      case BlendEquation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
+      case BlendEquation::subtract: sum = mul_add(s.c[c], sf, hn::Neg(hn::Mul(d.c[c], df))); break;
+      case BlendEquation::reverse_subtract: sum = neg_mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
+      case BlendEquation::min: sum = lesser_of(d.c[c], s.c[c]); break;
       default: sum = greater_of(d.c[c], s.c[c]); break;
     }
     out.c[c] = clamped_unit(sum);
@@ -154,29 +155,29 @@ HWY_INLINE Int pack_rgb8(const Colors& colors) {
   return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
 }
 
-HWY_INLINE Int logic_op_lanes(Logic logic, Int s, Int d) {
+HWY_INLINE Int logic_op_lanes(LogicOp logic, Int s, Int d) {
   switch (logic) {
-    case Logic::clear: return hn::Zero(kInt);
-    case Logic::and_: return hn::And(s, d);
-    case Logic::and_reverse: return hn::AndNot(d, s);
-    case Logic::copy: return s;
-    case Logic::and_inverted: return hn::AndNot(s, d);
-    case Logic::noop: return d;
-    case Logic::xor_: return hn::Xor(s, d);
-    case Logic::or_: return hn::Or(s, d);
-    case Logic::nor: return hn::Not(hn::Or(s, d));
-    case Logic::equiv: return hn::Not(hn::Xor(s, d));
-    case Logic::invert: return hn::Not(d);
-    case Logic::or_reverse: return hn::Or(s, hn::Not(d));
-    case Logic::copy_inverted: return hn::Not(s);
-    case Logic::or_inverted: return hn::Or(hn::Not(s), d);
-    case Logic::nand: return hn::Not(hn::And(s, d));
+    case LogicOp::clear: return hn::Zero(kInt);
+    case LogicOp::bit_and: return hn::And(s, d);
+    case LogicOp::and_reverse: return hn::AndNot(d, s);
+    case LogicOp::copy: return s;
+    case LogicOp::and_inverted: return hn::AndNot(s, d);
+    case LogicOp::noop: return d;
+    case LogicOp::bit_xor: return hn::Xor(s, d);
+    case LogicOp::bit_or: return hn::Or(s, d);
+    case LogicOp::nor: return hn::Not(hn::Or(s, d));
+    case LogicOp::equiv: return hn::Not(hn::Xor(s, d));
+    case LogicOp::invert: return hn::Not(d);
+    case LogicOp::or_reverse: return hn::Or(s, hn::Not(d));
+    case LogicOp::copy_inverted: return hn::Not(s);
+    case LogicOp::or_inverted: return hn::Or(hn::Not(s), d);
+    case LogicOp::nand: return hn::Not(hn::And(s, d));
     default: return splat(-1);
   }
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "framebuffer/check.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 void set_dither(FragmentOps& ops, int n, int frame_height) {
   TESSERA_ASSERT(n == 1 || n == 2 || n == 4 || n == 8);
@@ -25,4 +25,4 @@ void set_dither(FragmentOps& ops, int n, int frame_height) {
     }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

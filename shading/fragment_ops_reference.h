@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shading/fragment_word.h"
+#include "shading/fragment_scalar.h"
 
-namespace tessera {
+namespace tessera::detail {
 
-constexpr std::int32_t stencil_op_reference(StencilAction action, std::int32_t stored, const StencilSide& face,
-                                     std::int32_t max_value) {
+constexpr std::int32_t stencil_op_reference(StencilOp action, std::int32_t stored, const StencilSide& face,
+                                            std::int32_t max_value) {
   const auto value = [&] {
     switch (action) {
-      case StencilAction::zero: return 0;
-      case StencilAction::replace: return face.reference;
-      case StencilAction::incr: return stored < max_value ? stored + 1 : max_value;
-      case StencilAction::decr: return stored > 0 ? stored - 1 : 0;
-      case StencilAction::invert: return ~stored;
-      case StencilAction::incr_wrap: return stored + 1;
-      case StencilAction::decr_wrap: return stored - 1;
+      case StencilOp::zero: return 0;
+      case StencilOp::replace: return face.reference;
+      case StencilOp::incr: return stored < max_value ? stored + 1 : max_value;
+      case StencilOp::decr: return stored > 0 ? stored - 1 : 0;
+      case StencilOp::invert: return ~stored;
+      case StencilOp::incr_wrap: return stored + 1;
+      case StencilOp::decr_wrap: return stored - 1;
       default: return stored;
     }
   };
@@ -26,23 +26,23 @@ constexpr std::int32_t stencil_op_reference(StencilAction action, std::int32_t s
   return (stored & ~mask) | (value() & mask);
 }
 
-constexpr std::uint32_t logic_op_reference(Logic logic, std::uint32_t s, std::uint32_t d) {
+constexpr std::uint32_t logic_op_reference(LogicOp logic, std::uint32_t s, std::uint32_t d) {
   switch (logic) {
-    case Logic::clear: return 0;
-    case Logic::and_: return s & d;
-    case Logic::and_reverse: return s & ~d;
-    case Logic::copy: return s;
-    case Logic::and_inverted: return ~s & d;
-    case Logic::noop: return d;
-    case Logic::xor_: return s ^ d;
-    case Logic::or_: return s | d;
-    case Logic::nor: return ~(s | d);
-    case Logic::equiv: return ~(s ^ d);
-    case Logic::invert: return ~d;
-    case Logic::or_reverse: return s | ~d;
-    case Logic::copy_inverted: return ~s;
-    case Logic::or_inverted: return ~s | d;
-    case Logic::nand: return ~(s & d);
+    case LogicOp::clear: return 0;
+    case LogicOp::bit_and: return s & d;
+    case LogicOp::and_reverse: return s & ~d;
+    case LogicOp::copy: return s;
+    case LogicOp::and_inverted: return ~s & d;
+    case LogicOp::noop: return d;
+    case LogicOp::bit_xor: return s ^ d;
+    case LogicOp::bit_or: return s | d;
+    case LogicOp::nor: return ~(s | d);
+    case LogicOp::equiv: return ~(s ^ d);
+    case LogicOp::invert: return ~d;
+    case LogicOp::or_reverse: return s | ~d;
+    case LogicOp::copy_inverted: return ~s;
+    case LogicOp::or_inverted: return ~s | d;
+    case LogicOp::nand: return ~(s & d);
     default: return ~0u;
   }
 }
@@ -68,22 +68,23 @@ inline Rgba unpack_color_reference(const ColorLayout& layout, std::uint32_t word
           field(0, layout.b_bits), a};
 }
 
-inline float blend_factor_reference(Factor factor, std::size_t c, const Rgba& s, const Rgba& d, const Rgba& constant) {
+inline float blend_factor_reference(BlendFactor factor, std::size_t c, const Rgba& s, const Rgba& d,
+                                    const Rgba& constant) {
   switch (factor) {
-    case Factor::zero: return 0;
-    case Factor::one: return 1;
-    case Factor::src_color: return s[c];
-    case Factor::one_minus_src_color: return 1 - s[c];
-    case Factor::dst_color: return d[c];
-    case Factor::one_minus_dst_color: return 1 - d[c];
-    case Factor::src_alpha: return s[3];
-    case Factor::one_minus_src_alpha: return 1 - s[3];
-    case Factor::dst_alpha: return d[3];
-    case Factor::one_minus_dst_alpha: return 1 - d[3];
-    case Factor::constant_color: return constant[c];
-    case Factor::one_minus_constant_color: return 1 - constant[c];
-    case Factor::constant_alpha: return constant[3];
-    case Factor::one_minus_constant_alpha: return 1 - constant[3];
+    case BlendFactor::zero: return 0;
+    case BlendFactor::one: return 1;
+    case BlendFactor::src_color: return s[c];
+    case BlendFactor::one_minus_src_color: return 1 - s[c];
+    case BlendFactor::dst_color: return d[c];
+    case BlendFactor::one_minus_dst_color: return 1 - d[c];
+    case BlendFactor::src_alpha: return s[3];
+    case BlendFactor::one_minus_src_alpha: return 1 - s[3];
+    case BlendFactor::dst_alpha: return d[3];
+    case BlendFactor::one_minus_dst_alpha: return 1 - d[3];
+    case BlendFactor::constant_color: return constant[c];
+    case BlendFactor::one_minus_constant_color: return 1 - constant[c];
+    case BlendFactor::constant_alpha: return constant[3];
+    case BlendFactor::one_minus_constant_alpha: return 1 - constant[3];
     default: return c == 3 ? 1 : std::min(s[3], 1 - d[3]);
   }
 }
@@ -94,14 +95,14 @@ inline Rgba blend_reference(const FragmentOps& ops, const Rgba& s, const Rgba& d
   for (std::size_t c = 0; c < 4; ++c) {
     const float sf = blend_factor_reference(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
                 df = blend_factor_reference(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
-    const float sum = ops.equation == Equation::add                ? std::fma(s[c], sf, d[c] * df)
-                      : ops.equation == Equation::subtract         ? std::fma(s[c], sf, -(d[c] * df))
-                      : ops.equation == Equation::reverse_subtract ? std::fma(-s[c], sf, d[c] * df)
-                      : ops.equation == Equation::min              ? std::min(s[c], d[c])
-                                                                   : std::max(s[c], d[c]);
+    const float sum = ops.equation == BlendEquation::add                ? std::fma(s[c], sf, d[c] * df)
+                      : ops.equation == BlendEquation::subtract         ? std::fma(s[c], sf, -(d[c] * df))
+                      : ops.equation == BlendEquation::reverse_subtract ? std::fma(-s[c], sf, d[c] * df)
+                      : ops.equation == BlendEquation::min              ? std::min(s[c], d[c])
+                                                                        : std::max(s[c], d[c]);
     out[c] = clamp_unit(sum);
   }
   return out;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -9,17 +9,17 @@
 
 #include <algorithm>
 
-#include "shading/draw_group_choice-inl.h"
+#include "shading/draw_dispatch-inl.h"
 #include "shading/pixel_rectangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// What passes the test may be farther than what was stored.
-constexpr bool may_raise_depth(CompareOp test) {
-  return test == CompareOp::greater || test == CompareOp::notequal || test == CompareOp::gequal ||
-         test == CompareOp::always;
+constexpr bool may_raise_depth(Compare test) {
+  return test == Compare::greater || test == Compare::notequal || test == Compare::gequal ||
+         test == Compare::always;
 }
 
 /// Collects elements of one draw until a group is full.
@@ -28,8 +28,8 @@ struct GroupBuilder {
   std::uint32_t draw_number = 0;
   const TileDraw* draw = nullptr;
   DrawGroupFunction draw_group_function = nullptr;
-  // Points and lines are so small that cache misses of their vertices would be most of the work: while a group is
-  // drawn, those of the next come.
+  // Points and lines are so small that cache misses of their vertices would be most of the work: while a
+  // group is drawn, those of the next come.
   std::uint32_t prefetched[2 * kGroupSize];
   int prefetched_count = 0;
   std::uint32_t pending[kGroupSize];  // triangles
@@ -49,10 +49,11 @@ struct GroupBuilder {
     if (context.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
       reset_hiz(context, kMaxDepthKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
-    context.rect = intersect({next.rect.x0 - context.tile_x, next.rect.y0 - context.tile_y, next.rect.x1 - context.tile_x,
-                          next.rect.y1 - context.tile_y},
-                         {0, 0, context.tile_size, context.tile_size});
-    context.needs_scissor = ((context.rect.x0 | context.rect.y0 | context.rect.x1 | context.rect.y1) & 3) != 0;
+    context.rect = intersect({next.rect.x0 - context.tile_x, next.rect.y0 - context.tile_y,
+                              next.rect.x1 - context.tile_x, next.rect.y1 - context.tile_y},
+                             {0, 0, context.tile_size, context.tile_size});
+    context.needs_scissor =
+        ((context.rect.x0 | context.rect.y0 | context.rect.x1 | context.rect.y1) & 3) != 0;
     if (next.texels != nullptr) draw_pixel_rectangle(context, number);
   }
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
@@ -235,7 +236,7 @@ struct GroupBuilder {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

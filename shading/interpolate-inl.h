@@ -15,7 +15,7 @@
 #include "shading/interpolate.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// Coordinates of vertices 1 and 2; vertex 0 has the rest, so that an attribute is a0 + b1 (a1 - a0) + b2 (a2
@@ -86,14 +86,14 @@ struct BlockEdges32 {
 };
 
 inline HWY_NOINLINE Barycentric barycentric_edges64(const ShadedTriangle& t, const Edges64& edges64, int bx,
-                                                 int by, int chunk) {
+                                                    int by, int chunk) {
   alignas(64) float w[3][kLanes];
   for (int k = 0; k < 3; ++k) {
     const double start = edges64.e[k] + edges64.a[k] * bx + edges64.b[k] * by;  // exact, as all of it
     for (int l = 0; l < kLanes; ++l) {
       const int p = chunk * kLanes + l;
-      w[k][l] =
-          static_cast<float>(start + edges64.a[k] * kBlockColumn[p] + edges64.b[k] * kBlockRow[p]) * t.scale[k];
+      w[k][l] = static_cast<float>(start + edges64.a[k] * kBlockColumn[p] + edges64.b[k] * kBlockRow[p]) *
+                t.scale[k];
     }
   }
   const Barycentric found =
@@ -108,7 +108,7 @@ inline HWY_NOINLINE Barycentric barycentric_edges64(const ShadedTriangle& t, con
 HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const Edges64* edges64, int bx, int by,
                                    int chunk) {
   return HWY_LIKELY(t.edges64_index < 0) ? BlockEdges32(t, bx, by).barycentric(chunk)
-                                : barycentric_edges64(t, edges64[t.edges64_index], bx, by, chunk);
+                                         : barycentric_edges64(t, edges64[t.edges64_index], bx, by, chunk);
 }
 
 /// One attribute at the three vertices, and what it is kept within.
@@ -117,7 +117,8 @@ struct Interpolant {
   float low = -std::numeric_limits<float>::infinity(), high = std::numeric_limits<float>::infinity();
 };
 /// `clamps_to_range`: within the vertices' own.
-HWY_INLINE Interpolant make_interpolant(const ShadedTriangle& t, int attribute, bool clamps_to_range = false) {
+HWY_INLINE Interpolant make_interpolant(const ShadedTriangle& t, int attribute,
+                                        bool clamps_to_range = false) {
   const float a = t.attributes[0][attribute], b = t.attributes[1][attribute], c = t.attributes[2][attribute];
   Interpolant interpolant{a, b - a, c - a};
   if (!clamps_to_range) return interpolant;
@@ -163,13 +164,15 @@ HWY_INLINE Float interpolate_clamped(const Barycentric& b, const Interpolant& c)
 
 /// Keeps attributes from `attribute` on: as many as there is room for; what is read beyond the surface's own
 /// means nothing.
-HWY_INLINE void store_interpolants(const ShadedTriangle& t, int attribute, TriangleInterpolants& interpolants) {
+HWY_INLINE void store_interpolants(const ShadedTriangle& t, int attribute,
+                                   TriangleInterpolants& interpolants) {
   static_assert(TriangleInterpolants::kCapacity <= kAttributePadding);
   constexpr hn::CappedTag<float, TriangleInterpolants::kCapacity> some;
   for (int j = 0; j < TriangleInterpolants::kCapacity; j += static_cast<int>(hn::MaxLanes(some))) {
     const auto a0 = hn::LoadU(some, t.attributes[0] + attribute + j);
     hn::Store(a0, some, interpolants.first + j);
-    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[1] + attribute + j), a0), some, interpolants.to_second + j);
+    hn::Store(hn::Sub(hn::LoadU(some, t.attributes[1] + attribute + j), a0), some,
+              interpolants.to_second + j);
     hn::Store(hn::Sub(hn::LoadU(some, t.attributes[2] + attribute + j), a0), some, interpolants.to_third + j);
   }
 }
@@ -196,7 +199,7 @@ HWY_INLINE Float interpolate(const Barycentric& b, const InterpolantArrays& c, i
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -10,7 +10,7 @@
 #include "raster/coverage_reference.h"
 #include "raster/triangle_setup.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Coordinates of vertices 1 and 2.
 struct BarycentricReference {
@@ -49,4 +49,4 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
   return {weight[1] * inverse, weight[2] * inverse};
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -10,7 +10,7 @@
 #include "shading/power-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 struct Vector {
@@ -96,9 +96,10 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       const Float distance = hn::Sqrt(squared);
       to_light = times(to_light, hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(one, distance)));
       if constexpr (kAttenuated) {
-        const Float denominator =
-            mul_add(attenuation.z, clamp_finite(squared), mul_add(attenuation.y, clamp_finite(distance), attenuation.x));
-        factor = hn::IfThenElse(hn::Gt(denominator, zero), clamp_finite(hn::Div(one, denominator)), splat(1.0e6f));
+        const Float denominator = mul_add(attenuation.z, clamp_finite(squared),
+                                          mul_add(attenuation.y, clamp_finite(distance), attenuation.x));
+        factor =
+            hn::IfThenElse(hn::Gt(denominator, zero), clamp_finite(hn::Div(one, denominator)), splat(1.0e6f));
       }
     }
     const Float n_dot_l = dot(load_vector(batch, kNormalX, point), to_light);
@@ -107,7 +108,8 @@ HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batc
       const Float cosine = hn::Sub(zero, dot(to_light, spot_direction));
       auto reached = hn::Ge(cosine, spot_cosine);
       if (HWY_UNLIKELY(narrow))
-        reached = hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_chord_squared);
+        reached =
+            hn::Le(squared_length(less_times(to_light, spot_direction, splat(-1.0f))), spot_chord_squared);
       reached = hn::And(reached, hn::Gt(cosine, zero));
       hn::Store(cosine, kFloat, light.cosine + point);
       factor = hn::IfThenElseZero(reached, factor);
@@ -152,7 +154,8 @@ HWY_INLINE void for_each_power(const Power& power, const float* x, int count, co
 /// What a spot's cone leaves of its light.
 void apply_cone(const LightTerm& term, int count, Incidence& light) {
   for_each_power(term.spot_power, light.cosine, count, [&](int point, Float share) HWY_ATTR {
-    hn::Store(clamp_finite(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat, light.factor + point);
+    hn::Store(clamp_finite(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat,
+              light.factor + point);
   });
 }
 
@@ -262,11 +265,11 @@ void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int co
                                         splat_vector(term.tracked_specular), tracked, batch, highlight...);
                        };
   if (highlights) {
-    for_each_power(term.highlight_power, light.highlight, count,
-                   [&, add, floor](int point, Float power) HWY_ATTR {
-                     const Float highlight = clamp_finite(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
-                     add(point, hn::IfThenElseZero(is_shiny(floor, light, point), highlight));
-                   });
+    for_each_power(
+        term.highlight_power, light.highlight, count, [&, add, floor](int point, Float power) HWY_ATTR {
+          const Float highlight = clamp_finite(hn::Mul(power, hn::Load(kFloat, light.factor + point)));
+          add(point, hn::IfThenElseZero(is_shiny(floor, light, point), highlight));
+        });
   } else {
     for (int point = 0; point < count; point += kLanes) add(point);
   }
@@ -302,9 +305,7 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
 
 /// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out
 /// as the lowest.
-HWY_INLINE Float finite(Float c) {
-  return lesser_of(greater_of(c, splat(-kMaxFloat)), splat(kMaxFloat));
-}
+HWY_INLINE Float finite(Float c) { return lesser_of(greater_of(c, splat(-kMaxFloat)), splat(kMaxFloat)); }
 /// 0..1; a NaN becomes 0.
 HWY_INLINE Float clamped(Float c) {
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
@@ -361,13 +362,13 @@ void light_points_lanes(const LightingProgram& program, ShadingBatch& batch, int
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
+namespace tessera::detail {
 
-LightPoints* light_points(Isa isa) { return TESSERA_KERNEL(isa, light_points_lanes); }
+LightPoints* light_points(InstructionSet isa) { return TESSERA_KERNEL(isa, light_points_lanes); }
 
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif

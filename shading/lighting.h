@@ -19,7 +19,7 @@
 #include "framebuffer/instruction_set.h"
 #include "shading/power.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr int kBatchPoints = 128;  ///< points lit at a time: vertices, or the pixels of eight blocks
 
@@ -45,9 +45,9 @@ enum BatchField : std::uint8_t {
   kTrackedG,
   kTrackedB,  // the sum of what the vertex colour multiplies
   kTextureS,
-  kTextureT,       // texture coordinates
-  kFootprintSquared,  // the larger square of how many texels of level 0 one goes by, by pixels to the right and
-                   // up
+  kTextureT,          // texture coordinates
+  kFootprintSquared,  // the larger square of how many texels of level 0 one goes by, by pixels to the right
+                      // and up
   kTexelR,
   kTexelG,
   kTexelB,
@@ -125,8 +125,8 @@ struct LightTerm {
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
   float spot_cosine = 0;
-  float spot_chord_squared = 0;  ///< of a cone below kNarrowCone: the square of how far -L and its direction may be
-                         ///< apart; 0: spot_cosine counts
+  float spot_chord_squared = 0;  ///< of a cone below kNarrowCone: the square of how far -L and its direction
+                                 ///< may be apart; 0: spot_cosine counts
   Power spot_power, highlight_power;  ///< of the cosine to the axis; of S.n, its square or R.E
   /// Up to here these make no highlight: their power, times what it is multiplied by, is below 2^-32, or they
   /// are below 2^-126. NaN, which nothing is up to, where the power is 1 for everything.
@@ -172,6 +172,6 @@ LightingProgram plan_index_lighting(const IndexMaterial& material, const std::ve
 /// leaves the colour or index. Points that nobody looks at may hold any bits. Bit-identical to
 /// light_point_reference() on every instruction set.
 using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
-LightPoints* light_points(Isa isa);
+LightPoints* light_points(InstructionSet isa);
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -10,7 +10,7 @@
 #include "shading/lighting.h"
 #include "shading/power_reference.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 struct PointReference {
   std::array<float, 3> normal{}, position{};
@@ -56,15 +56,16 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
       to_light = scaled(to_light, squared > 0 ? 1.0f / distance : 0.0f);
       if (is_spot(term.kind)) {
         const float cosine = 0.0f - dot(to_light, term.spot_direction);
-        reached =
-            (term.spot_chord_squared > 0 ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_chord_squared
-                                 : cosine >= term.spot_cosine) &&
-            cosine > 0;
+        reached = (term.spot_chord_squared > 0
+                       ? squared_distance(to_light, term.spot_direction, -1.0f) <= term.spot_chord_squared
+                       : cosine >= term.spot_cosine) &&
+                  cosine > 0;
         factor = reached ? power_of_reference(cosine, term.spot_power.exponent) : 0.0f;
       }
       if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
-        const float denominator = std::fma(term.attenuation[2], clamp_finite(squared),
-                                           std::fma(term.attenuation[1], clamp_finite(distance), term.attenuation[0]));
+        const float denominator =
+            std::fma(term.attenuation[2], clamp_finite(squared),
+                     std::fma(term.attenuation[1], clamp_finite(distance), term.attenuation[0]));
         factor = clamp_finite(factor * (denominator > 0 ? clamp_finite(1.0f / denominator) : 1.0e6f));
       }
     }
@@ -119,4 +120,4 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   return result;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -7,11 +7,11 @@
 #define TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
 #endif
 
-#include "shading/fragments-inl.h"
+#include "shading/draw_fragments-inl.h"
 #include "shading/texel_blocks.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// A draw that is a bitmap or an image, in one tile.
@@ -24,11 +24,12 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_
                              .draw = draw,
                              .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
                              .triangle = face,
-                             .has_depth = draw.uses_depth && context.frame.depth_kind != DepthKind::none,
+                             .has_depth = draw.uses_depth && context.frame.depth_format != DepthFormat::none,
                              .surface = {}};
   if (fragments.ops.stencil)
     fragments.stencil = stencil_test_constants(fragments.ops.faces[0], fragments.ops.stencil_max);
-  fragments.is_packed = draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
+  fragments.is_packed =
+      draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
   const bool is_first_primitive =
       draw.id_output == TileDraw::IdOutput::primitive || draw.source == ColorSource::per_triangle_packed;
   fragments.packed_color = is_first_primitive ? 0 : draw.packed_color;
@@ -65,7 +66,7 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -19,7 +19,7 @@
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// An offset in whole units of depth words; at most far outside.
@@ -32,37 +32,37 @@ class LineDepth {
  public:
   /// @param z0, z1  depth words of the vertices (raster/fixed_point.h)
   /// @param offset  in units of depth words (unorm) or of depth
-  HWY_INLINE LineDepth(DepthKind kind, std::uint32_t z0, std::uint32_t z1, double offset) : kind_(kind) {
-    if (kind == DepthKind::float32) {
+  HWY_INLINE LineDepth(DepthFormat kind, std::uint32_t z0, std::uint32_t z1, double offset) : kind_(kind) {
+    if (kind == DepthFormat::float32) {
       first_ = std::bit_cast<float>(z0) + offset;
       change_ = double{std::bit_cast<float>(z1)} - std::bit_cast<float>(z0);
       return;
     }
     // Words of 16 and 24 bits carry the half that rounds the level.
-    const double scale = kind == DepthKind::unorm16 ? 0x1p-16 : kind == DepthKind::unorm24 ? 0x1p-8 : 1;
+    const double scale = kind == DepthFormat::unorm16 ? 0x1p-16 : kind == DepthFormat::unorm24 ? 0x1p-8 : 1;
     first_ = scale * (z0 + whole_offset(offset));
     change_ = scale * (static_cast<double>(z1) - z0);
     max_depth_ = scale * 4294967295.0;
-    if (kind == DepthKind::unorm32) first_ += 0.5;
+    if (kind == DepthFormat::unorm32) first_ += 0.5;
   }
 
   /// The keys where the line has come as far as `t` of its length; no depth leaves 0..1.
   HWY_INLINE Int keys(const Doubles& t) const {
     const Doubles depth = clamped(plus(times(t, change_), first_), 0, max_depth_);
-    if (kind_ == DepthKind::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
-    return kind_ == DepthKind::unorm32 ? truncate(plus(floor(depth), -0x1p31)) : truncate(depth);
+    if (kind_ == DepthFormat::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
+    return kind_ == DepthFormat::unorm32 ? truncate(plus(floor(depth), -0x1p31)) : truncate(depth);
   }
 
  private:
-  DepthKind kind_;
+  DepthFormat kind_;
   double first_, change_, max_depth_ = 1;
 };
 
 /// The key of a point: as LineDepth has it at the first vertex, without lanes.
 /// @pre there is depth, and the offset is a number
-HWY_INLINE std::int32_t point_key(DepthKind kind, std::uint32_t z, double offset) {
-  TESSERA_ASSERT(kind != DepthKind::none && !std::isnan(offset));
-  if (kind == DepthKind::float32)
+HWY_INLINE std::int32_t point_key(DepthFormat kind, std::uint32_t z, double offset) {
+  TESSERA_ASSERT(kind != DepthFormat::none && !std::isnan(offset));
+  if (kind == DepthFormat::float32)
     return std::bit_cast<std::int32_t>(
         static_cast<float>(std::clamp(std::bit_cast<float>(z) + offset, 0.0, 1.0)) + 0.0f);
   const auto word = static_cast<std::uint32_t>(
@@ -79,7 +79,8 @@ struct LineValues {
 
   /// Of the first vertex of element i to the one `second`: 1 of a line, 0 of a point.
   HWY_INLINE LineValues(const TileContext& context, int i, int second, double depth_offset)
-      : depth(context.frame.depth_kind, context.memory.group.z[0][i], context.memory.group.z[second][i], depth_offset) {
+      : depth(context.frame.depth_format, context.memory.group.z[0][i], context.memory.group.z[second][i],
+              depth_offset) {
     const TriangleGroup& g = context.memory.group;
     first_x = context.tile_x * kSubpixelScale + kHalfPixel - g.x[0][i];
     first_y = context.tile_y * kSubpixelScale + kHalfPixel - g.y[0][i];
@@ -143,14 +144,15 @@ struct LineColorEval {
     Int word = hn::Zero(kInt);
     for (int c = 0; c < 3; ++c) {
       const Float color = clamped_unit(mul_add(t, splat(change[c]), splat(first[c])));
-      word = hn::Or(word, hn::ShiftLeftSame(truncate(mul_add(color, splat(max_level[c]), splat(0.5f))), shift[c]));
+      word = hn::Or(word,
+                    hn::ShiftLeftSame(truncate(mul_add(color, splat(max_level[c]), splat(0.5f))), shift[c]));
     }
     return word;
   }
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -14,21 +14,23 @@
 
 #include "raster/line_steps-inl.h"
 #include "raster/point_line_coverage.h"
-#include "shading/fragments-inl.h"
+#include "shading/draw_fragments-inl.h"
 #include "shading/point_line_values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// The centre of a pixel of the tile.
 HWY_INLINE LinePoint center_of(const TileContext& context, int x, int y) {
-  return {(context.tile_x + x) * kSubpixelScale + kHalfPixel, (context.tile_y + y) * kSubpixelScale + kHalfPixel};
+  return {(context.tile_x + x) * kSubpixelScale + kHalfPixel,
+          (context.tile_y + y) * kSubpixelScale + kHalfPixel};
 }
 HWY_INLINE LinePoint moved(LinePoint p, SamplePosition by) { return {p.x + by.x, p.y + by.y}; }
 HWY_INLINE LinePoint vertex_of(const TriangleGroup& g, int i, int k) { return {g.x[k][i], g.y[k][i]}; }
 HWY_INLINE PixelRect in_tile(const TileContext& context, const PixelRect& rect) {
-  return intersect({rect.x0 - context.tile_x, rect.y0 - context.tile_y, rect.x1 - context.tile_x, rect.y1 - context.tile_y},
+  return intersect({rect.x0 - context.tile_x, rect.y0 - context.tile_y, rect.x1 - context.tile_x,
+                    rect.y1 - context.tile_y},
                    context.rect);
 }
 
@@ -95,8 +97,8 @@ struct BlockCoverage {
           covered[s].keys[chunk] = hn::Zero(kInt);
         }
         if (fragments.has_depth)
-          block_keys(bx, by, context.samples > 1 ? sample_positions(context.samples)[s] : SamplePosition{}, values,
-                     covered[s].keys);
+          block_keys(bx, by, context.samples > 1 ? sample_positions(context.samples)[s] : SamplePosition{},
+                     values, covered[s].keys);
         blocks.bits[s][block] = 0;
       }
       blocks.samples[block] = 0;
@@ -157,10 +159,11 @@ struct LineShape {
   template <class Pixels>
   HWY_INLINE void for_each_vector(const Pixels& pixels) const {
     const PixelRect& r = context.rect;
-    steps.for_each(i, {r.x0 + context.tile_x, r.y0 + context.tile_y, r.x1 + context.tile_x, r.y1 + context.tile_y},
-                   [&](Int x, Int y, LaneMask inside) HWY_ATTR {
-                     pixels(hn::Sub(x, splat(context.tile_x)), hn::Sub(y, splat(context.tile_y)), inside);
-                   });
+    steps.for_each(
+        i, {r.x0 + context.tile_x, r.y0 + context.tile_y, r.x1 + context.tile_x, r.y1 + context.tile_y},
+        [&](Int x, Int y, LaneMask inside) HWY_ATTR {
+          pixels(hn::Sub(x, splat(context.tile_x)), hn::Sub(y, splat(context.tile_y)), inside);
+        });
   }
   template <class Pixel>
   HWY_INLINE void for_each(const Pixel& pixel) const {
@@ -213,13 +216,14 @@ class PackedPixelWriter {
       passed = hn::And(
           passed,
           hn::VecFromMask(
-              kInt, compare_lanes(keys, draw_.depth_test,
-                              load_words(reinterpret_cast<const std::uint32_t*>(context_.memory.depth), index))));
+              kInt, compare_lanes(
+                        keys, draw_.depth_test,
+                        load_words(reinterpret_cast<const std::uint32_t*>(context_.memory.depth), index))));
     const auto stays = hn::MaskFromVec(passed);
     if (draw_.write_mask != 0xffffffffu) {
       const Int stored = load_words(context_.color, index);
       packed = hn::Xor(stored,
-                      hn::And(hn::Xor(stored, packed), splat(static_cast<std::int32_t>(draw_.write_mask))));
+                       hn::And(hn::Xor(stored, packed), splat(static_cast<std::int32_t>(draw_.write_mask))));
     }
     alignas(64) std::int32_t at[kLanes], key[kLanes], packed_color[kLanes];
     hn::Store(hn::IfThenElse(stays, index, splat(kDiscardPixel)), kInt, at);
@@ -238,23 +242,25 @@ class PackedPixelWriter {
 };
 
 /// Element i of a plain draw of points, each of one packed color.
-HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context, const TileDraw& draw, int i,
-                            const PointShape& point, bool back) {
-  const std::int32_t key = pixels.uses_depth() ? point_key(context.frame.depth_kind, context.memory.group.z[0][i],
-                                                           depth_offset_of(context, draw, i))
-                                               : 0;
+HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
+                             const TileDraw& draw, int i, const PointShape& point, bool back) {
+  const std::int32_t key = pixels.uses_depth()
+                               ? point_key(context.frame.depth_format, context.memory.group.z[0][i],
+                                           depth_offset_of(context, draw, i))
+                               : 0;
   const std::uint32_t packed_color = packed_color_of(context, draw, i, back);
   point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, packed_color); });
 }
 
 /// And of lines, of one packed color or with colors along them.
-HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context, const TileDraw& draw, int i,
-                            const LineShape& line, bool back) {
+HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
+                             const TileDraw& draw, int i, const LineShape& line, bool back) {
   const LineValues values(context, i, 1, depth_offset_of(context, draw, i));
   const bool is_packed = has_packed_color(draw);
   LineColorEval colors;
   if (!is_packed) colors.set_up(context, draw, i, back);
-  const Int packed_color = splat(static_cast<std::int32_t>(is_packed ? packed_color_of(context, draw, i, back) : 0));
+  const Int packed_color =
+      splat(static_cast<std::int32_t>(is_packed ? packed_color_of(context, draw, i, back) : 0));
   line.for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
     Doubles t{};
     if (pixels.uses_depth() || !is_packed) t = values.parameters(x, y);
@@ -297,8 +303,8 @@ HWY_INLINE void draw_points_or_lines(TileContext& context, std::uint32_t draw_nu
     BlockCoverage bits{context, context.memory.touched};
     if (context.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
     else shape.cover(bits);
-    draw_covered_blocks(bits, draw_number, i, LineValues(context, i, second, depth_offset_of(context, draw, i)),
-                        back);
+    draw_covered_blocks(bits, draw_number, i,
+                        LineValues(context, i, second, depth_offset_of(context, draw, i)), back);
   }
 }
 
@@ -316,7 +322,7 @@ inline void draw_lines(TileContext& context, std::uint32_t draw_number) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -15,7 +15,7 @@
 #include "shading/power.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// log2 of positive normal numbers. Exact at powers of two.
@@ -88,7 +88,7 @@ HWY_INLINE void with_power(const Power& power, const Run& run) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

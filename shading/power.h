@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< of sqrt(1/2) as a float
 inline constexpr float kRoundingBias = 0x1.8p23f;
@@ -25,7 +25,7 @@ constexpr float min_base_log2(int whole) { return -125.99f / static_cast<float>(
 /// How a power of many numbers is worked out. By default: x^0.
 struct Power {
   float exponent = 0;
-  int whole = 0;    ///< integer_exponent(exponent)
+  int whole = 0;       ///< integer_exponent(exponent)
   float min_base = 0;  ///< 2^min_base_log2(whole): what smaller numbers count as
 };
 
@@ -42,4 +42,4 @@ inline constexpr float kExp2Coefficients[kExp2Terms] = {0.000154614446986f,
                                                         0.693147206703f,
                                                         1.0f};
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -7,7 +7,7 @@
 
 #include "shading/power.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline float log2_reference(float x) {
   std::int32_t bits;
@@ -59,4 +59,4 @@ inline float power_of_reference(float x, float exponent) {
   return exponent == 0 ? 1.0f : power_reference(x, exponent);
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

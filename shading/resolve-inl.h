@@ -10,7 +10,7 @@
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// The components of a packed color.
@@ -57,7 +57,7 @@ inline HWY_NOINLINE void resolve_samples(TileContext& context) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "framebuffer/format.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// The mean of the samples' levels, each component rounded to the nearest, halves up. @param samples  4 or 8
 inline std::uint32_t resolve_reference(const ColorLayout& layout, const std::uint32_t* packed, int samples) {
@@ -18,4 +18,4 @@ inline std::uint32_t resolve_reference(const ColorLayout& layout, const std::uin
          mean(0, layout.b_bits);
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

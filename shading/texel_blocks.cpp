@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstddef>
 
-namespace tessera {
+namespace tessera::detail {
 
 void TexelPlaces::set_up(const TexelTile& tile, int samples, int sample) {
   const PixelRect& rect = tile.rect;
@@ -48,4 +48,4 @@ void TexelPlaces::fetch(const PixelRectangle& texels, int bx, int by, std::uint3
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -7,7 +7,7 @@
 #include "framebuffer/tile_grid.h"
 #include "raster/pixel_rectangle.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Where the texels of a draw meet the pixels of a tile.
 struct TexelTile {
@@ -29,4 +29,4 @@ struct TexelPlaces {
   void fetch(const PixelRectangle& texels, int bx, int by, std::uint32_t bits, float* colors) const;
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

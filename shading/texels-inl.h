@@ -1,5 +1,5 @@
-// Texels of a batch of points: loaded, interpolated, and as colors. Components are levels with 8 fraction bits, two
-// in each lane.
+// Texels of a batch of points: loaded, interpolated, and as colors. Components are levels with 8 fraction
+// bits, two in each lane.
 #if defined(TESSERA_SHADING_TEXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXELS_INL_H_
 #undef TESSERA_SHADING_TEXELS_INL_H_
@@ -11,7 +11,7 @@
 #include "shading/texture.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// Blue below red, green below alpha.
@@ -131,7 +131,7 @@ HWY_INLINE Int pack_texels(const Texels& texels) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -11,10 +11,9 @@
 #include <cmath>
 #include <cstdint>
 
-namespace tessera {
+#include "framebuffer/tessera/enums.hpp"
 
-enum class Wrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
-enum class TextureFunction : std::uint8_t { modulate, replace, decal, blend, add };
+namespace tessera::detail {
 
 inline constexpr int kMaxTextureSide = 16384;
 inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
@@ -51,7 +50,7 @@ struct TextureLevels {
   int last = 0;                               ///< above 0: mipmaps
   bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
   bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
-  Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+  TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
   bool gathers_pairs = false;  ///< of texels: see machine_has_fast_gather()
 
   /// How many texels a pixel spans decides something.
@@ -69,13 +68,13 @@ struct TextureLevels {
 struct DrawTexture {
   const TextureLevels* levels = nullptr;  ///< null: `texel` everywhere
   std::array<float, 4> texel{1, 1, 1, 1};
-  TextureFunction function = TextureFunction::modulate;
+  TextureEnv function = TextureEnv::modulate;
   bool has_alpha = false;           ///< else the texels' alpha is 1
   std::array<float, 3> constant{};  ///< of `blend`, 0..1
   int attribute = 0;                ///< of s; t follows it
 
   /// A fragment's alpha may change.
-  bool changes_alpha() const { return has_alpha && function != TextureFunction::decal; }
+  bool changes_alpha() const { return has_alpha && function != TextureEnv::decal; }
 };
 
 /// A texel's components stand in 16 bits: the level times 256. Divided by this a level is the float nearest
@@ -85,19 +84,19 @@ inline constexpr float kTexelOne = 65280.0f;
 /// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of
 /// texture_env_lanes().
 inline std::array<float, 4> texture_env_reference(const DrawTexture& texture, const std::array<float, 4>& f,
-                                           const std::array<float, 4>& t) {
+                                                  const std::array<float, 4>& t) {
   std::array<float, 4> c = f;
   for (std::size_t k = 0; k < 3; ++k) {
     switch (texture.function) {
-      case TextureFunction::modulate: c[k] = f[k] * t[k]; break;
-      case TextureFunction::replace: c[k] = t[k]; break;
-      case TextureFunction::decal: c[k] = std::fma(t[3], t[k] - f[k], f[k]); break;
-      case TextureFunction::blend: c[k] = std::fma(t[k], texture.constant[k] - f[k], f[k]); break;
-      case TextureFunction::add: c[k] = std::min(f[k] + t[k], 1.0f); break;
+      case TextureEnv::modulate: c[k] = f[k] * t[k]; break;
+      case TextureEnv::replace: c[k] = t[k]; break;
+      case TextureEnv::decal: c[k] = std::fma(t[3], t[k] - f[k], f[k]); break;
+      case TextureEnv::blend: c[k] = std::fma(t[k], texture.constant[k] - f[k], f[k]); break;
+      case TextureEnv::add: c[k] = std::min(f[k] + t[k], 1.0f); break;
     }
   }
-  if (texture.changes_alpha()) c[3] = texture.function == TextureFunction::replace ? t[3] : f[3] * t[3];
+  if (texture.changes_alpha()) c[3] = texture.function == TextureEnv::replace ? t[3] : f[3] * t[3];
   return c;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

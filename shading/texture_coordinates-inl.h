@@ -18,7 +18,7 @@
 #include "shading/texture.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// One coordinate and its slopes, in texels of level 0.
@@ -52,10 +52,12 @@ struct TextureCoordinates {
     is_line = of_line;
     float weight_dx[3], weight_dy[3];
     for (int k = 0; k < 3; ++k) {
-      weight_dx[k] = of.scale[k] * (of.edges64_index < 0 ? static_cast<float>(of.edges.a[k])
-                                                : static_cast<float>(edges64[of.edges64_index].a[k]));
-      weight_dy[k] = of.scale[k] * (of.edges64_index < 0 ? static_cast<float>(of.edges.b[k])
-                                                : static_cast<float>(edges64[of.edges64_index].b[k]));
+      weight_dx[k] =
+          of.scale[k] * (of.edges64_index < 0 ? static_cast<float>(of.edges.a[k])
+                                              : static_cast<float>(edges64[of.edges64_index].a[k]));
+      weight_dy[k] =
+          of.scale[k] * (of.edges64_index < 0 ? static_cast<float>(of.edges.b[k])
+                                              : static_cast<float>(edges64[of.edges64_index].b[k]));
     }
     const TextureLevel& level = texture.levels->level[0];
     s.set_up(of, texture.attribute, clamps_to_range, static_cast<float>(level.width), weight_dx, weight_dy);
@@ -74,13 +76,15 @@ struct TextureCoordinates {
   template <bool kHasSlopes, bool kClampsToRange, class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     const auto coordinate = [&](const TextureAxis& axis) HWY_ATTR {
-      return kClampsToRange ? interpolate_clamped(where, axis.interpolant) : interpolate(where, axis.interpolant);
+      return kClampsToRange ? interpolate_clamped(where, axis.interpolant)
+                            : interpolate(where, axis.interpolant);
     };
     const Float at_s = coordinate(s), at_t = coordinate(t);
     store(kTextureS, at_s);
     store(kTextureT, at_t);
     if constexpr (!kHasSlopes) return;
-    const Float from_s = hn::Sub(at_s, splat(s.interpolant.first)), from_t = hn::Sub(at_t, splat(t.interpolant.first));
+    const Float from_s = hn::Sub(at_s, splat(s.interpolant.first)),
+                from_t = hn::Sub(at_t, splat(t.interpolant.first));
     const auto squared = [&](float ds, float s_sum, float dt, float t_sum) HWY_ATTR {
       const Float along_s = neg_mul_add(from_s, splat(s_sum), splat(ds)),
                   along_t = neg_mul_add(from_t, splat(t_sum), splat(dt));
@@ -93,7 +97,7 @@ struct TextureCoordinates {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

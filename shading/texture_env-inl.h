@@ -10,7 +10,7 @@
 #include "shading/texture.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// The most common function, without alpha.
@@ -20,17 +20,17 @@ HWY_INLINE Colors modulated(const Colors& f, const Colors& t) {
 
 inline HWY_NOINLINE Colors texture_env_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   const auto each = [&](auto component) HWY_ATTR {
-    const Float alpha = !texture.changes_alpha()                       ? f.c[3]
-                        : texture.function == TextureFunction::replace ? t.c[3]
-                                                                       : hn::Mul(f.c[3], t.c[3]);
+    const Float alpha = !texture.changes_alpha()                  ? f.c[3]
+                        : texture.function == TextureEnv::replace ? t.c[3]
+                                                                  : hn::Mul(f.c[3], t.c[3]);
     return Colors{{component(0), component(1), component(2), alpha}};
   };
   switch (texture.function) {
-    case TextureFunction::modulate: return each([&](int k) HWY_ATTR { return hn::Mul(f.c[k], t.c[k]); });
-    case TextureFunction::replace: return each([&](int k) HWY_ATTR { return t.c[k]; });
-    case TextureFunction::decal:
+    case TextureEnv::modulate: return each([&](int k) HWY_ATTR { return hn::Mul(f.c[k], t.c[k]); });
+    case TextureEnv::replace: return each([&](int k) HWY_ATTR { return t.c[k]; });
+    case TextureEnv::decal:
       return each([&](int k) HWY_ATTR { return mul_add(t.c[3], hn::Sub(t.c[k], f.c[k]), f.c[k]); });
-    case TextureFunction::blend:
+    case TextureEnv::blend:
       return each([&](int k) HWY_ATTR {
         return mul_add(t.c[k], hn::Sub(splat(texture.constant[static_cast<std::size_t>(k)]), f.c[k]), f.c[k]);
       });
@@ -39,7 +39,7 @@ inline HWY_NOINLINE Colors texture_env_lanes(const DrawTexture& texture, const C
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

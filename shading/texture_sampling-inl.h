@@ -14,15 +14,15 @@
 #include "shading/texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// A coordinate in the image, 0..1. Whatever is no number comes out as 0.
-HWY_INLINE Float wrapped(Float f, Wrap wrap) {
-  if (wrap == Wrap::repeat) return clamped_below(hn::Sub(f, hn::Floor(f)));
+HWY_INLINE Float wrapped(Float f, TextureWrap wrap) {
+  if (wrap == TextureWrap::repeat) return clamped_below(hn::Sub(f, hn::Floor(f)));
   const Float there_and_back = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
   return clamped_unit(
-      wrap == Wrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
+      wrap == TextureWrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
 }
 
 /// The texel that holds a coordinate.
@@ -35,10 +35,10 @@ HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) {
 struct TexelPosition {
   Int texel, fraction;
 };
-HWY_INLINE TexelPosition bilinear_position(Float unit, const TexelAxis& axis, Wrap wrap) {
+HWY_INLINE TexelPosition bilinear_position(Float unit, const TexelAxis& axis, TextureWrap wrap) {
   Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
-  if (wrap == Wrap::repeat)  // left of the first centre one is behind the last: what is below 0 is large
-                             // without a sign
+  if (wrap == TextureWrap::repeat)  // left of the first centre one is behind the last: what is below 0 is
+                                    // large without a sign
     at = hn::BitCast(kInt, hn::Min(hn::BitCast(kUint, at), hn::BitCast(kUint, hn::Add(at, splat(axis.all)))));
   else at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
   return {hn::ShiftRight<16>(at), twice(at)};
@@ -62,7 +62,7 @@ struct BilinearTexels {
 
   HWY_INLINE void place(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
     const TexelPosition column = bilinear_position(s, level.columns, texture.wrap_s),
-                     row = bilinear_position(t, level.rows, texture.wrap_t);
+                        row = bilinear_position(t, level.rows, texture.wrap_t);
     words = texture.words + level.first;
     stride = level.stride;
     gathers_pairs = texture.gathers_pairs;
@@ -112,14 +112,15 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
     level = hn::ShiftLeft<16>(hn::ShiftRight<1>(hn::Add(exponent, splat(1))));
   }
   const Int within = hn::Max(hn::Min(level, splat(texture.last << 16)), hn::Zero(kInt));
-  return hn::IfThenElseZero(hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.magnification_limit))), within);
+  return hn::IfThenElseZero(hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.magnification_limit))),
+                            within);
 }
 
 /// Chunks all of whose points are at one level, or between it and the next smaller one.
 template <int kChunks>
-HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level, const Int (&level_of)[kChunks],
-                                   const Float (&s)[kChunks], const Float (&t)[kChunks],
-                                   Texels (&texels)[kChunks]) {
+HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level,
+                                        const Int (&level_of)[kChunks], const Float (&s)[kChunks],
+                                        const Float (&t)[kChunks], Texels (&texels)[kChunks]) {
   BilinearTexels linear[2][kChunks];
   for (int i = 0; i < kChunks; ++i) linear[0][i].place(texture, texture.level[level], s[i], t[i]);
   if (!texture.blends_levels || level == texture.last) {
@@ -133,13 +134,13 @@ HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level,
   }
 }
 HWY_INLINE Texels mipmapped_linear_texels(const TextureLevels& texture, int level, Int level_of, Float s,
-                                     Float t) {
+                                          Float t) {
   Texels texels[1];
   mipmapped_linear_texels<1>(texture, level, {level_of}, {s}, {t}, texels);
   return texels[0];
 }
 HWY_INLINE Texels mipmapped_nearest_texels(const TextureLevels& texture, int level, Int level_of, Float s,
-                                      Float t) {
+                                           Float t) {
   const Texels larger = nearest_texels(texture, texture.level[level], s, t);
   return texture.blends_levels && level < texture.last
              ? lerp_texels(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of))
@@ -243,7 +244,7 @@ HWY_INLINE Colors texels_at(const DrawTexture& texture, const ShadingBatch& batc
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 AccumulatedPixels from(const AccumulatedPixels& levels, int at) {
@@ -16,8 +16,8 @@ void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_
       const int at = tile_index(x, y, tile_size);
       const float threshold =
           command.dither.threshold[(tile_y + y) % kDitherSize][(tile_x + x) % kDitherSize];
-      const std::uint32_t word =
-          command.arithmetic.packed_color({levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
+      const std::uint32_t word = command.arithmetic.packed_color(
+          {levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
       color[at] = (color[at] & ~command.write_mask) | (word & command.write_mask);
     }
 }
@@ -25,8 +25,8 @@ void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_
 }  // namespace
 
 void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
-                 int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
-  if (command.arithmetic.op() == AccumulationOp::give_back)
+                     int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
+  if (command.arithmetic.op() == AccumOp::return_color)
     return give_back(command, rect, tile_x, tile_y, tile_size, color, levels);
   if (rect == PixelRect{0, 0, tile_size, tile_size})
     return command.arithmetic.run(color, levels, tile_size * tile_size);
@@ -39,4 +39,4 @@ void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int
     }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -7,7 +7,7 @@
 #include "framebuffer/tile_grid.h"
 #include "shading/fragment_ops.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// Runs before draw `before_draw` and after `after_clears` of the frame's clears.
 struct TileAccumulation {
@@ -22,6 +22,6 @@ struct TileAccumulation {
 /// @param tile_x, tile_y  the tile's top left pixel, raster space
 /// @param color, levels   of the tile, in tile order
 void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
-                 int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
+                     int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -8,12 +8,12 @@
 
 #include "shading/group_builder-inl.h"
 #include "shading/resolve-inl.h"
-#include "shading/tile_clears-inl.h"
+#include "shading/tile_commands-inl.h"
 #include "shading/tile_renderer.h"
 #include "shading/tile_workspace.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all
@@ -45,20 +45,21 @@ void load_samples(TileContext& context, int tile) {
 TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& workspace) {
   const TileGrid& grid = frame.grid;
   TileContext context{.frame = frame,
-              .memory = workspace.memory(),
-              .color = workspace.color(),
-              .tile_x = tile % grid.columns() * grid.tile_size,
-              .tile_y = tile / grid.columns() * grid.tile_size,
-              .tile_size = grid.tile_size,
-              .rect = {},
-              .needs_scissor = false,
-              .counts = {},
-              .sample = {}};
+                      .memory = workspace.memory(),
+                      .color = workspace.color(),
+                      .tile_x = tile % grid.columns() * grid.tile_size,
+                      .tile_y = tile / grid.columns() * grid.tile_size,
+                      .tile_size = grid.tile_size,
+                      .rect = {},
+                      .needs_scissor = false,
+                      .counts = {},
+                      .sample = {}};
   TileWorkspace::Memory& memory = context.memory;
   memory.group.count = 0;
   memory.visible_triangles.clear();
   memory.edges64.clear();
-  if (!memory.visibility_clean) std::fill(std::begin(memory.visibility), std::end(memory.visibility), kNoTriangle);
+  if (!memory.visibility_clean)
+    std::fill(std::begin(memory.visibility), std::end(memory.visibility), kNoTriangle);
   memory.visibility_clean = false;  // until the end of the tile
   load_samples(context, tile);
 
@@ -120,13 +121,13 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tessera {
+namespace tessera::detail {
 
-RenderTile* render_tile(Isa isa) { return TESSERA_KERNEL(isa, render_tile_lanes); }
+RenderTile* render_tile(InstructionSet isa) { return TESSERA_KERNEL(isa, render_tile_lanes); }
 
 TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
   // A group is added before the next look at the limit. Rendering a tile allocates nothing.
@@ -167,12 +168,12 @@ void TileWorkspace::allocate_accumulation() {
   if (!memory_->accumulation) memory_->accumulation = std::make_unique<TileLevels>();
 }
 
-std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
-                         float a) {
+std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g,
+                                  float b, float a) {
   if (layout.index) return search->nearest(r, g, b) & layout.value_mask();
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : quantize(a, layout.alpha_bits) << layout.bits;
   return quantize_rgb(layout, r, g, b) | alpha;
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail
 #endif

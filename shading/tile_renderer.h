@@ -19,17 +19,17 @@
 #include "shading/texture.h"
 #include "shading/tile_accumulation.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 /// How the colour of a draw's pixels comes about.
 enum class ColorSource : std::uint8_t {
-  none,           ///< no colour plane changes: depth alone
-  constant,       ///< one word for the whole draw
+  none,                 ///< no colour plane changes: depth alone
+  constant,             ///< one word for the whole draw
   per_vertex_packed,    ///< a word for each vertex; a triangle has its provoking vertex's (flat)
   per_triangle_packed,  ///< a word for each triangle (flat, by face normals)
-  interpolated,   ///< colours interpolated from the vertices (Gouraud)
-  per_pixel,      ///< lit at each pixel (Phong)
-  texels          ///< an image's own
+  interpolated,         ///< colours interpolated from the vertices (Gouraud)
+  per_pixel,            ///< lit at each pixel (Phong)
+  texels                ///< an image's own
 };
 
 /// What the tiles need of a draw. Pointers are the frame's.
@@ -50,11 +50,11 @@ struct TileDraw {
   std::uint32_t primitive_triangles = 1;  ///< that each primitive was split into
 
   bool uses_depth = false, depth_write = true;
-  CompareOp depth_test = CompareOp::less;
+  Compare depth_test = Compare::less;
 
   ColorSource source = ColorSource::constant;
-  std::uint32_t write_mask = 0xffffffffu;  ///< of the colour word's bits
-  std::uint32_t packed_color = 0;          ///< constant
+  std::uint32_t write_mask = 0xffffffffu;      ///< of the colour word's bits
+  std::uint32_t packed_color = 0;              ///< constant
   const std::uint32_t* packed_colors[2] = {};  ///< per_vertex_packed, per_triangle_packed: front, back
   /// interpolated: attribute of r, or of the index, for front and back faces; the next two are g and b.
   /// Already scaled to levels, with the half that rounds, if scaled_colors; else 0..1.
@@ -114,7 +114,7 @@ struct TileFrame {
   TileGrid grid;
   ColorLayout layout;
   const PaletteSearch* palette_search = nullptr;  ///< index layouts
-  DepthKind depth_kind = DepthKind::none;
+  DepthFormat depth_format = DepthFormat::none;
   const TileDraw* draws = nullptr;
   std::uint32_t draw_count = 0;
   const TileClear* clears = nullptr;
@@ -122,16 +122,17 @@ struct TileFrame {
   const TileAccumulation* accumulations = nullptr;
   std::uint32_t accumulation_count = 0;
   const BinBatches* batches = nullptr;  ///< @pre tiles are looked through there before they are rendered
-  bool shade_immediately = false;  ///< shade after each triangle, with several samples after each group of them
-  int samples = 1;             ///< 1, 4 or 8 coverage samples a pixel
+  bool shade_immediately =
+      false;        ///< shade after each triangle, with several samples after each group of them
+  int samples = 1;  ///< 1, 4 or 8 coverage samples a pixel
   /// Samples start from what the workspace holds of the buffer; else a command replaces all of it before it
   /// is looked at.
   bool loads_color = false, loads_depth = false, loads_stencil = false;
 };
 
 /// Words to the frame's layout from colours 0..1; alpha where it has planes.
-std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g, float b,
-                         float a = 1);
+std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g,
+                                  float b, float a = 1);
 
 struct TileCounts {
   std::uint64_t shaded_pixels = 0;
@@ -174,6 +175,6 @@ class TileWorkspace {
 /// command that replaces all of the tile comes first. Of several samples the workspace's colour then holds
 /// the mean, its depth and stencil those of the first.
 using RenderTile = TileCounts(const TileFrame& frame, int tile, TileWorkspace& workspace);
-RenderTile* render_tile(Isa isa);
+RenderTile* render_tile(InstructionSet isa);
 
-}  // namespace tessera
+}  // namespace tessera::detail

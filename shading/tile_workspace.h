@@ -11,7 +11,7 @@
 #include "shading/lighting.h"
 #include "shading/tile_renderer.h"
 
-namespace tessera {
+namespace tessera::detail {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 /// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
@@ -31,8 +31,8 @@ struct alignas(64) TileStencil {
 struct TileAttachments {
   std::uint32_t* color;
   std::int32_t* depth;
-  std::uint32_t* visibility;     ///< triangles seen and not shaded yet; kNoTriangle elsewhere
-  std::int32_t* stencil;  ///< null where the frame has none
+  std::uint32_t* visibility;  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
+  std::int32_t* stencil;      ///< null where the frame has none
 };
 
 /// What a tile's samples hold. Depth, visibility and stencil of sample 0 are the tile's own.
@@ -47,7 +47,7 @@ struct alignas(64) TileSamples {
       group[kMaxSamples];  ///< moved the other way: of wide triangles, and for draws with operations
   SampleGroup samples32;
   std::int32_t hiz_max[kMaxTileSize * kMaxTileSize /
-                        kBlockPixels];      ///< no depth key of a sample in the block is greater
+                       kBlockPixels];       ///< no depth key of a sample in the block is greater
   int clean_samples = 0, clean_pixels = 0;  ///< so much of `visibility` is kNoTriangle
 
   TileAttachments of(int sample, bool has_stencil) {
@@ -104,4 +104,4 @@ struct alignas(64) TileWorkspace::Memory {
   }
 };
 
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -10,13 +10,13 @@
 #include <cmath>
 
 #include "raster/coverage-inl.h"
-#include "shading/draw_kinds-inl.h"
 #include "shading/fragment_ops-inl.h"
-#include "shading/fragment_word.h"
+#include "shading/fragment_scalar.h"
+#include "shading/pixel_paths-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 /// The colour of a pixel that is visible, where it is interpolated.
@@ -76,8 +76,8 @@ struct TrianglePixels {
   PixelStencil stencil{};
   std::uint32_t visible_pixels = 0;  // of those with a colour
   Int visible = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
-  Int writable, depth_writable;   // masks, so that there is nothing to branch on
-  const bool needs_scissor;                 // the draw's rectangle cuts through blocks
+  Int writable, depth_writable;      // masks, so that there is nothing to branch on
+  const bool needs_scissor;          // the draw's rectangle cuts through blocks
   const bool writes_all_planes;
   const bool stores_full;  // full blocks without any mask
 
@@ -112,7 +112,8 @@ struct TrianglePixels {
   HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
     int index = context.block_index(bx, by);
     RowEdges row_edges(edges, first);
-    if constexpr (!kHasDepth<Depth> && (kColorWrite == ColorWrite::constant || is_interpolated(kColorWrite))) {
+    if constexpr (!kHasDepth<Depth> &&
+                  (kColorWrite == ColorWrite::constant || is_interpolated(kColorWrite))) {
       if (stores_full) {
         visible_pixels += static_cast<std::uint32_t>(kBlockPixels * count);
         if constexpr (kColorWrite == ColorWrite::constant) fill_blocks(index, count);
@@ -191,8 +192,8 @@ struct TrianglePixels {
   /// @param stored_at  what is there in the frame buffer, for what is mixed with it
   template <class Edges>
   HWY_INLINE Int packed_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx,
-                          [[maybe_unused]] int by, [[maybe_unused]] int chunk,
-                          [[maybe_unused]] const std::int32_t* stored_at) const {
+                           [[maybe_unused]] int by, [[maybe_unused]] int chunk,
+                           [[maybe_unused]] const std::int32_t* stored_at) const {
     if constexpr (kColorWrite == ColorWrite::constant) return splat(packed_color);
     else if constexpr (kColorWrite == ColorWrite::blended)
       return color.packed(barycentric_at(block_edges, bx, by, chunk), hn::Load(kInt, stored_at));
@@ -203,8 +204,8 @@ struct TrianglePixels {
   template <class Edges>
   HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
     if (HWY_UNLIKELY(triangle.edges64_index >= 0))
-      return barycentric_edges64(triangle, context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)], bx, by,
-                              chunk);
+      return barycentric_edges64(
+          triangle, context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)], bx, by, chunk);
     return barycentric_from_edges(triangle, block_edges.at(0, chunk), block_edges.at(1, chunk),
                                   block_edges.at(2, chunk));
   }
@@ -216,7 +217,8 @@ struct TrianglePixels {
     if (is_tested && !stencil.passes(index)) return;
     if constexpr (kHasDepth<Depth>) {
       const std::int32_t key = depth.key(x, y), stored = context.memory.depth[index];
-      const bool passes = kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
+      const bool passes =
+          kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
       if (is_tested) stencil.store_after_depth(index, passes);
       if (!passes) return;
       if (kDepthTest == DepthTestPath::less_write || draw.depth_write) context.memory.depth[index] = key;
@@ -235,7 +237,8 @@ struct TrianglePixels {
 
   /// color.packed() for a single pixel, step by step the same.
   HWY_INLINE std::uint32_t packed_pixel_at(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
-    if constexpr (kColorWrite != ColorWrite::blended) {  // those that are interpolated and nothing else stand in SmallTrianglePixels
+    if constexpr (kColorWrite != ColorWrite::blended) {  // those that are interpolated and nothing else stand
+                                                         // in SmallTrianglePixels
       return static_cast<std::uint32_t>(packed_color);
     } else {
       float w[3];
@@ -250,7 +253,7 @@ struct TrianglePixels {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-namespace tessera {
+namespace tessera::detail {
 
-struct SinCos {
+struct SineCosine {
   double sine, cosine;
 };
 
 /// Any finite angle; multiples of 90 are exact.
-inline SinCos sin_cos_degrees(double degrees) {
+inline SineCosine sine_cosine(double degrees) {
   const double turn = std::remainder(degrees, 360.0);  // exact
   const double quarter = std::floor(turn / 90.0 + 0.5);
   const double x = (turn - quarter * 90.0) * (3.14159265358979323846 / 180.0);  // within 45 degrees
@@ -34,4 +34,4 @@ inline SinCos sin_cos_degrees(double degrees) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::detail

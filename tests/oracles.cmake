@@ -11,7 +11,7 @@ if(reference_sources)
   target_link_libraries(tessera_reference PRIVATE tessera_options PUBLIC nlohmann_json::nlohmann_json)
   target_include_directories(tessera_reference PUBLIC ${PROJECT_SOURCE_DIR})
   target_include_directories(tessera_reference SYSTEM PRIVATE ${TESSERA_TINYOBJ_INCLUDE})
-  target_compile_definitions(tessera_reference PRIVATE TESSERA_TEAPOT_PATCHES="${PROJECT_SOURCE_DIR}/engine/scenes/teapot_patches.txt")
+  target_compile_definitions(tessera_reference PRIVATE TESSERA_TEAPOT_PATCHES="${PROJECT_SOURCE_DIR}/engine/program/scenes/teapot_patches.txt")
   target_compile_options(tessera_reference PRIVATE -O2)  # a pixel at a time in doubles: too slow without, sanitizers or not
 endif()
 

@@ -20,7 +20,7 @@ install(TARGETS tessera_static EXPORT tessera-static ARCHIVE DESTINATION ${CMAKE
 foreach(component runtime development)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}} RENAME copyright COMPONENT ${component})
 endforeach()
-install(DIRECTORY engine/tessera DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(DIRECTORY engine/tessera framebuffer/tessera DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
 # The static library has a file of its own: only who asks for it needs oneTBB's package.
 install(EXPORT tessera-shared NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)

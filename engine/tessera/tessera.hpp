@@ -45,7 +45,10 @@
 #include <type_traits>
 #include <vector>
 
+#include <tessera/enums.hpp>
+
 #include "export.h"
+#include "primitives.hpp"
 #include "version.h"
 
 namespace tessera {
@@ -53,11 +56,13 @@ namespace tessera {
 /// The version of the library that runs, "0.1.0"; TESSERA_VERSION is that of the header.
 TESSERA_API std::string_view version();
 
-// What stands behind the classes; nobody's business.
+// Implementation detail, not part of the API.
+namespace detail {
 struct FrameBufferState;
 struct FrameRecording;
 struct RendererState;
 struct TextureState;
+}  // namespace detail
 
 /// The one exception type of the library: also where memory runs out, but in the small lists that name things
 /// (material_names, available_instruction_sets, serial_executor).
@@ -87,6 +92,13 @@ struct Rect {
 struct Matrix {
   std::array<double, 16> m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 };
+/// Sine and cosine of one angle.
+struct SinCos {
+  double sine, cosine;
+};
+/// Sine and cosine of any finite angle in degrees, with an error below 1e-15; multiples of 90 are exact.
+/// The result has the same bits on every machine.
+TESSERA_API SinCos sin_cos_degrees(double degrees);
 TESSERA_API Matrix operator*(const Matrix& left, const Matrix& right);
 TESSERA_API Matrix translate(double x, double y, double z);
 TESSERA_API Matrix
@@ -100,12 +112,11 @@ TESSERA_API Matrix look_at(Vec3 eye, Vec3 target,
 // -------------------------------------------------------------------------------------------------
 
 enum class ColorMode : std::uint8_t { rgb, index };
-enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32 };
 
 inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height, in pixels
 
-/// Ordered dither of every colour that draws, clears and AccumOp::return_color write, by a pattern of that size;
-/// indices are stored as they are.
+/// Ordered dither of every colour that draws, clears and AccumOp::return_color write, by a pattern of that
+/// size; indices are stored as they are.
 enum class Dither : std::uint8_t { none, bayer2, bayer4, bayer8 };
 
 struct FrameBufferFormat {
@@ -145,8 +156,6 @@ struct PlaneView {
   std::ptrdiff_t stride_bytes = 0;
 };
 
-enum class PixelOrder : std::uint8_t { rgba8, bgra8 };
-
 /// The caller's memory for a scan-out: 4 bytes a pixel, alpha 255 or what the alpha planes hold. The first
 /// row is the top of the picture, `pixels` points at it; stride_bytes may be negative (then rows go upwards
 /// in memory) or larger than 4 * width.
@@ -155,8 +164,8 @@ struct ImageTarget {
   int width = 0, height = 0;  ///< must equal the frame buffer's
   std::ptrdiff_t stride_bytes = 0;
   PixelOrder order = PixelOrder::rgba8;
-  std::optional<Rect> region{};  ///< only these pixels of it (origin lower left) are written, what lies outside
-                               ///< is left out; what else the memory holds stays
+  std::optional<Rect> region{};  ///< only these pixels of it (origin lower left) are written, what lies
+                                 ///< outside is left out; what else the memory holds stays
 };
 
 /// A stack of bitplanes: colour, depth, stencil and accumulation, one bit for each pixel in each plane. New
@@ -212,7 +221,7 @@ class TESSERA_API FrameBuffer {
  private:
   friend class Renderer;
   friend class Frame;
-  std::unique_ptr<FrameBufferState> state_;
+  std::unique_ptr<detail::FrameBufferState> state_;
 };
 
 // ---- scene description
@@ -227,7 +236,7 @@ concept BorrowableRange = std::convertible_to<Range, std::span<const Element>> &
 /// stride.
 struct FloatArray {
   const float* data = nullptr;
-  std::size_t float_count = 0;        ///< packed: all of them
+  std::size_t float_count = 0;   ///< packed: all of them
   std::size_t vertices = 0;      ///< strided: how many
   std::size_t stride_bytes = 0;  ///< from one vertex to the next, a multiple of 4; 0: packed
 
@@ -240,7 +249,8 @@ struct FloatArray {
   constexpr bool empty() const { return float_count == 0 && vertices == 0; }
 
  private:
-  constexpr FloatArray(std::span<const float> packed, int) : data(packed.data()), float_count(packed.size()) {}
+  constexpr FloatArray(std::span<const float> packed, int)
+      : data(packed.data()), float_count(packed.size()) {}
 };
 
 /// Colours of the vertices: r g b a as floats, or as bytes where 255 is 1.
@@ -288,24 +298,6 @@ struct IndexArray {
   constexpr bool empty() const { return count == 0; }
 };
 
-/// What the vertices of a mesh make, in their order [GL 2.1, 2.6.1]. Lines cover pixels by the diamond-exit
-/// rule; a loop goes back to its first vertex. Quads are split from their first to their third vertex, those
-/// of a strip from the first to the last of its four, polygons, which are convex, from their first vertex to
-/// all others. Which side of a quad or polygon is seen is a matter of the whole of it; so are its generated
-/// normals.
-enum class Primitive : std::uint8_t {
-  points,
-  lines,
-  line_strip,
-  line_loop,
-  triangles,
-  triangle_strip,
-  triangle_fan,
-  quads,
-  quad_strip,
-  polygon
-};
-
 /// Primitives, borrowed from the caller until the frame is finished. Arrays other than positions may be
 /// empty.
 struct Mesh {
@@ -336,7 +328,6 @@ struct TextureImage {
   bool bottom_row_first = false;
 };
 
-enum class TextureWrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
 enum class TextureFilter : std::uint8_t {
   nearest,
   linear,
@@ -371,18 +362,7 @@ class TESSERA_API Texture {
 
  private:
   friend class Frame;
-  std::unique_ptr<TextureState> state_;
-};
-
-/// What a texel does to a fragment's colour, after shading and its clamp, by OpenGL 1.5's table. Luminance
-/// counts as red, green and blue; C, A the fragment's colour and alpha, t the texel's, alpha 1 where it has
-/// none.
-enum class TextureEnv : std::uint8_t {
-  modulate,  ///< C Ct, A At
-  replace,   ///< Ct, At or, of texels without alpha, A
-  decal,     ///< C (1 - At) + Ct At, A
-  blend,     ///< C (1 - Ct) + texture_env_color Ct, A At
-  add        ///< min(C + Ct, 1), A At
+  std::unique_ptr<detail::TextureState> state_;
 };
 
 struct Material {
@@ -450,12 +430,8 @@ TESSERA_API Camera calibrated_camera(const Intrinsics& intrinsics, const Matrix&
 
 enum class Shading : std::uint8_t { flat, gouraud, phong };
 enum class ColorMaterial : std::uint8_t { none, ambient_and_diffuse, diffuse, ambient, emission, specular };
-enum class ProvokingVertex : std::uint8_t { last, first };
 enum class Cull : std::uint8_t { none, back, front };
-/// Line: the boundary of each polygon, and of what clipping leaves of it. Point: its corners.
-enum class PolygonMode : std::uint8_t { fill, line, point };
 enum class FrontFace : std::uint8_t { ccw, cw };
-enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
 
 struct DepthState {
   bool enabled = true;  ///< false: neither test nor write; ignored without a depth buffer
@@ -463,7 +439,6 @@ struct DepthState {
   bool write = true;
 };
 
-enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
 /// The test passes where (ref & mask) func (stored & mask). incr and decr stay at the ends of the buffer's
 /// bits; masks are cut to them.
 struct StencilFace {
@@ -479,30 +454,6 @@ struct StencilState {
   std::optional<StencilFace> back{};  ///< of back faces; absent: as the front
 };
 
-enum class BlendFactor : std::uint8_t {
-  zero,
-  one,
-  src_color,
-  one_minus_src_color,
-  dst_color,
-  one_minus_dst_color,
-  src_alpha,
-  one_minus_src_alpha,
-  dst_alpha,
-  one_minus_dst_alpha,
-  constant_color,
-  one_minus_constant_color,
-  constant_alpha,
-  one_minus_constant_alpha,
-  src_alpha_saturate
-};
-enum class BlendEquation : std::uint8_t {
-  add,
-  subtract /* source - destination */,
-  reverse_subtract,
-  min,
-  max /* both without the factors */
-};
 /// In floats, with the stored colour; clamped to 0 .. 1 and rounded once. Not beside a LogicOp other than
 /// copy.
 struct BlendState {
@@ -516,25 +467,6 @@ struct BlendState {
 struct AlphaTest {
   Compare func = Compare::greater;
   float ref = 0.5f;  ///< 0 .. 1
-};
-/// On the stored bits of a colour word, alpha planes included; in place of blending.
-enum class LogicOp : std::uint8_t {
-  clear,
-  bit_and,
-  and_reverse,
-  copy,
-  and_inverted,
-  noop,
-  bit_xor,
-  bit_or,
-  nor,
-  equiv,
-  invert,
-  or_reverse,
-  copy_inverted,
-  or_inverted,
-  nand,
-  set
 };
 /// Adds factor * (the polygon's largest depth slope) + units * (the format's smallest difference) to the
 /// depth, which stays within 0 .. 1. Needs a depth buffer.
@@ -638,13 +570,6 @@ struct Clear {
   std::optional<Rect> scissor{};
 };
 
-enum class AccumOp : std::uint8_t {
-  accum,   ///< acc += value * colour
-  load,    ///< acc = value * colour
-  add,     ///< acc += value
-  mult,    ///< acc *= value
-  return_color  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
-};
 /// What happens between the colour and the accumulation buffer, for whole rectangles. Components that leave
 /// -1 .. 1 stay at its end; without alpha planes alpha is 1, of luminance red, green and blue are the grey.
 struct Accum {
@@ -667,7 +592,7 @@ struct Capture {
   std::span<std::uint32_t>
       draw_ids{};  ///< which draw of the frame, counted from 0; bitmaps and images are draws, too
   std::span<std::uint32_t> primitive_ids{};  ///< which point, line, triangle, quad or polygon of that draw's
-                                          ///< mesh; 0 of bitmaps and images
+                                             ///< mesh; 0 of bitmaps and images
   /// x y z for each pixel: the vertices' normals (in meshes without, the means of the faces'), interpolated,
   /// in eye space, of length 1; 0 0 0 where nothing was drawn, of bitmaps and images, and where they cancel
   /// out.
@@ -680,7 +605,8 @@ struct FrameStats {
   // count in bin_entries alone.
   std::uint64_t triangles_in = 0;
   std::uint64_t dropped_non_finite = 0;  ///< triangles with a NaN or infinite vertex
-  std::uint64_t trivially_rejected = 0;      ///< wholly outside the view volume, the scissor or between pixel centres
+  std::uint64_t trivially_rejected =
+      0;                          ///< wholly outside the view volume, the scissor or between pixel centres
   std::uint64_t culled = 0;       ///< by facing
   std::uint64_t zero_area = 0;    ///< no area after snapping to 1/256 pixel
   std::uint64_t clipped = 0;      ///< cut by the near or far plane or the guard band
@@ -753,10 +679,9 @@ class TESSERA_API Frame {
 
  private:
   friend class Renderer;
-  std::unique_ptr<FrameRecording> recording_;
+  std::unique_ptr<detail::FrameRecording> recording_;
 };
 
-enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
 /// Those that this build holds and this machine can run, best first; never empty.
 TESSERA_API std::vector<InstructionSet> available_instruction_sets();
 TESSERA_API std::string_view name(InstructionSet set);
@@ -786,10 +711,10 @@ enum class LogLevel : std::uint8_t { debug, info, warning };
 /// What the work of a frame consists of, in this order; frames with little RendererOptions::bin_memory go
 /// back from tiles to binning. Each waits for all of the one before.
 enum class FrameStage : std::uint8_t {
-  vertices,  ///< what indices make; normals of meshes without; positions and colours
+  vertices,     ///< what indices make; normals of meshes without; positions and colours
   flat_colors,  ///< colours of whole triangles
-  binning,   ///< triangles, in batches, into the lists of the tiles that they may touch
-  tiles      ///< pixels
+  binning,      ///< triangles, in batches, into the lists of the tiles that they may touch
+  tiles         ///< pixels
 };
 /// What one worker did at a stretch.
 struct FrameTask {
@@ -856,7 +781,7 @@ class TESSERA_API Renderer {
 
  private:
   friend class Frame;
-  std::unique_ptr<RendererState> state_;
+  std::unique_ptr<detail::RendererState> state_;
 };
 
 }  // namespace tessera

@@ -3,9 +3,10 @@
 
 #include <span>
 
-#include "engine/scene/mesh_data.h"
+#include "engine/program/scene/mesh_data.h"
 
 namespace tessera::bench {
+using namespace program;
 
 /// columns * rows squares of two triangles each, from -1 to 1 in x and y: in clip space the whole window.
 /// Colours run across it, texture coordinates from 0 to `texture_repeats`.

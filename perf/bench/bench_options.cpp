@@ -104,9 +104,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
       ", 0.001 to 3600");
   add_text(
       program, "--seed", "N", "of what is random in workloads, and of the order of turns; default: 1",
-      [&options](const std::string& text) {
-        return parse_number(text, 0, kMaxSeed, options.measure.seed);
-      },
+      [&options](const std::string& text) { return parse_number(text, 0, kMaxSeed, options.measure.seed); },
       ", 0 to " + std::to_string(kMaxSeed));
   CLI::Option* const rivals = program.add_flag(
       "--rivals", options.rivals, "ratios to Mesa, drawing the same in turns (needs libosmesa6)");

@@ -111,7 +111,8 @@ class DrawnWorkload : public Workload {
       work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() +
                          mesh.texcoords.size() + mesh.indices.size());
     work.roofline = drawing_.roofline;
-    work.roofline_bytes = drawing_.roofline_bytes != 0 ? drawing_.roofline_bytes : drawing_renderer_->traffic_bytes();
+    work.roofline_bytes =
+        drawing_.roofline_bytes != 0 ? drawing_.roofline_bytes : drawing_renderer_->traffic_bytes();
     const auto in_tile = [&](int pixels) {
       return static_cast<std::uint64_t>(std::min(pixels, stats.tile_size));
     };
@@ -123,7 +124,8 @@ class DrawnWorkload : public Workload {
  private:
   DrawingRenderer& drawing_renderer() {
     if (!drawing_renderer_)
-      drawing_renderer_.emplace(drawing_, options_);  // with the first frame, whose time is that of a cold start
+      drawing_renderer_.emplace(drawing_,
+                                options_);  // with the first frame, whose time is that of a cold start
     return *drawing_renderer_;
   }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "perf/bench/rival_form.h"
+#include "perf/bench/gl_workload.h"
 #include "perf/bench/workload.h"
 
 namespace tessera::bench {
@@ -23,7 +23,7 @@ struct Drawing {
       before{};  ///< drawn once, into planes that the frames start from; may be empty
   std::function<void(const Drawing&, Frame&)> reveal{};  ///< drawn after it in the frame that is judged
                                                          ///< alone: shows what is in no colour. May be empty
-  bool immediate_shading = false;                           ///< also what is hidden later on
+  bool immediate_shading = false;                        ///< also what is hidden later on
   bool stores_planes =
       false;  ///< the picture stays in the frame buffer's planes; otherwise it leaves by an image
   std::uint64_t fragments = 0;  ///< what FrameStats::shaded_pixels of the judged frame has to be; 0: anything
@@ -34,8 +34,8 @@ struct Drawing {
       0;  ///< what that roofline counts; 0: the planes, where a frame reads or keeps them, and the image
   std::uint64_t pixel_bytes =
       0;  ///< of the words of a tile's pixel that are stored, where tiles are what the roofline stores
-  std::function<std::string(const Picture&)> fault{};  ///< of the picture; may be empty
-  std::function<GlWorkload(const Drawing&)> gl_workload{};    ///< empty: rivals do not draw it
+  std::function<std::string(const Picture&)> fault{};       ///< of the picture; may be empty
+  std::function<GlWorkload(const Drawing&)> gl_workload{};  ///< empty: rivals do not draw it
 };
 
 /// Makes a drawing of a size in pixels and a seed.

@@ -57,7 +57,7 @@ void add_depth_or_stencil_store(Drawing& drawing) {
 
 /// @param change  of what all layers have
 std::function<GlWorkload(const Drawing&)> as_gl_workload(Varying varying, const Color& color,
-                                                        std::function<void(GlWorkload&)> change = {}) {
+                                                         std::function<void(GlWorkload&)> change = {}) {
   return [=](const Drawing& drawing) {
     GlWorkload form;
     form.mesh = merged(drawing.meshes);
@@ -84,8 +84,9 @@ Drawing flat_layers(int width, int height) {
     state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1};
   });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  drawing.gl_workload = as_gl_workload(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f,
-                                                    1});  // what is seen in the end: one colour is fastest
+  drawing.gl_workload = as_gl_workload(
+      Varying::nothing,
+      {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});  // what is seen in the end: one colour is fastest
   drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
 }
@@ -185,8 +186,8 @@ Drawing textured_layers(int width, int height, const TextureSampler& sampler, fl
   drawing.gl_workload = as_gl_workload(Varying::texcoords, {}, [texels, sampler](GlWorkload& form) {
     form.texture_size = kTextureSize;
     form.sampler = sampler;
-    form.max_mismatch_share = 0.03;  // the texels are noise: where two of them meet, or two levels, a coordinate's
-                            // last bits are seen
+    form.max_mismatch_share = 0.03;  // the texels are noise: where two of them meet, or two levels, a
+                                     // coordinate's last bits are seen
     // OpenGL's rows start at the bottom.
     for (int y = kTextureSize - 1; y >= 0; --y)
       form.texels.insert(form.texels.end(), texels.begin() + 4 * kTextureSize * y,
@@ -246,8 +247,8 @@ std::vector<WorkloadEntry> fill_workloads() {
                   w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear}, 1.5f);
             }),
       drawn_outside_mean("fill-hidden",
-                   "16 full-screen layers, eight texels of two sizes mixed, each hides the one before",
-                   [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
+                         "16 full-screen layers, eight texels of two sizes mixed, each hides the one before",
+                         [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
   };
 }
 

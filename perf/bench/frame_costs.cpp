@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "perf/bench/cores.h"
-#include "perf/bench/pretended_workers.h"
+#include "perf/bench/simulated_workers.h"
 
 namespace tessera::bench {
 namespace {
 
-constexpr int kWarmUps = 3, kFrames = 9;             // of one workload
+constexpr int kWarmUps = 3, kFrames = 9;          // of one workload
 constexpr int kMinTurns = 3, kFramesPerTurn = 2;  // of several
 
 using Clock = std::chrono::steady_clock;
@@ -53,8 +53,7 @@ class TaskCosts {
     const bool has_no_trace =
         frame.tasks.empty() && min_ && !min_->tasks.empty();  // there was no memory for it
     if (!counts || has_no_trace) return;
-    if (!min_ || min_->tasks.size() != frame.tasks.size())
-      min_ = frame;  // bins that grew need fewer passes
+    if (!min_ || min_->tasks.size() != frame.tasks.size()) min_ = frame;  // bins that grew need fewer passes
     min_->dispatch_seconds = std::min(min_->dispatch_seconds, frame.dispatch_seconds);
     for (std::size_t i = 0; i < frame.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(min_->tasks[i])) min_->tasks[i] = frame.tasks[i];
@@ -72,7 +71,8 @@ class TaskCosts {
 /// The least of the seconds of a frame in which no worker runs.
 class SerialCosts {
  public:
-  SerialCosts(const WorkloadEntry& entry, const WorkloadSetup& setup, std::shared_ptr<SimulatedWorkers> workers)
+  SerialCosts(const WorkloadEntry& entry, const WorkloadSetup& setup,
+              std::shared_ptr<SimulatedWorkers> workers)
       : workers_(std::move(workers)), workload_(entry.make(with_workers(setup, workers_))) {}
 
   void draw(bool counts) {
@@ -117,10 +117,9 @@ class FrameCosts {
   std::shared_ptr<SimulatedWorkers> workers_for_serial(int workers, const std::vector<int>& cores) const {
     if (workers == 1 || cores.size() < 2) return std::make_shared<WorkersOnCallingThread>(workers);
     const TracedFrame& frame = tasks_.min();
-    const auto passes =
-        static_cast<std::size_t>(std::max(1, passes_of(frame.tasks) + frame.untraced_calls));
-    return std::make_shared<WorkersOnOtherCore>(workers, cores.back(),
-                                              frame.work.bytes / passes / static_cast<std::size_t>(workers));
+    const auto passes = static_cast<std::size_t>(std::max(1, passes_of(frame.tasks) + frame.untraced_calls));
+    return std::make_shared<WorkersOnOtherCore>(
+        workers, cores.back(), frame.work.bytes / passes / static_cast<std::size_t>(workers));
   }
 
   TaskCosts tasks_;
@@ -136,7 +135,7 @@ TracedFrame measure_task_costs(const WorkloadEntry& entry, const WorkloadSetup& 
 }
 
 std::vector<TracedFrame> measure_frame_costs(const WorkloadEntry& entry, const WorkloadSetup& setup,
-                                         std::span<const int> workers, double seconds) {
+                                             std::span<const int> workers, double seconds) {
   return std::async(std::launch::async,
                     [&] {
                       const std::vector<int> cores = allowed_cores();

@@ -19,6 +19,6 @@ TracedFrame measure_task_costs(const WorkloadEntry& entry, const WorkloadSetup& 
 /// that a clock that changes meanwhile is all of theirs.
 /// @param seconds  that turns go on for, if there were enough of them
 std::vector<TracedFrame> measure_frame_costs(const WorkloadEntry& entry, const WorkloadSetup& setup,
-                                         std::span<const int> workers, double seconds);
+                                             std::span<const int> workers, double seconds);
 
 }  // namespace tessera::bench

@@ -25,8 +25,8 @@ Drawing grid(int width, int height, int side, int samples = 1) {
   if (samples == 1)
     drawing.gl_workload = [](const Drawing& d) {
       GlWorkload form{.mesh = d.meshes.front(),
-                     .shaders = rivals::window_shaders(rivals::Varying::colors),
-                     .tests_depth = true};
+                      .shaders = rivals::window_shaders(rivals::Varying::colors),
+                      .tests_depth = true};
       form.mesh.texcoords.clear();
       return form;
     };
@@ -48,8 +48,9 @@ WorkloadEntry entry(const std::string& name, int side, const std::string& pixels
 }  // namespace
 
 WorkloadEntry grid_of(int side) {
-  return drawn_outside_mean("grid-" + std::to_string(2 * side * side), "",
-                      [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
+  return drawn_outside_mean(
+      "grid-" + std::to_string(2 * side * side), "",
+      [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
 }
 
 std::vector<WorkloadEntry> grid_workloads() {
@@ -57,10 +58,11 @@ std::vector<WorkloadEntry> grid_workloads() {
           entry("500k", 500, "4 pixels"),
           entry("80k", 200, "26 pixels"),
           entry("20k", 100, "104 pixels"),
-          drawn_outside_mean("grid-20M", "20,000,000 triangles of a tenth of a pixel, colours interpolated, depth",
-                       [](int w, int h, std::uint32_t) { return grid(w, h, 3162); }),
+          drawn_outside_mean("grid-20M",
+                             "20,000,000 triangles of a tenth of a pixel, colours interpolated, depth",
+                             [](int w, int h, std::uint32_t) { return grid(w, h, 3162); }),
           drawn_outside_mean("samples-4", "80k triangles of 26 pixels, 4 samples a pixel",
-                       [](int w, int h, std::uint32_t) { return grid(w, h, 200, 4); })};
+                             [](int w, int h, std::uint32_t) { return grid(w, h, 200, 4); })};
 }
 
 }  // namespace tessera::bench

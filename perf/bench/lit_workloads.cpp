@@ -111,9 +111,9 @@ Drawing lit_sphere(int width, int height, int columns, Shading shading, int ligh
   };
   drawing.gl_workload = [lit](const Drawing& d) {
     return GlWorkload{.mesh = d.meshes.front(),
-                     .shaders = rivals::lit_shaders(lit),
-                     .tests_depth = true,
-                     .culls_back = true};
+                      .shaders = rivals::lit_shaders(lit),
+                      .tests_depth = true,
+                      .culls_back = true};
   };
   drawing.fault = [red = red_in_the_middle(ring_of_lights(lights, spots))](const Picture& picture) {
     return wrong_sphere(picture, red);
@@ -136,11 +136,12 @@ WorkloadEntry entry(const std::string& size, int columns, Shading shading, int l
 
 WorkloadEntry sphere_in_frame(int width, int height) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  return drawn_outside_mean("size-" + size, "phong-20k-1 in a frame of " + size, [=](int, int, std::uint32_t) {
-    Drawing drawing = lit_sphere(width, height, 142, Shading::phong, 1, false);
-    drawing.gl_workload = nullptr;  // rivals draw in frames of the size that was asked for
-    return drawing;
-  });
+  return drawn_outside_mean(
+      "size-" + size, "phong-20k-1 in a frame of " + size, [=](int, int, std::uint32_t) {
+        Drawing drawing = lit_sphere(width, height, 142, Shading::phong, 1, false);
+        drawing.gl_workload = nullptr;  // rivals draw in frames of the size that was asked for
+        return drawing;
+      });
 }
 
 WorkloadEntry sphere_with_lights(int lights) { return entry("20k", 142, Shading::phong, lights, false); }

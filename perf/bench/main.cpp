@@ -9,22 +9,24 @@
 #include <optional>
 #include <utility>
 
-#include "engine/cli/machine_text.h"
-#include "engine/cli/standard_output.h"
-#include "engine/imageio/atomic_file.h"
-#include "engine/imageio/picture.h"
-#include "engine/parallel.h"
+#include "engine/program/cli/machine_text.h"
+#include "engine/program/cli/standard_output.h"
+#include "engine/program/imageio/atomic_file.h"
+#include "engine/program/imageio/picture.h"
+#include "engine/program/threads/thread_limit.h"
+#include "perf/bench/bandwidth.h"
+#include "perf/bench/baseline_run.h"
 #include "perf/bench/bench_options.h"
-#include "perf/bench/compare.h"
 #include "perf/bench/cores.h"
 #include "perf/bench/frame_costs.h"
 #include "perf/bench/growth.h"
-#include "perf/bench/limits.h"
 #include "perf/bench/report.h"
 #include "perf/bench/text.h"
 #include "perf/bench/traced_frame.h"
 
 namespace tessera::bench {
+using namespace detail;
+using namespace program;
 namespace {
 
 constexpr int kFailed = 1, kBadUsage = 2, kRegressed = 3;
@@ -50,8 +52,8 @@ std::vector<const WorkloadEntry*> select_workloads(const std::vector<std::string
       throw CLI::ValidationError(
           "workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
   for (const WorkloadEntry& entry : workloads())
-    if (names.empty() ||
-        std::any_of(names.begin(), names.end(), [&](const std::string& name) { return matches(name, entry); }))
+    if (names.empty() || std::any_of(names.begin(), names.end(),
+                                     [&](const std::string& name) { return matches(name, entry); }))
       list.push_back(&entry);
   return list;
 }
@@ -145,7 +147,8 @@ class Bench {
     if (!entries.empty()) measure_noise(*entries.front());
   }
   void measure_rates() {
-    constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20, kTileBytes = std::uint64_t{64} << 10;
+    constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20,
+                            kTileBytes = std::uint64_t{64} << 10;
     const std::uint64_t frame =
         4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
     const auto rate_of = [](Roofline limit, int threads, std::uint64_t bytes) -> std::optional<double> {
@@ -158,14 +161,14 @@ class Bench {
     const auto rate = [&](Roofline limit, std::uint64_t bytes) {
       return rate_of(limit, report_.threads, bytes);
     };
-    report_.bandwidth = {
-        .l1_stores = rate(Roofline::l1_stores, 0),
-        .frame_stores = rate(Roofline::memory_stores, frame),
-        .frame_copies = rate(Roofline::memory_copies, 2 * frame),
-        .tile_stores = rate(Roofline::memory_stores, kTileBytes * static_cast<std::uint64_t>(report_.threads)),
-        .memory_stores = rate(Roofline::memory_stores, kBandwidthTestBytes),
-        .memory_loads = rate(Roofline::memory_loads, kBandwidthTestBytes),
-        .memory_loads_single_core = rate_of(Roofline::memory_loads, 1, kBandwidthTestBytes)};
+    report_.bandwidth = {.l1_stores = rate(Roofline::l1_stores, 0),
+                         .frame_stores = rate(Roofline::memory_stores, frame),
+                         .frame_copies = rate(Roofline::memory_copies, 2 * frame),
+                         .tile_stores = rate(Roofline::memory_stores,
+                                             kTileBytes * static_cast<std::uint64_t>(report_.threads)),
+                         .memory_stores = rate(Roofline::memory_stores, kBandwidthTestBytes),
+                         .memory_loads = rate(Roofline::memory_loads, kBandwidthTestBytes),
+                         .memory_loads_single_core = rate_of(Roofline::memory_loads, 1, kBandwidthTestBytes)};
     try {
       report_.core_to_core_ns[1] = core_to_core_ns();
     } catch (const std::exception&) {
@@ -205,7 +208,8 @@ class Bench {
     std::string without_rival;
     show(comparison_heading());
     for (const WorkloadEntry* entry : entries) {
-      std::optional<Comparison> fought = compare_with_rival(*entry, setup_, options_.driver, options_.measure, counters_);
+      std::optional<Comparison> fought =
+          compare_with_rival(*entry, setup_, options_.driver, options_.measure, counters_);
       if (!fought) {
         without_rival += " " + entry->name;
         continue;
@@ -237,7 +241,9 @@ class Bench {
     report_.noise_of = entry.name;
     if (rows[0].frames != 0) report_.noise = ratio_of(rows[1].ms, rows[0].ms);
   }
-  static MeasureOptions with_rooflines(MeasureOptions options) { return options.measures_rooflines = true, options; }
+  static MeasureOptions with_rooflines(MeasureOptions options) {
+    return options.measures_rooflines = true, options;
+  }
   Candidate candidate_of(const WorkloadEntry& entry) const {
     return {.name = entry.name,
             .make = [this, &entry] { return entry.make(setup_); },
@@ -303,7 +309,8 @@ void require_affinity(const std::vector<int>& cores) {
     throw CLI::ValidationError(
         "--cores",
         "found " + listed(others) + ", which this process may not use, expected some of " + listed(allowed));
-  if (!set_thread_affinity(cores)) throw Error("the system does not keep this process on the cores " + listed(cores));
+  if (!set_thread_affinity(cores))
+    throw Error("the system does not keep this process on the cores " + listed(cores));
 }
 
 int run(BenchOptions& options) {
@@ -368,7 +375,7 @@ int main(int argc, char** argv) {
   };
   try {
     const int code = run();
-    if (code == 0) tessera::cli::require_stdout_written();
+    if (code == 0) tessera::program::cli::require_stdout_written();
     return code;
   } catch (const CLI::ParseError& error) {
     std::cerr << "tessera bench: error: " << error.what() << " (see tessera bench --help)\n";

@@ -6,7 +6,7 @@
 #include <new>
 #include <random>
 
-#include "perf/bench/limits.h"
+#include "perf/bench/bandwidth.h"
 #include "perf/bench/resident_memory.h"
 
 namespace tessera::bench {
@@ -77,7 +77,8 @@ void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
   const Clock::time_point start = Clock::now();
   runner.draw();
   row.cold_ms = ms_since(start);
-  const std::uint64_t peak = resident_memory().peak, kept = runner.workload->work(runner.stats).frame_buffer_bytes;
+  const std::uint64_t peak = resident_memory().peak,
+                      kept = runner.workload->work(runner.stats).frame_buffer_bytes;
   row.peak_bytes = above(peak, before);
   row.working_bytes = above(peak, made + kept);
 }
@@ -86,14 +87,15 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.validate ? candidate.validate(workload.picture()) : fault;
 }
 
-/// One more runner for each roofline that a row is held against, which runs so long, a millisecond where all is
-/// in caches, that its threads' start is little beside it.
+/// One more runner for each roofline that a row is held against, which runs so long, a millisecond where all
+/// is in caches, that its threads' start is little beside it.
 void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
   const auto add = [&](const FrameWork& work, double Row::*rate) {
     try {
-      runners.push_back({.roofline = bandwidth_kernel_for(work, rows[drawing].threads, std::uint64_t{256} << 20),
-                         .rate = rate,
-                         .row = drawing});
+      runners.push_back(
+          {.roofline = bandwidth_kernel_for(work, rows[drawing].threads, std::uint64_t{256} << 20),
+           .rate = rate,
+           .row = drawing});
     } catch (const std::bad_alloc&) {
       // The row is worth more than what it is held against, and its roofline stays 0.
     }

@@ -19,7 +19,7 @@ struct MeasureOptions {
   int repeats = 0;     ///< frames of each row; 0: as many as `seconds` hold, 15 at least
   double seconds = 1;  ///< for each row; for what it is held against always
   double warm_up_seconds = 0.2;
-  std::uint32_t seed = 1;     ///< of the order in which rows take turns
+  std::uint32_t seed = 1;           ///< of the order in which rows take turns
   bool measures_rooflines = false;  ///< what a row is held against takes turns with it
 };
 
@@ -33,7 +33,7 @@ struct Row {
   Statistics ms;
   FrameWork work;
   std::optional<HardwareCounters::Counts> counts{};  ///< of a frame
-  double roofline = 0;         ///< 10^9 bytes a second, where there is one and it was measured
+  double roofline = 0;      ///< 10^9 bytes a second, where there is one and it was measured
   double l1_stores = 0;     ///< the same of stores in L1, where tiles' words are what is stored
   std::string fault;        ///< of the picture, or what stopped it; empty: it is right
   bool is_aborted = false;  ///< no memory, say: the fault is nothing that was drawn

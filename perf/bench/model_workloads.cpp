@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/import/model.h"
-#include "engine/scene/model_scene.h"
+#include "engine/program/import/model.h"
+#include "engine/program/scene/model_scene.h"
 #include "perf/bench/drawn_workload.h"
 #include "perf/rivals/literal_shaders.h"
 
 namespace tessera::bench {
+using namespace program;
 namespace {
 
 /// A model and, once it was read, its scene.
@@ -78,7 +79,7 @@ WorkloadEntry entry(const std::string& name, const std::string& what, const std:
 }
 
 WorkloadEntry entry_outside_mean(const std::string& name, const std::string& what, const std::string& path,
-                     const std::string& package) {
+                                 const std::string& package) {
   WorkloadEntry large = entry(name, what, path, package);
   large.is_in_mean = false;
   return large;
@@ -91,13 +92,14 @@ std::vector<WorkloadEntry> model_workloads() {
   return {entry("bunny", "the Stanford bunny, 69,666 triangles", "/usr/share/glmark2/models/bunny.obj",
                 "glmark2-data"),
           entry_outside_mean("model-suzanne", "a subdivided monkey's head, 251,904 triangles",
-                 "/usr/share/assimp/models/BLEND/SuzanneSubdiv_252.blend", "assimp-testmodels"),
+                             "/usr/share/assimp/models/BLEND/SuzanneSubdiv_252.blend", "assimp-testmodels"),
           entry_outside_mean("model-ac3d", "a subdivided scene, 245,760 triangles",
-                 "/usr/share/assimp/models/AC/sample_subdiv.ac", "assimp-testmodels"),
+                             "/usr/share/assimp/models/AC/sample_subdiv.ac", "assimp-testmodels"),
           entry_outside_mean("model-rs1", "a scanned part, 221,803 triangles",
-                 "/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply", "opencv-doc"),
+                             "/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply",
+                             "opencv-doc"),
           entry_outside_mean("model-robot", "a robot to print, 187,974 triangles",
-                 "/usr/share/cura/resources/meshes/UltimakerRobot_support.stl", "cura")};
+                             "/usr/share/cura/resources/meshes/UltimakerRobot_support.stl", "cura")};
 }
 
 }  // namespace tessera::bench

@@ -13,7 +13,9 @@ namespace {
 
 }  // namespace
 
-std::unique_ptr<bench::Workload> mesa_workload(const bench::GlWorkload&, int, int, MesaDriver, int) { fail(); }
+std::unique_ptr<bench::Workload> mesa_workload(const bench::GlWorkload&, int, int, MesaDriver, int) {
+  fail();
+}
 double mesa_finish_ms(int, int, MesaDriver, int) { fail(); }
 std::string mesa_name(MesaDriver, int) { fail(); }
 

@@ -6,22 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "engine/parallel.h"
+#include "engine/runtime/worker_pool.h"
 #include "framebuffer/bit_transpose.h"
 #include "framebuffer/bitplane.h"
 #include "framebuffer/tile_grid.h"
 #include "perf/bench/mesh_workloads.h"
 
 namespace tessera::bench {
+using namespace detail;
 namespace {
 
-Isa isa_of(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::scalar: return Isa::scalar;
-    case InstructionSet::avx2: return Isa::avx2;
-    case InstructionSet::avx512: return Isa::avx512;
-    default: return available_isas().front();
-  }
+InstructionSet chosen(InstructionSet set) {
+  return set == InstructionSet::automatic ? available_isas().front() : set;
 }
 
 struct alignas(kTileAlignment) Tile {
@@ -36,9 +32,9 @@ class TileStoreWorkload : public Workload {
       : grid_{setup.width, setup.height,
               setup.options.tile_size != 0 ? setup.options.tile_size : kMaxTileSize},
         worker_pool_(setup.options.threads, setup.options.executor),
-        store_(store_planes_for(isa_of(setup.options.instruction_set))),
+        store_(store_planes_for(chosen(setup.options.instruction_set))),
         planes_(setup.width, setup.height, bits),
-        tiles_per_store_(tiles_per_store(isa_of(setup.options.instruction_set), grid_.tile_size)),
+        tiles_per_store_(tiles_per_store(chosen(setup.options.instruction_set), grid_.tile_size)),
         tiles_(static_cast<std::size_t>(setup.options.threads * tiles_per_store_)),
         picture_(setup.width, setup.height) {
     std::mt19937 random(setup.seed);
@@ -128,7 +124,9 @@ std::vector<WorkloadEntry> plane_store_workloads() {
                         .what = "tiles that are there brought into " + std::to_string(bits) +
                                 (bits > 1 ? " planes" : " plane"),
                         .is_in_mean = false};
-    entry.make = [bits](const WorkloadSetup& setup) { return std::make_unique<TileStoreWorkload>(setup, bits); };
+    entry.make = [bits](const WorkloadSetup& setup) {
+      return std::make_unique<TileStoreWorkload>(setup, bits);
+    };
     entry.gl_workload = [](const WorkloadSetup&) { return std::nullopt; };
     list.push_back(std::move(entry));
   }

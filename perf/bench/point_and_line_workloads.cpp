@@ -42,8 +42,8 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   drawing.meshes.push_back(std::move(mesh));
   drawing.gl_workload = [primitive](const Drawing& d) {
     GlWorkload form{.mesh = d.meshes.front(),
-                   .shaders = rivals::window_shaders(rivals::Varying::colors),
-                   .tests_depth = true};
+                    .shaders = rivals::window_shaders(rivals::Varying::colors),
+                    .tests_depth = true};
     if (primitive == Primitive::lines)
       form.max_mismatch_share =
           0.1;  // who draws the pixel at an end, and what depth a pixel beside a line has, is left open

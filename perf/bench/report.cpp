@@ -12,7 +12,9 @@ namespace {
 constexpr double kMiB = 1 << 20;
 
 // 10^9 bytes a second that a row is held against limits by.
-double achieved_bandwidth(const Row& row) { return static_cast<double>(row.work.roofline_bytes) / row.ms.median * 1e-6; }
+double achieved_bandwidth(const Row& row) {
+  return static_cast<double>(row.work.roofline_bytes) / row.ms.median * 1e-6;
+}
 
 // Of what was working memory in the first frame, where triangles are most of it.
 std::optional<double> bytes_per_triangle(const Row& row) {
@@ -59,14 +61,18 @@ std::vector<Metric> metrics_of(const Row& row) {
                               {"ns_per_pixel", 1e6 * row.ms.median / static_cast<double>(row.work.pixels)}};
   metrics.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
   metrics.push_back({"bytes_per_triangle", bytes_per_triangle(row)});
-  metrics.push_back({"roofline_gigabytes_per_second", row.roofline > 0 ? std::optional(row.roofline) : std::nullopt});
-  metrics.push_back({"share_of_roofline", row.roofline > 0 ? std::optional(achieved_bandwidth(row) / row.roofline) : std::nullopt});
+  metrics.push_back(
+      {"roofline_gigabytes_per_second", row.roofline > 0 ? std::optional(row.roofline) : std::nullopt});
+  metrics.push_back({"share_of_roofline", row.roofline > 0
+                                              ? std::optional(achieved_bandwidth(row) / row.roofline)
+                                              : std::nullopt});
   metrics.push_back({"tile_bytes", row.l1_stores > 0 ? std::optional(static_cast<double>(row.work.tile_bytes))
                                                      : std::nullopt});
   metrics.push_back(
       {"l1_stores_gigabytes_per_second", row.l1_stores > 0 ? std::optional(row.l1_stores) : std::nullopt});
-  metrics.push_back(
-      {"share_of_l1_stores", row.l1_stores > 0 ? std::optional(achieved_bandwidth(row) / row.l1_stores) : std::nullopt});
+  metrics.push_back({"share_of_l1_stores", row.l1_stores > 0
+                                               ? std::optional(achieved_bandwidth(row) / row.l1_stores)
+                                               : std::nullopt});
   metrics.push_back(
       {"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
   metrics.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions))
@@ -157,7 +163,8 @@ std::string table_summary(const Report& report) {
     if (row.frames == 0 || row.work.roofline == Roofline::none) continue;
     if (row.roofline > 0) {
       const auto share_of = [&](double most, Roofline roofline) {
-        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved_bandwidth(row) / most, name_of(roofline), most);
+        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved_bandwidth(row) / most,
+                         name_of(roofline), most);
       };
       text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), achieved_bandwidth(row)) +
               share_of(row.roofline, row.work.roofline) +

@@ -12,18 +12,18 @@
 #include <queue>
 #include <tuple>
 
-#include "engine/worker_pool.h"
+#include "engine/runtime/worker_pool.h"
+#include "perf/bench/bandwidth.h"
 #include "perf/bench/frame_costs.h"
-#include "perf/bench/limits.h"
-#include "perf/bench/text.h"
 #include "perf/bench/independent_renderers.h"
+#include "perf/bench/text.h"
 
 namespace tessera::bench {
 namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
-constexpr double kCostSeconds = 2;  // of a measured row's, for each count of cores
-constexpr int kBreakdownCores = 64;      // whose seconds are shown in parts
+constexpr double kCostSeconds = 2;   // of a measured row's, for each count of cores
+constexpr int kBreakdownCores = 64;  // whose seconds are shown in parts
 static_assert(std::find(std::begin(kCores), std::end(kCores), kBreakdownCores) != std::end(kCores));
 
 double length(const FrameTask& task) { return task.end - task.begin; }
@@ -101,7 +101,8 @@ FrameTimeBreakdown predict_frame_time(const TracedFrame& frame, int cores, const
   }
   seconds.busy = (frame.task_seconds() + frame.dispatch_seconds) / cores;
   seconds.idle = frame.tasks.empty() ? passes : passes - seconds.busy;
-  const double memory_rate = 1e9 * model.core_gb_per_second * std::min(cores, model.bandwidth_saturating_cores);
+  const double memory_rate =
+      1e9 * model.core_gb_per_second * std::min(cores, model.bandwidth_saturating_cores);
   seconds.memory = std::max(0.0, static_cast<double>(frame.work.bytes) / memory_rate - seconds.sum());
   return seconds;
 }
@@ -142,8 +143,9 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
   }
   if (!counts.empty()) {
-    const Candidate apart{
-        .name = entry.name, .make = [&] { return std::make_unique<IndependentRenderers>(entry, setup); }, .threads = 2};
+    const Candidate apart{.name = entry.name,
+                          .make = [&] { return std::make_unique<IndependentRenderers>(entry, setup); },
+                          .threads = 2};
     const std::vector<Row> rows = measure(std::vector{on(1), apart}, options, counters);
     if (std::none_of(rows.begin(), rows.end(), [](const Row& row) {
           return row.is_aborted;
@@ -157,7 +159,8 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     for (const int cores : kCores) {
       const std::vector<TracedFrame> costs =
           measure_frame_costs(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
-      const FrameTimeBreakdown one = predict_frame_time(costs[0], 1, model), seconds = predict_frame_time(costs[1], cores, model);
+      const FrameTimeBreakdown one = predict_frame_time(costs[0], 1, model),
+                               seconds = predict_frame_time(costs[1], cores, model);
       scaling.predicted.emplace_back(cores, one.sum() / seconds.sum());
       if (cores == kBreakdownCores) scaling.on_64_cores = seconds;
     }
@@ -215,11 +218,13 @@ nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all) {
       entry["one_thread_ms"] = scaling.one_ms;
       for (const auto& [threads, speed] : scaling.measured)
         entry["measured"][std::to_string(threads)] = measured(speed);
-      if (scaling.independent_renderers) entry["independent_renderers"] = measured(*scaling.independent_renderers);
+      if (scaling.independent_renderers)
+        entry["independent_renderers"] = measured(*scaling.independent_renderers);
       if (!scaling.not_computed.empty()) entry["not_computed"] = scaling.not_computed;
       for (const auto& [cores, speed] : scaling.predicted) entry["computed"][std::to_string(cores)] = speed;
       if (scaling.on_64_cores.sum() > 0)
-        for (const auto& [what, seconds] : parts_of(scaling.on_64_cores)) entry["ms_on_64_cores"][what] = 1e3 * seconds;
+        for (const auto& [what, seconds] : parts_of(scaling.on_64_cores))
+          entry["ms_on_64_cores"][what] = 1e3 * seconds;
     }
     json.push_back(std::move(entry));
   }

@@ -16,28 +16,28 @@ namespace tessera::bench {
 
 /// A machine with many cores like this one's.
 struct CoreModel {
-  double core_gb_per_second = 0;         ///< 10^9 a second, that one core moves
+  double core_gb_per_second = 0;       ///< 10^9 a second, that one core moves
   int bandwidth_saturating_cores = 8;  ///< so many cores move all that the memory does
-  double barrier_seconds = 0;    ///< until all workers have begun a pass
+  double barrier_seconds = 0;          ///< until all workers have begun a pass
 };
 /// Measured, on one thread and on all.
 CoreModel measure_core_model(int threads);
 
 /// Seconds of a frame on several cores, by what these do.
 struct FrameTimeBreakdown {
-  double busy = 0;  ///< at tasks, and at taking them; also where workers run that no task tells of, spread
-                       ///< over the tasks, or without any over the cores
-  double idle = 0;  ///< for the last task of a pass to end and the next pass to begin: no more could be
-                       ///< won if passes ran into each other
-  double serial = 0;    ///< one core does what is in no task
-  double memory = 0;   ///< the memory moves what it could not meanwhile
+  double busy = 0;    ///< at tasks, and at taking them; also where workers run that no task tells of, spread
+                      ///< over the tasks, or without any over the cores
+  double idle = 0;    ///< for the last task of a pass to end and the next pass to begin: no more could be
+                      ///< won if passes ran into each other
+  double serial = 0;  ///< one core does what is in no task
+  double memory = 0;  ///< the memory moves what it could not meanwhile
 
   double sum() const { return busy + idle + serial + memory; }
 };
 /// From measure_frame_costs() for as many workers. Of the tasks of a pass each core begins with a share, as
-/// WorkerPool cuts them, and goes on to what is left of others'; the taking of each is the frame's mean; passes
-/// wait for each other; what no task does is done by one core; and what the frame moves, the memory has to
-/// move.
+/// WorkerPool cuts them, and goes on to what is left of others'; the taking of each is the frame's mean;
+/// passes wait for each other; what no task does is done by one core; and what the frame moves, the memory
+/// has to move.
 FrameTimeBreakdown predict_frame_time(const TracedFrame& frame, int cores, const CoreModel& model);
 
 struct Scaling {
@@ -45,9 +45,10 @@ struct Scaling {
   double one_ms = 0;                                ///< on one thread
   std::vector<std::pair<int, Ratio>> measured{};    ///< threads, and how many times as fast
   std::vector<std::pair<int, double>> predicted{};  ///< cores, and the same
-  std::optional<Ratio> independent_renderers{};  ///< how many times as fast two renderers are that share nothing, on a
+  std::optional<Ratio>
+      independent_renderers{};       ///< how many times as fast two renderers are that share nothing, on a
                                      ///< thread each. None: there is one thread, or no memory for both
-  FrameTimeBreakdown on_64_cores{};               ///< what its seconds on 64 cores go to
+  FrameTimeBreakdown on_64_cores{};  ///< what its seconds on 64 cores go to
   std::string fault;                 ///< why there are no figures; empty: there are
   std::string not_computed;          ///< why no more is predicted; empty: all is, or there are no figures
 };

@@ -13,9 +13,9 @@ struct TracedFrame {
   std::string workload;
   double seconds = 0;              ///< from its first command to its end; of costs their sum
   std::vector<FrameTask> tasks{};  ///< in the order in which they began
-  double dispatch_seconds = 0;  ///< where workers run, but not at tasks: they take their next ones, or do what
-                              ///< no task tells of; of costs only
-  int untraced_calls = 0;  ///< for workers, who run in them all the same; of costs only
+  double dispatch_seconds = 0;     ///< where workers run, but not at tasks: they take their next ones, or do
+                                   ///< what no task tells of; of costs only
+  int untraced_calls = 0;          ///< for workers, who run in them all the same; of costs only
   FrameWork work{};
 
   double task_seconds() const;  ///< of all workers together

@@ -12,12 +12,13 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/imageio/picture.h"
-#include "engine/scene/mesh_data.h"
+#include "engine/program/imageio/picture.h"
+#include "engine/program/scene/mesh_data.h"
 #include "engine/tessera/tessera.hpp"
-#include "perf/bench/rival_form.h"
+#include "perf/bench/gl_workload.h"
 
 namespace tessera::bench {
+using namespace program;
 
 struct WorkloadSetup {
   int width = 1920, height = 1080;  ///< pixels
@@ -41,10 +42,10 @@ struct FrameWork {
   std::uint64_t pixels = 0;     ///< of the frame buffer
   std::uint64_t triangles = 0;  ///< or lines, or points
   std::uint64_t vertices = 0;
-  std::uint64_t fragments = 0;   ///< shaded, or blended, or tested: as the workload counts them
-  std::uint64_t bytes = 0;       ///< read and written in memory by its nature: meshes, planes, the image
+  std::uint64_t fragments = 0;  ///< shaded, or blended, or tested: as the workload counts them
+  std::uint64_t bytes = 0;      ///< read and written in memory by its nature: meshes, planes, the image
   std::uint64_t frame_buffer_bytes = 0;  ///< of the frame buffer's planes and the image
-  Roofline roofline = Roofline::none;     ///< what it is held against
+  Roofline roofline = Roofline::none;    ///< what it is held against
   std::uint64_t roofline_bytes = 0;
   std::uint64_t tile_bytes = 0;  ///< a tile's words, where they are what the roofline stores
 };
@@ -67,7 +68,7 @@ struct WorkloadEntry {
   bool is_in_mean = true;  ///< of ratios to rivals
   std::function<std::unique_ptr<Workload>(const WorkloadSetup&)> make{};
   std::function<std::optional<GlWorkload>(const WorkloadSetup&)>
-      gl_workload{};                             ///< the same for rivals, where they can draw it
+      gl_workload{};                       ///< the same for rivals, where they can draw it
   std::function<std::string()> lacks{};    ///< what it needs and is not installed, or nothing. May be empty
   std::function<std::string()> prepare{};  ///< reads what it needs, before any thread runs; says why it
                                            ///< cannot, or nothing. May be empty

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/tessera/tessera.hpp"
-#include "perf/bench/rival_form.h"
+#include "perf/bench/gl_workload.h"
 
 namespace tessera::rivals {
 

@@ -9,6 +9,7 @@
 #include "perf/rivals/mesa_functions.h"
 
 namespace tessera::rivals {
+using namespace program;
 namespace {
 
 using bench::GlWorkload;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "perf/bench/rival_form.h"
+#include "perf/bench/gl_workload.h"
 #include "perf/bench/workload.h"
 
 namespace tessera::rivals {

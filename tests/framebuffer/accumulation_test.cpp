@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
-using Op = AccumulationOp;
+using Op = AccumOp;
 
 long double one(int bits) { return bits == 16 ? 32767.0L : 2147483647.0L; }
 
@@ -166,4 +166,4 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -12,7 +12,7 @@
 #include "framebuffer/bit_transpose_reference.h"
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 struct TileMemory {
@@ -77,7 +77,7 @@ bool same_bits(const BitplaneStack& a, const BitplaneStack& b) {
 /// All ways to store that this machine can run.
 std::vector<StorePlanesFn*> ways() {
   std::vector<StorePlanesFn*> all;
-  for (Isa isa : available_isas())
+  for (InstructionSet isa : available_isas())
     for (StorePlanesFn* way : {store_planes_for(isa), store_planes_per_tile(isa)})
       if (std::find(all.begin(), all.end(), way) == all.end()) all.push_back(way);
   return all;
@@ -130,7 +130,7 @@ TEST(BitTranspose, StoreMatchesReferenceBitForBitHoweverManyTilesGoTogether) {
 }
 
 TEST(BitTranspose, LoadMatchesReferenceBitForBitOnEveryIsa) {
-  for (Isa isa : available_isas())
+  for (InstructionSet isa : available_isas())
     for (const Case& c : cases()) {
       std::mt19937 random(13);
       const BitplaneStack stack = random_stack(c, random);
@@ -184,7 +184,7 @@ TEST(BitTranspose, ATileWritesNothingOfItsNeighbours) {
 }
 
 TEST(BitTranspose, DepthKeysOf32BitsComeBackThroughTheFlip) {
-  for (Isa isa : available_isas()) {
+  for (InstructionSet isa : available_isas()) {
     BitplaneStack stack(64, 64, 32);
     stack.allocate(0);
     TileMemory keys, back;
@@ -198,4 +198,4 @@ TEST(BitTranspose, DepthKeysOf32BitsComeBackThroughTheFlip) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

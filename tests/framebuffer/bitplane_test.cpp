@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 /// Bits set in the bytes of a row of a plane, pad included.
@@ -122,4 +122,4 @@ TEST(Bitplane, ThrowsBadAllocWhereMemoryRunsOutAndStaysUnallocated) {
 #endif
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

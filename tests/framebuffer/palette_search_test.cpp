@@ -9,7 +9,7 @@
 
 #include "framebuffer/palette_search_reference.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 Palette random_palette(int bits, std::size_t given, std::uint32_t seed, int levels = 256) {
@@ -148,4 +148,4 @@ TEST(PaletteSearch, ServesSixtyFiveThousandEntries) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

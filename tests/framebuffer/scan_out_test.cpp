@@ -11,7 +11,7 @@
 #include "framebuffer/scan_out_reference.h"
 #include "framebuffer/tile_grid.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 struct TileMemory {
@@ -44,8 +44,8 @@ std::uint32_t pixel_at(const std::uint8_t* bytes) {
 }
 
 TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
-  for (Isa isa : available_isas())
-    for (ByteOrder order : {ByteOrder::rgba8, ByteOrder::bgra8})
+  for (InstructionSet isa : available_isas())
+    for (PixelOrder order : {PixelOrder::rgba8, PixelOrder::bgra8})
       for (const Source& source : sources()) {
         const ScanOut scan_out(source.layout, &source.palette, order, isa);
         // All words of up to 12 bits; beyond that every level of each component, and random words.
@@ -73,9 +73,9 @@ TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
 TEST(ScanOut, BytesStandInTheOrderAskedFor) {
   const std::uint32_t word = 0x102030;
   std::uint8_t pixel[4];
-  ScanOut(rgb_layout(24), nullptr, ByteOrder::rgba8, Isa::scalar).row(&word, 1, pixel);
+  ScanOut(rgb_layout(24), nullptr, PixelOrder::rgba8, InstructionSet::scalar).row(&word, 1, pixel);
   EXPECT_TRUE(pixel[0] == 0x10 && pixel[1] == 0x20 && pixel[2] == 0x30 && pixel[3] == 255);
-  ScanOut(rgb_layout(24), nullptr, ByteOrder::bgra8, Isa::scalar).row(&word, 1, pixel);
+  ScanOut(rgb_layout(24), nullptr, PixelOrder::bgra8, InstructionSet::scalar).row(&word, 1, pixel);
   EXPECT_TRUE(pixel[0] == 0x30 && pixel[1] == 0x20 && pixel[2] == 0x10 && pixel[3] == 255);
 }
 
@@ -87,7 +87,7 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
                          {rgb_layout(16), {}},
                          {rgb_layout(2), {}},
                          {index_layout(8), default_palette_of(8)}};
-  for (Isa isa : available_isas())
+  for (InstructionSet isa : available_isas())
     for (const Source& source : some)
       for (int tile_size : {32, 64, 128})
         for (int width : {0, 1, 3, 4, 7, 8, 15, 16, 17, 29, 32, 63, 64, 100, 128})
@@ -99,7 +99,7 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
             const std::ptrdiff_t stride = 4 * width + 12;
             std::vector<std::uint8_t> image(static_cast<std::size_t>(stride * height) + misplaced,
                                             kUntouched);
-            const ByteOrder order = upwards ? ByteOrder::bgra8 : ByteOrder::rgba8;
+            const PixelOrder order = upwards ? PixelOrder::bgra8 : PixelOrder::rgba8;
             const ScanOut scan_out(source.layout, &source.palette, order, isa);
             std::uint8_t* first = image.data() + misplaced + (upwards ? (height - 1) * stride : 0);
             scan_out.tile(tile.words, tile_size, width, height, first, upwards ? -stride : stride);
@@ -108,7 +108,7 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
               for (int x = 0; x < width; ++x)
                 ASSERT_EQ(pixel_at(row + 4 * x),
                           scan_out_pixel_reference(source.layout, &source.palette, order,
-                                                tile.words[tile_index(x, y, tile_size)]))
+                                                   tile.words[tile_index(x, y, tile_size)]))
                     << static_cast<int>(isa) << " " << tile_size << " " << x << "," << y;
               for (int i = 4 * width; i < stride; ++i) ASSERT_EQ(row[i], kUntouched);
             }
@@ -117,7 +117,7 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
 
 TEST(ScanOut, AMovedOneStillFindsItsPalette) {
   const Palette palette = default_palette_of(4);
-  ScanOut first(index_layout(4), &palette, ByteOrder::rgba8, Isa::scalar);
+  ScanOut first(index_layout(4), &palette, PixelOrder::rgba8, InstructionSet::scalar);
   const ScanOut second = std::move(first);
   const std::uint32_t word = 6;
   std::uint8_t pixel[4];
@@ -126,4 +126,4 @@ TEST(ScanOut, AMovedOneStillFindsItsPalette) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -8,7 +8,7 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
-#include "tests/fuzz/bytes.h"
+#include "tests/fuzz/fuzz_input.h"
 
 namespace tessera::fuzz {
 

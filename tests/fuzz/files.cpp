@@ -1,12 +1,13 @@
 #include "tests/fuzz/files.h"
 
-#include "engine/import/model_bytes.h"
-#include "engine/import/model_normals.h"
-#include "engine/import/obj.h"
-#include "engine/scene/text_file.h"
+#include "engine/program/import/model_bytes.h"
+#include "engine/program/import/model_normals.h"
+#include "engine/program/import/obj.h"
+#include "engine/program/scene/text_file.h"
 #include "tests/fuzz/target.h"
 
 namespace tessera {
+using namespace program;
 
 std::map<std::string, std::string, std::less<>> fuzz::files;
 

@@ -1,8 +1,8 @@
 // What becomes of assimp's scenes, once its own readers have had their say: from an aiScene to a picture.
-#include "engine/import/assimp_model.h"
-#include "engine/import/model_bytes.h"
-#include "engine/import/model_normals.h"
-#include "engine/scene/model_scene.h"
+#include "engine/program/import/assimp_model.h"
+#include "engine/program/import/model_bytes.h"
+#include "engine/program/import/model_normals.h"
+#include "engine/program/scene/model_scene.h"
 #include "tests/fuzz/assimp_scene_case.h"
 #include "tests/fuzz/render_small.h"
 #include "tests/fuzz/target.h"

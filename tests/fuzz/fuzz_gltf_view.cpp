@@ -1,10 +1,11 @@
 // Cameras and lights of glTF 2 files, text and binary, as they are read beside assimp.
-#include "engine/import/gltf_view.h"
-#include "engine/scene/model_scene.h"
+#include "engine/program/import/gltf_view.h"
+#include "engine/program/scene/model_scene.h"
 #include "tests/fuzz/render_small.h"
 #include "tests/fuzz/target.h"
 
 namespace tessera::fuzz {
+using namespace program;
 namespace {
 
 Model triangle() {

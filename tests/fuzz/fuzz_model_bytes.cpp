@@ -1,7 +1,7 @@
 // What comes from the process that reads a model, should that process have broken.
-#include "engine/import/model_bytes.h"
-#include "engine/import/model_normals.h"
-#include "engine/scene/model_scene.h"
+#include "engine/program/import/model_bytes.h"
+#include "engine/program/import/model_normals.h"
+#include "engine/program/scene/model_scene.h"
 #include "tests/fuzz/render_small.h"
 #include "tests/fuzz/target.h"
 

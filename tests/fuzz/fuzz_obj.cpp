@@ -2,8 +2,8 @@
 // file "m.mtl".
 #include <string_view>
 
-#include "engine/import/model.h"
-#include "engine/scene/model_scene.h"
+#include "engine/program/import/model.h"
+#include "engine/program/scene/model_scene.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/render_small.h"
 #include "tests/fuzz/target.h"

@@ -4,13 +4,14 @@
 
 #include <png.h>
 
-#include "engine/imageio/indexed_png.h"
-#include "engine/imageio/picture.h"
-#include "tests/fuzz/bytes.h"
+#include "engine/program/imageio/indexed_png.h"
+#include "engine/program/imageio/picture.h"
 #include "tests/fuzz/files.h"
+#include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/target.h"
 
 namespace tessera::fuzz {
+using namespace program;
 namespace {
 
 void read_ppm(std::string file) {

@@ -7,11 +7,13 @@
 #include <cstring>
 #include <memory>
 
-#include "engine/parallel.h"
+#include "engine/program/threads/thread_limit.h"
 #include "tests/fuzz/pipeline_case.h"
 #include "tests/fuzz/target.h"
 
 namespace tessera::fuzz {
+using namespace detail;
+using namespace program;
 namespace {
 
 template <class... Functions>
@@ -236,9 +238,10 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
     reach.require_untouched(before, after);
     for (const std::uint32_t object : draw_ids)
       require(object == Capture::kNothing || object < draws, "a draw is captured that there is none of");
-    outcome.counted.insert(outcome.counted.end(),
-                           {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.trivially_rejected,
-                            stats.culled, stats.zero_area, stats.clipped, stats.binned});
+    outcome.counted.insert(
+        outcome.counted.end(),
+        {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.trivially_rejected, stats.culled,
+         stats.zero_area, stats.clipped, stats.binned});
   }
   if (canvas) {
     canvas->require_untouched_outside();

@@ -1,13 +1,14 @@
 // Scene files: the parser, numbers that change over time, and the frame that a sound scene makes.
 #include <algorithm>
 
-#include "engine/scene/json_value.h"
-#include "engine/scene/scene.h"
+#include "engine/program/scene/json_value.h"
+#include "engine/program/scene/scene.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/render_small.h"
 #include "tests/fuzz/target.h"
 
 namespace tessera::fuzz {
+using namespace program;
 namespace {
 
 // Built-in meshes of up to millions of triangles are sound, and slow.

@@ -222,7 +222,8 @@ PipelineFrame read_frame(FuzzInput& from, StateReader& states, const PipelineCas
     }
   }
   if ((ends & 1) != 0) {
-    Presentation out{.gap_bytes = from.below(9), .bottom_up = from.coin(), .order = from.one_of<PixelOrder>(2)};
+    Presentation out{
+        .gap_bytes = from.below(9), .bottom_up = from.coin(), .order = from.one_of<PixelOrder>(2)};
     if (from.coin()) out.part = states.rect();
     frame.presentation = out;
   }

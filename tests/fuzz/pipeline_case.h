@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/tessera/tessera.hpp"
-#include "tests/fuzz/bytes.h"
+#include "tests/fuzz/fuzz_input.h"
 
 namespace tessera::fuzz {
 
@@ -47,7 +47,7 @@ using PipelineCommand =
 /// How the picture of a frame leaves it; absent: it stays in the buffer.
 struct Presentation {
   std::ptrdiff_t gap_bytes = 0;  ///< between rows
-  bool bottom_up = false;          ///< rows go up in memory
+  bool bottom_up = false;        ///< rows go up in memory
   PixelOrder order = PixelOrder::rgba8;
   std::optional<Rect> part;
 };
@@ -66,8 +66,8 @@ class PipelineCase {
   PipelineCase& operator=(const PipelineCase&) = delete;
 
   FrameBufferFormat format;
-  RendererOptions options[2];  ///< two ways to draw the same
-  bool uses_caller_memory = false;    ///< the second way draws into memory of the caller
+  RendererOptions options[2];       ///< two ways to draw the same
+  bool uses_caller_memory = false;  ///< the second way draws into memory of the caller
   std::deque<Texture> textures;
   std::vector<ExactSizeMesh> meshes;
   std::vector<PipelineFrame> frames;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/tessera/tessera.hpp"
-#include "tests/fuzz/bytes.h"
+#include "tests/fuzz/fuzz_input.h"
 
 namespace tessera::fuzz {
 

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 
-#include "engine/imageio/picture.h"
-#include "engine/scene/scene.h"
+#include "engine/program/imageio/picture.h"
+#include "engine/program/scene/scene.h"
 
 namespace tessera::fuzz {
+using namespace program;
 
 /// Scenes of many triangles are left out: they would take the fuzzer's time, and show nothing new.
 /// @throws Error as the program would.

@@ -2,8 +2,9 @@
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES 0
-#include <GL/glext.h>
 #include <GL/osmesa.h>
+// glext.h needs the types of osmesa.h
+#include <GL/glext.h>
 
 #include <cstdint>
 #include <string>

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tests/numerics/bounds.h"
+#include "tests/numerics/color_components.h"
 #include "tests/numerics/exact.h"
-#include "tests/numerics/stored_words.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
@@ -222,7 +222,8 @@ TEST(Accumulation, Of256PicturesIsTheirMean) {
       const auto after = packed_colors(commands.buffer());
       for (std::size_t i = 0; i < after.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
-          if (split.bits[c] > 0) update_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
+          if (split.bits[c] > 0)
+            update_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
     }
     // Half a level of the last rounding, and 256 halves of the passes' (0.5 / 32767 or 0.5 / (2^31 - 1)
     // of 1.0 each, 255 levels).

@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "tests/numerics/bounds.h"
-#include "tests/numerics/stored_words.h"
+#include "tests/numerics/color_components.h"
 
 namespace tessera::test {
 namespace {

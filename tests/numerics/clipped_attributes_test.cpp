@@ -17,6 +17,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 /// What is cut, with w above 0, so that no other plane cuts it.
@@ -86,8 +87,8 @@ TEST(ClippedAttributes, AreRoundedOnce) {
                                     cut.distance(v[2].position)};
     if (distances[0] >= 0 || distances[1] <= 0 || distances[2] <= 0)
       continue;  // rounding has put one onto the plane, or another plane cuts
-    const std::uint8_t outcodes =
-        compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) | compute_outcode(t, v[2].position);
+    const std::uint8_t outcodes = compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) |
+                                  compute_outcode(t, v[2].position);
     if (outcodes != (cut.far ? kBehindFar : kBeforeNear)) continue;
     const ClippedPolygon polygon = clip_triangle(t, v, outcodes, kAttributes);
     ASSERT_EQ(polygon.count, 4) << "triangle " << n;

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "tests/numerics/bounds.h"
+#include "tests/numerics/color_components.h"
 #include "tests/numerics/exact.h"
-#include "tests/numerics/stored_words.h"
 
 namespace tessera::test {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "tests/numerics/bounds.h"
-#include "tests/numerics/owned_pixels.h"
+#include "tests/numerics/visibility_oracle.h"
 
 namespace tessera::test {
 namespace {

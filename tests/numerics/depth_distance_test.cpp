@@ -130,7 +130,7 @@ TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
                                        std::floor(exact * static_cast<long double>(depth.levels()) + 0.5L));
             for (std::size_t i = 0; i < picture.depth.size(); ++i)
               update_worst(worst,
-                         picture.colors[i][0] > 0 ? std::abs(picture.depth[i] - expected) : depth.levels());
+                           picture.colors[i][0] > 0 ? std::abs(picture.depth[i] - expected) : depth.levels());
           }
           return worst;
         });

@@ -100,7 +100,7 @@ TEST(DepthPlanes, OfFloatsAreWithinTheirRoundings) {
                 const long double error = std::abs(float_of(stored) - exact);
                 if (!(error <= bound) || bound > 0)
                   update_worst(worst,
-                             bound > 0 ? error / bound : 0x1p24L * error);  // all the same: exactly that
+                               bound > 0 ? error / bound : 0x1p24L * error);  // all the same: exactly that
               });
           EXPECT_GT(seen, 300u);
           return worst;

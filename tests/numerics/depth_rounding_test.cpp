@@ -14,12 +14,13 @@
 #include <string>
 
 #include "raster/vertex_transform.h"
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/exact.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr DepthFormat kFormats[] = {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32,
@@ -115,7 +116,7 @@ TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
     const std::uint32_t levels = (1u << bits) - 1;
     VertexTransform t;
     t.reversed = true;  // z is the depth
-    t.depth = bits == 16 ? DepthKind::unorm16 : DepthKind::unorm24;
+    t.depth = bits == 16 ? DepthFormat::unorm16 : DepthFormat::unorm24;
     t.half_width = t.half_height = t.guard_x = t.guard_y = 32;
     const double rows[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.0 / levels, 1.0 / levels, 0, 0, 0, 1};
     std::copy(std::begin(rows), std::end(rows), t.clip_from_object);
@@ -125,7 +126,7 @@ TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
       const float position[] = {0, 0, static_cast<float>(level), 1};
       const std::uint32_t expected = ((level + 1) << (32 - bits)) + (1u << (31 - bits));
       ASSERT_EQ(project(t, clip_position(t, 0, 0, position[2], 1)).z, expected) << level << " of " << levels;
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         WindowVertex vertex;
         std::uint8_t code = 0;
         transform_vertices(isa)(t, {position, 4}, 4, 1, &vertex, &code);

@@ -12,6 +12,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 
 /// |found - exact| in units in the last place (ulp) of `exact`, a double or a long double within the doubles'
 /// normal range.

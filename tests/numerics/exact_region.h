@@ -58,7 +58,8 @@ struct VisiblePlane {
 };
 
 /// Nothing of a plane through the eye.
-inline std::optional<VisiblePlane> visible_plane(const std::array<ClipPoint, 3>& p, const SquareViewport& view) {
+inline std::optional<VisiblePlane> visible_plane(const std::array<ClipPoint, 3>& p,
+                                                 const SquareViewport& view) {
   VisiblePlane seen;
   Wide determinant = 0;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -17,10 +17,12 @@
 #include <memory>
 #include <thread>
 
-#include "engine/parallel.h"
-#include "tests/engine/api_random_operations.h"
+#include "engine/program/threads/thread_limit.h"
+#include "tests/engine/frame/api_random_operations.h"
 
 namespace tessera::test {
+using namespace detail;
+using namespace program;
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),

@@ -18,6 +18,7 @@
 #include "tests/shading/texture_lanes.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 TEST(Functions, SinesAndCosines) {
@@ -26,7 +27,7 @@ TEST(Functions, SinesAndCosines) {
   const auto check = [&](double degrees) {
     const long double turn =
         std::remainder(static_cast<long double>(degrees), 360.0L) * (std::numbers::pi_v<long double> / 180);
-    const SinCos found = sin_cos_degrees(degrees);
+    const SineCosine found = sine_cosine(degrees);
     update_worst(worst, std::abs(found.sine - std::sin(turn)), std::abs(found.cosine - std::cos(turn)));
   };
   for (int i = -720 * 1024; i <= 720 * 1024; ++i) check(i / 1024.0);
@@ -34,7 +35,7 @@ TEST(Functions, SinesAndCosines) {
     check(std::ldexp(static_cast<double>(random()) - 0x1p31, static_cast<int>(random() % 64) - 40));
   expect_within("sine and cosine of degrees, absolute", worst, 1e-15L, "");
   for (int quarter = -8; quarter <= 8; ++quarter) {
-    const SinCos found = sin_cos_degrees(90.0 * quarter);
+    const SineCosine found = sine_cosine(90.0 * quarter);
     constexpr double kSines[] = {0, 1, 0, -1};
     EXPECT_EQ(found.sine, kSines[quarter & 3]);
     EXPECT_EQ(found.cosine, kSines[(quarter + 1) & 3]);
@@ -107,7 +108,8 @@ TEST(Functions, PaletteDistances) {
       for (const Rgb8& e : palette.entries) least = std::min(least, squared(e));
       const long double found = squared(palette.entries[search.nearest(at[0], at[1], at[2])]),
                         root = std::sqrt(found);
-      update_worst(worst, (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
+      update_worst(worst,
+                   (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
     }
   }
   expect_within("squared distance of palette entries beyond the least, of its roundings", worst, 1, "");

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/plane_mesh.h"
 #include "tests/numerics/snapped_folds.h"

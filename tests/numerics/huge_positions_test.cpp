@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/case_renderer.h"
 

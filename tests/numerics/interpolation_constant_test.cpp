@@ -31,8 +31,8 @@ std::vector<float> random_positions(Rng& rng) {
       for (const double c : {w * clip_x(p.x, kSide), w * clip_y(p.y, kSide), 0.0, w})
         positions.push_back(static_cast<float>(c));
     else
-      for (const double c : {within(rng.maybe() ? reach : 2), within(2), within(1.5),
-                             4 * rng.unit() - (rng.maybe() ? 1 : 0)})
+      for (const double c :
+           {within(rng.maybe() ? reach : 2), within(2), within(1.5), 4 * rng.unit() - (rng.maybe() ? 1 : 0)})
         positions.push_back(static_cast<float>(c));
   }
   return positions;
@@ -74,40 +74,36 @@ TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
 // From pixel centre to pixel centre, so that edges go through centres, where the vertex that weighs most has
 // no weight: however much that is, a pixel is white.
 TEST(InterpolationConstant, WhateverTheRatiosOfW) {
-  expect_figure("white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels",
-                [](const MakeRenderer& make, bool) {
-                  const auto renderer = make({.width = kSide, .height = kSide});
-                  Rng rng(57);
-                  long double wrong = 0, seen = 0;
-                  constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
-                  const auto centre = [&] {
-                    return static_cast<std::int64_t>(kSide * rng.unit()) * kGrid + kGrid / 2;
-                  };
-                  for (int n = 0; n < 400; ++n) {
-                    const double ratio = rng.one_of(kRatios);
-                    const int heavy = static_cast<int>(3 * rng.unit()),
-                              second = rng.maybe() ? (heavy + 1) % 3 : heavy;
-                    CaseDraw with_ratio, without;
-                    for (int k = 0; k < 3; ++k) {
-                      const double x = clip_x(centre(), kSide), y = clip_y(centre(), kSide),
-                                   w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
-                      for (const double c : {w * x, w * y, 0.0, w})
-                        with_ratio.positions.push_back(static_cast<float>(c));
-                      for (const double c : {x, y, 0.0, 1.0})
-                        without.positions.push_back(static_cast<float>(c));
-                      for (CaseDraw* draw : {&with_ratio, &without})
-                        draw->colors.insert(draw->colors.end(), {1, 1, 1, 1});
-                    }
-                    const auto expected = renderer->draw({without}).colors,
-                               found = renderer->draw({with_ratio}).colors;
-                    for (std::size_t i = 0; i < expected.size(); ++i) {
-                      seen += expected[i][0];
-                      wrong += expected[i] == found[i] ? 0 : 1;
-                    }
-                  }
-                  EXPECT_GT(seen, 1e5);
-                  return wrong;
-                });
+  expect_figure(
+      "white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels",
+      [](const MakeRenderer& make, bool) {
+        const auto renderer = make({.width = kSide, .height = kSide});
+        Rng rng(57);
+        long double wrong = 0, seen = 0;
+        constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
+        const auto centre = [&] { return static_cast<std::int64_t>(kSide * rng.unit()) * kGrid + kGrid / 2; };
+        for (int n = 0; n < 400; ++n) {
+          const double ratio = rng.one_of(kRatios);
+          const int heavy = static_cast<int>(3 * rng.unit()), second = rng.maybe() ? (heavy + 1) % 3 : heavy;
+          CaseDraw with_ratio, without;
+          for (int k = 0; k < 3; ++k) {
+            const double x = clip_x(centre(), kSide), y = clip_y(centre(), kSide),
+                         w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
+            for (const double c : {w * x, w * y, 0.0, w})
+              with_ratio.positions.push_back(static_cast<float>(c));
+            for (const double c : {x, y, 0.0, 1.0}) without.positions.push_back(static_cast<float>(c));
+            for (CaseDraw* draw : {&with_ratio, &without})
+              draw->colors.insert(draw->colors.end(), {1, 1, 1, 1});
+          }
+          const auto expected = renderer->draw({without}).colors, found = renderer->draw({with_ratio}).colors;
+          for (std::size_t i = 0; i < expected.size(); ++i) {
+            seen += expected[i][0];
+            wrong += expected[i] == found[i] ? 0 : 1;
+          }
+        }
+        EXPECT_GT(seen, 1e5);
+        return wrong;
+      });
 }
 
 // Between two texels, where the least change would show.

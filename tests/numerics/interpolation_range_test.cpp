@@ -23,6 +23,7 @@
 #include "tests/shading/interpolate_lanes.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr int kTile = 32;
@@ -72,7 +73,7 @@ void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tes
           static_cast<std::int32_t>(t.at[k].x), static_cast<std::int32_t>(t.at[k].y), 0,
           reciprocals.largest * (is_largest ? 1.0f : static_cast<float>(std::exp2(-octaves * rng.unit())))};
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       if (!tile_barycentrics(isa)(v, tile_x, 0, kTile, b1.data(), b2.data())) continue;
       for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)

@@ -67,9 +67,8 @@ void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, in
                                  clip_y(t.triangle.at[k].y, window.height), 0.0, 1.0})
             draw.positions.push_back(static_cast<float>(c * t.w[k]));
           for (float& c : t.color[k])
-            c = k > 0 && rng.between(0, 3) == 0
-                    ? t.color[0][static_cast<std::size_t>(&c - t.color[k].data())]
-                    : colors(rng);
+            c = k > 0 && rng.between(0, 3) == 0 ? t.color[0][static_cast<std::size_t>(&c - t.color[k].data())]
+                                                : colors(rng);
           draw.colors.insert(draw.colors.end(),
                              {t.color[k][0], t.color[k][1], static_cast<float>(n + 1) / 255, 1});
         }

@@ -12,6 +12,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 // Far lights shine like those without a place, with what attenuation leaves of them. xyz / w is taken in
@@ -85,8 +86,7 @@ TEST(LightLimits, NormalsOfAnyLength) {
           for (std::size_t c = 0; c < 3; ++c) n[c] = static_cast<float>(std::ldexp(unit[c], exponent));
         }
       scene.normalize = normalize;
-      scene.shading =
-          normalize ? rng.of({Shading::flat, Shading::gouraud, Shading::phong}) : Shading::phong;
+      scene.shading = normalize ? rng.of({Shading::flat, Shading::gouraud, Shading::phong}) : Shading::phong;
       scene.material = random_material(rng);
       scene.material.shininess = std::min(scene.material.shininess, 128.0f);
       scene.lights = {random_light(rng, 2, 1), random_light(rng, 2, 1)};

@@ -18,6 +18,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr Real kUnit = 0x1p-24L;
@@ -127,7 +128,8 @@ TEST(LightTerms, Attenuation) {
                                              {.scene_ambient = {0, 0, 0}}, false, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Real att =
-          LightAtPoint(real_light(light), real_point(points[i], false), false, SpecularModel::blinn, 0, 0).att;
+          LightAtPoint(real_light(light), real_point(points[i], false), false, SpecularModel::blinn, 0, 0)
+              .att;
       if (!(att < 0x1p19L)) continue;
       update_worst(worst, std::abs(found[i] * 0x1p20L / att - 1));
       ++measured;
@@ -207,8 +209,8 @@ TEST(LightTerms, Spot) {
       const std::vector<float> found = lit_red({.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}}, light,
                                                {.scene_ambient = {0, 0, 0}}, false, points);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const LightAtPoint exact(real_light(light), real_point(points[i], false), false, SpecularModel::blinn, 0,
-                                 0);
+        const LightAtPoint exact(real_light(light), real_point(points[i], false), false, SpecularModel::blinn,
+                                 0, 0);
         const Real spot = exact.spot.high, error = std::abs(2 * found[i] - spot);
         if (exact.spot_cosine < 64 * 9.5L * kUnit || spot < 0x1p-120L) continue;
         update_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
@@ -228,7 +230,9 @@ struct HighlightWay {
   SpecularModel kind;
   bool directional, local, renormalize, sharp, unit, squared;
 
-  bool of_square() const { return squared && kind == SpecularModel::blinn && !sharp && (local || !directional); }
+  bool of_square() const {
+    return squared && kind == SpecularModel::blinn && !sharp && (local || !directional);
+  }
 
   /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot
   /// products, of L + E and, but of squares, its length. Sharp ones take normals and directions for units,
@@ -306,10 +310,10 @@ TEST(LightTerms, Highlights) {
             continue;  // another formula, or none
           // Those below 2^-32 are left out.
           update_worst(share, error / (shine *
-                                         of_power(cosine_error, exact.highlight_base, y, shine,
-                                                  way.of_square() ? y / 2 : y) *
-                                         kUnit +
-                                     0x1p-31L));
+                                           of_power(cosine_error, exact.highlight_base, y, shine,
+                                                    way.of_square() ? y / 2 : y) *
+                                           kUnit +
+                                       0x1p-31L));
           // Where light comes from just behind what is seen, nothing is left of L + E but their roundings.
           if (kind == SpecularModel::phong || exact.half_length >= 0.125L) update_worst(levels, error * 255);
           ++measured;

@@ -43,7 +43,8 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
         scene.material = random_material(rng);
         scene.back_material = random_material(rng);
         scene.lights.clear();
-        for (std::size_t i = 0; i < count; ++i) scene.lights.push_back(random_light(rng, count, scene.extent));
+        for (std::size_t i = 0; i < count; ++i)
+          scene.lights.push_back(random_light(rng, count, scene.extent));
         scene.view = scene.world_from_eye = {};
         if (n % 2 != 0 || count > 100) scene.move_camera(rng);
         randomize_patches(rng, scene);
@@ -167,8 +168,8 @@ TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
     const int p =
         LitPatches::kSide / 2 *
         (LitPatches::kSide + 1);  // its last corner but two is the eye, if it lies in the plane z = 0
-    scene.patches[static_cast<std::size_t>(p)].z.fill(
-        rng.one_in(2) ? 0 : static_cast<float>(rng.between(-2, 2)));
+    scene.patches[static_cast<std::size_t>(p)].z.fill(rng.one_in(2) ? 0
+                                                                    : static_cast<float>(rng.between(-2, 2)));
     std::array<float, 3> at =
         rng.one_in(2) ? std::array<float, 3>{0, 0, 0} : scene.corner(p, rng.of({0, 2, 3}));
     if (rng.one_in(3))  // the middle of the patch, which Phong lights

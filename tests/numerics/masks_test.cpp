@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "tests/engine/pixel_support.h"
-#include "tests/numerics/stored_words.h"
+#include "tests/engine/frame/pixel_support.h"
+#include "tests/numerics/color_components.h"
 
 namespace tessera::test {
 namespace {

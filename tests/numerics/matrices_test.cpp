@@ -92,9 +92,7 @@ Matrix turn(LightingRng& rng) {
 }
 /// Each axis by up to 10^`decades` or 10^-`decades`, some the other way round.
 Matrix stretch(LightingRng& rng, double decades) {
-  const auto any = [&] {
-    return std::pow(10, rng.between(-decades, decades)) * (rng.one_in(2) ? -1 : 1);
-  };
+  const auto any = [&] { return std::pow(10, rng.between(-decades, decades)) * (rng.one_in(2) ? -1 : 1); };
   const double x = any(), y = any();
   return scale(x, y, any());
 }
@@ -148,9 +146,9 @@ TEST(Matrices, NormalsAreThoseOfTheInverseTranspose) {
         // 10^100 for all axes together: one that is 10^200 times as long as another leaves nothing of it.
         const double all = decades > 6 ? std::pow(10, rng.between(-decades, decades)) : 1;
         const Matrix view = rng.one_in(2) ? turn(rng) : turn(rng) * scale(1e6, 1e6, 1e6);
-        cases.push_back(
-            {view, scale(all, all, all) * turn(rng) * stretch(rng, std::min(decades, 6.0)) * turn(rng),
-             rng.direction(), rng.one_in(2), rng.of({Shading::gouraud, Shading::phong})});
+        cases.push_back({view,
+                         scale(all, all, all) * turn(rng) * stretch(rng, std::min(decades, 6.0)) * turn(rng),
+                         rng.direction(), rng.one_in(2), rng.of({Shading::gouraud, Shading::phong})});
       }
       update_worst(worst, worst_direction(probe, cases));
     }
@@ -171,15 +169,15 @@ TEST(Matrices, NormalsUnderNearlySingularTransforms) {
       Matrix m;
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t r = 0; r < 3; ++r) m.m[4 * r + k] = rng.between(-1, 1);
-      const double apart = rng.one_in(4) ? 0 : std::exp2(rng.between(-60, 0)),
-                   of_a = rng.between(-1, 1), of_b = rng.one_in(8) ? 0 : rng.between(-1, 1);
+      const double apart = rng.one_in(4) ? 0 : std::exp2(rng.between(-60, 0)), of_a = rng.between(-1, 1),
+                   of_b = rng.one_in(8) ? 0 : rng.between(-1, 1);
       for (std::size_t k = 0; k < 3; ++k) {
         if (rng.one_in(16)) m.m[4 + k] = m.m[k];
         m.m[8 + k] = of_a * m.m[k] + of_b * m.m[4 + k] + apart * rng.between(-1, 1);
       }
       cases.push_back({rng.one_in(2) ? Matrix{} : turn(rng),
-                       rng.one_in(20) ? scale(0, rng.between(-1, 1), 0) : m, rng.direction(),
-                       rng.one_in(2), rng.of({Shading::gouraud, Shading::phong})});
+                       rng.one_in(20) ? scale(0, rng.between(-1, 1), 0) : m, rng.direction(), rng.one_in(2),
+                       rng.of({Shading::gouraud, Shading::phong})});
     }
     update_worst(worst, worst_direction(probe, cases));
   }

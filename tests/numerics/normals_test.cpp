@@ -17,6 +17,7 @@
 #include "tests/numerics/every_float.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr float kLargest = 3.4028234e38f;

@@ -9,8 +9,8 @@
 #include <functional>
 #include <limits>
 
+#include "tests/numerics/interface_case.h"
 #include "tests/numerics/odd_values.h"
-#include "tests/numerics/odd_world.h"
 
 namespace tessera::test {
 namespace {

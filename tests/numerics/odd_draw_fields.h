@@ -27,10 +27,11 @@ inline void add_draw(Fields& f) {
   f.numbers(
       "transform", kCall, 16, [](InterfaceCase& w) { return w.state.transform.m.data(); }, finite);
   f.numbers(
-      "camera.view", "Frame::set_camera", 16, [](InterfaceCase& w) { return w.camera.view.m.data(); }, finite);
-  f.numbers(
-      "camera.projection", "Frame::set_camera", 16, [](InterfaceCase& w) { return w.camera.projection.m.data(); },
+      "camera.view", "Frame::set_camera", 16, [](InterfaceCase& w) { return w.camera.view.m.data(); },
       finite);
+  f.numbers(
+      "camera.projection", "Frame::set_camera", 16,
+      [](InterfaceCase& w) { return w.camera.projection.m.data(); }, finite);
   f.color(
       "texture_env_color", kCall, [](InterfaceCase& w) { return &w.state.texture_env_color; }, finite);
   f.number(
@@ -42,11 +43,13 @@ inline void add_draw(Fields& f) {
   f.number(
       "depth_far", kCall, [](InterfaceCase& w) { return &w.state.depth_far; }, within(0, 1));
   f.number(
-      "polygon_offset.factor", kCall, [](InterfaceCase& w) { return &w.state.polygon_offset.factor; }, finite);
+      "polygon_offset.factor", kCall, [](InterfaceCase& w) { return &w.state.polygon_offset.factor; },
+      finite);
   f.number(
       "polygon_offset.units", kCall, [](InterfaceCase& w) { return &w.state.polygon_offset.units; }, finite);
   f.rect(
-      "viewport", kCall, [](InterfaceCase& w) { return &w.state.viewport; }, within(-16384, 16384), within(1, 16384));
+      "viewport", kCall, [](InterfaceCase& w) { return &w.state.viewport; }, within(-16384, 16384),
+      within(1, 16384));
   f.numbers(
       "shadow_on.plane", kCall, 4,
       [](InterfaceCase& w) { return w.state.shadow_on ? w.state.shadow_on->plane.data() : nullptr; },
@@ -61,9 +64,11 @@ inline void add_draw(Fields& f) {
   f.choice(
       "shading", kCall, [](InterfaceCase& w) { return &w.state.shading; }, Shading::phong);
   f.choice(
-      "color_material", kCall, [](InterfaceCase& w) { return &w.state.color_material; }, ColorMaterial::specular);
+      "color_material", kCall, [](InterfaceCase& w) { return &w.state.color_material; },
+      ColorMaterial::specular);
   f.choice(
-      "provoking_vertex", kCall, [](InterfaceCase& w) { return &w.state.provoking_vertex; }, ProvokingVertex::first);
+      "provoking_vertex", kCall, [](InterfaceCase& w) { return &w.state.provoking_vertex; },
+      ProvokingVertex::first);
   f.choice(
       "texture_env", kCall, [](InterfaceCase& w) { return &w.state.texture_env; }, TextureEnv::add);
   f.choice(
@@ -100,7 +105,8 @@ inline void add_pixels(Fields& f) {
       "bitmap.width", kBitmap, [](InterfaceCase& w) { return &w.bitmap.width; }, within(1, 16384));
   f.number(
       "bitmap.height", kBitmap, [](InterfaceCase& w) { return &w.bitmap.height; }, within(1, 16384));
-  f.number("bitmap.stride_bytes", kBitmap, [](InterfaceCase& w) { return &w.bitmap.stride_bytes; }, refused, {1, -1});
+  f.number("bitmap.stride_bytes", kBitmap, [](InterfaceCase& w) { return &w.bitmap.stride_bytes; }, refused,
+           {1, -1});
   f.number(
       "bitmap.x", kBitmap, [](InterfaceCase& w) { return &w.bitmap.x; }, finite);
   f.number(
@@ -174,13 +180,14 @@ inline void add_buffer_and_renderer(Fields& f) {
            {-1, 9, 1 << 30, std::numeric_limits<int>::min()});
   f.number("format.alpha_bits", kBuffer, [](InterfaceCase& w) { return &w.format.alpha_bits; }, refused,
            {-8, 1, 7, 9, 16, std::numeric_limits<int>::max()});
-  f.number("format.accumulation_bits", kBuffer, [](InterfaceCase& w) { return &w.format.accumulation_bits; }, refused,
-           {-16, 1, 8, 24, 64, std::numeric_limits<int>::max()});
+  f.number("format.accumulation_bits", kBuffer, [](InterfaceCase& w) { return &w.format.accumulation_bits; },
+           refused, {-16, 1, 8, 24, 64, std::numeric_limits<int>::max()});
   f.number("format.samples", kBuffer, [](InterfaceCase& w) { return &w.format.samples; }, refused,
            {0, -4, 2, 3, 16, std::numeric_limits<int>::max()});
   f.color(
       "format.palette[1]", kBuffer,
-      [](InterfaceCase& w) { return w.format.palette.empty() ? nullptr : &w.format.palette[1]; }, within(0, 1));
+      [](InterfaceCase& w) { return w.format.palette.empty() ? nullptr : &w.format.palette[1]; },
+      within(0, 1));
   f.choice(
       "format.color_mode", kBuffer, [](InterfaceCase& w) { return &w.format.color_mode; }, ColorMode::index);
   f.choice(

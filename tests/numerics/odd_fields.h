@@ -7,8 +7,8 @@
 #include <functional>
 #include <type_traits>
 
+#include "tests/numerics/interface_case.h"
 #include "tests/numerics/odd_values.h"
-#include "tests/numerics/odd_world.h"
 
 namespace tessera::test {
 
@@ -124,7 +124,8 @@ inline Verdict finite_for_shadow(double v) { return std::isfinite(v) ? Verdict::
 inline Verdict cutoff(double v) { return v == 180 ? Verdict::fine : within(0, 90)(v); }
 inline Verdict not_negative(double v) { return v >= 0 ? Verdict::fine : Verdict::refused; }
 
-inline void add_material(Fields& f, const std::string& name, const std::function<Material*(InterfaceCase&)>& at) {
+inline void add_material(Fields& f, const std::string& name,
+                         const std::function<Material*(InterfaceCase&)>& at) {
   const auto part = [at](auto member) {
     return [at, member](InterfaceCase& w) {
       Material* const m = at(w);
@@ -166,25 +167,26 @@ inline void add_lights(Fields& f) {
     f.numbers(
         name + ".position", kCall, 4, [i](InterfaceCase& w) { return w.lights[i].position.data(); }, finite);
     f.numbers(
-        name + ".spot_direction", kCall, 3, [i](InterfaceCase& w) { return w.lights[i].spot_direction.data(); },
-        finite);
+        name + ".spot_direction", kCall, 3,
+        [i](InterfaceCase& w) { return w.lights[i].spot_direction.data(); }, finite);
     f.number(
         name + ".spot_exponent", kCall, [i](InterfaceCase& w) { return &w.lights[i].spot_exponent; },
         within(0, 16384));
     f.number(
         name + ".spot_cutoff", kCall, [i](InterfaceCase& w) { return &w.lights[i].spot_cutoff; }, cutoff);
     f.number(
-        name + ".attenuation_constant", kCall, [i](InterfaceCase& w) { return &w.lights[i].attenuation_constant; },
-        finite);
+        name + ".attenuation_constant", kCall,
+        [i](InterfaceCase& w) { return &w.lights[i].attenuation_constant; }, finite);
     f.number(
-        name + ".attenuation_linear", kCall, [i](InterfaceCase& w) { return &w.lights[i].attenuation_linear; },
-        finite);
+        name + ".attenuation_linear", kCall,
+        [i](InterfaceCase& w) { return &w.lights[i].attenuation_linear; }, finite);
     f.number(
-        name + ".attenuation_quadratic", kCall, [i](InterfaceCase& w) { return &w.lights[i].attenuation_quadratic; },
-        finite);
+        name + ".attenuation_quadratic", kCall,
+        [i](InterfaceCase& w) { return &w.lights[i].attenuation_quadratic; }, finite);
   }
   f.color(
-      "light_model.ambient", "Frame::set_light_model", [](InterfaceCase& w) { return &w.model.ambient; }, finite);
+      "light_model.ambient", "Frame::set_light_model", [](InterfaceCase& w) { return &w.model.ambient; },
+      finite);
   f.choice(
       "light_model.specular", "Frame::set_light_model", [](InterfaceCase& w) { return &w.model.specular; },
       SpecularModel::phong);
@@ -199,25 +201,28 @@ inline void add_clear_and_accum(Fields& f) {
   f.color(
       "clear.color", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.color); }, within(0, 1));
   f.number(
-      "clear.index", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.index); }, within(0, 255));
+      "clear.index", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.index); },
+      within(0, 255));
   f.number(
       "clear.depth", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.depth); }, within(0, 1));
   f.number(
-      "clear.stencil", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.stencil); }, within(0, 31));
+      "clear.stencil", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.stencil); },
+      within(0, 31));
   f.color(
       "clear.accumulation", "Frame::clear", [=](InterfaceCase& w) { return optional(w.clear.accumulation); },
       within(-1, 1));
   f.rect(
-      "clear.scissor", "Frame::clear", [](InterfaceCase& w) { return &w.clear.scissor; }, anything, not_negative);
+      "clear.scissor", "Frame::clear", [](InterfaceCase& w) { return &w.clear.scissor; }, anything,
+      not_negative);
   f.number(
-      "accum.value", "Frame::accumulate", [](InterfaceCase& w) { return w.accum ? &w.accum->value : nullptr; },
-      finite);
+      "accum.value", "Frame::accumulate",
+      [](InterfaceCase& w) { return w.accum ? &w.accum->value : nullptr; }, finite);
   f.choice(
       "accum.op", "Frame::accumulate", [](InterfaceCase& w) { return w.accum ? &w.accum->op : nullptr; },
       AccumOp::return_color);
   f.rect(
-      "accum.scissor", "Frame::accumulate", [](InterfaceCase& w) { return w.accum ? &w.accum->scissor : nullptr; },
-      anything, not_negative);
+      "accum.scissor", "Frame::accumulate",
+      [](InterfaceCase& w) { return w.accum ? &w.accum->scissor : nullptr; }, anything, not_negative);
 }
 
 /// What draws, bitmaps and images have in common.
@@ -240,7 +245,8 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
       [at](InterfaceCase& w) { return at(w).alpha_test ? &at(w).alpha_test->ref : nullptr; }, within(0, 1));
   f.choice(
       name + ".alpha_test.func", call,
-      [at](InterfaceCase& w) { return at(w).alpha_test ? &at(w).alpha_test->func : nullptr; }, Compare::always);
+      [at](InterfaceCase& w) { return at(w).alpha_test ? &at(w).alpha_test->func : nullptr; },
+      Compare::always);
   for (const bool back : {false, true}) {
     const std::string face_name = name + (back ? ".stencil.back" : ".stencil.front");
     const auto face = [at, back](InterfaceCase& w) -> StencilFace* {
@@ -262,8 +268,8 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
     f.choice(face_name + ".zpass", call, part(&StencilFace::zpass), StencilOp::decr_wrap);
   }
   f.color(
-      name + ".blend.color", call, [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->color : nullptr; },
-      within(0, 1));
+      name + ".blend.color", call,
+      [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->color : nullptr; }, within(0, 1));
   f.choice(
       name + ".blend.src", call, [at](InterfaceCase& w) { return at(w).blend ? &at(w).blend->src : nullptr; },
       BlendFactor::src_alpha_saturate);

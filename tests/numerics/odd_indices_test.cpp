@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "tests/engine/pixel_support.h"
+#include "tests/engine/frame/pixel_support.h"
 
 namespace tessera::test {
 namespace {

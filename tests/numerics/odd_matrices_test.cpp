@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 #include "tests/numerics/odd_values.h"
 #include "tests/raster/random_triangles.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 #include "tests/numerics/odd_values.h"
 
 namespace tessera::test {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "tests/engine/pixel_support.h"
+#include "tests/engine/frame/pixel_support.h"
 
 namespace tessera::test {
 namespace {

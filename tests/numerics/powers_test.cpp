@@ -18,6 +18,7 @@
 #include "tests/shading/power_lanes.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 using Exact = std::function<long double(float)>;
@@ -144,7 +145,7 @@ TEST_P(FunctionsWholePowers, OfExponents) {
               evaluated(PowerFunction::chosen, static_cast<float>(n), arguments);
           for (std::size_t i = 0; i < arguments.size(); ++i)
             update_worst(share,
-                       std::abs(results[i] / std::pow(double{arguments[i]}, n) - 1) * (0x1p24 / (n - 1)));
+                         std::abs(results[i] / std::pow(double{arguments[i]}, n) - 1) * (0x1p24 / (n - 1)));
         },
         kSampled * 16);
   expect_within("x^n, n = " + std::to_string(first) + " .. " + std::to_string(last) + ", relative", share, 1,

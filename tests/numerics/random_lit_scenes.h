@@ -33,8 +33,8 @@ inline Light random_light(LightingRng& rng, std::size_t of, double extent) {
     l.position = {static_cast<float>(x * distance * w), static_cast<float>(y * distance * w),
                   static_cast<float>(z * distance * w), static_cast<float>(w)};
     l.spot_cutoff = rng.of(kCutoffs);
-    const auto [kc, kl, kq] = rng.of<std::array<double, 3>>(
-        {{1, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}, {0, 1, 0}});
+    const auto [kc, kl, kq] =
+        rng.of<std::array<double, 3>>({{1, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}, {0, 1, 0}});
     l.attenuation_constant = static_cast<float>(kc);
     l.attenuation_linear = static_cast<float>(kl / distance);
     l.attenuation_quadratic = static_cast<float>(kq / (distance * distance));

@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
+#include "tests/numerics/color_components.h"
 #include "tests/numerics/exact.h"
-#include "tests/numerics/stored_words.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {

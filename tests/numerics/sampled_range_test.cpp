@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 #include "tests/numerics/bounds.h"
 #include "tests/raster/random_triangles.h"
 

@@ -75,7 +75,8 @@ bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, cons
 
 }  // namespace
 
-bool snapping_folds(const CountedMesh& mesh, const SquareViewport& view, bool reversed, const Matrix& transform) {
+bool snapping_folds(const CountedMesh& mesh, const SquareViewport& view, bool reversed,
+                    const Matrix& transform) {
   const mpq_class guard(2 * kGuardBand, view.side);
   const std::vector<Point> planes{reversed ? Point{0, 0, -1, 1} : Point{0, 0, 1, 1},
                                   reversed ? Point{0, 0, 1, 0} : Point{0, 0, -1, 1},

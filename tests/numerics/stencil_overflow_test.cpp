@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/engine/api_support.h"
+#include "tests/engine/frame/api_support.h"
 
 namespace tessera::test {
 namespace {

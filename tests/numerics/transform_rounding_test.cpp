@@ -20,6 +20,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 __extension__ typedef __float128 Quad;
@@ -84,8 +85,8 @@ TEST(TransformRounding, ProductsOfMatrices) {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
         update_worst(worst, Sum([&](std::size_t j) { return a.m[4 * i + j]; },
-                              [&](std::size_t j) { return b.m[4 * j + k]; })
-                              .error(product.m[4 * i + k]));
+                                [&](std::size_t j) { return b.m[4 * j + k]; })
+                                .error(product.m[4 * i + k]));
   }
   expect_within("product of matrices, of the sum of sizes", worst / kDouble, 4, "2^-53");
 }
@@ -172,13 +173,14 @@ TEST(TransformRounding, ReciprocalsOfW) {
     t.set_error_bounds();
     float positions[kVertexBatch][4] = {};
     for (auto& [x, y, z, w] : positions) w = static_cast<float>(any_size());
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       WindowVertex found[kVertexBatch];
       std::uint8_t codes[kVertexBatch];
       EXPECT_EQ(transform_vertices(isa)(t, {positions[0], 4}, 4, kVertexBatch, found, codes), 0);
       for (std::size_t i = 0; i < kVertexBatch; ++i)
-        update_worst(worst, std::abs(static_cast<long double>(
-                              Quad{found[i].rw} * Quad{t.clip_from_object[15]} * Quad{positions[i][3]} - 1)));
+        update_worst(worst,
+                     std::abs(static_cast<long double>(
+                         Quad{found[i].rw} * Quad{t.clip_from_object[15]} * Quad{positions[i][3]} - 1)));
     }
   }
   expect_within("1/w, relative", worst / kFloat, 1 + 0x1p-20L, "2^-24");
@@ -198,7 +200,7 @@ TEST(TransformRounding, PositionsInEyeSpace) {
       p = any_point(rng, m);
       if (n % 2 == 0) p[3] = 1;
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       float found[3][kVertexBatch];
       eye_positions(isa)(t, {points[0].data(), 4}, 3 + n % 2, kVertexBatch, found[0], found[1], found[2]);
       for (std::size_t i = 0; i < points.size(); ++i) {
@@ -268,7 +270,7 @@ TEST(TransformRounding, ClipCodes) {
     t.set_error_bounds();
     const float vertex[4] = {0, 0, 0, 1};
     std::vector<std::uint8_t> codes{transform_vertex(t, {0, 0, 0, 1}).outcode};
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       WindowVertex window;
       std::uint8_t code = 0;
       transform_vertices(isa)(t, {vertex, 4}, 4, 1, &window, &code);
@@ -283,8 +285,9 @@ TEST(TransformRounding, ClipCodes) {
           continue;
         }
         ++wrong;
-        update_worst(worst, plane.size == 0 ? HUGE_VALL
-                                          : std::abs(static_cast<long double>(plane.distance / plane.size)));
+        update_worst(worst, plane.size == 0
+                                ? HUGE_VALL
+                                : std::abs(static_cast<long double>(plane.distance / plane.size)));
       }
     }
   }

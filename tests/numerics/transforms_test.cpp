@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/scene/builtin_mesh.h"
+#include "engine/program/scene/builtin_mesh.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace program;
 namespace {
 
 constexpr int kSide = 32;
@@ -221,8 +222,7 @@ TEST(SingularTransforms, KeepTheAmbientPart) {
       if (i % 4 != 3)
         transform.m[i] =
             rng.one_in(2) ? 0 : rng.of({1.0, -1.0, 1e-300, 1e300, 1e-160, 1e160, 1e20, rng.unit()});
-    const std::array<float, 3> normal =
-        rng.one_in(4) ? std::array<float, 3>{0, 0, 3e38f} : rng.direction();
+    const std::array<float, 3> normal = rng.one_in(4) ? std::array<float, 3>{0, 0, 3e38f} : rng.direction();
     DrawState state{.transform = transform,
                     .shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong}),
                     .normalize = rng.one_in(2),

@@ -31,7 +31,7 @@ WorkloadEntry grid_of(int columns, int draws = 1) {
 
 TracedFrame cost_of(const WorkloadEntry& entry, int workers) {
   return measure_frame_costs(entry, {.width = 256, .height = 256, .options = {.tile_size = 32}},
-                         std::array{workers}, 0)
+                             std::array{workers}, 0)
       .front();
 }
 
@@ -51,8 +51,7 @@ TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
 
 TEST(FrameCosts, CountCallsForWorkersThatNoTaskTellsOf) {
   EXPECT_EQ(cost_of(grid_of(64), 2).untraced_calls, 0);
-  EXPECT_EQ(cost_of(grid_of(256), 2).untraced_calls, 1)
-      << "so many indices that recording asks for help";
+  EXPECT_EQ(cost_of(grid_of(256), 2).untraced_calls, 1) << "so many indices that recording asks for help";
   EXPECT_EQ(cost_of(grid_of(4, 17), 2).untraced_calls, 1) << "so many draws that planning does";
   const WorkloadEntry onto_planes = drawn("onto", "", [](int, int, std::uint32_t) {
     Drawing drawing{.format = {.width = 256, .height = 256}};

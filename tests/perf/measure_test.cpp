@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "perf/bench/limits.h"
+#include "perf/bench/bandwidth.h"
 #include "perf/bench/rival_comparisons.h"
 
 namespace tessera::bench {
@@ -64,8 +64,10 @@ struct Made {
   std::uint64_t tile_bytes = 0;
 };
 Candidate counting(Log& log, int number, const Made& made = {}) {
-  const FrameWork work{
-      .pixels = 1, .roofline = made.roofline, .roofline_bytes = made.roofline_bytes, .tile_bytes = made.tile_bytes};
+  const FrameWork work{.pixels = 1,
+                       .roofline = made.roofline,
+                       .roofline_bytes = made.roofline_bytes,
+                       .tile_bytes = made.tile_bytes};
   return {.name = "counting",
           .make =
               [=, &log] {
@@ -97,27 +99,28 @@ TEST(BenchMeasure, TakesTurnsAsOftenEach) {
 TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
   MeasureOptions options = kFewFrames;
   options.measures_rooflines = true;
-  for (const Roofline roofline : {Roofline::l1_stores, Roofline::tile_stores, Roofline::memory_stores, Roofline::memory_copies,
-                            Roofline::memory_loads}) {
+  for (const Roofline roofline : {Roofline::l1_stores, Roofline::tile_stores, Roofline::memory_stores,
+                                  Roofline::memory_copies, Roofline::memory_loads}) {
     Log log;
-    const std::vector<Row> rows =
-        measure(std::vector{counting(log, 0, {.roofline = roofline, .tile_bytes = 1 << 20}), counting(log, 1)},
-                options, HardwareCounters());
+    const std::vector<Row> rows = measure(
+        std::vector{counting(log, 0, {.roofline = roofline, .tile_bytes = 1 << 20}), counting(log, 1)},
+        options, HardwareCounters());
     ASSERT_EQ(rows.size(), 2u);
     const double alone = measure_bandwidth(roofline, 1, 1 << 20);  // and on a busy machine
     EXPECT_GT(rows[0].roofline, alone / 30);
     EXPECT_LT(rows[0].roofline, alone * 30);
     EXPECT_EQ(rows[1].roofline, 0) << "there is none";
     for (const Row& row : rows) EXPECT_EQ(row.frames, 7u);
-    // Of the two alone whoever follows the other draws a frame more; with the roofline some of those that follow
-    // themselves do.
+    // Of the two alone whoever follows the other draws a frame more; with the roofline some of those that
+    // follow themselves do.
     const std::vector<int> turns(log.frames.begin() + 2 + 2 * 3, log.frames.end());
     std::size_t changes = 1;
     for (std::size_t i = 1; i < turns.size(); ++i) changes += turns[i] != turns[i - 1] ? 1 : 0;
     EXPECT_GT(turns.size(), 2 * 7 + changes) << "it stood between them";
     Log without;
     EXPECT_EQ(
-        measure(std::vector{counting(without, 0, {.roofline = roofline})}, kFewFrames, HardwareCounters())[0].roofline,
+        measure(std::vector{counting(without, 0, {.roofline = roofline})}, kFewFrames, HardwareCounters())[0]
+            .roofline,
         0)
         << "nobody asked";
   }
@@ -130,7 +133,8 @@ TEST(BenchMeasure, WhatTilesStoreIsHeldAgainstTheFirstCacheToo) {
   const auto row_of = [&](std::uint64_t tile_bytes) {
     return measure(
         std::vector{counting(
-            log, 0, {.roofline = Roofline::tile_stores, .roofline_bytes = 1 << 14, .tile_bytes = tile_bytes})},
+            log, 0,
+            {.roofline = Roofline::tile_stores, .roofline_bytes = 1 << 14, .tile_bytes = tile_bytes})},
         options, HardwareCounters())[0];
   };
   const Row small = row_of(1 << 14), large = row_of(1 << 26);
@@ -142,8 +146,8 @@ TEST(BenchMeasure, WhatTilesStoreIsHeldAgainstTheFirstCacheToo) {
 #ifndef __SANITIZE_THREAD__  // what it notes of each byte takes as long, wherever that is
   EXPECT_LT(large.roofline, large.l1_stores / 2) << "no cache next to a core holds so much";
 #endif
-  const Row other =
-      measure(std::vector{counting(log, 0, {.roofline = Roofline::memory_stores})}, options, HardwareCounters())[0];
+  const Row other = measure(std::vector{counting(log, 0, {.roofline = Roofline::memory_stores})}, options,
+                            HardwareCounters())[0];
   EXPECT_EQ(other.l1_stores, 0) << "it is not for tiles";
 }
 
@@ -165,9 +169,9 @@ TEST(BenchMeasure, ARowIsTimedThoughThereIsNoMemoryForItsLimit) {
   for (const Roofline roofline : {Roofline::memory_stores, Roofline::memory_copies}) {
     MeasureOptions options = kFewFrames;
     options.measures_rooflines = true;
-    const std::vector<Row> rows =
-        measure(std::vector{counting(log, 0, {.roofline = roofline, .roofline_bytes = std::uint64_t{1} << 60})},
-                options, HardwareCounters());
+    const std::vector<Row> rows = measure(
+        std::vector{counting(log, 0, {.roofline = roofline, .roofline_bytes = std::uint64_t{1} << 60})},
+        options, HardwareCounters());
     EXPECT_EQ(rows[0].fault, "");
     EXPECT_EQ(rows[0].frames, 7u);
     EXPECT_EQ(rows[0].roofline, 0);
@@ -178,7 +182,8 @@ TEST(BenchMeasure, ARowIsTimedThoughThereIsNoMemoryForItsLimit) {
 TEST(BenchBandwidth, CountWhatTheyMove) {
   EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 1000, 1000).bytes(), 1000);
   EXPECT_EQ(BandwidthKernel(Roofline::memory_loads, 1, 1000, 2000).bytes(), 2000);
-  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 4000, 12000).bytes(), 12000) << "half of them are read";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 4000, 12000).bytes(), 12000)
+      << "half of them are read";
   EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 8, 4, 4).bytes(), 16) << "each thread something";
   EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 5000, 12000).bytes(), 10000) << "whole memories";
   EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 5000, 1000).bytes(), 5000) << "once";
@@ -189,13 +194,19 @@ TEST(BenchBandwidth, CountWhatTheyMove) {
 }
 
 TEST(BenchBandwidth, AreTheFramesOwn) {
-  EXPECT_EQ(bandwidth_kernel_for({.roofline = Roofline::memory_stores, .roofline_bytes = 1000, .tile_bytes = 8}, 2, 1).bytes(),
+  EXPECT_EQ(bandwidth_kernel_for(
+                {.roofline = Roofline::memory_stores, .roofline_bytes = 1000, .tile_bytes = 8}, 2, 1)
+                .bytes(),
             1000);
-  EXPECT_EQ(bandwidth_kernel_for({.roofline = Roofline::tile_stores, .roofline_bytes = 8, .tile_bytes = 1000}, 2, 1).bytes(),
-            2000)
+  EXPECT_EQ(
+      bandwidth_kernel_for({.roofline = Roofline::tile_stores, .roofline_bytes = 8, .tile_bytes = 1000}, 2, 1)
+          .bytes(),
+      2000)
       << "a tile for each thread";
-  EXPECT_EQ(bandwidth_kernel_for({.roofline = Roofline::l1_stores, .roofline_bytes = 8, .tile_bytes = 8}, 1, 1).bytes(),
-            20000.0 * 16384);
+  EXPECT_EQ(
+      bandwidth_kernel_for({.roofline = Roofline::l1_stores, .roofline_bytes = 8, .tile_bytes = 8}, 1, 1)
+          .bytes(),
+      20000.0 * 16384);
 }
 
 TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
@@ -241,12 +252,14 @@ TEST(BenchComparison, IsFoughtOverTheSamePicture) {
   for (std::size_t i = 0; i < 5; ++i) off.picture.rgba[4 * i + i % 3] = 103;  // five pixels of a hundred
   off.picture.rgba[400 - 4] = 102;                                            // two levels are none
   off.picture.rgba[400 - 5] = 0;                                              // nor is alpha
-  const Comparison even = compare_with_rival(counting(log, 0), counting(log, 1, off), 0.05, kFewFrames, HardwareCounters());
+  const Comparison even =
+      compare_with_rival(counting(log, 0), counting(log, 1, off), 0.05, kFewFrames, HardwareCounters());
   EXPECT_EQ(even.fault(), "");
   EXPECT_DOUBLE_EQ(even.mismatch_share, 0.05);
   EXPECT_EQ(even.ours.frames, 7u);
   EXPECT_EQ(even.rivals.frames, 7u);
-  const Comparison odd = compare_with_rival(counting(log, 0), counting(log, 1, off), 0.049, kFewFrames, HardwareCounters());
+  const Comparison odd =
+      compare_with_rival(counting(log, 0), counting(log, 1, off), 0.049, kFewFrames, HardwareCounters());
   EXPECT_EQ(odd.fault(),
             "the rival's picture differs by more than two levels in 5.000 % of the pixels, expected 4.900 % "
             "at most");
@@ -255,17 +268,18 @@ TEST(BenchComparison, IsFoughtOverTheSamePicture) {
 
 TEST(BenchComparison, SaysWhoIsWrong) {
   Log log;
-  EXPECT_EQ(
-      compare_with_rival(counting(log, 0, {.fault = "ours"}), counting(log, 1), 1, kFewFrames, HardwareCounters()).fault(),
-      "ours");
-  EXPECT_EQ(
-      compare_with_rival(counting(log, 0), counting(log, 1, {.fault = "the rival's"}), 1, kFewFrames, HardwareCounters())
-          .fault(),
-      "the rival's");
-  EXPECT_EQ(
-      compare_with_rival(counting(log, 0), counting(log, 1, {.picture = Picture(10, 9)}), 1, kFewFrames, HardwareCounters())
-          .fault(),
-      "the rival's picture has another size");
+  EXPECT_EQ(compare_with_rival(counting(log, 0, {.fault = "ours"}), counting(log, 1), 1, kFewFrames,
+                               HardwareCounters())
+                .fault(),
+            "ours");
+  EXPECT_EQ(compare_with_rival(counting(log, 0), counting(log, 1, {.fault = "the rival's"}), 1, kFewFrames,
+                               HardwareCounters())
+                .fault(),
+            "the rival's");
+  EXPECT_EQ(compare_with_rival(counting(log, 0), counting(log, 1, {.picture = Picture(10, 9)}), 1, kFewFrames,
+                               HardwareCounters())
+                .fault(),
+            "the rival's picture has another size");
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/parallel.h"
+#include "engine/program/threads/thread_limit.h"
 
 namespace tessera::bench {
+using namespace detail;
+using namespace program;
 namespace {
 
 constexpr CoreModel kFastMemory{.core_gb_per_second = 1e9};
@@ -33,19 +35,23 @@ TracedFrame tiles_of(const std::vector<double>& seconds, double between = 0) {
 TEST(BenchScaling, OneCoreTakesAsLongAsTheFrame) {
   EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({3, 1, 2}, 0.5), 1, kFastMemory).sum(), 6.5);
   EXPECT_DOUBLE_EQ(
-      predict_frame_time(tiles_of({3, 1, 2}, 0.5), 1, {.core_gb_per_second = 1e9, .barrier_seconds = 0.25}).sum(), 6.5)
+      predict_frame_time(tiles_of({3, 1, 2}, 0.5), 1, {.core_gb_per_second = 1e9, .barrier_seconds = 0.25})
+          .sum(),
+      6.5)
       << "it waits for nobody";
   EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({}, 0.5), 64, kFastMemory).sum(), 0.5);
   TracedFrame untold{.workload = "made up", .seconds = 3, .dispatch_seconds = 2};  // of workers without tasks
   EXPECT_DOUBLE_EQ(predict_frame_time(untold, 1, kFastMemory).sum(), 3);
   EXPECT_DOUBLE_EQ(predict_frame_time(untold, 4, kFastMemory).sum(), 1.5);
   untold.untraced_calls = 3;
-  EXPECT_DOUBLE_EQ(predict_frame_time(untold, 4, {.core_gb_per_second = 1e9, .barrier_seconds = 0.25}).sum(), 1.5 + 3 * 0.25);
+  EXPECT_DOUBLE_EQ(predict_frame_time(untold, 4, {.core_gb_per_second = 1e9, .barrier_seconds = 0.25}).sum(),
+                   1.5 + 3 * 0.25);
 }
 
 TEST(BenchScaling, CoresBeginWithTheirSharesAndGoOnToOthers) {
   EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({1, 1, 1, 1}), 2, kFastMemory).sum(), 2);
-  EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({1, 1, 1, 3}), 2, kFastMemory).sum(), 4) << "what is long begins last";
+  EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({1, 1, 1, 3}), 2, kFastMemory).sum(), 4)
+      << "what is long begins last";
   EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({3, 1, 1, 1}), 2, kFastMemory).sum(), 3);
   EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({2, 3, 2, 2, 1}), 3, kFastMemory).sum(), 4);
   EXPECT_DOUBLE_EQ(predict_frame_time(tiles_of({2, 3, 2}), 64, kFastMemory).sum(), 3) << "the longest";
@@ -133,7 +139,8 @@ TEST(BenchScaling, WhatWasMeasuredStandsWithoutMemoryForTheRest) {
     const nlohmann::ordered_json json = scaling_json({scaling})[0];
     EXPECT_TRUE(json.contains("measured")) << json;
     EXPECT_EQ(json["not_computed"], "Renderer: not enough memory");
-    for (const char* key : {"independent_renderers", "computed", "ms_on_64_cores"}) EXPECT_FALSE(json.contains(key)) << key;
+    for (const char* key : {"independent_renderers", "computed", "ms_on_64_cores"})
+      EXPECT_FALSE(json.contains(key)) << key;
   }
   EXPECT_EQ(scaling_of_large(1).fault, "Renderer: not enough memory") << "nothing is known then";
 }
@@ -194,15 +201,16 @@ TEST(BenchScaling, TellsWhatTheTimeOf64CoresGoesTo) {
                         .on_64_cores = {.busy = 1, .idle = 2, .serial = 3, .memory = 4}};
   EXPECT_TRUE(scaling_line(scaling).ends_with("    50 %     10 %     20 %     30 %     40 %\n"))
       << scaling_line(scaling);
-  EXPECT_EQ(scaling_json({scaling})[0]["ms_on_64_cores"],
-            (nlohmann::ordered_json{
-                {"busy", 1000.0}, {"idle", 2000.0}, {"serial", 3000.0}, {"memory", 4000.0}}));
+  EXPECT_EQ(
+      scaling_json({scaling})[0]["ms_on_64_cores"],
+      (nlohmann::ordered_json{{"busy", 1000.0}, {"idle", 2000.0}, {"serial", 3000.0}, {"memory", 4000.0}}));
 }
 
 TEST(BenchScaling, MemoryGivesTheBytesNoFaster) {
   TracedFrame frame = tiles_of(std::vector<double>(64, 1));
   frame.work.bytes = 32'000'000'000;
-  const CoreModel memory{.core_gb_per_second = 2, .bandwidth_saturating_cores = 4};  // 8e9 bytes a second at most
+  const CoreModel memory{.core_gb_per_second = 2,
+                         .bandwidth_saturating_cores = 4};  // 8e9 bytes a second at most
   EXPECT_DOUBLE_EQ(predict_frame_time(frame, 1, memory).sum(), 64) << "memory would do it in 16";
   EXPECT_DOUBLE_EQ(predict_frame_time(frame, 8, memory).sum(), 8);
   EXPECT_DOUBLE_EQ(predict_frame_time(frame, 64, memory).sum(), 4);

@@ -9,9 +9,10 @@
 #include "raster/binning.h"
 #include "raster/coverage_reference.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr int kTileSizes[] = {32, 64, 128};
@@ -42,7 +43,7 @@ TEST(Binning, LosesNoTileOfATriangle) {
       BinDraw draw;
       draw.vertices = t.data();
       draw.rect = {0, 0, 256, 256};
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         Bins bins;
         bins.reset(grid.count());
         bin_triangles(bins, grid, draw, 0, 1, isa);
@@ -82,7 +83,7 @@ TEST(Binning, KeepsTheirOrderInEachTile) {
     for (const PixelRect& rect :
          {PixelRect{0, 0, kSize, kSize}, PixelRect{30, 20, 200, 231}, PixelRect{0, 0, tile_size, kSize}})
       for (const std::int32_t reach : {0, 128})
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           const TileGrid grid{rect.x1 == tile_size ? tile_size : kSize, kSize, tile_size};
           BinDraw draw;
           draw.vertices = vertices.data();
@@ -139,7 +140,7 @@ TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
   for (const PixelRect& rect : {PixelRect{0, 0, kSize, kSize}, PixelRect{17, 40, 90, 41}})
     for (const bool indexed : {false, true})
       for (const int reach : {0, 128})
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           BinDraw draw;
           draw.vertices = vertices.data();
           draw.indices = indexed ? backwards.data() : nullptr;
@@ -199,7 +200,7 @@ TEST(Binning, LosesNoTriangleInARectangleOfFewPixels) {
     BinDraw draw;
     draw.vertices = t.data();
     draw.rect = {x, y, x + 2, y + 2};
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       Bins bins;
       bins.reset(1);
       bin_triangles(bins, {kSize, kSize, kSize}, draw, 0, 1, isa);

@@ -8,6 +8,7 @@
 #include "raster/bins.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {

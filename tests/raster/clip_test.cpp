@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 VertexTransform identity(double half_size, bool reversed = false) {
@@ -39,7 +40,8 @@ struct RandomClip {
 };
 
 std::uint8_t outcodes_of(const VertexTransform& t, const ClipVertex (&v)[3]) {
-  return compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) | compute_outcode(t, v[2].position);
+  return compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) |
+         compute_outcode(t, v[2].position);
 }
 double magnitude(const ClipVertex (&v)[3]) {
   double most = 0;
@@ -164,7 +166,7 @@ TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
   constexpr std::int64_t kFarthest = std::int64_t{kGuardBandPixels} * kSubpixelScale;
   RandomClip random{std::mt19937(11)};
   VertexTransform t = identity(24);
-  t.depth = DepthKind::unorm32;
+  t.depth = DepthFormat::unorm32;
   std::size_t kept = 0;
   const auto check = [&](const ClipPosition& p) {
     const WindowVertex v = project(t, p);
@@ -240,7 +242,7 @@ TEST(Clip, PaintsWhatARayHits) {
     TileHarness stage(kSize, kSize, kSize);
     WindowVertex vertices[3];
     std::uint8_t outcodes[3];
-    const Isa isa = available_isas()[static_cast<std::size_t>(round) % available_isas().size()];
+    const InstructionSet isa = available_isas()[static_cast<std::size_t>(round) % available_isas().size()];
     const std::uint8_t any = transform_vertices(isa)(t, {positions, 4}, 4, 3, vertices, outcodes);
     stage.add_draw(vertices).packed_color = 1;
     BinDraw bin;

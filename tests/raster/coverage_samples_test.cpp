@@ -11,9 +11,10 @@
 
 #include "raster/sample_positions.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 struct Sixteenths {
@@ -64,7 +65,7 @@ void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds,
               expected[s][static_cast<std::size_t>(y * tile_size + x)] |= 1u << bit;
             });
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       stage.render(isa, 0);
       for (int s = 0; s < samples; ++s)
         for (int y = 0; y < tile_size; ++y)

@@ -10,21 +10,21 @@
 #include <vector>
 
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
 namespace {
 
 // Depth words of triangles that each are nearer than those before: the depth test, which has ways of its own
 // to draw them, stops none. At most 120.
-void bring_nearer(DepthKind kind, Triangle& triangle, std::uint32_t i) {
-  for (WindowVertex& vertex : triangle) vertex.z = (120 - i) << (kind == DepthKind::float32 ? 23 : 25);
+void bring_nearer(DepthFormat kind, Triangle& triangle, std::uint32_t i) {
+  for (WindowVertex& vertex : triangle) vertex.z = (120 - i) << (kind == DepthFormat::float32 ? 23 : 25);
 }
 constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
 
 // Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
 void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect,
-                     DepthKind depth = DepthKind::none) {
+                     DepthFormat depth = DepthFormat::none) {
   RandomTriangles source(seed, tile_size);
   TileHarness stage(tile_size, tile_size, tile_size, depth);
   std::vector<WindowVertex> vertices(3 * 32);
@@ -41,7 +41,7 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
       std::copy(triangles[bit].begin(), triangles[bit].end(), vertices.begin() + 3 * bit);
       TileDraw& draw = stage.add_draw(vertices.data() + 3 * bit);
       draw.rect = rect;
-      draw.uses_depth = depth != DepthKind::none;
+      draw.uses_depth = depth != DepthFormat::none;
       draw.packed_color = 0xffffffffu;
       draw.write_mask = 1u << bit;
       if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
@@ -54,7 +54,7 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
       ++drawn[shape];
       seen[shape] += visible ? 1 : 0;
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       stage.render(isa, 0, 0, kFarthest);
       for (int y = 0; y < tile_size; ++y) {
         for (int x = 0; x < tile_size; ++x) {
@@ -80,8 +80,8 @@ TEST(Coverage, EqualsExactIntegersInTilesOf128) {
   compare_by_bits(3, 128, rounds_of_32(160), {0, 0, 128, 128});
 }
 TEST(Coverage, EqualsExactIntegersThroughTheDepthTest) {
-  for (const DepthKind depth :
-       {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
+  for (const DepthFormat depth :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (const int size : {32, 64, 128})
       compare_by_bits(30 + static_cast<std::uint32_t>(size), size, rounds_of_32(size == 128 ? 20 : 40),
                       {0, 0, size, size}, depth);
@@ -93,7 +93,7 @@ TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
     rect.x1 = source.between(rect.x0 + 1, 64);
     rect.y1 = source.between(rect.y0 + 1, 64);
     compare_by_bits(100 + static_cast<std::uint32_t>(i), 64, rounds_of_32(4), rect,
-                    i % 2 == 0 ? DepthKind::none : DepthKind::unorm24);
+                    i % 2 == 0 ? DepthFormat::none : DepthFormat::unorm24);
   }
 }
 
@@ -103,12 +103,12 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
   RandomTriangles source(5, kTile);
   std::vector<WindowVertex> vertices(3 * kTriangles);
   std::vector<std::uint32_t> words(kTriangles), expected(kTile * kTile);
-  constexpr DepthKind kDepths[] = {DepthKind::none, DepthKind::unorm24, DepthKind::float32};
+  constexpr DepthFormat kDepths[] = {DepthFormat::none, DepthFormat::unorm24, DepthFormat::float32};
   for (int round = 0; round < (long_tests() ? 2000 : 90); ++round) {
-    const DepthKind depth = kDepths[round % 3];
+    const DepthFormat depth = kDepths[round % 3];
     TileHarness stage(kTile, kTile, kTile, depth);
     TileDraw& draw = stage.add_draw(vertices.data());
-    draw.uses_depth = depth != DepthKind::none;
+    draw.uses_depth = depth != DepthFormat::none;
     draw.source = ColorSource::per_triangle_packed;
     draw.packed_colors[0] = draw.packed_colors[1] = words.data();
     std::fill(expected.begin(), expected.end(), 0u);
@@ -123,7 +123,7 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
         expected[static_cast<std::size_t>(y * kTile + x)] = i + 1;
       });
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       stage.render(isa, 0, 0, kFarthest);
       for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)

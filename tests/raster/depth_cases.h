@@ -11,6 +11,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 
 /// Depths are whole multiples of 2^-40, so that all that follows from them is exact.
 inline constexpr int kDepthFraction = 40;
@@ -24,14 +25,14 @@ struct DepthTriangle {
 };
 
 /// A vertex's depth word as raster/fixed_point.h defines it.
-inline std::uint32_t vertex_depth_word(DepthKind kind, double z) {
-  if (kind == DepthKind::float32) return quantize_depth(kind, z);
+inline std::uint32_t vertex_depth_word(DepthFormat kind, double z) {
+  if (kind == DepthFormat::float32) return quantize_depth(kind, z);
   const int bits = depth_bits(kind);
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(
       std::floor((z * (std::ldexp(1.0, bits) - 1) + 0.5) * std::ldexp(1.0, 32 - bits))));
 }
 
-inline void set_words(DepthTriangle& t, DepthKind kind) {
+inline void set_words(DepthTriangle& t, DepthFormat kind) {
   for (int k = 0; k < 3; ++k) t.corners[static_cast<std::size_t>(k)].z = vertex_depth_word(kind, t.depth(k));
 }
 
@@ -59,7 +60,7 @@ inline Exact depth_numerator(const TriangleReference& reference, const DepthTria
   return sum;
 }
 /// floor(z (2^b - 1) + 1/2), exactly.
-inline std::int64_t exact_level(const TriangleReference& reference, const DepthTriangle& t, DepthKind kind,
+inline std::int64_t exact_level(const TriangleReference& reference, const DepthTriangle& t, DepthFormat kind,
                                 int x, int y) {
   const Exact levels = (Exact{1} << depth_bits(kind)) - 1, denominator = reference.area << kDepthFraction;
   return static_cast<std::int64_t>((2 * depth_numerator(reference, t, x, y) * levels + denominator) /
@@ -70,14 +71,15 @@ inline long double exact_depth(const TriangleReference& reference, const DepthTr
          static_cast<long double>(reference.area) * 0x1p-40L;
 }
 
-inline const char* name_of(DepthKind kind) {
-  return kind == DepthKind::unorm16   ? "unorm16"
-         : kind == DepthKind::unorm24 ? "unorm24"
-         : kind == DepthKind::unorm32 ? "unorm32"
-                                      : "float32";
+inline const char* name_of(DepthFormat kind) {
+  return kind == DepthFormat::unorm16   ? "unorm16"
+         : kind == DepthFormat::unorm24 ? "unorm24"
+         : kind == DepthFormat::unorm32 ? "unorm32"
+                                        : "float32";
 }
-inline constexpr DepthKind kUnormKinds[] = {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32};
-inline constexpr DepthKind kDepthKinds[] = {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32,
-                                            DepthKind::float32};
+inline constexpr DepthFormat kUnormKinds[] = {DepthFormat::unorm16, DepthFormat::unorm24,
+                                              DepthFormat::unorm32};
+inline constexpr DepthFormat kDepthKinds[] = {DepthFormat::unorm16, DepthFormat::unorm24,
+                                              DepthFormat::unorm32, DepthFormat::float32};
 
 }  // namespace tessera::test

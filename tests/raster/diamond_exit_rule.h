@@ -1,5 +1,5 @@
-// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the perturbed segment meets its
-// open diamond and its end lies outside of it, in exact fractions whose numerators carry the move's e and
+// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the perturbed segment meets
+// its open diamond and its end lies outside of it, in exact fractions whose numerators carry the move's e and
 // e^2.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "raster/line_walk.h"
 
 namespace tessera::test {
+using namespace detail;
 
 __extension__ using Wide = __int128;
 
@@ -30,7 +31,9 @@ inline Perturbed whole(Wide n) { return {{n, 0, 0}}; }
 struct PerturbedPoint {
   Perturbed x, y;
 };
-inline PerturbedPoint perturbed(LinePoint p) { return {{{p.x, -1, 0}}, {{p.y, 0, 1}}}; }  // (-e, -e^2) with y up
+inline PerturbedPoint perturbed(LinePoint p) {
+  return {{{p.x, -1, 0}}, {{p.y, 0, 1}}};
+}  // (-e, -e^2) with y up
 
 inline constexpr int kSigns[4][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 struct Terms {

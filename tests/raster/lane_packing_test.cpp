@@ -6,7 +6,7 @@
 
 #include "raster/lane_packing.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 template <int kLanes>
@@ -33,4 +33,4 @@ TEST(LanePacking, NumbersEightLanes) { check_every_set<8>(); }
 TEST(LanePacking, NumbersSixteenLanes) { check_every_set<16>(); }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -6,7 +6,7 @@
 #include "tests/raster/line_steps_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 void pixels_of_lines_lanes(const TriangleGroup& lines, int width, const PixelRect& window,
@@ -25,11 +25,11 @@ void pixels_of_lines_lanes(const TriangleGroup& lines, int width, const PixelRec
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-PixelsOfLines* pixels_of_lines(Isa isa) { return TESSERA_KERNEL(isa, pixels_of_lines_lanes); }
+PixelsOfLines* pixels_of_lines(InstructionSet isa) { return TESSERA_KERNEL(isa, pixels_of_lines_lanes); }
 }  // namespace tessera::test
 #endif

@@ -9,10 +9,11 @@
 #include "raster/triangle_setup.h"
 
 namespace tessera::test {
+using namespace detail;
 
 /// Appends to pixels[i] those of line i in `window`, in any order.
 using PixelsOfLines = void(const TriangleGroup& lines, int width, const PixelRect& window,
                            std::vector<std::pair<int, int>> (&pixels)[kGroupSize]);
-PixelsOfLines* pixels_of_lines(Isa isa);
+PixelsOfLines* pixels_of_lines(InstructionSet isa);
 
 }  // namespace tessera::test

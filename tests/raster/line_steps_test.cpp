@@ -9,9 +9,10 @@
 #include "raster/line_walk.h"
 #include "tests/raster/line_steps_lanes.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 using Pixels = std::vector<std::pair<int, int>>;
@@ -57,7 +58,8 @@ void fill_lines(TriangleGroup& lines, const Cases& of, std::mt19937& bits) {
   }
 }
 
-void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, Isa isa, std::size_t& seen) {
+void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, InstructionSet isa,
+                     std::size_t& seen) {
   Pixels found[kGroupSize];
   pixels_of_lines(isa)(lines, width, of.window, found);
   for (int i = 0; i < kGroupSize; ++i) {
@@ -74,7 +76,7 @@ void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, Isa
 
 TEST(LineSteps, AreThoseOfTheWalk) {
   for (const Cases& of : kCases)
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       const int groups =
           (long_tests() ? 60000 : 600) / (of.most_wide > 1 ? 20 : 1);  // those have more pixels
       std::mt19937 bits(11);

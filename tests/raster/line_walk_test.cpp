@@ -11,6 +11,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 struct Random {

@@ -12,6 +12,7 @@
 #include "raster/coverage_reference.h"
 
 namespace tessera::test {
+using namespace detail;
 
 using Triangle = std::array<WindowVertex, 3>;
 
@@ -21,16 +22,16 @@ inline TriangleReference reference_of(const Triangle& t) {
 }
 
 enum class Shape {
-  tiny,          // within 4x4 pixels
-  medium,        // up to 30 pixels
-  large,         // up to 300
-  widest_edges32,   // as wide as the 32-bit path allows
-  edges64,       // up to the widest there is
-  sliver,        // long, and a few 1/256 pixel thick
-  needle,        // long, and thinner than 1/256 pixel
-  on_centers,    // vertices on pixel centres
-  on_borders,    // vertices on and beside the tile's borders
-  axis_aligned,  // horizontal and vertical edges
+  tiny,            // within 4x4 pixels
+  medium,          // up to 30 pixels
+  large,           // up to 300
+  widest_edges32,  // as wide as the 32-bit path allows
+  edges64,         // up to the widest there is
+  sliver,          // long, and a few 1/256 pixel thick
+  needle,          // long, and thinner than 1/256 pixel
+  on_centers,      // vertices on pixel centres
+  on_borders,      // vertices on and beside the tile's borders
+  axis_aligned,    // horizontal and vertical edges
   kCount
 };
 
@@ -112,7 +113,7 @@ class RandomTriangles {
       case Shape::tiny: return around(0, 2);
       case Shape::medium: return around(1, 16);
       case Shape::large: return around(10, 300);
-      case Shape::edges64st_edges32: {
+      case Shape::widest_edges32: {
         Triangle t = around(900, 992);
         if (between(0, 1) != 0) t[1] = {t[0].x + 1984 * 256, t[0].y - between(0, 1984 * 256), 0, 1};
         return t;

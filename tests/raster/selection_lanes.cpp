@@ -6,7 +6,7 @@
 #include "tests/raster/selection_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 void select_lanes(const float* a, const float* b, float* greater, float* lesser, std::size_t count) {
@@ -18,11 +18,11 @@ void select_lanes(const float* a, const float* b, float* greater, float* lesser,
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-Select* select(Isa isa) { return TESSERA_KERNEL(isa, select_lanes); }
+Select* select(InstructionSet isa) { return TESSERA_KERNEL(isa, select_lanes); }
 }  // namespace tessera::test
 #endif

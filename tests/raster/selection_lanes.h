@@ -7,9 +7,10 @@
 #include "framebuffer/instruction_set.h"
 
 namespace tessera::test {
+using namespace detail;
 
 /// Of `count` pairs, a multiple of 16.
 using Select = void(const float* a, const float* b, float* greater, float* lesser, std::size_t count);
-Select* select(Isa isa);
+Select* select(InstructionSet isa);
 
 }  // namespace tessera::test

@@ -22,7 +22,7 @@ TEST(Selection, IsTheComparisonsOnEveryInstructionSet) {
   for (const float x : values)
     for (const float y : values) a.push_back(x), b.push_back(y);
   std::vector<float> greater(a.size()), lesser(a.size());
-  for (const Isa isa : available_isas()) {
+  for (const InstructionSet isa : available_isas()) {
     select(isa)(a.data(), b.data(), greater.data(), lesser.data(), a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_EQ(std::bit_cast<std::uint32_t>(greater[i]),

@@ -13,9 +13,10 @@
 
 #include "raster/coverage_reference.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 struct IndexedMesh {
@@ -128,7 +129,7 @@ std::size_t expect_each_pixel_once(const IndexedMesh& mesh, int width_px, int he
   for (const std::uint8_t times : inside) EXPECT_LE(times, 1) << "the reference itself covers a pixel twice";
   const auto covered = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
 
-  for (const Isa isa : available_isas()) {
+  for (const InstructionSet isa : available_isas()) {
     TileHarness stage(width_px, height_px, tile_size);
     TileDraw& draw = stage.add_draw(mesh.vertices.data());
     draw.indices = mesh.indices.data();

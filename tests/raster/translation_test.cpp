@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/raster/depth_cases.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
 namespace {
@@ -20,14 +20,14 @@ struct Seen {
 };
 
 // The window of kWindow^2 pixels whose first is (shift_x, shift_y), of a triangle moved along.
-Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthKind kind, Isa isa,
-                int tile_size, int shift_x, int shift_y) {
+Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthFormat kind,
+                InstructionSet isa, int tile_size, int shift_x, int shift_y) {
   TileHarness stage(shift_x + kWindow + 1, shift_y + kWindow + 1, tile_size, kind);
   Triangle moved = t.corners;
   for (WindowVertex& v : moved) v.x += shift_x * 256, v.y += shift_y * 256;
   TileDraw& draw = stage.add_draw(moved.data());
   draw.uses_depth = true;
-  draw.depth_test = CompareOp::always;
+  draw.depth_test = Compare::always;
   draw.source = ColorSource::interpolated;
   draw.attributes = colors.data();
   draw.attribute_stride = draw.attribute_count = 3;
@@ -54,7 +54,7 @@ Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthK
 }
 
 TEST(Translation, ByWholePixelsChangesNothing) {
-  for (const DepthKind kind : kDepthKinds) {
+  for (const DepthFormat kind : kDepthKinds) {
     RandomTriangles source(21, kWindow);
     for (int i = 0; i < (long_tests() ? 2000 : 100); ++i) {
       DepthTriangle t = with_random_depths(source, source.next());
@@ -64,7 +64,7 @@ TEST(Translation, ByWholePixelsChangesNothing) {
         for (WindowVertex& v : t.corners) v.rw = static_cast<float>(std::exp2(20 * source.unit() - 10));
       std::vector<float> colors(9 + kAttributePadding);
       for (float& c : colors) c = 0.5f + 255 * static_cast<float>(source.unit());
-      const Isa isa = available_isas()[static_cast<std::size_t>(i) % available_isas().size()];
+      const InstructionSet isa = available_isas()[static_cast<std::size_t>(i) % available_isas().size()];
       const Seen here = draw_moved(t, colors, kind, isa, 64, 0, 0);
       for (const int tile_size : {32, 64, 128}) {
         const int shift_x = source.between(0, 300), shift_y = source.between(0, 300);

@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "tests/raster/depth_cases.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 class RandomTransforms {
@@ -49,7 +50,7 @@ class RandomTransforms {
     t.center_y = static_cast<std::int32_t>(in(-100, 100)) * 256 + 128 * height;
     t.reversed = one_in(2);
     if (one_in(3)) t.depth_near = in(0, 1), t.depth_far = in(0, 1);
-    t.depth = static_cast<DepthKind>(round % 5);
+    t.depth = static_cast<DepthFormat>(round % 5);
     t.set_error_bounds();
     return t;
   }
@@ -82,7 +83,7 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
     std::vector<float> positions(count * static_cast<std::size_t>(components));
     for (float& p : positions)
       p = random.is_cancelling(round) ? random.large_coordinate() : random.coordinate();
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       std::vector<WindowVertex> vertices(count);
       std::vector<std::uint8_t> outcodes(count);
       const std::uint8_t all =
@@ -130,7 +131,7 @@ VertexTransform transform_of(const std::array<double, 16>& rows, bool reversed) 
   t.half_width = t.half_height = 512;
   t.guard_x = t.guard_y = kGuardBandPixels / t.half_width;
   t.reversed = reversed;
-  t.depth = DepthKind::float32;
+  t.depth = DepthFormat::float32;
   t.set_error_bounds();
   return t;
 }
@@ -168,7 +169,8 @@ TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
     const VertexTransform t = transform_of(c.rows, c.reversed);
     for (int n = 0; n < 1000; ++n) {
       const float z = c.at == 0 ? c.z : c.z + c.spread * unit();
-      ASSERT_FALSE(transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).needs_exact)
+      ASSERT_FALSE(
+          transform_vertex(t, {c.at + c.spread * unit(), c.at + c.spread * unit(), z, 1}).needs_exact)
           << c.what << ", vertex " << n;
     }
   }
@@ -195,7 +197,7 @@ TEST(VertexTransform, RoundsWhereDoublesEnd) {
     EXPECT_EQ(v.outcode, compute_outcode(t, rounded));
     EXPECT_EQ(v.position.x, rounded.x);
     EXPECT_EQ(v.position.w, rounded.w);
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       WindowVertex vertex;
       std::uint8_t outcode = 0;
       transform_vertices(isa)(t, {c.object.data(), 4}, 4, 1, &vertex, &outcode);
@@ -235,7 +237,7 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
                          bit((t.reversed ? z : w - z) < 0, kBehindFar) | bit(w <= 0, kNonPositiveW);
     const float p[4] = {static_cast<float>(point[0]), static_cast<float>(point[1]),
                         static_cast<float>(point[2]), static_cast<float>(point[3])};
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       WindowVertex vertex;
       std::uint8_t outcode = 0;
       transform_vertices(isa)(t, {p, 4}, 4, 1, &vertex, &outcode);
@@ -253,7 +255,7 @@ TEST(VertexTransform, IsWithinOneStepOfTheTruth) {
   std::size_t all = 0, moved = 0;
   for (int round = 0; round < 30000; ++round) {
     VertexTransform t = random.next(round);
-    t.depth = DepthKind::unorm32;
+    t.depth = DepthFormat::unorm32;
     const float p[3] = {static_cast<float>(random.in(-1, 1)), static_cast<float>(random.in(-1, 1)),
                         static_cast<float>(random.in(-1, 1))};
     const ClipPosition clip = clip_position(t, p[0], p[1], p[2], 1);
@@ -311,7 +313,7 @@ TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
     std::copy(edge.position.begin(), edge.position.end(), positions.begin() + 4);
     float& moved = positions[static_cast<std::size_t>(4 + edge.moving)];
     moved = std::nextafter(moved, edge.towards);
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       WindowVertex vertices[2];
       std::uint8_t outcodes[2];
       EXPECT_EQ(transform_vertices(isa)(t, {positions.data(), 4}, 4, 2, vertices, outcodes), edge.outcode);
@@ -330,7 +332,7 @@ TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
   t.guard_x = t.guard_y = kGuardBandPixels / 100.0;
   for (const float w : {0.0f, -0.0f, -1e-45f, -1.0f, -1e30f}) {
     const float position[4] = {0, 0, 0, w};
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       WindowVertex vertex;
       std::uint8_t outcode;
       transform_vertices(isa)(t, {position, 4}, 4, 1, &vertex, &outcode);
@@ -353,12 +355,12 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
     for (float& p : in) p = static_cast<float>(random.in(-2, 2));
     if (round % 5 == 0) in[0] = in[1] = in[2] = 0;
     using Out = std::array<std::array<float, kVertexBatch>, 3>;
-    const std::vector<Isa> isas = available_isas();  // the last one is scalar
+    const std::vector<InstructionSet> isas = available_isas();  // the last one is scalar
     std::vector<Out> normals(isas.size()), points(isas.size());
     const auto count = static_cast<std::size_t>(1 + round % kVertexBatch),
                components = static_cast<std::size_t>(3 + round / kVertexBatch % 2);
     for (std::size_t set = 0; set < isas.size(); ++set) {
-      const Isa isa = isas[set];
+      const InstructionSet isa = isas[set];
       Out &n = normals[set], &p = points[set];
       eye_normals(isa)(t, {in.data(), 3}, count, n[0].data(), n[1].data(), n[2].data());
       eye_positions(isa)(t, {in.data(), components}, static_cast<int>(components), count, p[0].data(),
@@ -401,7 +403,7 @@ TEST(EyeTransform, TakesNoWForOne) {
   EyeTransform t;
   for (std::size_t k = 0; k < 3; ++k) t.eye_from_object[5 * k] = 1;
   const float position[4] = {1, -2, 3, 0};
-  for (const Isa isa : available_isas())
+  for (const InstructionSet isa : available_isas())
     for (const bool projects : {false, true}) {
       t.eye_from_object[15] = projects ? 0 : 1;
       float x[kVertexBatch], y[kVertexBatch], z[kVertexBatch];

@@ -12,6 +12,7 @@
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr int kSide = 24;

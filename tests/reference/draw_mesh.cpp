@@ -130,14 +130,16 @@ class MeshDrawing {
 
   // Edges that clipping has made are part of the boundary [GL 2.1, 2.12]; those along the guard band are out
   // of sight.
-  void draw_outline(const std::vector<ClipVertex>& polygon, double offset, const FragmentCallback& take) const {
+  void draw_outline(const std::vector<ClipVertex>& polygon, double offset,
+                    const FragmentCallback& take) const {
     for (std::size_t i = 0; i < polygon.size(); ++i)
       rasterize_line(window_vertex(polygon[i], window_),
                      window_vertex(polygon[(i + 1) % polygon.size()], window_), draw_.line_width, offset,
                      window_, take);
   }
 
-  void draw_corners(const std::vector<ClipVertex>& polygon, double offset, const FragmentCallback& take) const {
+  void draw_corners(const std::vector<ClipVertex>& polygon, double offset,
+                    const FragmentCallback& take) const {
     for (const ClipVertex& vertex : polygon)
       if (is_between_sides(vertex.position))
         rasterize_point(window_vertex(vertex, window_), draw_.point_size, offset, window_, take);

@@ -104,8 +104,8 @@ Vec4 PrimitiveShader::textured(Vec4 color, const Fragment& fragment) const {
   const double level =
       texture.level_of_detail(mix(fragment.weights_dx, texcoord), mix(fragment.weights_dy, texcoord));
   return reference::textured(colors_.draw.texture_env, color,
-                             texture.sample(mix_within(fragment.weights, texcoord), level), texture.channels(),
-                             colors_.draw.texture_env_color);
+                             texture.sample(mix_within(fragment.weights, texcoord), level),
+                             texture.channels(), colors_.draw.texture_env_color);
 }
 
 Vec4 PrimitiveShader::color(const SurfacePoint& point) const {

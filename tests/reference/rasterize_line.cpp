@@ -118,8 +118,8 @@ class Line {
         std::hypot(static_cast<double>(along_.x), static_cast<double>(along_.y)) / kSubpixels;
     for (std::size_t i = 0; i < fragment_.weights.size(); ++i)
       fragment_.weights_dx[i] = (b_.inverse_w * b_.weights[i] - a_.inverse_w * a_.weights[i] -
-                               fragment_.weights[i] * (b_.inverse_w - a_.inverse_w)) /
-                              sum / length;
+                                 fragment_.weights[i] * (b_.inverse_w - a_.inverse_w)) /
+                                sum / length;
   }
 
   const WindowVertex& a_;

@@ -53,7 +53,8 @@ void set_share(Fragment& fragment, const Part& part, Point p) {
                wc = ratio(e.c, part.area) * part.c.inverse_w, sum = wa + wb + wc;
   fragment.weights.resize(part.a.weights.size());
   for (std::size_t i = 0; i < fragment.weights.size(); ++i)
-    fragment.weights[i] = wa / sum * part.a.weights[i] + wb / sum * part.b.weights[i] + wc / sum * part.c.weights[i];
+    fragment.weights[i] =
+        wa / sum * part.a.weights[i] + wb / sum * part.b.weights[i] + wc / sum * part.c.weights[i];
 }
 
 /// How the edge functions change from pixel to pixel.
@@ -76,7 +77,8 @@ void set_derivatives(Fragment& fragment, const Part& part, Point p) {
                 ratio(e.c, part.area) * part.c.inverse_w};
   };
   const auto derivative = [&](Vec3 step, double sum, std::size_t i) {
-    const double numerator = step.x * part.a.weights[i] + step.y * part.b.weights[i] + step.z * part.c.weights[i];
+    const double numerator =
+        step.x * part.a.weights[i] + step.y * part.b.weights[i] + step.z * part.c.weights[i];
     return (numerator - fragment.weights[i] * (step.x + step.y + step.z)) / sum;
   };
   const Vec3 at = weights(edges(part, p));

@@ -68,8 +68,8 @@ struct Fragment {
   std::uint32_t coverage = 0;  ///< bit i: sample i is covered
   std::array<double, kMaxSamples>
       depth{};  ///< of each covered sample: after depth range and offset, 0..1, not yet rounded to a level
-  CornerWeights weights;  ///< perspective-correct, of each of the primitive's corners, at the pixel's centre, covered
-                ///< or not
+  CornerWeights weights;  ///< perspective-correct, of each of the primitive's corners, at the pixel's centre,
+                          ///< covered or not
   /// Derivatives of the shares there, for each pixel, if the window asks for them. Of a line the one along it
   /// stands in x [GL 2.1, equation 3.15]; of a point they are 0.
   CornerWeights weights_dx, weights_dy;

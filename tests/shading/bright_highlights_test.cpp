@@ -74,7 +74,7 @@ TEST(BrightHighlights, ShowTheirFeet) {
         if (cosine < (bright.phong_highlight ? 0.01 : 1e-36)) continue;  // no float would say it
         const LightingProgram program = bright.lit(exponent).program();
         squared += program.terms[0].squared, sharp += program.terms[0].sharp;
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           const double found = light(program, bright.points(cosine), isa)[7][1];
           ASSERT_NEAR(found, share, 4e-6 * exponent + 1e-5)
               << name_of(isa) << ", kind " << static_cast<int>(bright.kind) << ", exponent " << exponent

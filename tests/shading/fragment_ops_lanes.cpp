@@ -6,7 +6,7 @@
 #include "tests/shading/fragment_ops_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout,
@@ -17,7 +17,7 @@ void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout,
     const Int stored = hn::LoadU(kInt, arrays.stored + i);
     if (ops.blend) source = blend_lanes(ops, source, unpack_colors(layout, stored));
     const Int words = pack_colors(layout, source, splat(arrays.threshold));
-    hn::StoreU(ops.logic == Logic::copy ? words : logic_op_lanes(ops.logic, words, stored), kInt,
+    hn::StoreU(ops.logic == LogicOp::copy ? words : logic_op_lanes(ops.logic, words, stored), kInt,
                arrays.words + i);
   }
 }
@@ -35,12 +35,12 @@ void test_stencil_lanes(const StencilSide& side, std::int32_t most, const test::
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-StoreFragments* store_fragments(Isa isa) { return TESSERA_KERNEL(isa, store_fragments_lanes); }
-TestStencil* test_stencil(Isa isa) { return TESSERA_KERNEL(isa, test_stencil_lanes); }
+StoreFragments* store_fragments(InstructionSet isa) { return TESSERA_KERNEL(isa, store_fragments_lanes); }
+TestStencil* test_stencil(InstructionSet isa) { return TESSERA_KERNEL(isa, test_stencil_lanes); }
 }  // namespace tessera::test
 #endif

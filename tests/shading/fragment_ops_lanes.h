@@ -9,6 +9,7 @@
 #include "shading/fragment_ops.h"
 
 namespace tessera::test {
+using namespace detail;
 
 struct FragmentArrays {
   std::size_t count;
@@ -25,7 +26,7 @@ using StoreFragments = void(const FragmentOps& ops, const ColorLayout& layout, c
 /// Stencil: bit 8 of words is whether the test passes, the lower bits are the value after it.
 using TestStencil = void(const StencilSide& side, std::int32_t most, const FragmentArrays& arrays);
 
-StoreFragments* store_fragments(Isa isa);
-TestStencil* test_stencil(Isa isa);
+StoreFragments* store_fragments(InstructionSet isa);
+TestStencil* test_stencil(InstructionSet isa);
 
 }  // namespace tessera::test

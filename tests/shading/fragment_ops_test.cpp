@@ -9,7 +9,7 @@
 #include "tests/reference/fragment_ops.h"
 #include "tests/shading/fragment_ops_lanes.h"
 
-namespace tessera {
+namespace tessera::detail {
 namespace {
 
 constexpr int kCompareOps = 8, kActions = 8, kFactors = 15, kEquations = 5, kLogics = 16;
@@ -42,15 +42,15 @@ TEST(FragmentOps, StencilTruthTables) {
                                                                 {200, 255, 0x55},
                                                                 {77, 0, 0}}) {
           // Each operation stands in each outcome once, beside others.
-          const StencilSide side{.func = static_cast<CompareOp>(func),
+          const StencilSide side{.func = static_cast<Compare>(func),
                                  .reference = std::min(reference_value, most),
                                  .mask = mask & most,
-                                 .fail = static_cast<StencilAction>(action),
-                                 .zfail = static_cast<StencilAction>((action + 3) % kActions),
-                                 .zpass = static_cast<StencilAction>((action + 5) % kActions),
+                                 .fail = static_cast<StencilOp>(action),
+                                 .zfail = static_cast<StencilOp>((action + 3) % kActions),
+                                 .zpass = static_cast<StencilOp>((action + 5) % kActions),
                                  .write_mask = write_mask & most};
           const reference::StencilFace face = reference_face(side);
-          for (const Isa isa : available_isas()) {
+          for (const InstructionSet isa : available_isas()) {
             test::test_stencil(isa)(side, most,
                                     {.count = stored.size(),
                                      .source = {},
@@ -80,11 +80,11 @@ TEST(FragmentOps, CompareAndLogicTables) {
   for (int op = 0; op < kCompareOps; ++op)
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b)
-        EXPECT_EQ(compares(a, static_cast<CompareOp>(op), b),
+        EXPECT_EQ(compares(a, static_cast<Compare>(op), b),
                   reference::passes(static_cast<reference::Compare>(op), a, b));
   constexpr std::uint32_t kSource = 0x0f5a33c5u, kStored = 0x3355aa0fu;
   for (int logic = 0; logic < kLogics; ++logic)
-    EXPECT_EQ(logic_op_reference(static_cast<Logic>(logic), kSource, kStored),
+    EXPECT_EQ(logic_op_reference(static_cast<LogicOp>(logic), kSource, kStored),
               reference::combined(static_cast<reference::LogicOp>(logic), kSource, kStored))
         << logic;
 }
@@ -132,9 +132,9 @@ TEST(FragmentOps, BlendFactorsAndEquations) {
       for (int pair = 0; pair < kFactors * kFactors; ++pair) {
         FragmentOps ops;
         ops.blend = true;
-        ops.equation = static_cast<Equation>(equation);
-        ops.src_color = ops.dst_alpha = static_cast<Factor>(pair / kFactors);
-        ops.dst_color = ops.src_alpha = static_cast<Factor>(pair % kFactors);
+        ops.equation = static_cast<BlendEquation>(equation);
+        ops.src_color = ops.dst_alpha = static_cast<BlendFactor>(pair / kFactors);
+        ops.dst_color = ops.src_alpha = static_cast<BlendFactor>(pair % kFactors);
         ops.constant = {0.25f, 0.5f, 0.875f, 0.375f};
         const reference::Blend blend{.src = static_cast<reference::BlendFactor>(ops.src_color),
                                      .dst = static_cast<reference::BlendFactor>(ops.dst_color),
@@ -142,11 +142,12 @@ TEST(FragmentOps, BlendFactorsAndEquations) {
                                      .dst_alpha = static_cast<reference::BlendFactor>(ops.dst_alpha),
                                      .equation = static_cast<reference::BlendEquation>(equation),
                                      .color = {0.25, 0.5, 0.875, 0.375}};
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           test::store_fragments(isa)(ops, layout, samples.arrays(0.5f));
           for (std::size_t i = 0; i < samples.stored.size(); ++i) {
             const Rgba source{samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]};
-            const Rgba destination = unpack_color_reference(layout, static_cast<std::uint32_t>(samples.stored[i])),
+            const Rgba destination =
+                           unpack_color_reference(layout, static_cast<std::uint32_t>(samples.stored[i])),
                        result = blend_reference(ops, source, destination);
             ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), pack_color(layout, result, 0.5f))
                 << "pair " << pair << " equation " << equation << " bits " << layout.bits;
@@ -168,9 +169,9 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
   for (const ColorLayout& layout : layouts())
     for (int logic = 0; logic < kLogics; ++logic) {
       FragmentOps ops;
-      ops.logic = static_cast<Logic>(logic);
+      ops.logic = static_cast<LogicOp>(logic);
       for (const float threshold : {0.5f, 1 / 128.0f, 127 / 128.0f})
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           test::store_fragments(isa)(ops, layout, samples.arrays(threshold));
           for (std::size_t i = 0; i < samples.stored.size(); ++i) {
             const std::uint32_t word = pack_color(
@@ -201,4 +202,4 @@ TEST(FragmentOps, DitherPatternsAreTheReferences) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::detail

@@ -8,7 +8,7 @@
 #include "tests/shading/interpolate_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size,
@@ -76,12 +76,16 @@ void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, co
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-TileBarycentrics* tile_barycentrics(Isa isa) { return TESSERA_KERNEL(isa, tile_barycentrics_lanes); }
-InterpolateValues* interpolate_values(Isa isa) { return TESSERA_KERNEL(isa, interpolate_values_lanes); }
+TileBarycentrics* tile_barycentrics(InstructionSet isa) {
+  return TESSERA_KERNEL(isa, tile_barycentrics_lanes);
+}
+InterpolateValues* interpolate_values(InstructionSet isa) {
+  return TESSERA_KERNEL(isa, interpolate_values_lanes);
+}
 }  // namespace tessera::test
 #endif

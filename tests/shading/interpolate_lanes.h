@@ -8,19 +8,21 @@
 #include "raster/fixed_point.h"
 
 namespace tessera::test {
+using namespace detail;
 
 /// Fills b1 and b2, tile_size^2 each, in rows. False where the triangle has no pixel in the tile.
 using TileBarycentrics = bool(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size,
                               float* b1, float* b2);
-TileBarycentrics* tile_barycentrics(Isa isa);
+TileBarycentrics* tile_barycentrics(InstructionSet isa);
 
 /// A value at `count` points, a multiple of 16, by each of the kernels' ways.
 struct InterpolatedValues {
   float *alone, *in_lanes, *of_several;  ///< Interpolant, InterpolantLanes, InterpolantArrays
-  float *within, *within_lanes;          ///< kept within the range of the vertices: Interpolant, ClampedInterpolantLanes
+  float *within,
+      *within_lanes;  ///< kept within the range of the vertices: Interpolant, ClampedInterpolantLanes
 };
 using InterpolateValues = void(const float (&at_vertices)[3], const float* b1, const float* b2,
                                std::size_t count, const InterpolatedValues& values);
-InterpolateValues* interpolate_values(Isa isa);
+InterpolateValues* interpolate_values(InstructionSet isa);
 
 }  // namespace tessera::test

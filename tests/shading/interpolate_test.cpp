@@ -14,10 +14,11 @@
 #include "shading/interpolate_reference.h"
 #include "tests/numerics/bounds.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 #include "tests/shading/interpolate_lanes.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr int kTile = 32;
@@ -41,7 +42,7 @@ void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckP
     const WindowVertex vertices[3] = {t[0], t[1], t[2]};
     const TriangleReference reference(vertices);
     if (reference.area == 0) continue;
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       bool touched = tile_barycentrics(isa)(vertices, 0, 0, kTile, b1.data(), b2.data());
       reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
         ASSERT_TRUE(touched) << Describe{t};
@@ -55,15 +56,16 @@ void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckP
 int rounds(int normal) { return long_tests() ? normal * 30 : normal; }
 
 TEST(Interpolate, HasTheBitsOfItsTwin) {
-  for_each_pixel(31, rounds(1500), 6,
-                 [](const Triangle& t, const TriangleReference&, int x, int y, float b1, float b2, Isa isa) {
-                   const WindowVertex v[3] = {t[0], t[1], t[2]};
-                   const BarycentricReference expected = barycentric_reference(v, x, y);
-                   ASSERT_EQ(std::bit_cast<std::uint32_t>(b1), std::bit_cast<std::uint32_t>(expected.b1))
-                       << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
-                   ASSERT_EQ(std::bit_cast<std::uint32_t>(b2), std::bit_cast<std::uint32_t>(expected.b2))
-                       << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
-                 });
+  for_each_pixel(
+      31, rounds(1500), 6,
+      [](const Triangle& t, const TriangleReference&, int x, int y, float b1, float b2, InstructionSet isa) {
+        const WindowVertex v[3] = {t[0], t[1], t[2]};
+        const BarycentricReference expected = barycentric_reference(v, x, y);
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(b1), std::bit_cast<std::uint32_t>(expected.b1))
+            << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(b2), std::bit_cast<std::uint32_t>(expected.b2))
+            << name_of(isa) << " " << x << " " << y << ": " << Describe{t};
+      });
 }
 
 // All terms are positive and each is rounded a handful of times: 1/area, its product with 1/w, the edge, the
@@ -72,20 +74,20 @@ TEST(Interpolate, HasTheBitsOfItsTwin) {
 TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
   for (const double decades : {0.5, 6.0, 12.0}) {
     double worst = 0;
-    for_each_pixel(
-        32, rounds(1500), decades,
-        [&](const Triangle& t, const TriangleReference& reference, int x, int y, float b1, float b2, Isa) {
-          long double weight[3], sum = 0;
-          for (std::size_t k = 0; k < 3; ++k)
-            sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
-          const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)),
-                       error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
-          update_worst(worst, error1, error2);
-          ASSERT_LE(worst, 9 * 0x1p-24) << Describe{t};
-          ASSERT_GE(b1, 0);
-          ASSERT_GE(b2, 0);
-          ASSERT_LE(b1 + b2, 1 + 0x1p-21f);
-        });
+    for_each_pixel(32, rounds(1500), decades,
+                   [&](const Triangle& t, const TriangleReference& reference, int x, int y, float b1,
+                       float b2, InstructionSet) {
+                     long double weight[3], sum = 0;
+                     for (std::size_t k = 0; k < 3; ++k)
+                       sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
+                     const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)),
+                                  error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
+                     update_worst(worst, error1, error2);
+                     ASSERT_LE(worst, 9 * 0x1p-24) << Describe{t};
+                     ASSERT_GE(b1, 0);
+                     ASSERT_GE(b2, 0);
+                     ASSERT_LE(b1 + b2, 1 + 0x1p-21f);
+                   });
     std::printf("[  figure  ] barycentric coordinates, w apart by up to 10^%g: off by at most %.3g\n",
                 decades, worst);
   }
@@ -105,7 +107,7 @@ struct InterpolatedPoints {
     b1[0] = b2[1] = 0;
     b1[2] = b2[3] = 1;
   }
-  void interpolate(Isa isa, const float (&at_vertices)[3]) {
+  void interpolate(InstructionSet isa, const float (&at_vertices)[3]) {
     for (auto* values : {&alone, &in_lanes, &of_several, &within, &within_lanes})
       values->fill(std::numeric_limits<float>::quiet_NaN());
     interpolate_values(isa)(
@@ -123,7 +125,7 @@ TEST(Interpolate, ValuesHaveTheBitsOfTheirTwin) {
     };
     const float v[3] = {any(), any(), any()};
     const auto [low, high] = std::minmax({v[0], v[1], v[2]});
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       points.interpolate(isa, v);
       for (std::size_t i = 0; i < kPoints; ++i) {
         const float expected = BarycentricReference{points.b1[i], points.b2[i]}.interpolate(v[0], v[1], v[2]);
@@ -143,7 +145,7 @@ TEST(Interpolate, ConstantsStayExactlyConstant) {
   for (int round = 0; round < rounds(500); ++round) {
     InterpolatedPoints points(source);
     for (const float value : {0.0f, 0.1f, 1.0f, 255.5f, -3e30f})
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         points.interpolate(isa, {value, value, value});
         for (const auto* values :
              {&points.alone, &points.in_lanes, &points.of_several, &points.within, &points.within_lanes})

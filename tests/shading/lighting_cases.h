@@ -11,6 +11,7 @@
 #include "shading/lighting.h"
 
 namespace tessera::test {
+using namespace detail;
 
 /// All that plan_lighting() is told, and a face.
 struct LightingCase {
@@ -183,7 +184,7 @@ inline std::array<double, 3> lighting_formula(const LightingCase& c, const Light
 
 /// Lights up to kBatchPoints points on one instruction set.
 inline std::vector<Rgb> light(const LightingProgram& program, const std::vector<LightingPoint>& points,
-                              Isa isa) {
+                              InstructionSet isa) {
   ShadingBatch batch{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -11,6 +11,7 @@
 #include "tests/shading/lighting_expectations.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 // Long normals (of scaled models, not normalized) to a high power, times a bright light: red is full, the
@@ -24,7 +25,7 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
     s.light().ambient = {1e-3f, 1e-3f, 1e-3f};
     s.light().attenuation = {1e-3f, 0, 0};
     for (LightingPoint& p : s.points) p.normal = {0, 0, length};
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       const Rgb color = test::light(s.c.program(), s.points, isa)[3];
       EXPECT_EQ(color[0], 1.0f);
       EXPECT_NEAR(color[1], kBase + 0.1, 2e-6);
@@ -51,7 +52,7 @@ TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
       s.light().attenuation = row.attenuation;
       s.c.material.ambient = {0, 0.5f, 0};
       for (LightingPoint& p : s.points) p.position = {distance, 0, -2};
-      for (const Isa isa : available_isas())
+      for (const InstructionSet isa : available_isas())
         EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1],
                     0.2 * 0.5 + 0.5 * s.light().ambient[1] * row.factor, 1e-5)
             << name_of(isa) << ", distance " << distance << ", attenuation " << row.attenuation[0] << " "
@@ -130,7 +131,7 @@ TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
         }
         SCOPED_TRACE(std::string(endless.name) + (tracked ? ", tracked" : "") +
                      (ambient != 0 ? ", ambient" : ""));
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           const std::vector<Rgb> colors = test::light(s.c.program(), s.points, isa);
           for (std::size_t i = 0; i < colors.size(); ++i) {
             EXPECT_NEAR(colors[i][0], kGlow + kBase, 1e-7) << name_of(isa) << " " << i;
@@ -159,7 +160,7 @@ TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
   s.light().ambient = s.light().specular = {0, 0, 0};
   const float odd[] = {3e38f, -3e38f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
   for (std::size_t i = 0; i < s.points.size(); ++i) s.points[i].vertex = {1, odd[i % 5], odd[(i + 1) % 5]};
-  for (const Isa isa : available_isas())
+  for (const InstructionSet isa : available_isas())
     for (const Rgb& color : test::light(s.c.program(), s.points, isa)) {
       EXPECT_EQ(color[0], 1);
       EXPECT_NEAR(color[1], kBase, 1e-7);
@@ -176,11 +177,11 @@ TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
     s.light().specular = {brightness, brightness, brightness};
     s.light().attenuation = {1e-30f, 0, 0};
     LightingProgram program = plan_index_lighting({{100, 120, 50}, 10, 256}, s.c.lights, s.c.model, nullptr);
-    for (const Isa isa : available_isas())
+    for (const InstructionSet isa : available_isas())
       EXPECT_EQ(test::light(program, s.points, isa)[1][0], 0)
           << brightness;  // far below 0: no digits are left to mask
     program = plan_index_lighting({{100, 120, 200}, 10, 256}, s.c.lights, s.c.model, nullptr);
-    for (const Isa isa : available_isas())
+    for (const InstructionSet isa : available_isas())
       EXPECT_EQ(test::light(program, s.points, isa)[1][0], 200) << brightness;
   }
 }
@@ -205,7 +206,7 @@ TEST(LightingSpecialCase, OverflowStaysWithinRange) {
         p = random.point();
         for (std::size_t k = 0; k < 3; ++k) (round % 2 != 0 ? p.normal : p.position)[k] *= size;
       }
-      for (const Isa isa : available_isas())
+      for (const InstructionSet isa : available_isas())
         for (const Rgb& color : light(c.program(), points, isa))
           for (const float component : color)
             ASSERT_TRUE(component >= 0 && component <= 1) << name_of(isa) << " " << component;

@@ -11,13 +11,14 @@
 #include <vector>
 
 #include "shading/lighting_reference.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 #include "tests/shading/lighting_cases.h"
 
 namespace tessera::test {
+using namespace detail;
 
 inline void expect_same_bits(const LightingProgram& program, const std::vector<LightingPoint>& points) {
-  for (const Isa isa : available_isas()) {
+  for (const InstructionSet isa : available_isas()) {
     const std::vector<Rgb> colors = light(program, points, isa);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Rgb expected =
@@ -60,7 +61,7 @@ struct KnownColorCase {
   EyeLight& light() { return c.lights[0]; }
   // By hand: base, then what att and spot multiply.
   void expect(double red, double green) {
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       const Rgb color = test::light(c.program(), points, isa)[5];
       EXPECT_NEAR(color[0], red, 2e-6) << name_of(isa);
       EXPECT_NEAR(color[1], green, 2e-6) << name_of(isa);

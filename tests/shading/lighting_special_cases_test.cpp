@@ -8,10 +8,12 @@
 #include "tests/shading/lighting_expectations.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 TEST(LightingSpecialCase, HeadOnEverythingIsSeen) {
-  KnownColorCase().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular);
+  KnownColorCase().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular,
+                          kBase + kAmbient + kDiffuse + kSpecular);
 }
 TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
   for (const std::array<float, 3>& coefficients :
@@ -67,7 +69,7 @@ TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
   for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
   s.expect(kGlow + kBase + kAmbient + kDiffuse, kBase + kAmbient + kDiffuse);
   s.c.material.shininess = 0;
-  for (const Isa isa : available_isas())
+  for (const InstructionSet isa : available_isas())
     EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
                 2e-6);
 }
@@ -78,7 +80,7 @@ TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
     s.light().spot_exponent = exponent;
     for (const float cutoff : {0.0f, 90.0f, 180.0f}) {
       s.light().spot_cutoff = cutoff;
-      for (const Isa isa : available_isas())
+      for (const InstructionSet isa : available_isas())
         EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
                     2e-6)
             << "in the axis, cutoff " << cutoff;
@@ -88,13 +90,13 @@ TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
   for (LightingPoint& p : s.points) p = {{-1, 0, 0}, {2, 0, 0}, {1, 1, 1}};
   for (const float cutoff : {0.0f, 90.0f}) {
     s.light().spot_cutoff = cutoff;
-    for (const Isa isa : available_isas())
+    for (const InstructionSet isa : available_isas())
       EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase, 2e-6)
           << "beside the axis, cutoff " << cutoff;
   }
   s.light().spot_cutoff = 180;
   s.light().spot_exponent = 0;
-  for (const Isa isa : available_isas())
+  for (const InstructionSet isa : available_isas())
     EXPECT_GT(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse - 2e-6);
 }
 TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
@@ -120,7 +122,7 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
     s.light().position = {1, 0, 0};
     s.light().ambient = s.light().diffuse = {0, 0, 0};
     for (LightingPoint& p : s.points) p.normal = {size, 0, -size};
-    for (const Isa isa : available_isas())
+    for (const InstructionSet isa : available_isas())
       EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[7][1], kBase + kSpecular, 2e-6) << size;
     expect_same_bits(s.c.program(), s.points);
   }
@@ -133,7 +135,7 @@ TEST(LightingSpecialCase, SmallExponentsKeepTheSmallestCosines) {
   for (LightingPoint& p : s.points) p = {{1, 0, 0}, {0, 0, 0}, {1, 1, 1}};
   for (const float shininess : {0.01f, 0.05f, 0.1f}) {
     s.c.material.shininess = shininess;
-    for (const Isa isa : available_isas())
+    for (const InstructionSet isa : available_isas())
       EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[2][1],
                   kBase + kAmbient + kSpecular * std::exp2(-63.0 * shininess), 1e-5)
           << shininess;

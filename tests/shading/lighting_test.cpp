@@ -15,6 +15,7 @@
 #include "tests/shading/lighting_expectations.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 using test::light;
@@ -121,7 +122,7 @@ TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
     program.negate_normal = c.negate_normal;
     std::vector<LightingPoint> points(kBatchPoints);
     for (LightingPoint& p : points) p = random.point();
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       const std::vector<Rgb> colors = light(program, points, isa);
       for (std::size_t i = 0; i < points.size(); ++i) {
         const float expected =

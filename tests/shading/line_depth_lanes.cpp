@@ -8,10 +8,10 @@
 #include "tests/shading/line_depth_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-std::vector<std::int32_t> line_keys_lanes(DepthKind kind, std::uint32_t z0, std::uint32_t z1,
+std::vector<std::int32_t> line_keys_lanes(DepthFormat kind, std::uint32_t z0, std::uint32_t z1,
                                           const std::vector<double>& parameters) {
   const LineDepth depth(kind, z0, z1, 0);
   std::vector<std::int32_t> keys(parameters.size());
@@ -28,18 +28,18 @@ std::vector<std::int32_t> line_keys_lanes(DepthKind kind, std::uint32_t z0, std:
   return keys;
 }
 
-test::KeyPair point_keys_lanes(DepthKind kind, std::uint32_t z, double offset) {
+test::KeyPair point_keys_lanes(DepthFormat kind, std::uint32_t z, double offset) {
   return {point_key(kind, z, offset),
           hn::GetLane(LineDepth(kind, z, z, offset).keys(to_doubles(hn::Zero(kInt))))};
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-LineKeys* line_keys(Isa isa) { return TESSERA_KERNEL(isa, line_keys_lanes); }
-PointKeys* point_keys(Isa isa) { return TESSERA_KERNEL(isa, point_keys_lanes); }
+LineKeys* line_keys(InstructionSet isa) { return TESSERA_KERNEL(isa, line_keys_lanes); }
+PointKeys* point_keys(InstructionSet isa) { return TESSERA_KERNEL(isa, point_keys_lanes); }
 }  // namespace tessera::test
 #endif

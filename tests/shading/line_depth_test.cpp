@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 #include "tests/shading/line_depth_lanes.h"
 
 namespace tessera::test {
@@ -23,7 +23,7 @@ constexpr Cases kCases[] = {{28, 1u << 20}, {28, 4}, {18, 0xffffffffu}};
 
 TEST(LineDepth, IsTheWholePart) {
   std::mt19937 random(3);
-  for (const DepthKind kind : {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32})
+  for (const DepthFormat kind : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32})
     for (const Cases& of : kCases)
       for (int round = 0; round < 2000; ++round) {
         const std::uint32_t z0 = random() % of.farthest, z1 = random() % of.farthest;
@@ -40,14 +40,14 @@ TEST(LineDepth, IsTheWholePart) {
               one, i % 2 == 0 ? level_at + i % 4 / 2 : static_cast<std::int64_t>(random()) % (one + 1));
           parameters.push_back(static_cast<double>(n) / static_cast<double>(one));
           const std::int64_t depth = (std::int64_t{z0} << of.parameter_bits) + n * change;
-          if (kind == DepthKind::unorm32)
+          if (kind == DepthFormat::unorm32)
             expected.push_back(static_cast<std::int32_t>(((depth + one / 2) >> of.parameter_bits) -
                                                          (std::int64_t{1} << 31)));
           else
             expected.push_back(static_cast<std::int32_t>(
-                depth >> (of.parameter_bits + (kind == DepthKind::unorm24 ? 8 : 16))));
+                depth >> (of.parameter_bits + (kind == DepthFormat::unorm24 ? 8 : 16))));
         }
-        for (const Isa isa : available_isas())
+        for (const InstructionSet isa : available_isas())
           ASSERT_EQ(line_keys(isa)(kind, z0, z1, parameters), expected)
               << name_of(isa) << ", depth words " << z0 << " to " << z1;
       }
@@ -57,10 +57,10 @@ TEST(LineDepth, IsTheWholePart) {
 TEST(LineDepth, IsThatOfAPointAtItsFirstVertex) {
   std::mt19937 random(5);
   const auto word = [&] { return static_cast<std::uint32_t>(random()) >> random() % 32; };
-  for (const DepthKind kind :
-       {DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32})
+  for (const DepthFormat kind :
+       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (int round = 0; round < 20000; ++round) {
-      const bool is_float = kind == DepthKind::float32;
+      const bool is_float = kind == DepthFormat::float32;
       const std::uint32_t bits = round % 3 == 0 ? word() : ~word();
       const std::uint32_t z =
           is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(bits) * 0x1p-32f) : bits;
@@ -68,7 +68,7 @@ TEST(LineDepth, IsThatOfAPointAtItsFirstVertex) {
                               0x1p31, 0x1p32, 0x1p40, std::numeric_limits<double>::infinity()};
       const double offset =
           sizes[random() % std::size(sizes)] * (random() % 2 == 0 ? 1 : -1) * (is_float ? 0x1p-32 : 1);
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         const KeyPair keys = point_keys(isa)(kind, z, offset);
         ASSERT_EQ(keys.point, keys.line)
             << name_of(isa) << ", kind " << static_cast<int>(kind) << ", word " << z << ", offset " << offset;

@@ -7,7 +7,7 @@
 #include "tests/shading/power_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 void evaluate_power_lanes(test::PowerFunction function, const float* arguments, float exponent,
@@ -30,11 +30,11 @@ void evaluate_power_lanes(test::PowerFunction function, const float* arguments, 
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-EvaluatePower* evaluate_power(Isa isa) { return TESSERA_KERNEL(isa, evaluate_power_lanes); }
+EvaluatePower* evaluate_power(InstructionSet isa) { return TESSERA_KERNEL(isa, evaluate_power_lanes); }
 }  // namespace tessera::test
 #endif

@@ -11,10 +11,11 @@
 
 #include "shading/power_reference.h"
 #include "tests/numerics/bounds.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 #include "tests/shading/power_lanes.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr float kExponents[] = {0.5f, 1, 2, 20, 128, 1000, 16384};
@@ -48,7 +49,7 @@ std::vector<float> cosines() {
 }
 
 std::vector<float> evaluate(PowerFunction function, const std::vector<float>& arguments, float exponent,
-                            Isa isa) {
+                            InstructionSet isa) {
   std::vector<float> results(arguments.size());
   evaluate_power(isa)(function, arguments.data(), exponent, results.data(), arguments.size());
   return results;
@@ -57,7 +58,7 @@ std::vector<float> evaluate(PowerFunction function, const std::vector<float>& ar
 template <class Reference>
 void expect_same_bits(PowerFunction function, const std::vector<float>& arguments, float exponent,
                       const Reference& reference) {
-  for (const Isa isa : available_isas()) {
+  for (const InstructionSet isa : available_isas()) {
     const std::vector<float> results = evaluate(function, arguments, exponent, isa);
     for (std::size_t i = 0; i < arguments.size(); ++i)
       ASSERT_EQ(std::bit_cast<std::uint32_t>(results[i]),
@@ -81,7 +82,8 @@ TEST(Power, IsChosenAsItsTwinIs) {
     expect_same_bits(PowerFunction::chosen, all_magnitudes(), y,
                      [y](float x) { return power_of_reference(x, y); });
     expect_same_bits(PowerFunction::chosen, cosines(), y, [y](float x) { return power_of_reference(x, y); });
-    EXPECT_EQ(integer_exponent(y) != 0, y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64)
+    EXPECT_EQ(integer_exponent(y) != 0,
+              y == 1 || y == 2 || y == 3 || y == 25 || y == 31 || y == 63 || y == 64)
         << y;
   }
   EXPECT_EQ(integer_exponent(std::numeric_limits<float>::quiet_NaN()), 0);

@@ -11,9 +11,10 @@
 #include "raster/sample_positions.h"
 #include "shading/resolve_reference.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr int kTile = 32;
@@ -35,7 +36,7 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
           draw.packed_color = static_cast<std::uint32_t>(source.random()());
           if (reference_of(triangle).area != 0) stage.push(0, stage.draw_count() - 1, 0);
         }
-        for (const Isa isa : available_isas()) {
+        for (const InstructionSet isa : available_isas()) {
           stage.render(isa, 0, 0x87654321u);
           const ColorLayout& layout = stage.frame().layout;
           const std::uint32_t mask = layout.value_mask() | layout.alpha_mask();
@@ -78,10 +79,10 @@ struct InterpolatedDraws {
   std::vector<float> colors;
   std::vector<std::uint32_t> visible;
   bool uses_depth = true;
-  CompareOp depth_test = CompareOp::less;
+  Compare depth_test = Compare::less;
   PixelRect rect{0, 0, kTile, kTile};
 
-  InterpolatedDraws(RandomTriangles& source, int round, DepthKind depth_kind) {
+  InterpolatedDraws(RandomTriangles& source, int round, DepthFormat depth_format) {
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       const bool wide = round % 3 == 2 && i % 13 == 0;
       const Triangle triangle = source.next(wide         ? Shape::edges64
@@ -91,9 +92,9 @@ struct InterpolatedDraws {
       if (reference_of(triangle).area != 0) visible.push_back(i);
       for (WindowVertex v : triangle) {
         const auto depth = static_cast<std::uint32_t>(source.random()());
-        v.z = depth_kind == DepthKind::float32   ? std::bit_cast<std::uint32_t>(unit_depth(depth))
-              : depth_kind == DepthKind::unorm32 ? depth
-                                                 : (depth & 0xffff0000u) | 0x8000u;
+        v.z = depth_format == DepthFormat::float32   ? std::bit_cast<std::uint32_t>(unit_depth(depth))
+              : depth_format == DepthFormat::unorm32 ? depth
+                                                     : (depth & 0xffff0000u) | 0x8000u;
         v.rw = 0.5f + static_cast<float>(source.unit());
         vertices.push_back(v);
         for (int c = 0; c < 8; ++c) colors.push_back(static_cast<float>(source.unit()));
@@ -101,7 +102,7 @@ struct InterpolatedDraws {
     }
     colors.resize(colors.size() + 64);
     if (round % 4 == 1) uses_depth = false;
-    if (round % 4 == 2) depth_test = CompareOp::notequal;
+    if (round % 4 == 2) depth_test = Compare::notequal;
     if (round % 5 >= 3)
       rect = {source.between(0, 9), source.between(0, 9), source.between(20, kTile),
               source.between(20, kTile)};
@@ -127,7 +128,7 @@ struct InterpolatedDraws {
   }
 };
 
-class SampledColors : public testing::TestWithParam<DepthKind> {};
+class SampledColors : public testing::TestWithParam<DepthFormat> {};
 
 TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
   RandomTriangles source(22, kTile);
@@ -138,7 +139,7 @@ TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
     for (int round = 0; round < 60; ++round) {
       const InterpolatedDraws draws(source, round, GetParam());
       std::vector<std::uint32_t> first;
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         std::uint64_t shaded[std::size(kWays)];
         for (const Way way : kWays) {
           draws.add_to(stage, way, operations);
@@ -161,10 +162,10 @@ TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, SampledColors,
-                         testing::Values(DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32,
-                                         DepthKind::float32),
+                         testing::Values(DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32,
+                                         DepthFormat::float32),
                          [](const auto& kind) {
-                           return (kind.param == DepthKind::float32 ? "float" : "unorm") +
+                           return (kind.param == DepthFormat::float32 ? "float" : "unorm") +
                                   std::to_string(depth_bits(kind.param));
                          });
 

@@ -10,7 +10,7 @@
 #include "tests/shading/texture_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tessera {
+namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 void sample_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) {
@@ -87,15 +87,15 @@ void level_lanes(const float* footprints, std::int32_t* levels, std::size_t coun
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace tessera
+}  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::test {
-SampleTexture* sample_texture(Isa isa) { return TESSERA_KERNEL(isa, sample_lanes); }
-TexelComponents* texel_components(Isa isa) { return TESSERA_KERNEL(isa, component_lanes); }
-TextureColors* texture_colors(Isa isa) { return TESSERA_KERNEL(isa, color_lanes); }
-LevelsOfDetail* levels_of_detail(Isa isa) { return TESSERA_KERNEL(isa, level_lanes); }
-TileCoordinates* tile_coordinates(Isa isa) { return TESSERA_KERNEL(isa, coordinate_lanes); }
+SampleTexture* sample_texture(InstructionSet isa) { return TESSERA_KERNEL(isa, sample_lanes); }
+TexelComponents* texel_components(InstructionSet isa) { return TESSERA_KERNEL(isa, component_lanes); }
+TextureColors* texture_colors(InstructionSet isa) { return TESSERA_KERNEL(isa, color_lanes); }
+LevelsOfDetail* levels_of_detail(InstructionSet isa) { return TESSERA_KERNEL(isa, level_lanes); }
+TileCoordinates* tile_coordinates(InstructionSet isa) { return TESSERA_KERNEL(isa, coordinate_lanes); }
 }  // namespace tessera::test
 #endif

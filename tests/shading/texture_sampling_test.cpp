@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 #include "tests/shading/texture_lanes.h"
 
 namespace tessera::test {
@@ -19,15 +19,16 @@ namespace {
 enum class Min { nearest, linear, nearest_nearest, linear_nearest, nearest_linear, linear_linear };
 constexpr Min kMins[] = {Min::nearest,        Min::linear,         Min::nearest_nearest,
                          Min::linear_nearest, Min::nearest_linear, Min::linear_linear};
-constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::clamp_to_edge, Wrap::mirrored_repeat};
+constexpr TextureWrap kWraps[] = {TextureWrap::repeat, TextureWrap::clamp_to_edge,
+                                  TextureWrap::mirrored_repeat};
 
 struct TestTexture {
   TextureLevels levels;
   std::vector<std::uint32_t> words;
   Min min;
 
-  TestTexture(std::mt19937& random, int width, int height, bool mag_linear, Min min_filter, Wrap wrap_s,
-              Wrap wrap_t)
+  TestTexture(std::mt19937& random, int width, int height, bool mag_linear, Min min_filter,
+              TextureWrap wrap_s, TextureWrap wrap_t)
       : min(min_filter) {
     levels.mag_linear = mag_linear;
     levels.min_linear = min == Min::linear || min == Min::linear_nearest || min == Min::linear_linear;
@@ -58,20 +59,20 @@ struct TestTexture {
     for (int j = 0; j < height; ++j) {
       std::uint32_t* const row = first + j * level.stride;
       for (int i = 0; i < width; ++i) row[i] = static_cast<std::uint32_t>(random());
-      row[width] = levels.wrap_s == Wrap::repeat ? row[0] : row[width - 1];
+      row[width] = levels.wrap_s == TextureWrap::repeat ? row[0] : row[width - 1];
     }
     if (height > 1)
       std::memcpy(first + height * level.stride,
-                  levels.wrap_t == Wrap::repeat ? first : first + (height - 1) * level.stride,
+                  levels.wrap_t == TextureWrap::repeat ? first : first + (height - 1) * level.stride,
                   sizeof(std::uint32_t) * static_cast<std::size_t>(level.stride));
   }
 };
 
 // The index of a texel, wrapped as GL_TEXTURE_WRAP says, in whole numbers.
-std::int64_t wrapped_index(std::int64_t i, Wrap wrap, std::int64_t size) {
+std::int64_t wrapped_index(std::int64_t i, TextureWrap wrap, std::int64_t size) {
   const auto modulo = [](std::int64_t a, std::int64_t n) { return (a % n + n) % n; };
-  if (wrap == Wrap::repeat) return modulo(i, size);
-  if (wrap == Wrap::clamp_to_edge) return std::min(std::max<std::int64_t>(i, 0), size - 1);
+  if (wrap == TextureWrap::repeat) return modulo(i, size);
+  if (wrap == TextureWrap::clamp_to_edge) return std::min(std::max<std::int64_t>(i, 0), size - 1);
   const std::int64_t there_and_back = modulo(i, 2 * size);
   return there_and_back < size ? there_and_back : 2 * size - 1 - there_and_back;
 }
@@ -129,8 +130,8 @@ void for_each_filter(const Check& check) {
   for (const auto& [width, height] : kSizes)
     for (const bool mag_linear : {false, true})
       for (const Min min : kMins)
-        for (const Wrap wrap_s : kWraps)
-          for (const Wrap wrap_t : kWraps)
+        for (const TextureWrap wrap_s : kWraps)
+          for (const TextureWrap wrap_t : kWraps)
             check(TestTexture(random, width, height, mag_linear, min, wrap_s, wrap_t), random);
 }
 
@@ -152,7 +153,7 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
       batch.field[kTextureT][i] = t;
       batch.field[kFootprintSquared][i] = static_cast<float>(std::exp2(2.0 * lambda[i]));
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       ShadingBatch out = batch;
       sample_texture(isa)(texture.levels, out, kBatchPoints);
       for (int i = 0; i < kBatchPoints; ++i) {
@@ -182,7 +183,7 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
 TEST(TextureSampling, RepeatsExactlyHoweverFar) {
   std::mt19937 random(7);
   for (const int width : {100, 1000, 1024, 3000}) {
-    TestTexture texture(random, width, 1, true, Min::linear, Wrap::repeat, Wrap::repeat);
+    TestTexture texture(random, width, 1, true, Min::linear, TextureWrap::repeat, TextureWrap::repeat);
     for (std::size_t i = 0; i <= static_cast<std::size_t>(width); ++i)
       texture.words[i] = i % 2 == 0 || i == static_cast<std::size_t>(width) ? 0 : 0xffffffff;
     ShadingBatch batch{};
@@ -193,7 +194,7 @@ TEST(TextureSampling, RepeatsExactlyHoweverFar) {
       const float edges[] = {std::nextafter(0.5f / static_cast<float>(width), 0.0f),
                              0.5f / static_cast<float>(width), -1e-30f, std::nextafter(1.0f, 0.0f), 0.0f};
       std::ranges::copy(edges, batch.field[kTextureS]);
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         ShadingBatch out = batch;
         sample_texture(isa)(texture.levels, out, kBatchPoints);
         for (int i = 0; i < kBatchPoints; ++i)
@@ -208,13 +209,14 @@ TEST(TextureSampling, RepeatsExactlyHoweverFar) {
 // GL 2.1, 3.8.8: d = ceil(lambda + 1/2) - 1, so half-way between two levels the larger one is the nearest.
 TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
   std::mt19937 random(6);
-  const TestTexture texture(random, 64, 64, false, Min::nearest_nearest, Wrap::repeat, Wrap::repeat);
+  const TestTexture texture(random, 64, 64, false, Min::nearest_nearest, TextureWrap::repeat,
+                            TextureWrap::repeat);
   ShadingBatch batch{};
   for (int i = 0; i < kBatchPoints; ++i) {
     batch.field[kTextureS][i] = batch.field[kTextureT][i] = 0.3f;
     batch.field[kFootprintSquared][i] = std::exp2(static_cast<float>(2 * (i % 6) + 1));
   }
-  for (const Isa isa : available_isas()) {
+  for (const InstructionSet isa : available_isas()) {
     sample_texture(isa)(texture.levels, batch, kBatchPoints);
     for (int i = 0; i < kBatchPoints; ++i)
       EXPECT_NEAR(255 * batch.field[kTexelR][i], level_component(texture, i % 6, false, 0.3f, 0.3f, 0), 1e-4)
@@ -244,11 +246,11 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
       batch.field[kTextureS][i] = kOdd[i], batch.field[kTextureT][16 + i] = kOdd[i],
       batch.field[kFootprintSquared][32 + i] = kOdd[i];
     ShadingBatch expected = batch;
-    sample_texture(Isa::scalar)(texture.levels, expected, kBatchPoints);
+    sample_texture(InstructionSet::scalar)(texture.levels, expected, kBatchPoints);
     TextureLevels levels = texture.levels;
-    for (const Isa isa : available_isas())
+    for (const InstructionSet isa : available_isas())
       for (const bool gathers : {false, true}) {
-        if (gathers && isa != Isa::avx512) continue;
+        if (gathers && isa != InstructionSet::avx512) continue;
         levels.gathers_pairs = gathers;
         ShadingBatch out = batch;
         sample_texture(isa)(levels, out, kBatchPoints);
@@ -267,7 +269,7 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
 
 // Every one: no division is done, and no float where a texel is all that is seen.
 TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
-  for (const Isa isa : available_isas())
+  for (const InstructionSet isa : available_isas())
     for (int first = 0; first <= 65280; first += 16) {
       std::uint16_t components[16];
       for (int i = 0; i < 16; ++i) components[i] = static_cast<std::uint16_t>(std::min(first + i, 65280));
@@ -287,7 +289,7 @@ TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
 TEST(TextureSampling, OneColorStaysExact) {
   std::mt19937 random(9);
   for (const Min min : kMins) {
-    TestTexture texture(random, 12, 20, true, min, Wrap::repeat, Wrap::mirrored_repeat);
+    TestTexture texture(random, 12, 20, true, min, TextureWrap::repeat, TextureWrap::mirrored_repeat);
     for (std::uint32_t& word : texture.words) word = 0xff01b380;
     ShadingBatch batch{};
     for (int i = 0; i < kBatchPoints; ++i) {
@@ -295,7 +297,7 @@ TEST(TextureSampling, OneColorStaysExact) {
       batch.field[kTextureT][i] = 0.091f * static_cast<float>(i);
       batch.field[kFootprintSquared][i] = 0.7f * static_cast<float>(i);
     }
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       sample_texture(isa)(texture.levels, batch, kBatchPoints);
       for (int i = 0; i < kBatchPoints; ++i) {
         EXPECT_EQ(batch.field[kTexelA][i], 1.0f);

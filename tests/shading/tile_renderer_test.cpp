@@ -15,10 +15,11 @@
 #include "shading/tile_workspace.h"
 #include "tests/raster/depth_cases.h"
 #include "tests/raster/random_triangles.h"
-#include "tests/raster/tile_stage.h"
+#include "tests/raster/tile_harness.h"
 #include "tests/shading/lighting_cases.h"
 
 namespace tessera::test {
+using namespace detail;
 namespace {
 
 constexpr int kTile = 64;
@@ -39,8 +40,8 @@ bool is_clockwise(const Triangle& v) {  // y goes down
   return ax * by - ay * bx > 0;
 }
 enum class Sides { both, one };  // of triangles, that are seen
-Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthKind kind, double low, double high,
-                 Sides sides = Sides::both) {
+Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthFormat kind, double low,
+                 double high, Sides sides = Sides::both) {
   Mesh mesh;
   mesh.stride = stride;
   for (int i = 0; i < triangles; ++i) {
@@ -76,7 +77,7 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
     const ColorLayout layout = stage.frame().layout;
     for (int round = 0; round < 100; ++round) {
       stage.clear_draws();
-      Mesh mesh = random_mesh(source, 1, 3, DepthKind::none, 0, 1);
+      Mesh mesh = random_mesh(source, 1, 3, DepthFormat::none, 0, 1);
       const float levels[3] = {static_cast<float>((1 << layout.r_bits) - 1),
                                static_cast<float>((1 << layout.g_bits) - 1),
                                static_cast<float>((1 << layout.b_bits) - 1)};
@@ -84,7 +85,7 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
       if (mesh.visible.empty()) continue;
       add(stage, mesh);
       const WindowVertex v[3] = {mesh.vertices[0], mesh.vertices[1], mesh.vertices[2]};
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         stage.render(isa, 0, 0xffffffffu);
         TriangleReference(v).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
           const BarycentricReference at = barycentric_reference(v, x, y);
@@ -100,27 +101,27 @@ TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
   }
 }
 
-std::int32_t farthest_key(DepthKind kind) {
-  return depth_key_from_stored(kind, kind == DepthKind::float32 ? 0x3f800000u
-                                   : kind == DepthKind::none  ? 0xffffffu
-                                                              : 0xffffffffu >> (32 - depth_bits(kind)));
+std::int32_t farthest_key(DepthFormat kind) {
+  return depth_key_from_stored(kind, kind == DepthFormat::float32 ? 0x3f800000u
+                                     : kind == DepthFormat::none  ? 0xffffffu
+                                                                  : 0xffffffffu >> (32 - depth_bits(kind)));
 }
 
 TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
-  for (const DepthKind kind :
-       {DepthKind::none, DepthKind::unorm16, DepthKind::unorm24, DepthKind::unorm32, DepthKind::float32}) {
+  for (const DepthFormat kind : {DepthFormat::none, DepthFormat::unorm16, DepthFormat::unorm24,
+                                 DepthFormat::unorm32, DepthFormat::float32}) {
     RandomTriangles source(42, kTile);
     TileHarness stage(kTile, kTile, kTile, kind);
     for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
       const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 3, kind, 0.5, 255.5,
                                     round % 2 == 0 ? Sides::both : Sides::one);
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         std::vector<std::uint32_t> colors[3];
         std::vector<std::int32_t> depths[3];
         for (int way = 0; way < 3; ++way) {
           stage.clear_draws();
           TileDraw& draw = add(stage, mesh);
-          draw.uses_depth = kind != DepthKind::none;
+          draw.uses_depth = kind != DepthFormat::none;
           draw.deferred = way != 0;
           stage.frame().shade_immediately = way == 2;
           stage.render(isa, 0, 0x123456, farthest_key(kind));
@@ -129,7 +130,7 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
         }
         ASSERT_EQ(colors[1], colors[0]) << name_of(isa) << ": later";
         ASSERT_EQ(colors[2], colors[0]) << name_of(isa) << ": gathered for each triangle";
-        if (kind != DepthKind::none) {
+        if (kind != DepthFormat::none) {
           ASSERT_EQ(depths[1], depths[0]);
         }
       }
@@ -142,7 +143,7 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
   RandomTriangles source(49, kTile);
   TileHarness stage(kTile, kTile, kTile);
   for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
-    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::none, 0.5, 255.5);
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthFormat::none, 0.5, 255.5);
     std::vector<Facing> facing(mesh.vertices.size() / 3);  // of polygons that the triangles were cut from
     for (Facing& side : facing) side = source.between(0, 1) == 0 ? Facing::front : Facing::back;
     const bool of_polygons = round % 3 == 0, front_is_clockwise = round % 2 == 0, deferred = round % 4 < 2;
@@ -151,7 +152,7 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
       return of_polygons ? facing[id] == Facing::back
                          : is_clockwise({corners[0], corners[1], corners[2]}) != front_is_clockwise;
     };
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       stage.clear_draws();
       TileDraw& draw = add(stage, mesh);
       draw.color_attribute[1] = 3;
@@ -175,10 +176,11 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
   RandomTriangles source(43, kTile);
   for (const bool deferred : {false, true}) {
     for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
-      const DepthKind depth = round % 3 == 0 ? DepthKind::float32 : DepthKind::unorm24;
+      const DepthFormat depth = round % 3 == 0 ? DepthFormat::float32 : DepthFormat::unorm24;
       TileHarness stage(kTile, kTile, kTile, depth);
       const Mesh mesh = random_mesh(source, 1, 3, depth, 0.5, 255.5);
-      const Isa isa = available_isas()[static_cast<std::size_t>(round / 3) % available_isas().size()];
+      const InstructionSet isa =
+          available_isas()[static_cast<std::size_t>(round / 3) % available_isas().size()];
       const auto draw_in = [&](int step) {
         stage.clear_draws();
         for (int y = 0; y < kTile; y += step) {
@@ -189,7 +191,7 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
             draw.deferred = deferred;
           }
         }
-        stage.render(isa, 0, 0x123456, depth == DepthKind::float32 ? 0x3f800000 : 0xffffff);
+        stage.render(isa, 0, 0x123456, depth == DepthFormat::float32 ? 0x3f800000 : 0xffffff);
         return std::pair(stage.colors(), stage.depths());
       };
       const auto whole = draw_in(kTile);
@@ -204,7 +206,7 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
   RandomTriangles source(44, kTile);
   for (int round = 0; round < 200; ++round) {
     TileHarness stage(kTile, kTile, kTile);
-    Mesh mesh = random_mesh(source, 8, 3, DepthKind::none, 0, 0);
+    Mesh mesh = random_mesh(source, 8, 3, DepthFormat::none, 0, 0);
     const std::uint32_t r = static_cast<std::uint32_t>(source.between(0, 255)),
                         g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -213,7 +215,7 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
       mesh.attributes[3 * i + 2] = static_cast<float>(b) + 0.5f;
     }
     add(stage, mesh);
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       stage.render(isa, 0, 0xff000000u);
       for (const std::uint32_t word : stage.colors())
         ASSERT_TRUE(word == 0xff000000u || word == (r << 16 | g << 8 | b))
@@ -244,12 +246,12 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
     const LightingProgram front = c.program();
     c.negate_normal = true;
     const LightingProgram back = c.program();
-    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthKind::unorm24, -3, 3,
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthFormat::unorm24, -3, 3,
                                   round % 2 == 0 ? Sides::both : Sides::one);
     std::vector<std::uint32_t> first;
-    for (const Isa isa : available_isas()) {
+    for (const InstructionSet isa : available_isas()) {
       for (const bool at_once : {false, true}) {
-        TileHarness stage(kTile, kTile, kTile, DepthKind::unorm24);
+        TileHarness stage(kTile, kTile, kTile, DepthFormat::unorm24);
         TileDraw& draw = add(stage, mesh);
         draw.source = ColorSource::per_pixel;
         draw.deferred = true;
@@ -270,9 +272,10 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
 // More triangles wait for their colours than a tile collects.
 TEST(TileRenderer, CollectingInPortionsChangesNothing) {
   RandomTriangles source(47, kTile);
-  Mesh mesh = random_mesh(source, static_cast<int>(2 * kMaxVisibleTriangles) + 100, 3, DepthKind::none, 0.5, 255.5);
+  Mesh mesh =
+      random_mesh(source, static_cast<int>(2 * kMaxVisibleTriangles) + 100, 3, DepthFormat::none, 0.5, 255.5);
   TileHarness stage(kTile, kTile, kTile);
-  for (const Isa isa : available_isas()) {
+  for (const InstructionSet isa : available_isas()) {
     stage.clear_draws();
     add(stage, mesh).deferred = false;
     stage.render(isa, 0);
@@ -299,14 +302,14 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
   mix.blend = true;
   FragmentOps general = mix;
   general.alpha_test = true;
-  general.alpha_func = CompareOp::always;
-  for (const DepthKind kind : {DepthKind::none, DepthKind::unorm24, DepthKind::float32})
+  general.alpha_func = Compare::always;
+  for (const DepthFormat kind : {DepthFormat::none, DepthFormat::unorm24, DepthFormat::float32})
     for (int round = 0; round < (long_tests() ? 3000 : 100); ++round) {
       const Mesh mesh = random_mesh(source, 1 + source.between(0, 20), 4, kind, -0.1, 1.1);
       const bool has_alpha = source.between(0, 2) != 0, constant = source.between(0, 5) == 0;
       const PixelRect window = random_window(source);
       const std::uint32_t mask = source.between(0, 2) == 0 ? 0x5a5a5au : 0xffffffffu;
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         const auto draw_with = [&](const FragmentOps& ops) {
           TileHarness stage(kTile, kTile, kTile, kind);
           TileDraw& draw = add(stage, mesh);
@@ -315,7 +318,7 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
           draw.rect = window;
           draw.write_mask = mask;
           draw.scaled_colors = false;
-          draw.uses_depth = kind != DepthKind::none;
+          draw.uses_depth = kind != DepthFormat::none;
           for (const std::size_t face : {0, 1}) {
             draw.color[face] = {0.25f, 0.5f, 0.75f, 0.375f};
             draw.alpha_attribute[face] = has_alpha ? 3 : -1;
@@ -323,7 +326,7 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
           }
           const TileCounts counts = stage.render(isa, 0, 0x123456, farthest_key(kind));
           return std::tuple(stage.colors(),
-                            kind != DepthKind::none ? stage.depths() : std::vector<std::int32_t>(),
+                            kind != DepthFormat::none ? stage.depths() : std::vector<std::int32_t>(),
                             counts.shaded_pixels);
         };
         ASSERT_EQ(draw_with(mix), draw_with(general))
@@ -338,10 +341,10 @@ TEST(TileRenderer, MasksChooseBitsOfWhatIsDrawnWithoutThem) {
   constexpr std::uint32_t kBackground = 0x123456;
   RandomTriangles source(49, kTile);
   for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
-    const Mesh mesh = random_mesh(source, 1 + source.between(0, 20), 3, DepthKind::none, 0.5, 255.5);
+    const Mesh mesh = random_mesh(source, 1 + source.between(0, 20), 3, DepthFormat::none, 0.5, 255.5);
     const PixelRect window = random_window(source);
     for (const ColorSource colors : {ColorSource::constant, ColorSource::interpolated})
-      for (const Isa isa : available_isas()) {
+      for (const InstructionSet isa : available_isas()) {
         const auto draw_through = [&](std::uint32_t mask) {
           TileHarness stage(kTile, kTile, kTile);
           TileDraw& draw = add(stage, mesh);

@@ -1,0 +1,427 @@
+#include "engine/plan/draw_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/mat4x4.hpp>
+
+#include "engine/plan/eye_space.h"
+#include "engine/plan/fragment_plan.h"
+#include "engine/plan/pixel_plan.h"
+#include "engine/record/matrix.h"
+#include "raster/fixed_point.h"
+#include "shading/fragment_scalar.h"
+
+namespace tessera::detail {
+namespace {
+
+Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
+
+SurfaceMaterial surface(const Material& m) {
+  return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess};
+}
+
+TrackedColors tracked_colors(ColorMaterial mode) {
+  switch (mode) {
+    case ColorMaterial::none: return {};
+    case ColorMaterial::ambient_and_diffuse: return {.ambient = true, .diffuse = true};
+    case ColorMaterial::diffuse: return {.diffuse = true};
+    case ColorMaterial::ambient: return {.ambient = true};
+    case ColorMaterial::emission: return {.emission = true};
+    case ColorMaterial::specular: return {.specular = true};
+  }
+  return {};
+}
+
+void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target) {
+  const FrameBufferFormat& format = target.format;
+  const Camera& camera = draw.scene_state->camera;
+  const glm::dmat4 eye_from_object = to_glm(camera.view) * to_glm(draw.state.transform);
+  const Matrix clip = from_glm(to_glm(camera.projection) * eye_from_object);
+  std::copy(clip.m.begin(), clip.m.end(), plan.transform.clip_from_object);
+  const bool phong = draw.state.shading == Shading::phong;
+  plan.eye = eye_transform(eye_from_object, draw.state.normalize ? kUnitNormals
+                                            : phong              ? kNormalizableNormals
+                                                                 : kUnscaledNormals);
+  plan.captured_eye =
+      draw.state.normalize || phong ? plan.eye : eye_transform(eye_from_object, kNormalizableNormals);
+
+  const Rect viewport = draw.state.viewport.value_or(Rect{0, 0, format.width, format.height});
+  VertexTransform& t = plan.transform;
+  t.half_width = viewport.width / 2.0;
+  t.half_height = viewport.height / 2.0;
+  t.guard_x = kGuardBandPixels / t.half_width;
+  t.guard_y = kGuardBandPixels / t.half_height;
+  t.set_error_bounds();
+  t.center_x = kSubpixelScale * viewport.x + kHalfPixel * viewport.width;
+  t.center_y = kSubpixelScale * (format.height - viewport.y) - kHalfPixel * viewport.height;
+  t.reversed = camera.reversed;
+  t.depth_near = draw.state.depth_near;
+  t.depth_far = draw.state.depth_far;
+  t.depth = target.depth_format;
+
+  plan.rect = intersect({0, 0, format.width, format.height}, raster_rect(viewport, format.height));
+}
+
+const Material& back_material(const DrawState& state) {
+  return state.back_material ? *state.back_material : state.material;
+}
+
+/// Whether back faces have a material of their own, and which faces' colours are indices.
+void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
+  const DrawState& state = draw.state;
+  if (plan.write_mask == 0) return;
+  plan.two_sided = state.lighting && draw.scene_state->light_model.two_sided && plan.keep_back;
+  if (!layout.index) return;
+  plan.uses_color_indices = !state.lighting && draw.mesh.color_indices;
+  plan.is_index[0] = plan.uses_color_indices || (state.lighting && state.material.index_ramp);
+  plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];
+}
+
+/// What of the mesh's and the materials' colours and indices is not looked at.
+void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                        std::string& reasons) {
+  const DrawState& state = draw.state;
+  const auto note = [&](const char* line) { reasons += std::string("  ") + line + "\n"; };
+  if (draw.mesh.color_indices && !plan.uses_color_indices)
+    note(layout.index ? "the mesh's color_indices are not used: it is lit"
+                      : "the mesh's color_indices are not used: the buffer holds RGB");
+  if (draw.mesh.has_colors() && plan.uses_color_indices)
+    note("the mesh's colours are not used: it has color_indices");
+  if (!state.lighting) return;
+  if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none)
+    note("the mesh's colours are not used: it is lit, and color_material is none");
+  if (draw.mesh.has_colors() && state.color_material != ColorMaterial::none && plan.only_indices())
+    note("the mesh's colours are not used: the material has an index_ramp");
+  if (!layout.index && (state.material.index_ramp || (plan.two_sided && back_material(state).index_ramp)))
+    note("the material's index_ramp is not used: the buffer holds RGB");
+}
+
+void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
+  const LightModel& model = draw.scene_state->light_model;
+  const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
+  plan.lights.clear();
+  for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
+  const TrackedColors tracked =
+      draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
+  const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
+  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
+                               unit_normals};
+  const auto set_program = [&](LightingProgram& program, const Material& material, bool index) {
+    if (reasons && index)
+      *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
+    program = index ? plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()},
+                                          plan.lights, lighting, reasons, std::move(program.terms))
+                    : plan_lighting(surface(material), tracked, plan.lights, lighting, reasons,
+                                    std::move(program.terms));
+  };
+  set_program(plan.front, draw.state.material, plan.is_index[0]);
+  if (plan.two_sided) {
+    if (reasons) *reasons += "  back faces:\n";
+    set_program(plan.back, back_material(draw.state), plan.is_index[1]);
+    plan.back.negate_normal = true;
+  }
+  plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
+  plan.alpha[0] = clamp_unit(draw.state.material.diffuse.a);
+  plan.alpha[1] = plan.two_sided ? clamp_unit(back_material(draw.state).diffuse.a) : plan.alpha[0];
+  plan.vertex_alpha = tracked.diffuse && !plan.only_indices();
+}
+
+/// The index of a program that no light has a part in.
+float unlit_index(const LightingProgram& program) {
+  return masked_index(std::min(program.indexes[0], program.indexes[2]), program.index_modulus);
+}
+
+/// No light depends on the surface, and both faces look the same.
+bool has_constant_color(const DrawPlan& plan) {
+  if (!plan.front.terms.empty() || plan.front.tracked || (plan.float_colors && plan.vertex_alpha))
+    return false;
+  if (!plan.two_sided) return true;
+  if (!plan.back.terms.empty() || plan.is_index[0] != plan.is_index[1]) return false;
+  return plan.only_indices() ? unlit_index(plan.back) == unlit_index(plan.front)
+                             : plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
+}
+
+/// What is stored depends on what was, or on where it is stored.
+bool is_order_dependent(const DrawPlan& plan, const ColorLayout& layout) {
+  return plan.has_ops &&
+         (plan.ops.blend || plan.ops.dither || plan.ops.logic != LogicOp::copy || layout.alpha_bits > 0);
+}
+
+/// What an alpha test looks at in a draw that stores no colour: a lit point has its diffuse colour's alpha,
+/// so no light is needed.
+void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
+  const DrawState& state = draw.state;
+  plan.vertex_alpha = plan.uses_vertex_colors =
+      draw.mesh.has_colors() && (!state.lighting || tracked_colors(state.color_material).diffuse);
+  plan.alpha[0] = clamp_unit(state.material.diffuse.a);
+  plan.alpha[1] = state.lighting && draw.scene_state->light_model.two_sided
+                      ? clamp_unit(back_material(state).diffuse.a)
+                      : plan.alpha[0];
+  plan.source = ColorSource::constant;
+  if (!plan.vertex_alpha) return;
+  plan.source = ColorSource::interpolated;
+  plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
+  plan.clamps_vertex_alpha = plan.flat || !state.lighting || state.shading != Shading::phong;
+  plan.scaled_colors = false;
+  plan.attribute_count = plan.has_per_triangle_colors() ? 0 : 4;
+}
+
+/// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one
+/// colour itself.
+void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
+  plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
+  if (plan.is_index[0] || plan.texture.use == TexturePlan::Use::none) return;
+  if (plan.texture.use == TexturePlan::Use::texels) {
+    plan.textures_per_pixel = true;
+    plan.scaled_colors = false;
+    plan.deferred = !is_order_dependent(plan, layout);
+    return;
+  }
+  const auto [r, g, b, a] = texture_env_reference(
+      plan.texture.texture,
+      {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2], plan.alpha[0]},
+      plan.texture.texture.texel);
+  plan.constant_color = {r, g, b};
+  plan.alpha[0] = plan.alpha[1] = a;
+}
+
+/// Whether the texture has to wait for the pixels, with colours that are made at the vertices, or at the
+/// pixels themselves.
+void plan_texturing(DrawPlan& plan, bool at_vertices) {
+  plan.textures_per_pixel =
+      plan.texture.use != TexturePlan::Use::none && !(at_vertices && plan.texture.is_affine());
+}
+
+void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled,
+                std::string* reasons) {
+  const DrawState& state = draw.state;
+  const auto note = [&](const char* line) {
+    if (reasons) (*reasons += "  ").append(line) += "\n";
+  };
+  if (plan.write_mask == 0) {
+    plan.source = ColorSource::none;
+    if (plan.ops.alpha_test) plan_alpha(plan, draw);
+    plan_texturing(plan, false);
+    note(plan.ops.alpha_test ? "no colour plane changes: tests alone, no lighting"
+                             : "no colour plane changes: depth alone, no lighting");
+    return;
+  }
+  if (reasons) note_unused_colors(plan, draw, layout, *reasons);
+  if (plan.uses_color_indices) {
+    note("unlit indices of the vertices");
+  } else if (!state.lighting) {
+    plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
+    plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
+    if (!plan.uses_vertex_colors) {
+      note("unlit, no vertex colours: one colour for the draw");
+      set_constant_color(plan, rgb(state.material.diffuse), layout);
+      return;
+    }
+    note("unlit vertex colours");
+  } else {
+    plan_lights(plan, draw, layout, reasons);
+    if (has_constant_color(plan)) {
+      plan.two_sided = false;
+      if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
+      note("no light depends on the surface: one colour for the draw");
+      set_constant_color(plan, plan.front.base, layout);
+      return;
+    }
+    plan.lit = true;
+  }
+  const bool needs_normal =
+      plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
+  const bool generate = needs_normal && !draw.mesh.normals, has_faces = plan.topology == Topology::triangles;
+  const bool phong = state.shading == Shading::phong && plan.lit;
+  if (phong)
+    for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
+  if (phong && plan.topology != Topology::points) {
+    plan.source = ColorSource::per_pixel;
+    plan.deferred = !is_order_dependent(plan, layout);
+    plan_texturing(plan, false);
+    plan.smooth_normals = generate;
+    plan.attribute_count = (needs_normal ? 3 : 0) +
+                           (plan.front.needs_position || plan.back.needs_position ? 3 : 0) +
+                           (plan.uses_vertex_colors ? 3 : 0);
+    if (plan.float_colors && plan.vertex_alpha) ++plan.attribute_count;
+    note(plan.deferred ? "lit at each visible pixel, once"
+                       : "lit at each pixel of each triangle: its operations depend on the order");
+  } else if (state.shading == Shading::flat ||
+             plan.topology == Topology::points) {  // a point has one colour in any case
+    plan.face_normals = generate && has_faces;
+    plan.smooth_normals = generate && !has_faces;
+    // Words have no room for texels: as floats, like colours that have operations to go through.
+    if (plan.texture.use == TexturePlan::Use::texels)
+      plan.has_ops = plan.float_colors = plan.textures_per_pixel = true;
+    const bool by_triangle = plan.face_normals || plan.provoking_vertex_elsewhere;
+    plan.source = by_triangle ? ColorSource::per_triangle_packed : ColorSource::per_vertex_packed;
+    if (plan.float_colors) {
+      plan.source = ColorSource::interpolated;
+      plan.flat = true;
+      plan.scaled_colors = false;
+      plan.attribute_count = by_triangle ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
+    }
+    note(plan.topology == Topology::points ? "points have one colour each"
+         : plan.face_normals               ? "flat, lit once a triangle with its face's normal"
+         : by_triangle                     ? "flat, one colour a triangle: that of its quad's vertex"
+                                           : "flat, lit at the vertices");
+  } else {
+    plan.source = ColorSource::interpolated;
+    plan.smooth_normals = generate;
+    plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // elsewhere colours may be extrapolated
+    plan.scaled_colors = !layout.index && !layout.luminance && !plan.float_colors && !sampled && has_faces &&
+                         !plan.textures_per_pixel;
+    // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a
+    // colour that is not just stored.
+    const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
+                                (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
+    plan.deferred = shades_visible && !is_order_dependent(plan, layout);
+    plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
+    note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
+  }
+  if (generate && !has_faces) note("the mesh has neither normals nor faces: light of no direction alone");
+  if (generate && plan.smooth_normals && has_faces)
+    note("the mesh has no normals: area-weighted means over the faces at each position");
+}
+
+// Points, lines or polygons, which sides of these are seen, and in which style.
+void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
+  const DrawState& state = draw.state;
+  plan.topology = draw.mesh.topology();
+  const bool has_faces = plan.topology == Topology::triangles;
+  plan.point_size = state.point_size;
+  plan.line_width = state.line_width;
+  plan.keep_front =
+      state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
+  plan.keep_back = state.cull != Cull::back && has_faces;
+  const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode,
+                                plan.keep_back ? state.back_mode : state.front_mode};
+  for (int face = 0; face < 2 && has_faces; ++face) {
+    plan.style[face] = modes[face];
+    plan.outlines |= modes[face] != PolygonMode::fill;
+  }
+  plan.front_is_clockwise = state.front_face == FrontFace::cw;
+  plan.provoking_vertex_elsewhere =
+      state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
+}
+
+}  // namespace
+
+PixelRect raster_rect(const Rect& rect, int frame_height) {
+  // In 64 bits: a rectangle may be anywhere.
+  const auto clamp = [](std::int64_t v) {
+    return static_cast<int>(std::clamp<std::int64_t>(v, -(1 << 28), 1 << 28));
+  };
+  const std::int64_t top = std::int64_t{frame_height} - rect.y - rect.height;
+  return {clamp(rect.x), clamp(top), clamp(std::int64_t{rect.x} + rect.width), clamp(top + rect.height)};
+}
+
+std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,
+                         const ColorLayout& layout) {
+  std::uint32_t mask = 0;
+  if (layout.index || layout.luminance) {
+    mask = color_mask[0] ? layout.value_mask() : 0;
+  } else {
+    mask = (color_mask[0] ? layout.r_mask() : 0) | (color_mask[1] ? layout.g_mask() : 0) |
+           (color_mask[2] ? layout.b_mask() : 0);
+  }
+  if (color_mask[3]) mask |= layout.alpha_mask();
+  mask &= plane_mask;
+  if (mask == 0) return 0;
+  return mask == (layout.value_mask() | layout.alpha_mask())
+             ? 0xffffffffu
+             : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
+}
+
+void DrawPlan::reset() {
+  DrawPlan plan;
+  plan.lights.swap(lights);
+  plan.front.terms.swap(front.terms);
+  plan.back.terms.swap(back.terms);
+  plan.lights.clear();
+  plan.front.terms.clear();
+  plan.back.terms.clear();
+  *this = std::move(plan);
+}
+
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
+               std::string* reasons) {
+  const DrawState& state = draw.state;
+  plan.reset();
+  plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
+  if (draw.pixels) {
+    plan_pixel_places(plan, *draw.pixels, target);
+  } else {
+    plan_transform(plan, draw, target);
+    plan_elements(plan, draw);
+    plan_faces(plan, draw, target.layout);
+    if (reasons && state.shadow_on) *reasons += "  a planar shadow: unlit, in one colour\n";
+  }
+  if (state.scissor) plan.rect = intersect(plan.rect, raster_rect(*state.scissor, target.format.height));
+
+  const bool has_depth = state.depth.enabled && target.depth_format != DepthFormat::none;
+  plan.depth_test = state.depth.test;
+  plan.depth_write = state.depth.write;
+  // A test that always passes and writes nothing is no test.
+  plan.uses_depth = has_depth && !(state.depth.test == Compare::always && !state.depth.write);
+  if (reasons) {
+    *reasons += !has_depth ? "  no depth test\n"
+                : !plan.uses_depth
+                    ? "  depth: always passes and writes nothing, left out\n"
+                    : std::string("  depth test") + (plan.depth_write ? "" : ", no write") + "\n";
+    if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu)
+      *reasons += "  some colour planes are masked\n";
+  }
+  const FragmentPlan fragments =
+      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), reasons);
+  plan.ops = fragments.ops;
+  plan.uses_stencil = fragments.uses_stencil;
+  if (plan.uses_depth && plan.topology == Topology::triangles) {
+    plan.offset_factor = state.polygon_offset.factor;
+    plan.offset_units = state.polygon_offset.units;
+  }
+  if (reasons && plan.has_offset()) *reasons += "  polygon offset\n";
+  if (reasons && plan.outlines)
+    *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
+  plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
+  plan.float_colors =
+      plan.has_ops && (!fragments.is_stencil_only || plan.has_offset() || plan.outlines || draw.pixels ||
+                       plan.topology != Topology::triangles || target.format.samples > 1);
+  if (reasons && target.format.samples > 1)
+    *reasons += "  " + std::to_string(target.format.samples) +
+                " samples a pixel: coverage, depth and stencil at each, the colour once\n";
+  if (draw.pixels) {
+    plan_pixel_colors(plan, *draw.pixels, reasons);
+  } else {
+    const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
+    plan.texture =
+        plan_texture(draw,
+                     {stores_colors, plan.ops.alpha_test ||
+                                         (stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0))},
+                     reasons);
+    plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
+    plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
+  }
+  if (reasons && plan.texture.use == TexturePlan::Use::one_color)
+    *reasons += plan.textures_per_pixel
+                    ? "  texture: one colour, worked into each pixel's\n"
+                    : "  texture: one colour, folded into the colours of vertices, faces or the draw\n";
+  if (plan.textures_per_pixel && plan.texture.use == TexturePlan::Use::texels) {
+    plan.texcoord_offset = plan.texture.texture.attribute = plan.attribute_count;
+    plan.attribute_count += 2;
+  }
+  if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
+    plan.captured_normal_offset = plan.attribute_count;
+    plan.attribute_count += 3;
+  }
+  const bool writes_depth = plan.uses_depth && plan.depth_write;
+  const bool writes_stencil = plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes());
+  const bool never_seen = (has_depth && state.depth.test == Compare::never) ||
+                          (plan.ops.alpha_test && plan.ops.alpha_func == Compare::never);
+  plan.is_noop =
+      plan.rect.empty() || (!writes_stencil && (never_seen || (plan.write_mask == 0 && !writes_depth)));
+  if (reasons && plan.is_noop) *reasons += "  can change no pixel: left out\n";
+}
+
+}  // namespace tessera::detail

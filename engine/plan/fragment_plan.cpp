@@ -1,0 +1,101 @@
+#include "engine/plan/fragment_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::detail {
+namespace {
+
+StencilSide side(const StencilFace& face, std::int32_t max_value) {
+  return {.func = face.func,
+          .reference = static_cast<std::int32_t>(
+              std::min<std::uint32_t>(face.ref, static_cast<std::uint32_t>(max_value))),
+          .mask = static_cast<std::int32_t>(face.mask) & max_value,
+          .fail = face.fail,
+          .zfail = face.zfail,
+          .zpass = face.zpass,
+          .write_mask = static_cast<std::int32_t>(face.write_mask) & max_value};
+}
+
+bool does_nothing(const StencilSide& side) { return side.func == Compare::always && !side.writes(); }
+
+void plan_stencil(FragmentPlan& plan, const StencilState& state, int bits) {
+  FragmentOps& ops = plan.ops;
+  ops.stencil_max = (1 << bits) - 1;
+  ops.faces[0] = side(state.front, ops.stencil_max);
+  ops.faces[1] = side(state.back.value_or(state.front), ops.stencil_max);
+  ops.stencil = plan.uses_stencil = !does_nothing(ops.faces[0]) || !does_nothing(ops.faces[1]);
+}
+
+// Takes the source as it is.
+bool is_replacing(const FragmentOps& ops) {
+  return ops.src_color == BlendFactor::one && ops.src_alpha == BlendFactor::one &&
+         ops.dst_color == BlendFactor::zero && ops.dst_alpha == BlendFactor::zero &&
+         (ops.equation == BlendEquation::add || ops.equation == BlendEquation::subtract);
+}
+
+void plan_blend(FragmentOps& ops, const BlendState& state) {
+  ops.src_color = state.src;
+  ops.dst_color = state.dst;
+  ops.src_alpha = state.src_alpha.value_or(state.src);
+  ops.dst_alpha = state.dst_alpha.value_or(state.dst);
+  ops.equation = state.equation;
+  ops.constant = {state.color.r, state.color.g, state.color.b, state.color.a};
+  ops.blend = !is_replacing(ops);
+}
+
+}  // namespace
+
+FragmentOps dither_ops(const FrameBufferState& target) {
+  FragmentOps ops;
+  const Dither dither = target.format.dither;
+  set_dither(ops,
+             dither == Dither::none     ? 1
+             : dither == Dither::bayer2 ? 2
+             : dither == Dither::bayer4 ? 4
+                                        : 8,
+             target.format.height);
+  if (target.layout.index)
+    ops.palette_spread = static_cast<float>(
+        1 / std::fmax(1.0, std::cbrt(static_cast<double>(target.palette.entries.size())) - 1));
+  return ops;
+}
+
+FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
+                            bool only_indices, std::string* reasons) {
+  FragmentPlan plan;
+  FragmentOps& ops = plan.ops;
+  const auto note = [&](const char* line) {
+    if (reasons) *reasons += std::string("  ") + line + "\n";
+  };
+  if (writes_color && !only_indices) ops = dither_ops(target);
+  if (state.alpha_test) {
+    ops.alpha_func = state.alpha_test->func;
+    ops.alpha_reference = state.alpha_test->ref;
+    ops.alpha_test = ops.alpha_func != Compare::always;
+    note(ops.alpha_test ? "alpha test" : "alpha test: always passes, left out");
+  }
+  if (state.stencil) {
+    plan_stencil(plan, *state.stencil, target.format.stencil_bits);
+    note(ops.stencil ? "stencil test" : "stencil: always passes and writes nothing, left out");
+  }
+  if (writes_color && state.blend) {
+    plan_blend(ops, *state.blend);
+    note(ops.blend ? "blending" : "blending: replaces what was there, left out");
+  }
+  if (writes_color && ops.dither) note("ordered dither");
+  if (writes_color && only_indices && target.format.dither != Dither::none) note("indices are not dithered");
+  if (writes_color && state.logic_op != LogicOp::copy) {
+    ops.logic = state.logic_op;
+    note("logic operation");
+  }
+  const bool stores_alpha = writes_color && target.layout.alpha_bits > 0;
+  if (stores_alpha) note("alpha planes");
+  const bool depends_on_color =
+      ops.alpha_test || ops.blend || ops.dither || ops.logic != LogicOp::copy || stores_alpha;
+  plan.needed = ops.stencil || depends_on_color;
+  plan.is_stencil_only = ops.stencil && !depends_on_color;
+  return plan;
+}
+
+}  // namespace tessera::detail

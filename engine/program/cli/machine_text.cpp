@@ -1,0 +1,47 @@
+#include "engine/program/cli/machine_text.h"
+
+#include <fstream>
+#include <vector>
+
+#include <unistd.h>
+
+#include "engine/program/threads/thread_limit.h"
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera::program::cli {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (const std::size_t colon = line.find(": ");
+        line.starts_with("model name") && colon != std::string::npos)
+      return line.substr(colon + 2);
+  return "unknown";
+}
+
+std::string cache(int name) {
+  const long bytes = ::sysconf(name);
+  return bytes > 0 ? std::to_string(bytes / 1024) + " KiB" : "unknown";
+}
+
+}  // namespace
+
+std::string machine_text() {
+  const std::vector<InstructionSet> available = available_instruction_sets();
+  std::string sets;
+  for (const InstructionSet set : available) sets.append(sets.empty() ? "" : " ").append(name(set));
+  std::string text = "tessera            " + std::string(version()) + "\n";
+#if defined(__clang__)
+  text += "compiler           clang " __clang_version__ "\n";
+#else
+  text += "compiler           g++ " __VERSION__ "\n";
+#endif
+  text += "CPU                " + cpu_name() + "\n";
+  text += "cores              " + std::to_string(available_cores()) + " for this process\n";
+  text += "caches             L1 " + cache(_SC_LEVEL1_DCACHE_SIZE) + ", L2 " + cache(_SC_LEVEL2_CACHE_SIZE) +
+          ", L3 " + cache(_SC_LEVEL3_CACHE_SIZE) + "\n";
+  return text + "instruction sets   " + sets + "; chosen: " + std::string(name(available.front())) + "\n";
+}
+
+}  // namespace tessera::program::cli

@@ -1,0 +1,22 @@
+// Words of files on their way to a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tessera::program::cli {
+
+/// One line without control characters, whatever names and contents of files brought in: those stand as
+/// \\x1b.
+inline std::string printable(std::string_view text) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) line += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+    else line += c;
+  }
+  return line;
+}
+
+}  // namespace tessera::program::cli

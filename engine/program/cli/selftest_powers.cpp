@@ -1,0 +1,115 @@
+// Powers are seen through highlights. A directional light along the view makes the cosine of a highlight the
+// normal's own z, so that a vertex shows emission + specular * z^shininess. With specular = 2^18 and an
+// emission that takes away all but one half of what pow() says, 1/64 of full colour is one unit in the last
+// place (ulp) of a power in 1/2 .. 1; smaller powers of two likewise.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "engine/program/cli/selftest_oracles.h"
+#include "engine/program/scene/fingerprint.h"
+
+namespace tessera::program::cli {
+namespace {
+
+constexpr int kSide = 64;  // of the frame: a point in each pixel
+constexpr int kPoints = kSide * kSide;
+constexpr int kOctaves = 8;                      // results of at least 1/256
+constexpr double kMeasurementUlps = 64 / 510.0;  // 1/510 of full colour, to which a stored level is known
+/// In ulp: of whole exponents up to 64, which are products, what so many roundings come to; of these few
+/// others what tests/shading/power_test.cpp holds them to, near what it measures, where what is promised of
+/// all is 15.6 (tests/numerics/README.md).
+double bound_ulps(float exponent) {
+  return exponent == std::floor(exponent) && exponent <= 64 ? std::max(double{exponent} - 1, 1.0) : 14;
+}
+
+/// Points with powers in 2^-(octave + 1) .. 2^-octave.
+struct Powers {
+  float exponent;
+  double specular;
+  std::vector<float> positions, normals,
+      emissions;  // one point in the middle of each pixel, rows from the bottom
+  std::vector<double> exact;
+
+  Powers(float y, int octave) : exponent(y), specular(std::ldexp(1.0, 18 + octave)) {
+    for (int i = 0; i < kPoints; ++i) {
+      const double wanted = std::ldexp(1 + (i + 0.5) / kPoints, -octave - 1);
+      const auto x = static_cast<float>(std::pow(wanted, 1 / double{y}));
+      exact.push_back(std::pow(double{x}, double{y}));
+      const auto emission = static_cast<float>(0.5 - specular * exact.back());
+      positions.insert(positions.end(), {(static_cast<float>(i % kSide) + 0.5f) / (kSide / 2) - 1,
+                                         (static_cast<float>(i / kSide) + 0.5f) / (kSide / 2) - 1, 0});
+      normals.insert(normals.end(), {0, 0, x});
+      emissions.insert(emissions.end(), {emission, emission, emission, 1});
+    }
+  }
+
+  std::vector<std::uint32_t> drawn(Renderer& renderer) const {
+    DrawState state{.color_material = ColorMaterial::emission, .normalize = false};
+    const auto s = static_cast<float>(specular);
+    state.material = {.ambient = {0, 0, 0, 1},
+                      .diffuse = {0, 0, 0, 1},
+                      .specular = {s, s, s, 1},
+                      .emission = {0, 0, 0, 1},
+                      .shininess = exponent};
+    state.depth.enabled = false;
+    FrameBuffer buffer({.width = kSide, .height = kSide});
+    Frame frame(buffer);
+    frame.set_lights({Light{.position = {0, 0, 1, 0}}});
+    frame.set_light_model({.ambient = {0, 0, 0, 1}});
+    frame.clear({.color = Color{0, 0, 0, 1}});
+    frame.draw(
+        {.primitive = Primitive::points, .positions = positions, .normals = normals, .colors = emissions},
+        state);
+    renderer.finish(frame);
+    return packed_colors(buffer);  // rows from the top
+  }
+
+  double largest_error_ulps(Renderer& renderer) const {
+    const std::vector<std::uint32_t> words = drawn(renderer);
+    double largest = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const auto at = static_cast<std::size_t>(i),
+                 pixel = static_cast<std::size_t>((kSide - 1 - i / kSide) * kSide + i % kSide);
+      const double found = ((words[pixel] & 255) / 255.0 - double{emissions[4 * at]}) / specular;
+      largest = std::max(largest, std::abs(found - exact[at]) / std::ldexp(1.0, std::ilogb(exact[at]) - 23));
+    }
+    return largest;
+  }
+};
+
+// "14", "9.9"
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", value == std::floor(value) ? 0 : 1, value);
+  return text;
+}
+
+}  // namespace
+
+OracleReport check_powers(const Configurations& configurations) {
+  std::vector<Powers> powers;
+  for (const float exponent : {0.5f, 2.0f, 20.0f, 128.0f, 10000.0f})
+    for (int octave = 0; octave < kOctaves; ++octave) powers.emplace_back(exponent, octave);
+  OracleReport report{.oracle = "powers, pow() in double", .measured = {}, .first_failure = {}};
+  double largest = 0, share = 0;  // of what is promised
+  for (const RendererOptions& configuration : configurations) {
+    Renderer renderer(configuration);
+    for (const Powers& each : powers) {
+      const double error = each.largest_error_ulps(renderer);
+      // What is off by more than 31 ulp ends at black or white.
+      if (error > bound_ulps(each.exponent) + kMeasurementUlps)
+        report.add("x^" + number(each.exponent) + " is off by " + number(error) + " ulp or more",
+                   configuration);
+      largest = std::max(largest, error);
+      share = std::max(share, (error - kMeasurementUlps) / bound_ulps(each.exponent));
+    }
+  }
+  report.measured = std::to_string(powers.size() * kPoints * configurations.size()) + " powers, at most " +
+                    number(largest) + " ulp and " + number(std::ceil(100 * share)) +
+                    " % of what is promised off";
+  return report;
+}
+
+}  // namespace tessera::program::cli

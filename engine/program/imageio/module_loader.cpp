@@ -1,0 +1,72 @@
+#include "engine/program/imageio/module_loader.h"
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "engine/program/imageio/module_interface.h"
+#include "engine/program/scene/loaded_module.h"
+
+namespace tessera::program {
+namespace {
+
+template <class Function>
+Function* function_of_module(const char* name, const std::string& wanted_for) {
+  static void* const module =
+      load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for,
+                  ".ppm works without it");  // a failure leaves it unset: the next call tries anew
+  return reinterpret_cast<Function*>(function_of(module, TESSERA_IMAGEIO_FILE_NAME, name));
+}
+
+const unsigned char* bytes_of(const std::string& text) {
+  return reinterpret_cast<const unsigned char*>(text.data());
+}
+
+}  // namespace
+
+std::string encode_by_module(const Picture& picture, const std::string& ending, int compression) {
+  auto* const encode =
+      function_of_module<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, ending);
+  return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
+    return encode(ending.c_str(), picture.rgba.data(), picture.width, picture.height,
+                  4 * std::ptrdiff_t{picture.width}, compression, take, user, message, size);
+  });
+}
+
+std::string encode_indexed_by_module(const IndexedPicture& picture, int compression) {
+  auto* const encode = function_of_module<tessera_imageio_encode_indexed_function>(
+      TESSERA_IMAGEIO_ENCODE_INDEXED_NAME, ".png");
+  return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
+    return encode(picture.indices.data(), picture.width, picture.height, picture.bits, picture.palette.data(),
+                  static_cast<int>(picture.palette.size() / 3), compression, take, user, message, size);
+  });
+}
+
+Picture decode_by_module(const std::string& file, const std::string& ending) {
+  auto* const decode =
+      function_of_module<tessera_imageio_decode_function>(TESSERA_IMAGEIO_DECODE_NAME, ending);
+  const std::string decoded = collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
+    return decode(ending.c_str(), bytes_of(file), file.size(), kMaxFrameBufferSize, take, user, message,
+                  size);
+  });
+  int size[3];
+  std::memcpy(size, decoded.data(), sizeof size);
+  Picture picture(size[0], size[1]);
+  picture.channels = size[2];
+  std::copy(decoded.begin() + sizeof size, decoded.end(), picture.rgba.begin());
+  return picture;
+}
+
+std::vector<std::string> module_extensions() {
+  auto* const formats = function_of_module<tessera_imageio_formats_function>(TESSERA_IMAGEIO_FORMATS_NAME,
+                                                                             "the list of formats");
+  std::istringstream list(collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
+    return formats(take, user, message, size);
+  }));
+  std::vector<std::string> endings;
+  for (std::string ending; std::getline(list, ending, ',');) endings.push_back(ending);
+  std::sort(endings.begin(), endings.end());
+  return endings;
+}
+
+}  // namespace tessera::program

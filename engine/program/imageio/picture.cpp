@@ -1,0 +1,181 @@
+#include "engine/program/imageio/picture.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "engine/program/imageio/atomic_file.h"
+#include "engine/program/imageio/module_interface.h"
+#include "engine/program/imageio/module_loader.h"
+#include "engine/program/scene/file_extension.h"
+#include "engine/program/scene/text_file.h"
+
+namespace tessera::program {
+namespace {
+
+std::string header(const char* magic, int width, int height, bool has_maximum = true) {
+  return std::string(magic) + "\n" + std::to_string(width) + " " + std::to_string(height) + "\n" +
+         (has_maximum ? "255\n" : "");
+}
+
+std::string pgm(const Picture& picture) {
+  std::string file = header("P5", picture.width, picture.height);
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    file += static_cast<char>(
+        (30 * picture.rgba[i] + 59 * picture.rgba[i + 1] + 11 * picture.rgba[i + 2] + 50) / 100);
+  return file;
+}
+
+// Rows from below; a negative scale says that the floats are little-endian.
+std::string pfm(const Picture& picture) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string file = header("PF", picture.width, picture.height, false) + "-1.0\n";
+  for (int y = picture.height - 1; y >= 0; --y)
+    for (int x = 0; x < picture.width; ++x)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float component =
+            static_cast<float>(
+                picture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                  static_cast<std::size_t>(x)) +
+                             c]) /
+            255.0f;
+        file.append(reinterpret_cast<const char*>(&component), sizeof component);
+      }
+  return file;
+}
+
+std::string raw(const Picture& picture) {
+  return {reinterpret_cast<const char*>(picture.rgba.data()), picture.rgba.size()};
+}
+
+}  // namespace
+
+Picture::Picture(int width_px, int height_px)
+    : width(width_px),
+      height(height_px),
+      rgba(4 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {}
+
+ImageTarget Picture::target() {
+  return {.pixels = rgba.data(), .width = width, .height = height, .stride_bytes = 4 * std::ptrdiff_t{width}};
+}
+
+std::string encode_ppm(const Picture& picture) {
+  std::string file = header("P6", picture.width, picture.height);
+  file.reserve(file.size() + picture.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    file.append(reinterpret_cast<const char*>(&picture.rgba[i]), 3);
+  return file;
+}
+
+std::vector<std::string> builtin_extensions() { return {".pbm (planes)", ".pfm", ".pgm", ".ppm", ".raw"}; }
+
+namespace {
+
+// What `encode` makes; its errors name the path.
+template <class Encode>
+std::string encoded_for(const std::string& path, const Encode& encode) {
+  try {
+    return encode();
+  } catch (const Error& error) {
+    throw Error("cannot write \"" + path + "\": " + error.what());
+  }
+}
+
+// In the format of the path's ending.
+std::string encode_picture(const Picture& picture, const std::string& path, int compression) {
+  return encoded_for(path, [&]() -> std::string {
+    const std::string ending = lower_case_extension(path);
+    if (ending.empty())
+      throw Error("its name has no ending to tell the format by; .png and .ppm are the usual ones");
+    if (ending == ".pbm")
+      throw Error("a .pbm holds one plane; write a .ppm or .png, or the planes one by one");
+    if (ending == ".ppm") return encode_ppm(picture);
+    if (ending == ".pgm") return pgm(picture);
+    if (ending == ".pfm") return pfm(picture);
+    if (ending == ".raw") return raw(picture);
+    return encode_by_module(picture, ending, compression);
+  });
+}
+
+// "P6", width, height and 255, with comments between; then the pixels.
+Picture decode_ppm(const std::string& file) {
+  std::size_t at = 2;
+  const auto number = [&] {
+    while (at < file.size() && (std::isspace(static_cast<unsigned char>(file[at])) != 0 || file[at] == '#'))
+      at = file[at] == '#' ? std::min(file.find('\n', at), file.size()) : at + 1;
+    int value = 0;
+    const auto [end, error] = std::from_chars(file.data() + at, file.data() + file.size(), value);
+    if (error != std::errc{} || value < 1 || value > kMaxFrameBufferSize)
+      throw Error("its header does not hold width, height and 255; at most " +
+                  std::to_string(kMaxFrameBufferSize) + " a side are read");
+    at = static_cast<std::size_t>(end - file.data());
+    return value;
+  };
+  if (!file.starts_with("P6")) throw Error("it is no binary PPM");
+  const int width = number(), height = number();
+  if (number() != 255) throw Error("its components do not have 8 bits");
+  ++at;
+  const std::size_t needed = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (file.size() - std::min(at, file.size()) < needed) throw Error("it ends before its last pixel");
+  Picture picture(width, height);
+  picture.channels = 3;
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4, at += 3) {
+    std::copy_n(file.begin() + static_cast<std::ptrdiff_t>(at), 3,
+                picture.rgba.begin() + static_cast<std::ptrdiff_t>(i));
+    picture.rgba[i + 3] = 255;
+  }
+  return picture;
+}
+
+}  // namespace
+
+Picture read_picture(const std::string& path) {
+  const std::string file = read_text_file(path);
+  try {
+    const std::string ending = lower_case_extension(path);
+    return ending == ".ppm" ? decode_ppm(file) : decode_by_module(file, ending);
+  } catch (const Error& error) {
+    throw Error("cannot read \"" + path + "\": " + error.what());
+  }
+}
+
+void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression) {
+  write_file_atomically(path,
+                        encoded_for(path, [&] { return encode_indexed_by_module(picture, compression); }));
+}
+
+bool is_tessera_png(const std::string& path) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n",
+                             kText("Software\0" TESSERA_IMAGEIO_SOFTWARE,
+                                   sizeof "Software\0" TESSERA_IMAGEIO_SOFTWARE - 1);
+  const std::string length = {0, 0, 0, static_cast<char>(kText.size())};
+  std::string head(2048, '\0');  // has room for the longest palette and all that stands before the text
+  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.starts_with(kSignature) && head.find(length + "tEXt" + std::string(kText)) != head.npos;
+}
+
+void write_picture(const Picture& picture, const std::string& path, int compression) {
+  write_file_atomically(path, encode_picture(picture, path, compression));
+}
+
+std::optional<std::filesystem::path> require_writable_picture(const std::string& path) {
+  encode_picture(Picture(1, 1), path, kDefaultCompression);
+  return require_writable(path);
+}
+
+void write_plane(const PlaneView& plane, const std::string& path) {
+  std::string file = header("P4", plane.width, plane.height, false);
+  const std::size_t bytes = (static_cast<std::size_t>(plane.width) + 7) / 8;
+  const int spare_bits = static_cast<int>(8 * bytes) - plane.width;
+  for (int y = 0; y < plane.height; ++y) {
+    file.append(reinterpret_cast<const char*>(plane.bits + y * plane.stride_bytes), bytes);
+    file.back() = static_cast<char>(static_cast<unsigned char>(file.back()) &
+                                    (0xffu << spare_bits));  // what lies right of the picture
+  }
+  write_file_atomically(path, file);
+}
+
+}  // namespace tessera::program

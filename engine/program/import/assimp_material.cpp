@@ -1,0 +1,140 @@
+#include "engine/program/import/assimp_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include <assimp/GltfMaterial.h>
+
+namespace tessera::program {
+namespace {
+
+constexpr float kMaxShininess = 16384;
+constexpr float kDielectricReflectance = 0.04f;  // what glass and plastics reflect head-on
+
+std::optional<Color> color(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
+  aiColor4D c;
+  if (from.Get(key, type, index, c) != AI_SUCCESS || !std::isfinite(c.r + c.g + c.b)) return {};
+  return Color{c.r, c.g, c.b, std::isfinite(c.a) ? c.a : 1};
+}
+
+std::optional<float> number(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
+  float x = 0;
+  if (from.Get(key, type, index, x) != AI_SUCCESS || !std::isfinite(x)) return {};
+  return x;
+}
+
+// Black, or what assimp's readers write where the format does not know ambient colours.
+bool is_placeholder(const Color& c) {
+  return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f);
+}
+Color scaled(const Color& c, float by) { return {c.r * by, c.g * by, c.b * by, 1}; }
+
+Color emission(const aiMaterial& from) {
+  const bool has_picture = from.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
+                           from.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+  return has_picture ? Material{}.emission
+                     : color(from, AI_MATKEY_COLOR_EMISSIVE).value_or(Material{}.emission);
+}
+
+Material phong_material(const aiMaterial& from, int model) {
+  Material material;
+  material.diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(material.diffuse);
+  const Color ambient = color(from, AI_MATKEY_COLOR_AMBIENT).value_or(Color{0, 0, 0, 1});
+  material.ambient = is_placeholder(ambient) ? material.diffuse : ambient;
+  material.emission = emission(from);
+  const float shininess = number(from, AI_MATKEY_SHININESS).value_or(0);
+  const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud &&
+                             model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
+  if (has_highlight) {
+    material.specular = color(from, AI_MATKEY_COLOR_SPECULAR).value_or(material.specular);
+    material.shininess = std::min(shininess, kMaxShininess);
+  }
+  return material;
+}
+
+float roughness_attenuation(float roughness) { return 1 / (1 + 4 * roughness * roughness); }
+
+float blinn_exponent(float roughness) {
+  const float alpha = roughness * roughness;
+  return alpha > 0 ? std::clamp(2 / (alpha * alpha) - 2, 1.0f, 1024.0f) : 1024.0f;
+}
+
+Material metallic_roughness_material(const aiMaterial& from, const Color& base) {
+  const auto factor = [&](std::optional<float> x) { return std::clamp(x.value_or(1), 0.0f, 1.0f); };
+  const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)),
+              rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
+  const auto specular_reflectance = [&](float b) {
+    return (kDielectricReflectance * (1 - metal) + b * metal) * roughness_attenuation(rough);
+  };
+  return {.ambient = base,
+          .diffuse = base,
+          .specular = {specular_reflectance(base.r), specular_reflectance(base.g),
+                       specular_reflectance(base.b), 1},
+          .emission = emission(from),
+          .shininess = blinn_exponent(rough)};
+}
+
+Material specular_glossiness_material(const aiMaterial& from, float glossiness) {
+  const float rough = 1 - std::clamp(glossiness, 0.0f, 1.0f);
+  const Color diffuse = color(from, AI_MATKEY_COLOR_DIFFUSE).value_or(Color{1, 1, 1, 1});
+  return {.ambient = diffuse,
+          .diffuse = diffuse,
+          .specular = scaled(color(from, AI_MATKEY_COLOR_SPECULAR).value_or(Color{1, 1, 1, 1}),
+                             roughness_attenuation(rough)),
+          .emission = emission(from),
+          .shininess = blinn_exponent(rough)};
+}
+
+Material unlit_material(const Color& c) {
+  constexpr Color kNone{0, 0, 0, 1};
+  return {.ambient = kNone, .diffuse = {0, 0, 0, c.a}, .specular = kNone, .emission = {c.r, c.g, c.b, 1}};
+}
+
+}  // namespace
+
+Material material_of(const aiMaterial& from) {
+  const std::optional<Color> base = color(from, AI_MATKEY_BASE_COLOR);
+  int model = 0;
+  from.Get(AI_MATKEY_SHADING_MODEL, model);
+  if (base && model == aiShadingMode_Unlit) return unlit_material(*base);
+  if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR))
+    return specular_glossiness_material(from, *glossiness);
+  if (base && number(from, AI_MATKEY_METALLIC_FACTOR)) return metallic_roughness_material(from, *base);
+  return phong_material(from, model);
+}
+
+bool has_color_texture(const aiMaterial& from) {
+  constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR,
+                                       aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
+  return std::any_of(std::begin(kColors), std::end(kColors),
+                     [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
+}
+
+std::vector<std::string> textures_of(const aiMaterial& from) {
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < from.mNumProperties; ++i) {
+    const aiMaterialProperty& property = *from.mProperties[i];
+    std::uint32_t length = 0;  // what stands before the characters; a zero stands behind them
+    if (property.mType != aiPTI_String || property.mDataLength <= sizeof length ||
+        std::string_view(property.mKey.C_Str()) != _AI_MATKEY_TEXTURE_BASE)
+      continue;
+    std::memcpy(&length, property.mData, sizeof length);
+    names.emplace_back(property.mData + sizeof length,
+                       std::min<std::size_t>(length, property.mDataLength - sizeof length - 1));
+  }
+  return names;
+}
+
+bool is_transparent(const aiMaterial& from) {
+  aiString mode;
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS)
+    return std::string_view(mode.C_Str()) != "OPAQUE";
+  return number(from, AI_MATKEY_OPACITY).value_or(1) < 1;
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,98 @@
+// Who reads which file, and where: in a child.
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "engine/program/import/child_process.h"
+#include "engine/program/import/import_module_interface.h"
+#include "engine/program/import/model_bytes.h"
+#include "engine/program/import/model_normals.h"
+#include "engine/program/import/obj.h"
+#include "engine/program/scene/file_extension.h"
+#include "engine/program/scene/loaded_module.h"
+
+namespace tessera::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Function>
+Function* function_of_module(const char* name, const std::string& wanted_for) {
+  void* const module = load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj works without it");
+  return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
+}
+
+std::string import_by_module(const std::string& path) {
+  std::string what = fs::path(path).extension().string();
+  if (what.empty()) what = "\"" + path + "\"";
+  auto* const import = function_of_module<tessera_import_function>(TESSERA_IMPORT_NAME, what);
+  try {
+    return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
+      return import(path.c_str(), take, user, message, size);
+    });
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+// Where files may be that a model's file names: a backslash mostly is a slash, and Blender's "//" is the
+// folder of the model.
+std::vector<std::string> paths_of(const std::vector<std::string>& names, const fs::path& folder) {
+  constexpr std::size_t kMaxPaths = 100000, kMaxNameLength = 4096;
+  std::set<std::string> paths;
+  for (std::string name : names) {
+    if (name.empty() || name.size() > kMaxNameLength || paths.size() >= kMaxPaths) continue;
+    paths.insert((folder / name).string());
+    std::replace(name.begin(), name.end(), '\\', '/');
+    paths.insert((folder / name).string());
+    if (name.starts_with("//")) paths.insert((folder / name.substr(2)).string());
+  }
+  return {paths.begin(), paths.end()};
+}
+
+}  // namespace
+
+Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& should_continue) {
+  errno = 0;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status))
+    throw Error("cannot read \"" + path + "\": " + (error ? error.message() : std::strerror(ENOENT)));
+  if (!fs::is_regular_file(status))
+    throw Error("cannot read \"" + path + "\": it is " +
+                (fs::is_directory(status) ? "a directory" : "no regular file") + ", expected a model");
+  if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
+  const auto read = [&] {
+    Model model = lower_case_extension(path) == ".obj" ? import_obj(path)
+                                                       : model_from_bytes(import_by_module(path), path);
+    if (use == ModelUse::display) {
+      if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
+      orient_by_normals(model.mesh);
+    }
+    model.files = paths_of(model.files, fs::path(path).parent_path());
+    return to_bytes(model);
+  };
+  return model_from_bytes(
+      run_in_child("reading \"" + path + "\"", {.should_continue = should_continue}, read), path);
+}
+
+std::vector<std::string> model_extensions() {
+  const std::string list = run_in_child("listing the formats of models", {}, [] {
+    auto* const formats = function_of_module<tessera_import_formats_function>(TESSERA_IMPORT_FORMATS_NAME,
+                                                                              "every other format");
+    return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
+      return formats(take, user, message, size);
+    });
+  });
+  std::vector<std::string> endings;
+  std::istringstream stream(list);
+  for (std::string ending; std::getline(stream, ending, ',');) endings.push_back(ending);
+  std::sort(endings.begin(), endings.end());
+  return endings;
+}
+
+}  // namespace tessera::program

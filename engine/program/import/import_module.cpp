@@ -1,0 +1,105 @@
+// The module libtessera_import: what sees assimp. It runs in a child process, where it may take what it
+// likes.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <string>
+
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/Importer.hpp>
+
+#include "engine/program/import/assimp_model.h"
+#include "engine/program/import/gltf_view.h"
+#include "engine/program/import/import_module_interface.h"
+#include "engine/program/import/model_bytes.h"
+#include "engine/program/import/model_normals.h"
+#include "engine/program/scene/file_extension.h"
+#include "engine/tessera/export.h"
+
+namespace tessera::program {
+namespace {
+
+bool contains(const std::string& path, const std::string& word) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {}).find(word) != std::string::npos;
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+  if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp caught it
+  throw Error(reason == "No meshes remaining" ? std::string(kHoldsNoTriangle) : reason);
+}
+
+Model read(const std::string& path) {
+  Assimp::Importer importer;
+  const std::string ending = lower_case_extension(path);
+  if (ending.empty() || !importer.IsExtensionSupported(ending))
+    throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
+  const aiScene* const scene = importer.ReadFile(
+      path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  if (scene == nullptr) refuse(importer.GetErrorString());
+  Model view;
+  const bool is_gltf2 = (ending == ".gltf" || ending == ".glb") && add_gltf_view(path, view),
+             is_collada = ending == ".dae" || ending == ".zae";
+  Model model = model_of(*scene, !is_gltf2, is_collada);
+  importer.FreeScene();
+  // assimp takes an orthographic camera of Collada for one of a few degrees.
+  if (ending == ".dae" && !model.cameras.empty() && contains(path, "<orthographic>")) {
+    model.cameras.clear();
+    model.warnings.push_back("has an orthographic camera: cameras of such Collada files are left out");
+  }
+  // Where glTF 2 gives no normals, faces are flat, by its specification.
+  add_creased_normals(model.mesh, is_gltf2 ? 0 : kCreaseDegrees);
+  if (is_gltf2) {
+    model.cameras = std::move(view.cameras);
+    model.lights = std::move(view.lights);
+    model.files.insert(model.files.end(), view.files.begin(), view.files.end());
+    model.warnings.insert(model.warnings.end(), view.warnings.begin(), view.warnings.end());
+  }
+  for (std::string& warning : model.warnings) warning = path + ": " + warning;
+  return model;
+}
+
+std::string formats() {
+  Assimp::Importer importer;
+  std::string list;
+  importer.GetExtensionList(list);  // "*.3ds;*.obj"
+  std::erase(list, '*');
+  std::replace(list.begin(), list.end(), ';', ',');
+  return list;
+}
+
+template <class Work>
+int answer(const Work& work, tessera_import_take_function* take, void* user, char* message,
+           std::size_t message_size) {
+  try {
+    const std::string bytes = work();
+    take(user, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return 2;
+  } catch (const std::exception& error) {
+    std::snprintf(message, message_size, "%s", error.what());
+    return 1;
+  }
+}
+
+}  // namespace
+}  // namespace tessera::program
+
+extern "C" TESSERA_API int tessera_import_2(const char* path, tessera_import_take_function* take, void* user,
+                                            char* message, std::size_t message_size) {
+  return tessera::program::answer([&] { return tessera::program::to_bytes(tessera::program::read(path)); },
+                                  take, user, message, message_size);
+}
+
+extern "C" TESSERA_API int tessera_import_formats_1(tessera_import_take_function* take, void* user,
+                                                    char* message, std::size_t message_size) {
+  return tessera::program::answer([] { return tessera::program::formats(); }, take, user, message,
+                                  message_size);
+}

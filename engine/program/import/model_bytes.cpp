@@ -1,0 +1,211 @@
+#include "engine/program/import/model_bytes.h"
+
+#include <cstring>
+#include <optional>
+#include <type_traits>
+
+namespace tessera::program {
+namespace {
+
+// Numbers without gaps between them: nothing that was never written goes out.
+template <class T>
+constexpr bool kIsPlain = std::is_arithmetic_v<T>;
+
+template <class T, class U>
+concept SameUnqualified = std::is_same_v<std::remove_const_t<T>, U>;
+
+// Calls the stream for each member.
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Color> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Material> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Light> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelCamera> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelPart> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<std::string> auto& value);
+
+class Writer {
+ public:
+  std::string bytes;
+
+  template <class T>
+  requires kIsPlain<T>
+  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void operator()(const std::string& text) { list(text); }
+  template <class T>
+  void operator()(const std::vector<T>& elements) {
+    if constexpr (kIsPlain<T>) {
+      list(elements);
+    } else {
+      (*this)(elements.size());
+      for (const T& element : elements) visit_members(*this, element);
+    }
+  }
+  template <class T>
+  void operator()(const std::optional<T>& value) {
+    (*this)(value.has_value());
+    if (value) visit_members(*this, *value);
+  }
+
+ private:
+  template <class List>
+  void list(const List& elements) {
+    (*this)(elements.size());
+    bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(elements[0]));
+  }
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+
+  template <class T>
+  requires kIsPlain<T>
+  void operator()(T& value) { std::memcpy(&value, take(sizeof value), sizeof value); }
+  void operator()(bool& value) {
+    const char byte = *take(1);
+    if (byte != 0 && byte != 1) fail();
+    value = byte == 1;
+  }
+  void operator()(std::string& text) { list(text); }
+  template <class T>
+  void operator()(std::vector<T>& elements) {
+    if constexpr (kIsPlain<T>) {
+      list(elements);
+    } else {
+      // One by one: what a wrong count promises takes no memory.
+      for (std::size_t left = count(1); left > 0; --left) visit_members(*this, elements.emplace_back());
+    }
+  }
+  template <class T>
+  void operator()(std::optional<T>& value) {
+    bool has = false;
+    (*this)(has);
+    if (has) visit_members(*this, value.emplace());
+  }
+  void end() const {
+    if (at_ != bytes_.size()) fail();
+  }
+  [[noreturn]] static void fail() { throw Error("the reading process sent no sound model"); }
+
+ private:
+  template <class List>
+  void list(List& elements) {
+    elements.resize(count(sizeof(elements[0])));
+    if (!elements.empty())
+      std::memcpy(elements.data(), take(elements.size() * sizeof(elements[0])),
+                  elements.size() * sizeof(elements[0]));
+  }
+  std::size_t count(std::size_t element_bytes) {
+    std::size_t size = 0;
+    (*this)(size);
+    if (size > (bytes_.size() - at_) / element_bytes) fail();
+    return size;
+  }
+  const char* take(std::size_t size) {
+    if (size > bytes_.size() - at_) fail();
+    const char* const from = bytes_.data() + at_;
+    at_ += size;
+    return from;
+  }
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+// One list of members for both ways.
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Color> auto& c) {
+  stream(c.r), stream(c.g), stream(c.b), stream(c.a);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Material> auto& m) {
+  for (auto* color : {&m.ambient, &m.diffuse, &m.specular, &m.emission}) visit_members(stream, *color);
+  stream(m.shininess);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Light> auto& l) {
+  for (auto* color : {&l.ambient, &l.diffuse, &l.specular}) visit_members(stream, *color);
+  for (auto& x : l.position) stream(x);
+  for (auto& x : l.spot_direction) stream(x);
+  for (auto* x : {&l.spot_exponent, &l.spot_cutoff, &l.attenuation_constant, &l.attenuation_linear,
+                  &l.attenuation_quadratic})
+    stream(*x);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelCamera> auto& c) {
+  for (auto& x : c.view.m) stream(x);
+  stream(c.is_orthographic);
+  for (auto* x : {&c.half_width, &c.half_height, &c.near, &c.far}) stream(*x);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelPart> auto& p) {
+  stream(p.material_name);
+  visit_members(stream, p.material);
+  stream(p.first_index);
+  stream(p.index_count);
+  stream(p.uses_colors);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<std::string> auto& text) {
+  stream(text);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<Model> auto& model) {
+  stream(model.mesh.positions);
+  stream(model.mesh.normals);
+  stream(model.mesh.colors);
+  stream(model.mesh.texcoords);
+  stream(model.mesh.indices);
+  stream(model.parts);
+  stream(model.warnings);
+  stream(model.cameras);
+  stream(model.lights);
+  stream(model.ambient_light);
+  stream(model.files);
+}
+
+bool is_sound(const Model& model) {
+  const MeshData& mesh = model.mesh;
+  const std::size_t vertices = mesh.positions.size() / 3;
+  const auto fits = [&](const std::vector<float>& list, std::size_t components) {
+    return list.empty() || list.size() == components * vertices;
+  };
+  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) ||
+      !fits(mesh.colors, 4) || !fits(mesh.texcoords, 2))
+    return false;
+  for (const std::uint32_t index : mesh.indices)
+    if (index >= vertices) return false;
+  std::size_t next = 0;
+  for (const ModelPart& part : model.parts) {
+    if (part.first_index != next || part.index_count % 3 != 0 ||
+        part.index_count > mesh.indices.size() - next)
+      return false;
+    next += part.index_count;
+  }
+  return next == mesh.indices.size();
+}
+
+}  // namespace
+
+std::string to_bytes(const Model& model) {
+  Writer writer;
+  visit_members(writer, model);
+  return std::move(writer.bytes);
+}
+
+Model model_from_bytes(const std::string& bytes, const std::string& path) try {
+  Model model;
+  Reader reader(bytes);
+  visit_members(reader, model);
+  reader.end();
+  if (!is_sound(model)) Reader::fail();
+  return model;
+} catch (const Error& error) {
+  throw Error(path + ": " + error.what());
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,157 @@
+#include "engine/program/import/model_normals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera::program {
+namespace {
+
+using Double3 = std::array<double, 3>;
+using Float3 = std::array<float, 3>;
+
+// Beyond that many triangles at one place, all of them are one surface: comparing each with each would take
+// too long.
+constexpr std::size_t kMaxComparedTriangles = 256;
+
+double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Float3 float3(const std::vector<float>& from, std::uint32_t vertex) {
+  const float* const p = &from[3 * std::size_t{vertex}];
+  return {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f};  // no negative zero
+}
+
+// Twice the area long.
+Double3 face_normal(const MeshData& mesh, std::size_t first_index) {
+  const Float3 a = float3(mesh.positions, mesh.indices[first_index]),
+               b = float3(mesh.positions, mesh.indices[first_index + 1]),
+               c = float3(mesh.positions, mesh.indices[first_index + 2]);
+  Double3 u, v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = double{b[k]} - a[k];
+    v[k] = double{c[k]} - a[k];
+  }
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Double3 unit(const Double3& n) {
+  const double length = std::sqrt(dot(n, n));
+  return length > 0 && std::isfinite(length) ? Double3{n[0] / length, n[1] / length, n[2] / length}
+                                             : Double3{};
+}
+
+bool is_missing(const Float3& normal) {
+  return !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0) ||
+         !std::isfinite(normal[0] + normal[1] + normal[2]);
+}
+
+// Corners that lie at one position stand together; positions that are no numbers come last.
+std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
+  std::vector<std::uint32_t> corners(mesh.indices.size() / 3 * 3);
+  std::iota(corners.begin(), corners.end(), 0u);
+  const auto key = [&](std::uint32_t corner) {
+    Float3 p = float3(mesh.positions, mesh.indices[corner]);
+    for (float& x : p)
+      if (std::isnan(x)) x = INFINITY;
+    return p;
+  };
+  std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Float3 p = key(a), q = key(b);
+    return p != q ? p < q : a < b;
+  });
+  return corners;
+}
+
+// Gives corners their normals: a vertex keeps the first that it gets, and is copied for every other one.
+class VertexSplitter {
+ public:
+  explicit VertexSplitter(MeshData& mesh) : mesh_(mesh), is_set_(mesh.vertex_count()) {}
+
+  void set(std::uint32_t corner, const Float3& normal) {
+    const std::uint32_t vertex = mesh_.indices[corner];
+    if (!is_set_[vertex]) {
+      is_set_[vertex] = true;
+      std::copy(normal.begin(), normal.end(), mesh_.normals.begin() + 3 * std::ptrdiff_t{vertex});
+    } else if (float3(mesh_.normals, vertex) != normal) {
+      mesh_.indices[corner] = copy_with(vertex, normal);
+    }
+  }
+
+ private:
+  std::uint32_t copy_with(std::uint32_t vertex, const Float3& normal) {
+    const auto [entry, is_new] =
+        copies_.try_emplace({vertex, normal}, static_cast<std::uint32_t>(mesh_.vertex_count()));
+    if (is_new) {
+      const Float3 p = float3(mesh_.positions, vertex);
+      mesh_.positions.insert(mesh_.positions.end(), p.begin(), p.end());
+      mesh_.normals.insert(mesh_.normals.end(), normal.begin(), normal.end());
+      for (std::size_t k = 0; k < 4 && !mesh_.colors.empty(); ++k)
+        mesh_.colors.push_back(mesh_.colors[4 * std::size_t{vertex} + k]);
+      for (std::size_t k = 0; k < 2 && !mesh_.texcoords.empty(); ++k)
+        mesh_.texcoords.push_back(mesh_.texcoords[2 * std::size_t{vertex} + k]);
+    }
+    return entry->second;
+  }
+
+  MeshData& mesh_;
+  std::vector<bool> is_set_;
+  std::map<std::pair<std::uint32_t, Float3>, std::uint32_t> copies_;
+};
+
+}  // namespace
+
+void add_creased_normals(MeshData& mesh, double crease_degrees) {
+  mesh.normals.resize(mesh.positions.size());
+  std::vector<bool> missing;
+  for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
+    missing.push_back(is_missing(float3(mesh.normals, vertex)));
+  std::vector<Double3> normals, units;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    normals.push_back(face_normal(mesh, i));
+    units.push_back(unit(normals.back()));
+  }
+  const double min_cosine =
+      sin_cos_degrees(crease_degrees).cosine - 1e-9;  // rounded positions: what is meant to be plane is
+  const std::vector<std::uint32_t> corners = corners_by_position(mesh);
+  VertexSplitter splitter(mesh);
+  for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
+    const Float3 here = float3(mesh.positions, mesh.indices[corners[first]]);
+    for (end = first + 1; end < corners.size() && float3(mesh.positions, mesh.indices[corners[end]]) == here;)
+      ++end;
+    const auto mean = [&](auto belongs) {
+      Double3 sum{};
+      for (std::size_t j = first; j < end; ++j)
+        if (const std::uint32_t face = corners[j] / 3; belongs(face))
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += normals[face][k];
+      const Double3 n = unit(sum);
+      return Float3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
+    };
+    const bool is_compared = end - first <= kMaxComparedTriangles;
+    const Float3 of_all = is_compared ? Float3{} : mean([](std::uint32_t) { return true; });
+    for (std::size_t i = first; i < end; ++i) {
+      if (!missing[mesh.indices[corners[i]]]) continue;
+      const Double3& own = units[corners[i] / 3];
+      splitter.set(corners[i],
+                   is_compared ? mean([&](std::uint32_t face) { return dot(units[face], own) >= min_cosine; })
+                               : of_all);
+    }
+  }
+}
+
+void orient_by_normals(MeshData& mesh) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Double3 face = face_normal(mesh, i);
+    double along = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Float3 n = float3(mesh.normals, mesh.indices[i + corner]);
+      along += face[0] * n[0] + face[1] * n[1] + face[2] * n[2];
+    }
+    if (along < 0) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  }
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,274 @@
+// Wavefront OBJ and MTL by tinyobjloader. Corners that share position, normal and texture coordinates become
+// one vertex.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+#include <utility>
+
+#include <tiny_obj_loader.h>
+
+#include "engine/program/import/obj.h"
+#include "engine/program/import/obj_check.h"
+#include "engine/program/import/obj_text.h"
+#include "engine/program/scene/text_file.h"
+
+namespace tessera::program {
+namespace {
+
+// The textures that a material file names. (tinyobjloader keeps one of each kind; a cube of reflections has
+// six.)
+std::set<std::string> textures_of(const std::string& mtl) {
+  std::set<std::string> names;
+  std::istringstream lines(mtl);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream stream(line.substr(0, line.find_last_not_of(" \t") + 1));
+    std::string keyword, rest, name;
+    std::getline(stream >> keyword >> std::ws, rest);
+    const bool is_texture = keyword.starts_with("map_") || keyword == "bump" || keyword == "disp" ||
+                            keyword == "refl" || keyword == "norm" || keyword == "decal";
+    tinyobj::texture_option_t options{};
+    if (is_texture && tinyobj::ParseTextureNameAndOption(&name, &options, rest.c_str())) names.insert(name);
+  }
+  return names;
+}
+
+// Finds material files beside the model; one that is missing is a warning.
+class MaterialFiles : public tinyobj::MaterialReader {
+ public:
+  explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
+
+  /// Those and their textures, by their names from the model's folder.
+  const std::set<std::string>& names() const { return names_; }
+  MtlKeys given(const std::string& material) const {
+    const auto found = given_.find(material);
+    return found == given_.end() ? MtlKeys{} : found->second;
+  }
+
+  /// `names` is one name with spaces, or several names.
+  bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* by_name, std::string* warning, std::string* error) override {
+    const auto paths = possible_paths(names);
+    for (const std::string& path : paths) {
+      std::error_code no_name;  // of a file: too long
+      if (path == names || std::filesystem::exists(std::filesystem::path(folder_) / path, no_name))
+        return read(path, materials, by_name, warning, error);
+    }
+    bool is_read = false;
+    std::istringstream several(paths[0]);
+    for (std::string name; several >> name;) is_read |= read(name, materials, by_name, warning, error);
+    return is_read;
+  }
+
+ private:
+  bool read(const std::string& name, std::vector<tinyobj::material_t>* materials,
+            std::map<std::string, int>* by_name, std::string* warning, std::string* error) {
+    const std::string path = (std::filesystem::path(folder_) / name).string();
+    names_.insert(name);
+    std::string text;
+    try {
+      refuse_device_or_pipe(path);
+      text = read_text_file(path);
+    } catch (const Error& missing) {
+      *warning += std::string(missing.what()) + "\n";
+      return false;
+    }
+    std::vector<std::string> warnings;
+    text = normalized_mtl(text, path, warnings);
+    given_.merge(check_mtl(text, path));
+    for (const std::string& texture : textures_of(text)) {
+      names_.insert(texture);
+      names_.insert((std::filesystem::path(name).parent_path() / texture)
+                        .string());  // programs differ in where they look
+    }
+    std::istringstream stream(text);
+    std::string more;  // LoadMtl overwrites what stands there
+    tinyobj::LoadMtl(by_name, materials, &stream, &more, error);
+    for (const std::string& line : warnings) *warning += line + "\n";
+    *warning += more;
+    return true;
+  }
+
+  std::string folder_;
+  std::set<std::string> names_;
+  std::map<std::string, MtlKeys, std::less<>> given_;
+};
+
+// tinyobjloader leaves a colour that is not given black; such a surface has the default diffuse colour, and
+// reflects ambient light as it reflects all other. Below illum 2 there is no highlight.
+void fill_in(tinyobj::material_t& material, const MtlKeys& given, std::string& warning) {
+  const Color diffuse = Material{}.diffuse;
+  const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
+  if (!given.diffuse) std::copy_n(standard, 3, material.diffuse);
+  if (!given.ambient) std::copy_n(material.diffuse, 3, material.ambient);
+  if (given.illum && material.illum < 2) std::fill_n(material.specular, 3, 0.0f);
+  material.name = with_spaces(material.name);
+  if (given.texture)
+    warning +=
+        "map_Kd of material \"" + material.name + "\" is left out: textures of models are not supported\n";
+  if (given.dissolve && material.dissolve < 1)
+    warning += "d of material \"" + material.name + "\" is left out: transparency is not supported\n";
+}
+
+struct Obj {
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::vector<std::string> warnings, files;
+};
+
+// One warning a line, each once.
+std::vector<std::string> warning_lines(const std::string& text, const std::string& path) {
+  constexpr std::size_t kMaxWarnings = 20;
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line) && lines.size() < kMaxWarnings;) {
+    const std::string warning = path + ": " + line;
+    if (!line.empty() && std::find(lines.begin(), lines.end(), warning) == lines.end())
+      lines.push_back(warning);
+  }
+  return lines;
+}
+
+Obj load(const std::string& path) {
+  const std::string text = normalized_obj(read_text_file(path));
+  check_obj(text, path);
+  Obj obj;
+  MaterialFiles material_files(std::filesystem::path(path).parent_path().string());
+  std::istringstream stream(text);
+  std::string warning, error;
+  constexpr bool kTriangulate = true, kWhiteIfUncolored = false;
+  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream,
+                        &material_files, kTriangulate, kWhiteIfUncolored)) {
+    error.erase(std::remove(error.begin(), error.end(), '\n'), error.end());
+    throw Error(path + ": " + (error.empty() ? "is no OBJ file" : error));
+  }
+  for (tinyobj::material_t& material : obj.materials)
+    fill_in(material, material_files.given(material.name), warning);
+  obj.warnings = warning_lines(warning, path);
+  obj.files.assign(material_files.names().begin(), material_files.names().end());
+  return obj;
+}
+
+// What every corner of a file has.
+struct CornerAttributes {
+  bool normals = false, texcoords = false;
+};
+
+// Turns corners (position, normal, texture coordinates) into vertices of one mesh.
+class VertexPool {
+ public:
+  VertexPool(const tinyobj::attrib_t& attributes, CornerAttributes given, MeshData& mesh)
+      : attributes_(attributes),
+        has_normals_(given.normals),
+        has_texcoords_(given.texcoords),
+        has_colors_(attributes.colors.size() == attributes.vertices.size()),
+        mesh_(mesh) {}
+
+  std::uint32_t vertex(tinyobj::index_t corner) {
+    const auto position = static_cast<std::uint32_t>(corner.vertex_index);
+    const auto normal = static_cast<std::uint32_t>(has_normals_ ? corner.normal_index : 0);
+    const auto texcoord = static_cast<std::uint32_t>(has_texcoords_ ? corner.texcoord_index : 0);
+    const auto [entry, is_new] = vertices_.try_emplace({std::uint64_t{position} << 32 | normal, texcoord},
+                                                       static_cast<std::uint32_t>(vertices_.size()));
+    if (is_new) {
+      if (has_texcoords_)
+        for (std::size_t k = 0; k < 2; ++k)
+          mesh_.texcoords.push_back(attributes_.texcoords.at(2 * std::size_t{texcoord} + k));
+      append(attributes_.vertices, position, mesh_.positions);
+      if (has_normals_) append(attributes_.normals, normal, mesh_.normals);
+      if (has_colors_) {
+        append(attributes_.colors, position, mesh_.colors);
+        mesh_.colors.push_back(1);
+      }
+    }
+    return entry->second;
+  }
+
+ private:
+  static void append(const std::vector<tinyobj::real_t>& from, std::size_t index, std::vector<float>& to) {
+    to.insert(to.end(), {from.at(3 * index), from.at(3 * index + 1), from.at(3 * index + 2)});
+  }
+
+  const tinyobj::attrib_t& attributes_;
+  struct Hash {
+    std::size_t operator()(const std::pair<std::uint64_t, std::uint32_t>& key) const {
+      return static_cast<std::size_t>((key.first ^ key.second * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu >>
+                                      16);
+    }
+  };
+  bool has_normals_, has_texcoords_, has_colors_;
+  MeshData& mesh_;
+  std::unordered_map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t, Hash> vertices_;
+};
+
+Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::string>& warnings,
+                           const std::string& path) {
+  const auto color = [](const tinyobj::real_t(&rgb)[3], float alpha) {
+    return Color{rgb[0], rgb[1], rgb[2], alpha};
+  };
+  constexpr float kMaxShininess = 16384;
+  if (from.shininess < 0 || from.shininess > kMaxShininess)
+    warnings.push_back(path + ": Ns of material \"" + from.name + "\" is " + std::to_string(from.shininess) +
+                       ", cut to 0 .. 16384");
+  return {.ambient = color(from.ambient, 1),
+          .diffuse = color(from.diffuse, from.dissolve),
+          .specular = color(from.specular, 1),
+          .emission = color(from.emission, 1),
+          .shininess = std::clamp(from.shininess, 0.0f, kMaxShininess)};
+}
+
+}  // namespace
+
+Model import_obj(const std::string& path) {
+  Obj obj = load(path);
+  Model model{.warnings = std::move(obj.warnings), .files = std::move(obj.files)};
+
+  std::size_t corners = 0, corners_with_normal = 0, corners_with_texcoord = 0;
+  const auto texcoords = static_cast<std::int64_t>(obj.attributes.texcoords.size() / 2);
+  for (const tinyobj::shape_t& shape : obj.shapes)
+    for (const tinyobj::index_t& corner : shape.mesh.indices) {
+      ++corners;
+      corners_with_normal += corner.normal_index >= 0 ? 1 : 0;
+      corners_with_texcoord += corner.texcoord_index >= 0 && corner.texcoord_index < texcoords ? 1 : 0;
+    }
+  if (corners == 0) throw Error(path + ": holds no triangle");
+  const bool has_normals = corners_with_normal == corners;
+  if (!has_normals && corners_with_normal > 0)
+    model.warnings.push_back(path + ": only some corners have normals; all are computed");
+  const bool has_texcoords = corners_with_texcoord == corners;
+  if (!has_texcoords && corners_with_texcoord > 0)
+    model.warnings.push_back(path + ": only some corners have texture coordinates; none are used");
+
+  // Triangles by material; -1: none.
+  VertexPool pool(obj.attributes, {has_normals, has_texcoords}, model.mesh);
+  std::vector<int> order;
+  std::map<int, std::vector<std::uint32_t>> triangles;
+  for (const tinyobj::shape_t& shape : obj.shapes)
+    for (std::size_t face = 0; face < shape.mesh.material_ids.size(); ++face) {
+      const int material = shape.mesh.material_ids[face];
+      const auto [entry, is_new] = triangles.try_emplace(material);
+      if (is_new) order.push_back(material);
+      for (std::size_t k = 0; k < 3; ++k)
+        entry->second.push_back(pool.vertex(shape.mesh.indices[3 * face + k]));
+    }
+  for (const int id : order) {
+    const std::vector<std::uint32_t>& indices = triangles[id];
+    ModelPart part{.material_name = {},
+                   .material = {},
+                   .first_index = model.mesh.indices.size(),
+                   .index_count = indices.size(),
+                   .uses_colors = id < 0 && !model.mesh.colors.empty()};
+    if (id >= 0) {
+      part.material_name = obj.materials.at(static_cast<std::size_t>(id)).name;
+      part.material = material_from_mtl(obj.materials[static_cast<std::size_t>(id)], model.warnings, path);
+    }
+    model.parts.push_back(std::move(part));
+    model.mesh.indices.insert(model.mesh.indices.end(), indices.begin(), indices.end());
+  }
+  return model;
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,150 @@
+// Sphere, torus, cube, cylinder, cone, quad and grid. Points on circles come from one table for each circle,
+// so that a seam has the very same coordinates on both sides.
+#include "engine/program/scene/builtin_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/program/scene/surface_patch.h"
+
+namespace tessera::program {
+namespace {
+
+// `count` points of the unit circle; at() takes any index >= 0 and wraps around.
+class Circle {
+ public:
+  struct Point {
+    double cosine, sine;
+  };
+
+  explicit Circle(int count) {
+    constexpr Point kQuarters[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};  // exact: a pole must be one point
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      points_.push_back(4 * i % count == 0 ? kQuarters[4 * i / count]
+                                           : Point{std::cos(angle), std::sin(angle)});
+    }
+  }
+  Point at(int i) const { return points_[static_cast<std::size_t>(i) % points_.size()]; }
+  /// On the circle around the y axis, counter-clockwise seen from above: from +x through -z.
+  Vec3 around_y(int i, double radius, double y) const {
+    const Point p = at(i);
+    return {radius * p.cosine, y, -radius * p.sine};
+  }
+
+ private:
+  std::vector<Point> points_;
+};
+
+MeshData sphere(int n) {
+  MeshData mesh;
+  const Circle circle(2 * n);  // half of it serves as the meridian, too
+  append_patch(mesh, 2 * n, n, [&](int i, int j) {
+    const auto [height, radius] = circle.at(j);
+    const Vec3 p = circle.around_y(i, radius, -height);
+    return SurfacePoint{p, p};
+  });
+  return mesh;
+}
+
+MeshData torus(int n) {
+  constexpr double kRingRadius = 0.7, kTubeRadius = 0.3;
+  MeshData mesh;
+  const Circle ring(2 * n), tube(n);
+  append_patch(mesh, 2 * n, n, [&](int i, int j) {
+    const auto around = ring.at(i), through = tube.at(j);
+    const double radius = kRingRadius + kTubeRadius * through.cosine;
+    return SurfacePoint{{radius * around.cosine, radius * around.sine, kTubeRadius * through.sine},
+                        {through.cosine * around.cosine, through.cosine * around.sine, through.sine}};
+  });
+  return mesh;
+}
+
+// A square of side 2 as n x n quads around `centre`, s along `right`, t along `up`, both unit vectors.
+void append_square(MeshData& mesh, int n, Vec3 centre, Vec3 right, Vec3 up) {
+  const Vec3 normal{right.y * up.z - right.z * up.y, right.z * up.x - right.x * up.z,
+                    right.x * up.y - right.y * up.x};
+  append_patch(mesh, n, n, [&](int i, int j) {
+    const double s = static_cast<double>(2 * i - n) / n, t = static_cast<double>(2 * j - n) / n;
+    return SurfacePoint{{centre.x + s * right.x + t * up.x, centre.y + s * right.y + t * up.y,
+                         centre.z + s * right.z + t * up.z},
+                        normal};
+  });
+}
+
+MeshData cube(int n) {
+  MeshData mesh;
+  append_square(mesh, n, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  append_square(mesh, n, {0, 0, -1}, {-1, 0, 0}, {0, 1, 0});
+  append_square(mesh, n, {1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+  append_square(mesh, n, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  append_square(mesh, n, {0, 1, 0}, {1, 0, 0}, {0, 0, -1});
+  append_square(mesh, n, {0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+  return mesh;
+}
+
+MeshData grid(int n) {
+  MeshData mesh;
+  append_square(mesh, n, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  return mesh;
+}
+
+// A disc at height y; its triangles share the centre. Seen from its own side s runs counter-clockwise.
+void append_cap(MeshData& mesh, const Circle& circle, int around, double y, bool faces_up) {
+  append_patch(mesh, around, 1, [&](int i, int j) {
+    return SurfacePoint{circle.around_y(faces_up ? i : around - i, 1.0 - j, y),
+                        {0, faces_up ? 1.0 : -1.0, 0}};
+  });
+}
+
+MeshData cylinder(int n) {
+  MeshData mesh;
+  const Circle circle(2 * n);
+  append_patch(mesh, 2 * n, 1, [&](int i, int j) {
+    return SurfacePoint{circle.around_y(i, 1, 2 * j - 1), circle.around_y(i, 1, 0)};
+  });
+  append_cap(mesh, circle, 2 * n, 1, true);
+  append_cap(mesh, circle, 2 * n, -1, false);
+  return mesh;
+}
+
+// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps a
+// normal of its own.
+MeshData cone(int n) {
+  MeshData mesh;
+  const Circle circle(2 * n);
+  const double slope = 1 / std::sqrt(5.0);
+  append_patch(mesh, 2 * n, 1, [&](int i, int j) {
+    return SurfacePoint{circle.around_y(i, 1.0 - j, 2 * j - 1), circle.around_y(i, 2 * slope, slope)};
+  });
+  append_cap(mesh, circle, 2 * n, -1, false);
+  return mesh;
+}
+
+}  // namespace
+
+int min_mesh_detail(std::string_view name) { return name == "sphere" || name == "torus" ? 2 : 1; }
+
+MeshData builtin_mesh(std::string_view name, int detail) {
+  const std::string text(name);
+  if (std::find(kBuiltinMeshNames.begin(), kBuiltinMeshNames.end(), name) == kBuiltinMeshNames.end())
+    throw Error("there is no built-in mesh \"" + text + "\"");
+  if (detail < min_mesh_detail(name) || detail > kMaxMeshDetail)
+    throw Error("detail of a built-in " + text + " is " + std::to_string(detail) + ", must be " +
+                std::to_string(min_mesh_detail(name)) + " .. " + std::to_string(kMaxMeshDetail));
+
+  MeshData mesh = name == "teapot"     ? teapot_mesh(detail)
+                  : name == "sphere"   ? sphere(detail)
+                  : name == "torus"    ? torus(detail)
+                  : name == "cube"     ? cube(detail)
+                  : name == "cylinder" ? cylinder(detail)
+                  : name == "cone"     ? cone(detail)
+                                       : grid(name == "quad" ? 1 : detail);
+  mesh.name = text;
+  return mesh;
+}
+
+}  // namespace tessera::program

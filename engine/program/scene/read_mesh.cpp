@@ -1,0 +1,156 @@
+// Meshes: built in, from a model file, or written in the scene.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "engine/program/import/model.h"
+#include "engine/program/scene/builtin_mesh.h"
+#include "engine/program/scene/read_scene.h"
+
+namespace tessera::program {
+namespace {
+
+using json::Json;
+using json::Object;
+using json::Value;
+
+MeshData read_builtin(const Value& value) {
+  const Object object(value, {"builtin", "detail"});
+  const std::string name = object.require("builtin").choice<std::string>({{"teapot", "teapot"},
+                                                                          {"sphere", "sphere"},
+                                                                          {"torus", "torus"},
+                                                                          {"cube", "cube"},
+                                                                          {"cylinder", "cylinder"},
+                                                                          {"cone", "cone"},
+                                                                          {"quad", "quad"},
+                                                                          {"grid", "grid"}});
+  const auto detail = object.find("detail");
+  return builtin_mesh(name, detail ? static_cast<int>(detail->integer(min_mesh_detail(name), kMaxMeshDetail))
+                                   : kDefaultMeshDetail);
+}
+
+MeshData read_file(const Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene) {
+  const Object object(value, {"file"});
+  const Value file = object.require("file");
+  const std::filesystem::path path =
+      std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
+  cache.files.insert(path.string());
+  auto model = cache.models.find(path.string());
+  if (model == cache.models.end()) {
+    model = cache.models
+                .emplace(path.string(), file.checked([&] {
+                  return import_model(path.string(), ModelUse::mesh, cache.should_continue);
+                }))
+                .first;
+    cache.files.insert(model->second.files.begin(), model->second.files.end());
+  }
+  scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
+  return model->second.mesh;
+}
+
+// A list of vectors, flattened. Long lists are read without building a pointer for each number; only an error
+// asks for one.
+std::vector<float> read_vectors(const Value& list, std::size_t components) {
+  std::vector<float> numbers;
+  numbers.reserve(list.size() * components);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json& vector = list.json()[i];
+    if (!vector.is_array() || vector.size() != components)
+      list.element(i).fail("an array of " + std::to_string(components) + " numbers");
+    for (std::size_t k = 0; k < components; ++k) {
+      const Json& number = vector[k];
+      const double x = number.is_number() ? number.get<double>() : std::numeric_limits<double>::infinity();
+      numbers.push_back(std::abs(x) <= std::numeric_limits<float>::max() ? static_cast<float>(x)
+                                                                         : list.element(i).element(k).real());
+    }
+  }
+  return numbers;
+}
+
+std::vector<float> read_per_vertex(const Object& object, const char* key, std::size_t components,
+                                   std::size_t vertices) {
+  const auto list = object.find(key);
+  if (!list) return {};
+  if (list->size() != vertices) list->fail("one for each of the " + std::to_string(vertices) + " positions");
+  return read_vectors(*list, components);
+}
+
+std::vector<float> read_color_indices(const Value& list, std::size_t vertices) {
+  if (list.size() != vertices) list.fail("one for each of the " + std::to_string(vertices) + " positions");
+  std::vector<float> indices;
+  indices.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) indices.push_back(list.element(i).real());
+  return indices;
+}
+
+// What makes no whole primitives is told at the list that is too long or too short.
+void require_whole_primitives(const Value& list, Primitive primitive, const char* corners) {
+  if (list.size() != 0 && makes_whole_primitives(primitive, list.size())) return;
+  list.fail(std::string(corners_needed(primitive)) + " " + corners + ", for " +
+            std::string(name_of_mesh(primitive)));
+}
+
+std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices, Primitive primitive) {
+  require_whole_primitives(list, primitive, "indices");
+  std::vector<std::uint32_t> indices;
+  indices.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json& index = list.json()[i];
+    const bool fits = index.is_number_unsigned() && index.get<std::uint64_t>() < vertices;
+    indices.push_back(static_cast<std::uint32_t>(
+        fits ? index.get<std::uint64_t>()
+             : list.element(i).integer(0, static_cast<std::int64_t>(vertices) - 1)));
+  }
+  return indices;
+}
+
+MeshData read_inline(const Value& value) {
+  const Object object(
+      value, {"primitive", "positions", "normals", "colors", "color_indices", "texcoords", "indices"});
+  const Value positions = object.require("positions");
+  const std::size_t vertices = positions.size();
+  MeshData mesh;
+  if (const auto primitive = object.find("primitive"))
+    mesh.primitive = primitive->choice<Primitive>({{"points", Primitive::points},
+                                                   {"lines", Primitive::lines},
+                                                   {"line_strip", Primitive::line_strip},
+                                                   {"line_loop", Primitive::line_loop},
+                                                   {"triangles", Primitive::triangles},
+                                                   {"triangle_strip", Primitive::triangle_strip},
+                                                   {"triangle_fan", Primitive::triangle_fan},
+                                                   {"quads", Primitive::quads},
+                                                   {"quad_strip", Primitive::quad_strip},
+                                                   {"polygon", Primitive::polygon}});
+  const bool makes_lines = mesh.primitive == Primitive::lines || mesh.primitive == Primitive::line_strip ||
+                           mesh.primitive == Primitive::line_loop;
+  const int least = mesh.primitive == Primitive::points ? 1 : makes_lines ? 2 : 3;
+  if (vertices == 0)
+    positions.fail("at least " + std::to_string(least) + (least == 1 ? " position" : " positions"));
+  mesh.position_components = positions.json()[0].is_array() && positions.json()[0].size() == 4 ? 4 : 3;
+  mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
+  mesh.normals = read_per_vertex(object, "normals", 3, vertices);
+  mesh.colors = read_per_vertex(object, "colors", 4, vertices);
+  mesh.texcoords = read_per_vertex(object, "texcoords", 2, vertices);
+  if (const auto indices = object.find("color_indices"))
+    mesh.color_indices = read_color_indices(*indices, vertices);
+  if (const auto indices = object.find("indices"))
+    mesh.indices = read_indices(*indices, vertices, mesh.primitive);
+  else require_whole_primitives(positions, mesh.primitive, "positions, or \"indices\"");
+  return mesh;
+}
+
+}  // namespace
+
+void read_meshes(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
+  value.for_each_member([&](const std::string& name, const Value& member) {
+    const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors",
+                                 "color_indices", "texcoords", "indices"});
+    MeshData mesh = object.has("builtin") ? read_builtin(member)
+                    : object.has("file")  ? read_file(member, base_folder, models, scene)
+                                          : read_inline(member);
+    mesh.name = name;
+    scene.meshes.push_back(std::move(mesh));
+  });
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,105 @@
+#include "engine/record/checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tessera::detail {
+namespace {
+
+template <class Values>
+void require_all_finite(const FieldName& name, const Values& values) {
+  const auto odd =
+      std::find_if(std::begin(values), std::end(values), [](double v) { return !std::isfinite(v); });
+  if (odd != std::end(values))
+    throw Error(name.text() + " holds " + format_number(*odd) + ", must be finite");
+}
+
+}  // namespace
+
+std::string format_number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
+void require_finite(const FieldName& name, std::initializer_list<double> values) {
+  require_all_finite(name, values);
+}
+void require_finite(const FieldName& name, const Color& c) { require_finite(name, {c.r, c.g, c.b, c.a}); }
+void require_finite(const FieldName& name, const Matrix& matrix) { require_all_finite(name, matrix.m); }
+
+void require_range(const FieldName& name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    throw Error(name.text() + " is " + format_number(value) + ", must be " + format_number(low) + " to " +
+                format_number(high));
+}
+
+void check_rect(const FieldName& name, const Rect& rect) {
+  if (rect.width < 0 || rect.height < 0)
+    throw Error(name.text() + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) +
+                " pixels, must not be negative");
+}
+
+void throw_invalid_enum(const FieldName& name, unsigned value, unsigned last) {
+  throw Error(name.text() + " is " + std::to_string(value) + ", which stands for nothing, must be 0 to " +
+              std::to_string(last));
+}
+
+namespace {
+
+void check_stencil_face(const char* function, const StencilFace& face) {
+  require_enum({function, ": stencil.func"}, face.func, Compare::always);
+  for (const StencilOp op : {face.fail, face.zfail, face.zpass})
+    require_enum({function, ": an operation of stencil"}, op, StencilOp::decr_wrap);
+}
+
+void check_blend(const char* function, const BlendState& blend) {
+  for (const BlendFactor factor :
+       {blend.src, blend.dst, blend.src_alpha.value_or(blend.src), blend.dst_alpha.value_or(blend.dst)})
+    require_enum({function, ": a factor of blend"}, factor, BlendFactor::src_alpha_saturate);
+  require_enum({function, ": blend.equation"}, blend.equation, BlendEquation::max);
+  for (const float c : {blend.color.r, blend.color.g, blend.color.b, blend.color.a})
+    require_range({function, ": a component of blend.color"}, c, 0, 1);
+}
+
+}  // namespace
+
+void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
+  if (mask[0] == mask[1] && mask[1] == mask[2]) return;
+  const char* const held = target.layout.index       ? "an index buffer has one"
+                           : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone"
+                                                     : nullptr;
+  if (held)
+    throw Error(std::string(function) + ": the colour mask differs between components, " + held +
+                ": all or none");
+}
+
+void check_fragment_state(const char* function, const DrawState& s, const FrameBufferState& target) {
+  const auto refuse = [&](const char* reason) { throw Error(std::string(function) + ": " + reason); };
+  if (s.scissor) check_rect({function, ": scissor"}, *s.scissor);
+  check_color_mask(function, s.color_mask, target);
+  require_enum({function, ": depth.test"}, s.depth.test, Compare::always);
+  require_enum({function, ": logic_op"}, s.logic_op, LogicOp::set);
+  const bool is_index = target.layout.index;
+  if (s.alpha_test) {
+    if (is_index)
+      refuse("an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
+    require_enum({function, ": alpha_test.func"}, s.alpha_test->func, Compare::always);
+    require_range({function, ": alpha_test.ref"}, s.alpha_test->ref, 0, 1);
+  }
+  if (s.blend) {
+    if (is_index) refuse("blending is asked for, but the frame buffer holds indices, which do not blend");
+    if (s.logic_op != LogicOp::copy)
+      refuse("blending and a logic operation are asked for; a draw has one of them");
+    check_blend(function, *s.blend);
+  }
+  if (s.stencil) {
+    if (target.format.stencil_bits == 0)
+      refuse("a stencil test is asked for, but the frame buffer has no stencil buffer");
+    check_stencil_face(function, s.stencil->front);
+    if (s.stencil->back) check_stencil_face(function, *s.stencil->back);
+  }
+}
+
+}  // namespace tessera::detail

@@ -1,0 +1,96 @@
+#include "engine/record/planar_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/record/checks.h"
+#include "engine/runtime/worker_pool.h"
+
+namespace tessera {
+using namespace detail;
+namespace {
+
+std::string list_of(const std::array<double, 4>& v, int count) {
+  std::string list;
+  for (int i = 0; i < count; ++i)
+    list.append(i == 0 ? "" : " ").append(format_number(v[static_cast<std::size_t>(i)]));
+  return list;
+}
+
+// With a light l (homogeneous) and the plane p, M = (p.l) I - l p^T takes a point x to where the line from l
+// through x meets the plane, and its w to (p.l) x.w - (p.x) l.w. Between the plane, where p.x is 0, and the
+// light, where p.x is p.l, that has the sign of p.l: divided by p.l it is above 0 there, as clipping wants
+// it, whichever way the plane's normal points, and 1 in the plane itself.
+Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, const Light& light) {
+  constexpr double kRounding = 0x1p-22;  // of the terms of p.l, since lights stand in floats
+  require_finite({owner, "'s plane"}, {plane[0], plane[1], plane[2], plane[3]});
+  require_finite({owner, "'s light's position"},
+                 {light.position[0], light.position[1], light.position[2], light.position[3]});
+  const double largest = std::max({std::abs(plane[0]), std::abs(plane[1]), std::abs(plane[2])});
+  if (!(largest > 0))
+    throw Error(std::string(owner) + ": the plane is " + list_of(plane, 4) +
+                ", its normal must not be 0 0 0");
+  // A power of two keeps sums of products within a double's range and changes no bit of what follows.
+  const int exponent = std::ilogb(std::max(largest, std::abs(plane[3])));
+  std::array<double, 4> p, l;
+  double product = 0, terms = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    p[i] = std::scalbn(plane[i], -exponent);
+    l[i] = light.position[i];
+    product += p[i] * l[i];
+    terms += std::abs(p[i] * l[i]);
+  }
+  if (!(std::abs(product) > kRounding * terms)) {
+    const bool directional = l[3] == 0;
+    if (!directional)
+      for (std::size_t i = 0; i < 3; ++i) l[i] /= l[3];
+    throw Error(std::string(owner)
+                    .append(directional ? ": the light's direction " : ": the light at ")
+                    .append(list_of(l, 3))
+                    .append(directional ? " is parallel to the plane " : " lies in the plane ")
+                    .append(list_of(plane, 4))
+                    .append(", it has no shadow there"));
+  }
+  Matrix m;
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t column = 0; column < 4; ++column) {
+      m.m[4 * row + column] -= l[row] * p[column] / product;
+      if (!std::isfinite(m.m[4 * row + column]))
+        throw Error(std::string(owner) + ": the shadow on the plane " + list_of(plane, 4) +
+                    " is too far away for numbers");
+    }
+  return m;
+}
+
+}  // namespace
+
+Matrix planar_shadow(const std::array<double, 4>& plane, const Light& light) {
+  const FloatingPointMode mode;
+  return shadow_matrix("planar_shadow", plane, light);
+}
+
+namespace detail {
+
+void apply_planar_shadow(RecordedDraw& draw) {
+  const ShadowOn& shadow = *draw.state.shadow_on;
+  const std::vector<Light>& lights = draw.scene_state->lights;
+  if (shadow.light >= lights.size())
+    throw Error("Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " +
+                std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") +
+                ", counted from 0");
+  require_finite({"Frame::draw: shadow_on.color"}, shadow.color);
+  draw.state.transform =
+      shadow_matrix("Frame::draw: shadow_on", shadow.plane, lights[shadow.light]) * draw.state.transform;
+  require_finite({"Frame::draw: shadow_on's matrix times transform"}, draw.state.transform);
+  draw.state.lighting = false;
+  draw.state.material.diffuse = shadow.color;
+  draw.mesh.colors = draw.mesh.color_indices = {};
+  draw.mesh.color_bytes = nullptr;
+  draw.state.texture = nullptr;
+  draw.texture = nullptr;
+}
+
+}  // namespace detail
+
+}  // namespace tessera

@@ -1,0 +1,91 @@
+// How the vertices of a mesh make points, lines and polygons, and polygons triangles.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "engine/tessera/primitives.hpp"
+#include "raster/topology.h"
+
+namespace tessera::detail {
+
+constexpr Topology topology_of(Primitive primitive) {
+  switch (primitive) {
+    case Primitive::points: return Topology::points;
+    case Primitive::lines:
+    case Primitive::line_strip:
+    case Primitive::line_loop: return Topology::lines;
+    default: return Topology::triangles;
+  }
+}
+
+/// Corner numbers of element t, as many as it has, those of a triangle in the order of its polygon. Its
+/// provoking vertex stands in provoking_place(), unless that says that it is elsewhere.
+/// @param corners  of the whole mesh
+constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, ProvokingVertex provoking,
+                                                     std::size_t corners, std::size_t t) {
+  const bool last = provoking == ProvokingVertex::last;
+  switch (primitive) {
+    case Primitive::points: return {t};
+    case Primitive::lines: return {2 * t, 2 * t + 1};
+    case Primitive::line_strip: return {t, t + 1};
+    case Primitive::line_loop: return {t, t + 1 == corners ? 0 : t + 1};
+    case Primitive::triangles: return {3 * t, 3 * t + 1, 3 * t + 2};
+    case Primitive::triangle_strip:  // every second one is turned over, around its provoking vertex
+      if (t % 2 == 0) return {t, t + 1, t + 2};
+      return last ? std::array{t + 1, t, t + 2} : std::array{t, t + 2, t + 1};
+    case Primitive::triangle_fan:
+      return last ? std::array{std::size_t{0}, t + 1, t + 2} : std::array{t + 1, t + 2, std::size_t{0}};
+    case Primitive::quads: {
+      const std::size_t v = t / 2 * 4;
+      return t % 2 == 0 ? std::array{v, v + 1, v + 2} : std::array{v, v + 2, v + 3};
+    }
+    case Primitive::quad_strip: {  // around its quad: v, v + 1, v + 3, v + 2
+      const std::size_t v = t / 2 * 2;
+      if (t % 2 == 0) return {v, v + 1, v + 3};
+      return last ? std::array{v + 2, v, v + 3} : std::array{v, v + 3, v + 2};
+    }
+    case Primitive::polygon: return {0, t + 1, t + 2};
+  }
+  return {};
+}
+
+/// Which of its corners is every element's provoking one; -1: of some triangles it is another corner of their
+/// polygon.
+constexpr int provoking_place(Primitive primitive, ProvokingVertex provoking) {
+  if (topology_of(primitive) == Topology::points) return 0;
+  if (topology_of(primitive) == Topology::lines) return provoking == ProvokingVertex::first ? 0 : 1;
+  if (primitive == Primitive::polygon) return 0;
+  if (provoking == ProvokingVertex::first) return 0;
+  return primitive == Primitive::quads ? -1 : 2;
+}
+/// The provoking corner of element t, or of its polygon.
+constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex provoking, std::size_t corners,
+                                       std::size_t t) {
+  const int place = provoking_place(primitive, provoking);
+  return place < 0 ? t / 2 * 4 + 3
+                   : element_corners(primitive, provoking, corners, t)[static_cast<std::size_t>(place)];
+}
+
+/// The corner that triangle t of a polygon has, and those of the polygon before it have not. @pre it is not
+/// the polygon's first
+constexpr std::size_t added_corner(Primitive primitive, std::size_t t) {
+  switch (primitive) {
+    case Primitive::quads: return t / 2 * 4 + 3;
+    case Primitive::quad_strip: return t / 2 * 2 + 2;
+    default: return t + 2;
+  }
+}
+
+/// Triangles that each polygon was split into; 1 for strips and fans, whose triangles are polygons of their
+/// own, and for points and lines.
+constexpr std::size_t triangles_of_polygon(Primitive primitive, std::size_t triangles) {
+  switch (primitive) {
+    case Primitive::quads:
+    case Primitive::quad_strip: return 2;
+    case Primitive::polygon: return triangles;
+    default: return 1;
+  }
+}
+
+}  // namespace tessera::detail

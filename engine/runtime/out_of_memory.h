@@ -1,0 +1,21 @@
+// The one exception type of the interface, also where memory runs out.
+#pragma once
+
+#include <new>
+#include <string>
+
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera::detail {
+
+/// Calls run(); std::bad_alloc becomes an Error that names the function.
+template <class Run>
+decltype(auto) translate_bad_alloc(const char* function, const Run& run) {
+  try {
+    return run();
+  } catch (const std::bad_alloc&) {
+    throw Error(std::string(function) + ": not enough memory");
+  }
+}
+
+}  // namespace tessera::detail

@@ -1,0 +1,166 @@
+#include "engine/stages/bin_stage.h"
+
+#include <algorithm>
+
+#include "raster/polygon_offset.h"
+#include "raster/sample_positions.h"
+
+namespace tessera::detail {
+namespace {
+
+constexpr std::size_t kTrianglesPerBatch = 1024;
+/// In the bins of a single tile a triangle takes less than this: its entry, and the pieces that clipping
+/// makes of it, in lists that double. (Of a polygon whose outline is drawn it is one of many that stay
+/// together.)
+constexpr std::size_t kMaxBytesPerTriangle = 8192;
+
+void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
+                  std::uint32_t last, InstructionSet isa) {
+  switch (draw.topology) {
+    case Topology::points: return bin_points(bins, grid, draw, first, last);
+    case Topology::lines: return bin_lines(bins, grid, draw, first, last);
+    case Topology::triangles: break;
+  }
+  if (draw.modes != nullptr) return bin_polygons(bins, grid, draw, first, last, isa);
+  bin_triangles(bins, grid, draw, first, last, isa);
+}
+
+}  // namespace
+
+void BinStage::begin(const FrameCommands& commands, const TileGrid& grid, int samples) {
+  commands_ = &commands;
+  grid_ = grid;
+  first_element_.assign(1, 0);
+  for (const GeometryDraw& draw : commands.geometry)
+    first_element_.push_back(first_element_.back() + (draw.plan->pixel_rectangle ? 1 : draw.mesh->elements));
+  batch_count_ = std::clamp<std::size_t>(first_element_.back() / kTrianglesPerBatch, 1,
+                                         4 * static_cast<std::size_t>(worker_pool_.threads()));
+  if (bins_.size() < batch_count_) bins_.resize(batch_count_);
+  prepare_draws(samples);
+}
+
+void BinStage::prepare_draws(int samples) {
+  draws_.clear();
+  draw_rects_.clear();
+  for (std::size_t d = 0; d < commands_->geometry.size(); ++d) {
+    const GeometryDraw& geometry = commands_->geometry[d];
+    const DrawPlan& plan = *geometry.plan;
+    BinDraw draw;
+    draw.draw = commands_->first_tile_draw[d];
+    draw.topology = plan.topology;
+    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
+    draw.samples = samples;
+    draw.vertices = geometry.buffers->vertices.data();
+    draw.indices = geometry.indices();
+    draw.outcodes = geometry.buffers->outcodes.data();
+    draw.any_outcode = geometry.buffers->any_outcode;
+    draw.keep_front = plan.keep_front;
+    draw.keep_back = plan.keep_back;
+    draw.front_is_clockwise = plan.front_is_clockwise;
+    draw.facing = geometry.facing();
+    if (geometry.has_polygon_offsets()) geometry.buffers->depth_offsets.resize(geometry.mesh->elements);
+    draw.rect = plan.rect;
+    draw.sample_reach = sample_reach(samples);
+    draw.transform = &plan.transform;
+    draw.positions = geometry.mesh->positions;
+    draw.components = geometry.mesh->components;
+    draw.attributes = geometry.buffers->attributes.data();
+    draw.attribute_count = draw.attribute_stride = plan.attribute_count;
+    if (plan.outlines) {
+      PolygonModes& modes = geometry.buffers->modes;
+      modes = {.style = {plan.style[0], plan.style[1]},
+               .line_width = plan.line_width,
+               .point_size = plan.point_size,
+               .triangles = geometry.mesh->triangles_per_polygon(),
+               .boundary = geometry.buffers->boundary.data()};
+      std::uint32_t number = draw.draw;
+      for (const PolygonMode style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
+      draw.modes = &modes;
+    }
+    draws_.push_back(draw);
+    draw_rects_.push_back(draw.rect);
+  }
+  polygon_ranges_.split(
+      draws_.size(),
+      [&](std::size_t d) {
+        return draws_[d].facing != nullptr || commands_->geometry[d].has_polygon_offsets()
+                   ? commands_->geometry[d].mesh->elements
+                   : 0;
+      },
+      kTrianglesPerBatch);
+  worker_pool_.for_each(polygon_ranges_.size(), [&](std::size_t i, int) {
+    const DrawRange range = polygon_ranges_[i];
+    const GeometryDraw& geometry = commands_->geometry[range.draw];
+    const std::size_t each = geometry.mesh->triangles_per_polygon();
+    if (geometry.facing() != nullptr)
+      classify_polygon_facing(draws_[range.draw], each, range.first, range.last,
+                              geometry.buffers->facing.data());
+    const DrawPlan& plan = *geometry.plan;
+    if (geometry.has_polygon_offsets())
+      offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first,
+                      range.last, geometry.buffers->depth_offsets.data());
+  });
+}
+
+bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
+  const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size,
+                         tiles.y1 * grid_.tile_size};
+  for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(draw_rects_[d], pixels);
+  // One core does this alone. Unless the last fill was complete and fitted, it looks at one batch after the
+  // other.
+  if (!budget_is_exact_) start_budget();
+  budget_is_exact_ = false;
+  worker_counts_.assign(static_cast<std::size_t>(worker_pool_.threads()), {});
+  const std::size_t elements = first_element_.back();
+  worker_pool_.for_each(batch_count_, [&](std::size_t b, int worker) {
+    progress.task(worker, [&] {
+      bins_[b].reset(tiles.count(), tiles.first(grid_), &budget_);
+      bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_);
+      worker_counts_[static_cast<std::size_t>(worker)].counts += bins_[b].counts;
+    });
+  });
+  counts_ = {};
+  for (const WorkerCounts& of_worker : worker_counts_) counts_ += of_worker.counts;
+  if (!budget_.refused()) {
+    budget_is_exact_ = true;
+    batches_.set({bins_.data(), batch_count_}, tiles.count(), tiles.first(grid_));
+    return true;
+  }
+  // Memory that went to batches as this range or earlier frames needed it may be wanted by others now.
+  for (Bins& bins : bins_) bins = Bins();
+  if (tiles.count() > 1) return false;
+  fill_one_by_one(tiles);
+  return true;
+}
+
+void BinStage::start_budget() {
+  std::size_t taken = 0;
+  for (const Bins& bins : bins_) taken += bins.bytes();
+  budget_.start(limit_bytes_, taken);
+}
+
+void BinStage::fill_one_by_one(const TileRange& tile) {
+  const std::size_t elements = first_element_.back(),
+                    each = std::max<std::size_t>(limit_bytes_ / kMaxBytesPerTriangle, 1);
+  const auto count = static_cast<std::uint32_t>((elements + each - 1) / each);
+  batches_.set_streamed(bins_.front(), count,
+                        [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
+                          bins_.front().reset(1, first_tile);
+                          bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
+                        });
+}
+
+/// Elements [begin, end) of the frame.
+void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
+  for (std::size_t d = 0; d < draws_.size(); ++d) {
+    const std::size_t low = std::max(begin, first_element_[d]), high = std::min(end, first_element_[d + 1]);
+    if (low >= high) continue;
+    if (commands_->plans[d]->pixel_rectangle) {
+      if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
+    } else
+      bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]),
+                   static_cast<std::uint32_t>(high - first_element_[d]), isa_);
+  }
+}
+
+}  // namespace tessera::detail

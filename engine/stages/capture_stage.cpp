@@ -1,0 +1,130 @@
+#include "engine/stages/capture_stage.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "shading/lighting.h"
+
+namespace tessera::detail {
+
+CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture,
+                           bool count_fragments, InstructionSet isa)
+    : capture_(capture), grid_(frame.grid), render_(detail::render_tile(isa)) {
+  normal_program_.needs_normal = normal_program_.renormalize = true;
+  if (!capture.primitive_ids.empty()) {
+    std::size_t most = 0;
+    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->elements);
+    triangle_ids_.resize(most);
+    std::iota(triangle_ids_.begin(), triangle_ids_.end(), 0u);
+    for (const GeometryDraw& geometry : commands.geometry) {
+      std::vector<std::uint32_t>& numbers = polygon_ids_.emplace_back();
+      const std::size_t each = geometry.mesh->triangles_per_polygon();
+      if (each < 2) continue;
+      numbers.resize(geometry.mesh->elements);
+      for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
+    }
+  }
+  if (capture.draw_ids.empty() && capture.primitive_ids.empty() && capture.normals.empty() &&
+      !count_fragments)
+    return;
+  passes_.reserve(4);  // frames of passes point into them
+  if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame);
+  if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame);
+  if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame);
+  if (count_fragments) add_pass(PassKind::fragments, commands, frame);
+}
+
+void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame) {
+  Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
+  pass.ops.reserve(pass.draws.size());  // draws point into it
+  for (std::size_t i = 0; i < pass.draws.size(); ++i) {
+    TileDraw& draw = pass.draws[i];
+    const std::size_t plan = commands.tile_draw_plan[i];
+    if (kind == PassKind::fragments) {
+      draw.uses_depth = false;
+      draw.ops = nullptr;
+    }
+    if (draw.ops == nullptr) draw.texture = nullptr;                    // else its alpha may be tested
+    if (draw.write_mask == 0 && kind != PassKind::fragments) continue;  // depth alone
+    draw.write_mask = 0xffffffffu;
+    draw.deferred = kind == PassKind::normals;
+    draw.source = ColorSource::constant;
+    draw.packed_color = static_cast<std::uint32_t>(commands.plan_draw[plan]);
+    if (draw.ops != nullptr) {
+      // The tests are what decides who is seen; what becomes of the colour does not.
+      FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
+      ops.blend = ops.dither = false;
+      ops.logic = LogicOp::copy;
+      draw.ops = &ops;
+      draw.deferred = false;
+      draw.id_output =
+          kind == PassKind::primitive_ids ? TileDraw::IdOutput::primitive : TileDraw::IdOutput::draw;
+    }
+    if (kind == PassKind::normals && draw.texels != nullptr) {
+      // As if nothing had been drawn: they have none.
+      draw.deferred = false;
+      draw.id_output = TileDraw::IdOutput::draw;
+      draw.packed_color = Capture::kNothing;
+    } else if (kind == PassKind::primitive_ids) {
+      draw.source = ColorSource::per_triangle_packed;
+      draw.packed_colors[0] = draw.packed_colors[1] =
+          (polygon_ids_[plan].empty() ? triangle_ids_ : polygon_ids_[plan]).data();
+    } else if (kind == PassKind::normals) {
+      draw.source = ColorSource::per_pixel;
+      draw.captures_normals = true;
+      draw.first_attribute = commands.plans[plan]->captured_normal_offset;
+      draw.attribute_count = 3;
+      for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
+      draw.programs[0] = draw.programs[1] = &normal_program_;
+    }
+  }
+  for (TileClear& clear : pass.clears) {
+    clear.packed_color = Capture::kNothing;
+    clear.dithered = false;
+    clear.accumulation = false;
+  }
+  pass.frame.layout = rgb_layout(24);
+  pass.frame.palette_search = nullptr;
+  pass.frame.samples = 1;  // what is seen at the centre
+  pass.frame.draws = pass.draws.data();
+  pass.frame.clears = pass.clears.data();
+  pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
+}
+
+std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,
+                                        TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, x0 = column * size, y0 = row * size;
+  std::fill_n(workspace.color(), size * size, Capture::kNothing);
+  const TileCounts counts = render_(pass.frame, row * grid_.columns() + column, workspace);
+  if (pass.kind == PassKind::draw_ids) write_ids(capture_.draw_ids, x0, y0, workspace);
+  if (pass.kind == PassKind::primitive_ids) write_ids(capture_.primitive_ids, x0, y0, workspace);
+  if (pass.kind == PassKind::normals) write_normals(x0, y0, workspace);
+  return pass.kind == PassKind::fragments ? counts.shaded_pixels : 0;
+}
+
+void CaptureStage::write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
+            height = std::min(size, grid_.height_px - y0);
+  for (int y = 0; y < height; ++y) {
+    std::uint32_t* const out =
+        to.data() + static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + x0;
+    for (int x = 0; x < width; ++x) out[x] = workspace.color()[tile_index(x, y, size)];
+  }
+}
+
+void CaptureStage::write_normals(int x0, int y0, TileWorkspace& workspace) const {
+  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
+            height = std::min(size, grid_.height_px - y0);
+  for (int y = 0; y < height; ++y) {
+    float* out = capture_.normals.data() +
+                 3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) +
+                      static_cast<std::size_t>(x0));
+    for (int x = 0; x < width; ++x, out += 3) {
+      const int at = tile_index(x, y, size);
+      const bool drawn = workspace.color()[at] != Capture::kNothing;
+      for (int c = 0; c < 3; ++c) out[c] = drawn ? workspace.normals(c)[at] : 0.0f;
+    }
+  }
+}
+
+}  // namespace tessera::detail

@@ -1,0 +1,59 @@
+// What a frame tells of its pixels besides their colour: the tiles are rendered once more for each thing
+// asked for, with the frame's own coverage, depth and order, and with numbers where colours were.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/plan/frame_commands.h"
+#include "engine/record/recording.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera::detail {
+
+class CaptureStage {
+ public:
+  /// `frame` and `commands` are read as long as this lives. Throws std::bad_alloc.
+  CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture,
+               bool count_fragments, InstructionSet isa);
+
+  bool needs_normals() const { return !capture_.normals.empty(); }
+  bool any() const { return !passes_.empty(); }
+  /// Renders a tile for each pass. `load_tests()` brings the tile's depth and stencil before the frame.
+  /// Returns the fragments counted. Distinct tiles may run at the same time, each in a workspace of its own.
+  template <class LoadTests>
+  std::uint64_t render_tile(int row, int column, TileWorkspace& workspace,
+                            const LoadTests& load_tests) const {
+    std::uint64_t fragments = 0;
+    for (const Pass& pass : passes_) {
+      load_tests();
+      fragments += render_pass(pass, row, column, workspace);
+    }
+    return fragments;
+  }
+
+ private:
+  enum class PassKind : std::uint8_t { draw_ids, primitive_ids, normals, fragments };
+  struct Pass {
+    PassKind kind;
+    TileFrame frame;
+    std::vector<TileDraw> draws;
+    std::vector<TileClear> clears;
+    std::vector<FragmentOps> ops;  ///< the tests of draws that have operations
+  };
+  void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame);
+  std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
+  void write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
+  void write_normals(int x0, int y0, TileWorkspace& workspace) const;
+
+  Capture capture_;
+  TileGrid grid_;
+  RenderTile* render_;
+  LightingProgram normal_program_;           ///< makes normals of length 1, and no light
+  std::vector<std::uint32_t> triangle_ids_;  ///< 0, 1, 2, ...: the triangles of the longest mesh
+  std::vector<std::vector<std::uint32_t>>
+      polygon_ids_;  ///< of each draw: the polygon of each triangle, where it has several
+  std::vector<Pass> passes_;
+};
+
+}  // namespace tessera::detail

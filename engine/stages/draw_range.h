@@ -1,0 +1,52 @@
+// Work on several draws, cut into tasks.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace tessera::detail {
+
+/// Vertices or elements [first, last) of a draw.
+struct DrawRange {
+  std::size_t draw, first, last;
+};
+
+/// The ranges that draws are cut into. Only whole draws are listed, not their ranges, which grow with the
+/// scene: each is worked out when it is asked for.
+class DrawRanges {
+ public:
+  /// Cuts `count(draw)` of each of so many draws into ranges of `range_size`; the last one of a draw may be
+  /// shorter. Throws std::bad_alloc. @pre range_size > 0
+  template <class Count>
+  void split(std::size_t draws, const Count& count, std::size_t range_size) {
+    range_size_ = range_size;
+    size_ = 0;
+    split_draws_.clear();
+    for (std::size_t draw = 0; draw < draws; ++draw) {
+      const std::size_t n = count(draw);
+      if (n == 0) continue;
+      split_draws_.push_back({draw, n, size_});
+      size_ += (n + range_size - 1) / range_size;
+    }
+  }
+  std::size_t size() const { return size_; }
+  /// @pre i < size()
+  DrawRange operator[](std::size_t i) const {
+    const SplitDraw& cut = *std::prev(
+        std::upper_bound(split_draws_.begin(), split_draws_.end(), i,
+                         [](std::size_t range, const SplitDraw& c) { return range < c.first_range; }));
+    const std::size_t first = (i - cut.first_range) * range_size_;
+    return {cut.draw, first, std::min(cut.count, first + range_size_)};
+  }
+
+ private:
+  struct SplitDraw {
+    std::size_t draw, count, first_range;
+  };
+  std::vector<SplitDraw> split_draws_;  // draws of which there is something
+  std::size_t range_size_ = 1, size_ = 0;
+};
+
+}  // namespace tessera::detail

@@ -1,0 +1,359 @@
+#include "engine/stages/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/stages/generated_normals.h"
+#include "shading/vertex_colors.h"
+
+namespace tessera::detail {
+namespace {
+
+constexpr int kNormalField = kNormalX, kPositionField = kPositionX, kVertexField = kVertexR;
+
+StridedFloats normals_of(const GeometryDraw& draw) {
+  if (draw.plan->face_normals) return {draw.buffers->face_normals.data(), 3};
+  return draw.plan->smooth_normals ? StridedFloats{draw.buffers->smooth_normals.data(), 3}
+                                   : draw.mesh->normals;
+}
+
+// Vertex colours of a batch; `vertex(i)` is the vertex of point i.
+template <class VertexOf>
+void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count,
+                        const VertexOf& vertex) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.color(vertex(i), c);
+}
+
+// A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position
+// is not.
+std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count,
+                             std::uint8_t* outcodes) {
+  std::uint8_t any = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    float probe = 0;
+    for (std::size_t k = 0; k < each; ++k) probe += values.at(i)[k] * 0.0f;
+    if (!(probe == 0)) any = outcodes[i] |= kNonFinite;
+  }
+  return any;
+}
+
+std::uint32_t packed_color_of(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t i, int face) {
+  if (draw.plan->is_index[face]) return quantize_index(*draw.layout, batch.field[kColorR][i]);
+  return pack_color_or_index(*draw.layout, draw.palette_search, batch.field[kColorR][i],
+                             batch.field[kColorG][i], batch.field[kColorB][i]);
+}
+
+// Unlit: the vertex colours themselves, clamped as every colour is after the vertex stage.
+void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < count; ++i)
+      batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
+}
+
+// Unlit: the vertices' indices, masked as those are that come out of lighting.
+template <class VertexOf>
+void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count,
+                        const VertexOf& vertex) {
+  for (std::size_t i = 0; i < count; ++i)
+    batch.field[kColorR][i] =
+        masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
+}
+
+// Where the colours of a batch go, and whose alpha they have.
+struct Batch {
+  std::size_t first, count;
+  bool triangles;             ///< else vertices
+  float alpha[kBatchPoints];  ///< the vertices', where the draw uses them
+};
+
+// Where the colours of one face of a batch go as floats, and how far one is from the next.
+struct ColorOutput {
+  float* first;
+  std::size_t stride;
+};
+ColorOutput color_output(const GeometryDraw& draw, const Batch& points, int face) {
+  const DrawPlan& plan = *draw.plan;
+  if (points.triangles) return {draw.buffers->face_colors[face].data() + 4 * points.first, 4};
+  const auto stride = static_cast<std::size_t>(plan.attribute_count);
+  return {draw.buffers->attributes.data() + points.first * stride + plan.color_floats() * face, stride};
+}
+
+void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
+  const auto [out, stride] = color_output(draw, points, face);
+  for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
+}
+
+// For operations that take colours: r g b a for each point.
+void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
+  const DrawPlan& plan = *draw.plan;
+  auto [out, stride] = color_output(draw, points, face);
+  for (std::size_t i = 0; i < points.count; ++i, out += stride) {
+    for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
+    out[3] = !plan.vertex_alpha         ? plan.alpha[face]
+             : plan.clamps_vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f)
+                                        : points.alpha[i];
+    if (plan.folds_texture())
+      out[3] = texture_env_reference(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
+  }
+}
+
+// A texture of one colour over colours that are clamped.
+void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto color = texture_env_reference(
+        texture, {batch.field[kColorR][i], batch.field[kColorG][i], batch.field[kColorB][i], 1},
+        texture.texel);
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kColorR + c][i] = color[c];
+  }
+}
+
+// The colour of a batch goes where the draw's triangles will look for it.
+void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face,
+                  InstructionSet isa) {
+  const DrawPlan& plan = *draw.plan;
+  if (plan.folds_texture() && !plan.is_index[face]) fold_texture(plan.texture.texture, batch, points.count);
+  const bool as_floats = plan.source == ColorSource::interpolated;
+  if (as_floats && plan.is_index[face]) return store_indices(draw, batch, points, face);
+  if (plan.float_colors) return store_rgba(draw, batch, points, face);
+  if (as_floats) {
+    if (plan.scaled_colors) scale_colors(isa)(*draw.layout, batch, static_cast<int>(points.count));
+    auto [out, stride] = color_output(draw, points, face);
+    for (std::size_t i = 0; i < points.count; ++i, out += stride)
+      for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
+  } else if (!plan.is_index[face] && !draw.layout->index) {
+    pack_vertex_colors(isa)(*draw.layout, batch, static_cast<int>(points.count),
+                            draw.buffers->packed_colors[face].data() + points.first);
+  } else {
+    for (std::size_t i = 0; i < points.count; ++i)
+      draw.buffers->packed_colors[face].data()[points.first + i] = packed_color_of(draw, batch, i, face);
+  }
+}
+
+void light_batch(const GeometryDraw& draw, const LightingProgram& program, ShadingBatch& batch,
+                 const Batch& points, int face, InstructionSet isa) {
+  light_points(isa)(program, batch, static_cast<int>((points.count + 15) / 16 * 16));
+  store_colors(draw, batch, points, face, isa);
+}
+
+// Everything about the colour of one batch of vertices or faces whose inputs stand in the batch.
+void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, InstructionSet isa) {
+  const DrawPlan& plan = *draw.plan;
+  if (!plan.lit) {
+    if (!plan.uses_color_indices) copy_vertex_colors(batch, points.count);
+    store_colors(draw, batch, points, 0, isa);
+    return;
+  }
+  if (plan.two_sided) {
+    ShadingBatch back = batch;  // preparing a batch turns its normals
+    light_batch(draw, plan.back, back, points, 1, isa);
+  }
+  light_batch(draw, plan.front, batch, points, 0, isa);
+}
+
+template <class VertexOf>
+Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, bool triangles,
+               const VertexOf& vertex) {
+  Batch points{.first = first, .count = count, .triangles = triangles, .alpha = {}};
+  for (std::size_t i = 0; i < count && draw.plan->float_colors && draw.plan->vertex_alpha; ++i)
+    points.alpha[i] = draw.mesh->color(vertex(i), 3);
+  return points;
+}
+
+bool needs_normal(const DrawPlan& plan) {
+  return plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
+}
+bool needs_position(const DrawPlan& plan) {
+  return plan.lit && (plan.front.needs_position || (plan.two_sided && plan.back.needs_position));
+}
+
+// Per-pixel lighting: the vertex stage only carries its inputs into eye space.
+void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first,
+                           std::size_t count) {
+  const DrawPlan& plan = *draw.plan;
+  const auto stride = static_cast<std::size_t>(plan.attribute_count);
+  float* out = draw.buffers->attributes.data() + first * stride;
+  const auto store = [&](int field) {
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < count; ++i)
+        out[i * stride + static_cast<std::size_t>(c)] = batch.field[field + c][i];
+    out += 3;
+  };
+  if (needs_normal(plan)) store(kNormalField);
+  if (needs_position(plan)) store(kPositionField);
+  if (plan.uses_vertex_colors) store(kVertexField);
+  if (plan.float_colors && plan.vertex_alpha)
+    for (std::size_t i = 0; i < count; ++i)
+      out[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, as the colour
+}
+
+void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
+  const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
+  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->texcoord_offset;
+  for (std::size_t i = 0; i < count; ++i, out += stride)
+    std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
+}
+
+// What a capture wants: eye-space normals, whatever the shading does with them.
+void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count,
+                            InstructionSet isa) {
+  const StridedFloats normals =
+      draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
+  float eye[3][kVertexBatch];
+  eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
+  const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
+  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal_offset;
+  for (std::size_t i = 0; i < count; ++i, out += stride) {
+    const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
+    for (std::size_t c = 0; c < 3; ++c)
+      out[c] = is_finite ? eye[c][i] : 0;  // a capture drops nothing of the picture
+  }
+}
+
+// The corners of each element, its provoking vertex where provoking_place() says.
+void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last) {
+  const MeshArrays& mesh = *draw.mesh;
+  const auto each = static_cast<std::size_t>(mesh.topology());
+  std::uint32_t* out = draw.buffers->indices.data() + each * first;
+  for (std::size_t e = first; e < last; ++e) {
+    const auto corners = element_corners(mesh.primitive, draw.provoking_vertex, mesh.corners, e);
+    for (std::size_t k = 0; k < each; ++k) *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corners[k]));
+  }
+}
+
+// Around the first triangle, with what each further one adds before its end. From the same vertex on under
+// both conventions.
+void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
+  const MeshArrays& mesh = *draw.mesh;
+  const std::size_t each = mesh.triangles_per_polygon(), first_polygon = (first + each - 1) / each;
+  std::uint32_t* out = draw.buffers->boundary.data() + first_polygon * (each + 2);
+  for (std::size_t begin = first_polygon * each; begin < last; begin += each) {
+    for (const std::size_t corner :
+         element_corners(mesh.primitive, ProvokingVertex::last, mesh.corners, begin))
+      *out++ = static_cast<std::uint32_t>(mesh.vertex_at(corner));
+    for (std::size_t t = begin + 1; t < begin + each; ++t)
+      *out++ = static_cast<std::uint32_t>(mesh.vertex_at(added_corner(mesh.primitive, t)));
+  }
+}
+
+void clear_batch(ShadingBatch& batch) {
+  for (auto& field : batch.field) std::fill(std::begin(field), std::end(field), 0.0f);
+}
+
+}  // namespace
+
+void prepare_geometry(const GeometryDraw& draw) {
+  const DrawPlan& plan = *draw.plan;
+  DrawBuffers& buffers = *draw.buffers;
+  const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->elements;
+  buffers.vertices.resize(vertices);
+  buffers.outcodes.resize(vertices);
+  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) +
+                            2 * kAttributePadding);  // read in whole vectors
+  for (int face = 0; face < 2; ++face)
+    buffers.face_colors[face].resize(plan.float_colors && plan.has_per_triangle_colors() &&
+                                             face <= (plan.two_sided ? 1 : 0)
+                                         ? 4 * triangles
+                                         : 0);
+  const std::size_t words = plan.source == ColorSource::per_vertex_packed     ? vertices
+                            : plan.source == ColorSource::per_triangle_packed ? triangles
+                                                                              : 0;
+  buffers.packed_colors[0].resize(words);
+  buffers.packed_colors[1].resize(plan.two_sided ? words : 0);
+  if (draw.generates_indices())
+    buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
+  buffers.facing.resize(draw.has_polygon_facing() ? triangles : 0);
+  const std::size_t triangles_per_polygon = draw.mesh->triangles_per_polygon();
+  if (plan.outlines) buffers.boundary.resize(triangles / triangles_per_polygon * (triangles_per_polygon + 2));
+  if (plan.face_normals) buffers.face_normals.resize(3 * triangles);
+  buffers.any_outcode = false;
+}
+
+void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last) {
+  if (draw.generates_indices()) list_corners(draw, first, last);
+  if (draw.plan->outlines) list_boundaries(draw, first, last);
+  if (draw.plan->face_normals) make_face_normals(*draw.mesh, first, last, draw.buffers->face_normals.data());
+}
+
+void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa) {
+  const MeshArrays& mesh = *draw.mesh;
+  const DrawPlan& plan = *draw.plan;
+  DrawBuffers& buffers = *draw.buffers;
+  TransformVertices* const transform = transform_vertices(isa);
+  const bool colors_matter = plan.source == ColorSource::per_vertex_packed ||
+                             plan.source == ColorSource::interpolated ||
+                             plan.source == ColorSource::per_pixel;
+  const StridedFloats normals = normals_of(draw);
+  ShadingBatch batch;
+  clear_batch(batch);
+  std::uint8_t outcodes = 0;
+  for (std::size_t at = first; at < last; at += kVertexBatch) {
+    const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
+    const StridedFloats positions = mesh.positions.from(at);
+    outcodes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at,
+                          buffers.outcodes.data() + at);
+    if (plan.uses_vertex_colors && mesh.colors)
+      outcodes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.outcodes.data() + at);
+    if (plan.uses_color_indices)
+      outcodes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.outcodes.data() + at);
+    if (plan.texcoord_offset >= 0) {
+      outcodes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.outcodes.data() + at);
+      store_texcoords(draw, at, count);
+    }
+    if (plan.captured_normal_offset >= 0) store_captured_normals(draw, at, count, isa);
+    if (needs_normal(plan) && !plan.face_normals)
+      outcodes |= mark_non_finite(normals.from(at), 3, count, buffers.outcodes.data() + at);
+    if (!colors_matter || plan.has_per_triangle_colors()) continue;
+    if (needs_normal(plan))
+      eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY],
+                       batch.field[kNormalZ]);
+    if (needs_position(plan))
+      eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX],
+                         batch.field[kPositionY], batch.field[kPositionZ]);
+    if (plan.uses_vertex_colors)
+      load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
+    if (plan.uses_color_indices)
+      load_color_indices(draw, batch, count, [at](std::size_t i) { return at + i; });
+    if (plan.source == ColorSource::per_pixel) store_lighting_inputs(draw, batch, at, count);
+    else
+      shade_batch(draw, batch, batch_of(draw, at, count, false, [at](std::size_t i) { return at + i; }), isa);
+  }
+  if (outcodes != 0) buffers.any_outcode.store(true, std::memory_order_relaxed);
+}
+
+void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa) {
+  const MeshArrays& mesh = *draw.mesh;
+  const DrawPlan& plan = *draw.plan;
+  const auto components = static_cast<std::size_t>(mesh.components);
+  const auto vertex_of = [&](std::size_t triangle) {
+    return mesh.vertex_at(provoking_corner(mesh.primitive, draw.provoking_vertex, mesh.corners, triangle));
+  };
+  ShadingBatch batch;
+  clear_batch(batch);
+  float positions[4 * kVertexBatch], normals[3 * kVertexBatch];
+  for (std::size_t at = first; at < last; at += kVertexBatch) {
+    const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
+    if (needs_normal(plan)) {
+      for (std::size_t i = 0; i < count && !plan.face_normals; ++i)
+        std::copy_n(mesh.normals.at(vertex_of(at + i)), 3, normals + 3 * i);
+      const StridedFloats of_triangles =
+          plan.face_normals ? normals_of(draw).from(at) : StridedFloats{normals, 3};
+      eye_normals(isa)(plan.eye, of_triangles, count, batch.field[kNormalX], batch.field[kNormalY],
+                       batch.field[kNormalZ]);
+    }
+    if (needs_position(plan)) {
+      for (std::size_t i = 0; i < count; ++i)
+        std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
+      eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX],
+                         batch.field[kPositionY], batch.field[kPositionZ]);
+    }
+    if (plan.uses_vertex_colors)
+      load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+    if (plan.uses_color_indices)
+      load_color_indices(draw, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+    shade_batch(draw, batch,
+                batch_of(draw, at, count, true, [&](std::size_t i) { return vertex_of(at + i); }), isa);
+  }
+}
+
+}  // namespace tessera::detail

@@ -1,0 +1,226 @@
+#include "engine/stages/tile_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "engine/buffers/image_target.h"
+
+namespace tessera::detail {
+namespace {
+
+bool covers_frame(const TileClear& clear, const TileGrid& grid) {
+  return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px &&
+         clear.rect.y1 == grid.height_px;
+}
+
+constexpr std::size_t kLoadClasses = 4 * 64;
+static_assert(kLoadClasses - 1 <= std::numeric_limits<std::uint8_t>::max());
+/// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load
+/// is never of a lower class.
+std::uint8_t load_class_of(std::uint64_t triangles) {
+  if (triangles < 8) return static_cast<std::uint8_t>(triangles);
+  const int highest_bit = std::bit_width(triangles) - 1;
+  return static_cast<std::uint8_t>(4 * highest_bit - 4 +
+                                   static_cast<int>(triangles >> (highest_bit - 2) & 3));
+}
+
+/// Deals strips of one load_class, `sorted` ones from `begin` to before `end`. Place p in the order of
+/// weights belongs to share p % shares, as its number p / shares, so that each share has as many of every
+/// load_class, or one more, and weights do not rise in it. Which strips of the load_class take a share's
+/// places is free: it is neighbours.
+void distribute(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
+                std::vector<TileStrip>& distributed) {
+  // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among
+  // these.
+  const std::size_t served = std::min(end - begin, shares),
+                    first_share = served < shares ? begin % shares : 0;
+  for (std::size_t k = 0, next = begin; k < served; ++k) {
+    const std::size_t share = (first_share + k) % shares,
+                      first_place = begin + (share + shares - begin % shares) % shares;
+    std::size_t at = first_of_share(sorted.size(), shares, share) + first_place / shares;
+    for (std::size_t place = first_place; place < end; place += shares) distributed[at++] = sorted[next++];
+  }
+}
+
+}  // namespace
+
+TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
+                     const ImageTarget* image, const CaptureStage& capture, ScanOutCache& scan_out_cache,
+                     InstructionSet isa)
+    : commands_(commands),
+      frame_(frame),
+      target_(target),
+      image_(image),
+      capture_(capture),
+      scan_out_cache_(scan_out_cache),
+      render_(render_tile(isa)),
+      store_planes_(store_planes_for(isa)),
+      load_planes_(load_planes_for(isa)),
+      buffered_tiles_(commands.color.store ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
+  if (image == nullptr) return;
+  target_region_ = target_region(*image);
+  const Palette* const palette = target.layout.index ? &target.palette : nullptr;
+  const PixelOrder order = image->order == PixelOrder::rgba8 ? PixelOrder::rgba8 : PixelOrder::bgra8;
+  if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, order);
+  else scan_out_cache.scan_out.emplace(target.layout, palette, order, isa);
+  // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles
+  // need not go through tile memory.
+  copies_cleared_row_ = !capture.any() && !commands.stores() && !commands.color.load &&
+                        !commands.clears.empty() && commands.accumulations.empty() &&
+                        std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) {
+                          return covers_frame(c, frame.grid) && !c.dithered;
+                        });
+  if (!copies_cleared_row_) return;
+  std::uint32_t word = 0;
+  for (const TileClear& clear : commands.clears) word = clear.color ? clear.packed_color : word;
+  std::uint32_t words[kMaxTileSize];
+  std::fill(std::begin(words), std::end(words), word);
+  scan_out_cache.cleared_row.resize(4 * static_cast<std::size_t>(frame.grid.width_px));
+  for (int x = 0; x < frame.grid.width_px; x += kMaxTileSize)
+    scan_out_cache.scan_out->row(words, std::min(kMaxTileSize, frame.grid.width_px - x),
+                                 scan_out_cache.cleared_row.data() + std::ptrdiff_t{4} * x);
+}
+
+void TileStage::build_strips(const TileRange& tiles, const WorkerPool& workers, StripScratch& memory) const {
+  const TileGrid& grid = frame_.grid;
+  const BinBatches& batches = *frame_.batches;
+  const auto is_cleared = [&](int row, int column) {
+    return copies_cleared_row_ && batches.known_empty(row * grid.columns() + column);
+  };
+  // Tiles that share a cache line of a plane belong to one worker.
+  const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
+  std::array<std::uint32_t, kLoadClasses>
+      next{};  // how many strips have a load_class, then where the next one of them goes
+  memory.strips.clear();
+  for (int row = tiles.y0; row < tiles.y1; ++row) {
+    for (int column = tiles.x0, end; column < tiles.x1; column = end) {
+      const bool cleared = is_cleared(row, column);
+      end = std::min((column / length + 1) * length, tiles.x1);
+      while (cleared && end < tiles.x1 && is_cleared(row, end)) ++end;
+      std::uint64_t triangles = 0;
+      for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
+      const auto small = [](int number) { return static_cast<std::int16_t>(number); };
+      memory.strips.push_back({small(row), small(column), small(end - 1), cleared, load_class_of(triangles)});
+      ++next[memory.strips.back().load_class];
+    }
+  }
+  std::uint32_t count = 0;
+  for (std::size_t w = kLoadClasses; w-- > 0;) count += std::exchange(next[w], count);
+  memory.sorted.resize(count);
+  for (const TileStrip& strip : memory.strips) memory.sorted[next[strip.load_class]++] = strip;
+  const std::size_t shares = workers.workers_for(count);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const auto load_class = memory.sorted[begin].load_class;
+    end = next[load_class];
+    distribute(memory.sorted, begin, end, shares, memory.strips);
+  }
+}
+
+void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const {
+  if (strip.cleared) return fill_cleared(strip);
+  std::array<const std::uint32_t*, kLinePixels / kMinTileSize> colors;
+  const int size = frame_.grid.tile_size;
+  for (int first = strip.first_column; first <= strip.last_column; first += buffered_tiles_) {
+    const auto count = static_cast<std::size_t>(std::min(buffered_tiles_, strip.last_column + 1 - first));
+    for (std::size_t t = 0; t < count; ++t) {
+      colors[t] = workspace.select_color(t);
+      render_tile_at(strip.row, first + static_cast<int>(t), workspace, counts);
+    }
+    if (commands_.color.store)
+      store_planes_({colors.data(), count}, {first * size, strip.row * size, size, 0}, target_.color.planes,
+                    ~0u);
+  }
+}
+
+void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const {
+  const TileGrid& grid = frame_.grid;
+  const int size = grid.tile_size, x0 = column * size, y0 = row * size;
+  const bool shown = !intersect(target_region_, {x0, y0, x0 + size, y0 + size}).empty();
+  if (!shown && !commands_.stores() && !capture_.any()) return;
+  const TilePlace color_place{x0, y0, size, 0},
+      depth_place{x0, y0, size, stored_depth_from_key(target_.depth_format, 0)};
+  auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
+  auto* stencil_words =
+      commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
+  const auto load_tests = [&] {
+    load(commands_.depth, target_.depth, depth_words, depth_place);
+    load(commands_.stencil, target_.stencil, stencil_words, color_place);
+  };
+  if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
+  load(commands_.color, target_.color, workspace.color(), color_place);
+  load_tests();
+  if (commands_.accumulation.used) load_accumulation(color_place, workspace.accumulation());
+  const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
+  counts.shaded_pixels += tile.shaded_pixels;
+  counts.touched += tile.touched ? 1 : 0;
+  if (shown) scan_out(x0, y0, workspace);
+  store(commands_.depth, target_.depth, depth_words, depth_place);
+  store(commands_.stencil, target_.stencil, stencil_words, color_place);
+  if (commands_.accumulation.store)
+    for (std::size_t c = 0; c < 4; ++c)
+      store(commands_.accumulation, target_.accumulation[c],
+            reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
+}
+
+void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
+  const int size = frame_.grid.tile_size;
+  const PixelRect in_frame =
+      intersect({x0, y0, x0 + size, y0 + size}, {0, 0, frame_.grid.width_px, frame_.grid.height_px});
+  const PixelRect region = intersect(in_frame, target_region_);
+  const int width = in_frame.x1 - x0, height = in_frame.y1 - y0;
+  if (region == in_frame) {
+    scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, target_pixel(x0, y0),
+                                   image_->stride_bytes);
+    return;
+  }
+  // The image's edge runs through the tile: by way of a picture of the whole tile.
+  std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
+  scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
+  for (int y = region.y0; y < region.y1; ++y)
+    std::memcpy(target_pixel(region.x0, y), pixels + 4 * ((y - y0) * size + region.x0 - x0),
+                4 * static_cast<std::size_t>(region.x1 - region.x0));
+}
+
+void TileStage::load(const AttachmentOps& attachment_ops, const Attachment& stored, std::uint32_t* words,
+                     const TilePlace& place) const {
+  if (!attachment_ops.used || !attachment_ops.load) return;
+  if (stored.content == Attachment::Content::fast_cleared)
+    std::fill_n(words, place.tile_size * place.tile_size, stored.clear_value ^ place.flip);
+  else load_planes_(words, place, stored.planes);
+}
+
+void TileStage::store(const AttachmentOps& attachment_ops, Attachment& stored, const std::uint32_t* words,
+                      const TilePlace& place) const {
+  if (attachment_ops.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
+}
+
+void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const {
+  if (!commands_.accumulation.load) return;
+  for (std::size_t c = 0; c < 4; ++c) {
+    auto* const words = reinterpret_cast<std::uint32_t*>(levels[c]);
+    load(commands_.accumulation, target_.accumulation[c], words, place);
+    const int bits = target_.format.accumulation_bits, pixels = place.tile_size * place.tile_size;
+    for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_stored(words[i], bits);
+  }
+}
+
+void TileStage::fill_cleared(const TileStrip& strip) const {
+  const int size = frame_.grid.tile_size;
+  const PixelRect region = intersect(
+      target_region_,
+      {strip.first_column * size, strip.row * size, (strip.last_column + 1) * size, (strip.row + 1) * size});
+  if (region.empty()) return;
+  for (int y = region.y0; y < region.y1; ++y)
+    std::memcpy(target_pixel(region.x0, y), scan_out_cache_.cleared_row.data(),
+                4 * static_cast<std::size_t>(region.x1 - region.x0));
+}
+
+std::uint8_t* TileStage::target_pixel(int x, int y) const {
+  return static_cast<std::uint8_t*>(image_->pixels) + y * image_->stride_bytes + std::ptrdiff_t{4} * x;
+}
+
+}  // namespace tessera::detail

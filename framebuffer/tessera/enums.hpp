@@ -1,0 +1,99 @@
+// Public enumerations that the kernels use, too. They stand on the lowest floor, so that every floor and the
+// public API share one set.
+#pragma once
+
+#include <cstdint>
+
+namespace tessera {
+
+/// Storage of a depth buffer: unsigned normalized integers or floats.
+enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32 };
+
+/// Bytes of a pixel in memory, in this order.
+enum class PixelOrder : std::uint8_t { rgba8, bgra8 };
+
+/// Vector instructions that the kernels use. `automatic` is the best set of this machine.
+enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
+
+/// Comparison of a fragment's value with the stored or the reference value [GL 2.1, 4.1].
+enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
+
+/// What a stencil test writes [GL 2.1, 4.1.5]. incr and decr saturate; incr_wrap and decr_wrap wrap around.
+enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
+
+/// Weight of the source or destination in a blend [GL 2.1, 4.1.8].
+enum class BlendFactor : std::uint8_t {
+  zero,
+  one,
+  src_color,
+  one_minus_src_color,
+  dst_color,
+  one_minus_dst_color,
+  src_alpha,
+  one_minus_src_alpha,
+  dst_alpha,
+  one_minus_dst_alpha,
+  constant_color,
+  one_minus_constant_color,
+  constant_alpha,
+  one_minus_constant_alpha,
+  src_alpha_saturate
+};
+
+/// How a blend combines the weighted source and destination [GL 2.1, 4.1.8].
+enum class BlendEquation : std::uint8_t {
+  add,               ///< source + destination
+  subtract,          ///< source - destination
+  reverse_subtract,  ///< destination - source
+  min,               ///< the lesser of both, without the factors
+  max                ///< the greater of both, without the factors
+};
+
+/// Bitwise operation on stored bits, in OpenGL's order [GL 2.1, 4.1.10].
+enum class LogicOp : std::uint8_t {
+  clear,
+  bit_and,
+  and_reverse,
+  copy,
+  and_inverted,
+  noop,
+  bit_xor,
+  bit_or,
+  nor,
+  equiv,
+  invert,
+  or_reverse,
+  copy_inverted,
+  or_inverted,
+  nand,
+  set
+};
+
+/// Addressing of texels outside 0 .. 1.
+enum class TextureWrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
+
+/// How a texel changes a fragment's colour, after shading and its clamp [GL 1.5, table 3.22]. C, A: colour
+/// and alpha of the fragment; Ct, At: of the texel, whose luminance counts as red, green and blue. At is 1
+/// for textures without alpha.
+enum class TextureEnv : std::uint8_t {
+  modulate,  ///< C Ct, A At
+  replace,   ///< Ct; At, or A for textures without alpha
+  decal,     ///< C (1 - At) + Ct At, A
+  blend,     ///< C (1 - Ct) + texture_env_color Ct, A At
+  add        ///< min(C + Ct, 1), A At
+};
+
+/// Operation between the colour and the accumulation buffer [GL 2.1, 4.2.4].
+enum class AccumOp : std::uint8_t {
+  accum,        ///< acc += value * colour
+  load,         ///< acc = value * colour
+  add,          ///< acc += value
+  mult,         ///< acc *= value
+  return_color  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
+};
+
+/// How polygons are drawn: filled, as the lines of their boundary, or as points at their corners. Clipping
+/// adds the edges that it makes to the boundary.
+enum class PolygonMode : std::uint8_t { fill, line, point };
+
+}  // namespace tessera

@@ -1,0 +1,242 @@
+// Shading once for each visible triangle of each pixel, where pixels have several samples: the colour comes
+// about at the pixel's centre and goes to the samples that see the triangle.
+#if defined(TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
+#undef TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
+#else
+#define TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+
+#include "raster/lane_packing-inl.h"
+#include "shading/deferred_shading-inl.h"
+#include "shading/fragment_ops-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera::detail {
+namespace HWY_NAMESPACE {
+
+/// Bits of a block's pixels, or of a chunk's, for each sample: 16 bits of a word, four samples a word.
+struct SampleMasks {
+  std::uint64_t word[kMaxSamples / 4] = {};
+};
+/// The same 16 bits for each sample.
+constexpr SampleMasks broadcast_to_samples(std::uint32_t bits) {
+  return {{0x0001000100010001u * bits, 0x0001000100010001u * bits}};
+}
+/// Those that any sample has.
+constexpr std::uint32_t any_sample_mask(const SampleMasks& bits) {
+  const std::uint64_t all = bits.word[0] | bits.word[1], folded = all | all >> 32;
+  return static_cast<std::uint32_t>(folded | folded >> 16) & 0xffff;
+}
+static_assert(kMaxSamples == 8);
+
+/// What one triangle covers of one chunk of pixels. Its points stand side by side in the batch.
+struct SampledSpan {
+  int point;              // the first one, in the batch
+  int index;              // of the chunk's first pixel in tile memory
+  std::uint32_t covered;  // a bit a lane
+  SampleMasks visible;    // by which samples of these pixels
+};
+
+/// Points of one surface. A pixel has one for each triangle that its samples see: they are packed, since the
+/// places of a block's pixels would not do.
+struct SampledBatch : BatchSurface {
+  int count = 0, span_count = 0;
+  SampledSpan spans[kBatchPoints];  // each has a point at least
+};
+
+/// Words of the batch's points, in their order.
+HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, std::int32_t* packed) {
+  const TileDraw& draw = context.frame.draws[points.draw];
+  ShadingBatch& batch = context.memory.batch;
+  const bool per_pixel = draw.source == ColorSource::per_pixel;
+  const int whole = (points.count + kLanes - 1) / kLanes * kLanes;
+  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, whole);
+  if (draw.source == ColorSource::constant) fill_colors(draw, points.back, batch);
+  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated)
+    clamp_colors(batch, points.count);  // pixels may lie beyond the ends
+  if (points.texture != nullptr) apply_texture(*points.texture, batch, whole);
+  for (int point = 0; point < points.count; point += kLanes) {
+    const int count = std::min(points.count - point, kLanes);
+    hn::Store(quantize_chunk(context.frame, batch, point, (1u << count) - 1), kInt, packed + point);
+  }
+}
+
+inline HWY_NOINLINE void shade_sampled_batch(TileContext& context, SampledBatch& points) {
+  if (points.count == 0) return;
+  alignas(64) std::int32_t packed[kBatchPoints + kLanes];  // the last ones are read along with others
+  shade_points(context, points, packed);
+  const Int writable = splat(static_cast<std::int32_t>(context.frame.draws[points.draw].write_mask));
+  for (int i = 0; i < points.span_count; ++i) {
+    const SampledSpan& pixels = points.spans[i];
+    const Int of_pixels =
+        hn::TableLookupLanes(hn::LoadU(kInt, packed + pixels.point), expand_indices(kInt, pixels.covered));
+    for (int w = 0; w < context.samples / 4; ++w)
+      for (int s = 0; s < 4; ++s)
+        store_packed(context.sample[4 * w + s].color + pixels.index, of_pixels,
+                     mask_from_bits(static_cast<std::uint32_t>(pixels.visible.word[w] >> (16 * s))),
+                     writable);
+  }
+  context.counts.shaded_pixels += static_cast<std::uint64_t>(points.count);
+  points.count = points.span_count = 0;
+}
+
+/// Texture coordinates of the points of one chunk.
+inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatch& points,
+                                         const ShadedTriangle& triangle, const Barycentric& at,
+                                         std::uint32_t bits) {
+  const auto packing = compress_indices(kFloat, bits);
+  coordinates_in(context, points, triangle).at(at, [&](int field, Float value) HWY_ATTR {
+    hn::StoreU(hn::TableLookupLanes(value, packing), kFloat,
+               context.memory.batch.field[field] + points.count);
+  });
+}
+
+/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full.
+/// kCount: attributes in adjacent arrays without texture coordinates, where known; else 0.
+template <int kCount>
+HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, const ShadedTriangle& triangle,
+                                   int bx, int by, int index, const SampleMasks& visible) {
+  const int count = kCount > 0 ? kCount : points.attribute_count;
+  const InterpolantArrays values(triangle, points.first_attribute, count);
+  const std::uint32_t covered = any_sample_mask(visible);
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    const std::uint32_t bits = chunk_bits(covered, chunk);
+    if (bits == 0) continue;
+    if (points.count > kBatchPoints - kLanes)
+      shade_sampled_batch(context, points);  // whole vectors are stored
+    const Barycentric at = barycentric(triangle, context.memory.edges64.data(), bx, by, chunk);
+    const auto packing = compress_indices(kFloat, bits);
+    for (int j = 0; j < count; ++j) {
+      float* const target = kCount > 0 ? points.target[0] + j * kBatchPoints : points.target[j];
+      const Float value =
+          points.clamps_to_range
+              ? interpolate_clamped(at, make_interpolant(triangle, points.first_attribute + j, true))
+              : interpolate(at, values[j]);
+      hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, target + points.count);
+    }
+    if (kCount == 0 && has_coordinates(points)) add_coordinates(context, points, triangle, at, bits);
+    SampledSpan& pixels = points.spans[points.span_count++];
+    pixels.point = points.count;
+    pixels.index = index + chunk * kLanes;
+    pixels.covered = bits;
+    for (int w = 0; w < kMaxSamples / 4; ++w)
+      pixels.visible.word[w] =
+          visible.word[w] >> (chunk * kLanes) & broadcast_to_samples((1u << kLanes) - 1).word[0];
+    points.count += std::popcount(bits);
+  }
+}
+inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
+                                    const ShadedTriangle& triangle, int bx, int by, int index,
+                                    const SampleMasks& visible) {
+  switch (points.adjacent && !has_coordinates(points) ? points.attribute_count : 0) {
+    case 3: return add_points_counted<3>(context, points, triangle, bx, by, index, visible);
+    case 6: return add_points_counted<6>(context, points, triangle, bx, by, index, visible);
+    default: return add_points_counted<0>(context, points, triangle, bx, by, index, visible);
+  }
+}
+
+/// The same at each sample.
+template <int kSamples, class Predicate>
+HWY_INLINE SampleMasks samples_where(const TileContext& context, int index, Predicate predicate) {
+  SampleMasks bits;
+  for (int s = 0; s < kSamples; ++s)
+    bits.word[s / 4] |=
+        std::uint64_t{pixels_where(
+            reinterpret_cast<const std::int32_t*>(context.sample[s].visibility) + index, predicate)}
+        << (16 * (s % 4));
+  return bits;
+}
+
+/// All samples of each pixel of a block wait for the same triangle, or for none.
+template <int kSamples>
+HWY_INLINE bool samples_agree(const TileContext& context, int index) {
+  Int differing = hn::Zero(kInt);
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    const auto visibility = [&](int s) HWY_ATTR {
+      return hn::Load(
+          kInt, reinterpret_cast<const std::int32_t*>(context.sample[s].visibility) + index + chunk * kLanes);
+    };
+    for (int s = 1; s < kSamples; ++s) differing = hn::Or(differing, hn::Xor(visibility(s), visibility(0)));
+  }
+  return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
+}
+
+/// Adds one block to the batch. kSamples of them are looked at: one, where all agree. False if none waits.
+template <int kSamples>
+HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, int by, int index) {
+  const auto id_at = [&](int word, std::uint64_t bits) {
+    const int first = std::countr_zero(bits);
+    return context.sample[4 * word + first / 16].visibility[index + first % 16];
+  };
+  constexpr int kWords = (kSamples + 3) / 4;
+  SampleMasks pending =
+      samples_where<kSamples>(context, index, [](Int id) HWY_ATTR { return hn::Gt(id, splat(-1)); });
+  if (any_sample_mask(pending) == 0) return false;
+  for (int leading = 0; leading < kWords; ++leading) {
+    while (pending.word[leading] != 0) {
+      // All triangles of the surface that the first one belongs to, one after the other.
+      const ShadedTriangle& leader = context.memory.visible_triangles[id_at(leading, pending.word[leading])];
+      if (!points.is_of(leader)) {
+        shade_sampled_batch(context, points);
+        begin_surface(context, points, leader);
+      }
+      SampleMasks left = pending;
+      for (int word = leading; word < kWords; ++word) {
+        while (left.word[word] != 0) {
+          const std::uint32_t id = id_at(word, left.word[word]);
+          const ShadedTriangle& triangle = context.memory.visible_triangles[id];
+          const Int wanted = splat(static_cast<std::int32_t>(id));
+          const SampleMasks visible = samples_where<kSamples>(
+              context, index, [wanted](Int at) HWY_ATTR { return hn::Eq(at, wanted); });
+          for (int w = 0; w < kWords; ++w) left.word[w] &= ~visible.word[w];
+          if (!points.is_of(triangle)) continue;
+          for (int w = 0; w < kWords; ++w) pending.word[w] &= ~visible.word[w];
+          add_points(
+              context, points, triangle, bx, by, index,
+              kSamples == 1 ? broadcast_to_samples(static_cast<std::uint32_t>(visible.word[0])) : visible);
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// Shades what was collected in the whole tile, and forgets it.
+template <int kSamples>
+HWY_NOINLINE void shade_visible_msaa(TileContext& context) {
+  SampledBatch points;
+  for (int by = 0; by < context.tile_size; by += 4) {
+    for (int bx = 0; bx < context.tile_size; bx += 4) {
+      const int index = context.block_index(bx, by);
+      if (!(samples_agree<kSamples>(context, index) ? add_block<1>(context, points, bx, by, index)
+                                                    : add_block<kSamples>(context, points, bx, by, index)))
+        continue;
+      for (int s = 0; s < kSamples; ++s)
+        for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+          hn::Store(splat(-1), kInt,
+                    reinterpret_cast<std::int32_t*>(context.sample[s].visibility) + index + chunk * kLanes);
+    }
+  }
+  shade_sampled_batch(context, points);
+}
+
+/// Shades everything that waits for its colour.
+HWY_INLINE void shade_whole_tile(TileContext& context) {
+  if (!context.memory.visible_triangles.empty()) {
+    if (context.samples == 4) shade_visible_msaa<4>(context);
+    else if (context.samples > 1) shade_visible_msaa<kMaxSamples>(context);
+    else shade_visible(context, 0, 0, context.tile_size - 1, context.tile_size - 1);
+  }
+  context.memory.visible_triangles.clear();
+  context.memory.edges64.clear();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,246 @@
+// Draws without operations where pixels have several samples: what a sample sees of a triangle is what the
+// pixel's centre sees of the triangle moved the other way (raster/sample_positions.h).
+#if defined(TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
+#undef TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
+#else
+#define TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
+#endif
+
+#include <limits>
+
+#include "raster/sample_positions.h"
+#include "shading/draw_fragments-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera::detail {
+namespace HWY_NAMESPACE {
+
+/// Blocks in which nothing of a triangle can be visible are passed over. Only `less_write` does so, and keeps
+/// the blocks' hiz_max exact.
+template <class Depth, DepthTestPath kDepthTest>
+inline constexpr bool kUsesHiz = kHasDepth<Depth>&& kDepthTest == DepthTestPath::less_write;
+
+/// A block holds nothing that is farther than `min_depth_key`.
+HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int bx, int by) {
+  return min_depth_key >= context.memory.samples->hiz_max[context.block_index(bx, by) / kBlockPixels];
+}
+/// Nor do all blocks of these bounds.
+HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int x0, int y0, int x1,
+                          int y1) {
+  for (int by = y0 & ~3; by <= y1; by += 4)
+    for (int bx = x0 & ~3; bx <= x1; bx += 4)
+      if (!hiz_culls(context, min_depth_key, bx, by)) return false;
+  return true;
+}
+
+/// Colours of a triangle that are interpolated at once, at the pixels' centres.
+struct SampledColorEval {
+  const ShadedTriangle* triangle = nullptr;
+  const ColorLayout* layout = nullptr;
+  Interpolant r, g, b;
+  Int to_center[3];  // from the edges that the blocks are found by
+
+  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, const ShadedTriangle& shaded,
+                         int i) {
+    triangle = &shaded;
+    layout = &context.frame.layout;
+    const int attribute = draw.color_attribute[shaded.back ? 1 : 0];
+    r = make_interpolant(shaded, attribute, true), g = make_interpolant(shaded, attribute + 1, true),
+    b = make_interpolant(shaded, attribute + 2, true);
+    for (int k = 0; k < 3; ++k)
+      to_center[k] =
+          hn::Sub(splat(shaded.edges.e[k]), splat(context.memory.samples->samples32.max_edge[k][i]));
+  }
+  HWY_NOINLINE Int packed(Int e0, Int e1, Int e2) const {
+    const Barycentric at = barycentric_from_edges(*triangle, hn::Add(e0, to_center[0]),
+                                                  hn::Add(e1, to_center[1]), hn::Add(e2, to_center[2]));
+    return pack_colors(
+        *layout,
+        {{interpolate_clamped(at, r), interpolate_clamped(at, g), interpolate_clamped(at, b), splat(1.0f)}},
+        splat(0.5f));
+  }
+};
+
+/// One narrow triangle's way through the blocks of a tile, at all samples of a pixel.
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+struct SampledTrianglePixels {
+  TileContext& context;
+  const TileDraw& draw;
+  Depth depth;
+  typename Depth::Anchor anchors[kMaxSamples];
+  Edges32 edges;              // those that the blocks are found by: never below any sample's
+  Int below[kMaxSamples][3];  // what a sample's edges are more than those
+  std::int32_t *stored_depth[kMaxSamples],
+      *stored[kMaxSamples];       // of the sample: depth; the packed colors or triangle ids that it writes
+  Int value;                      // the packed color, or the triangle id
+  const SampledColorEval* color;  // deferred: packed colors in place of triangle numbers; or null
+  Int writable, depth_writable;
+  std::int32_t min_depth_key;    // no sample of the triangle has a smaller depth key
+  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed at any sample, in each lane
+
+  HWY_INLINE SampledTrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, int i,
+                                   std::uint32_t new_value, const SampledColorEval* interpolated,
+                                   std::int32_t nearest_key)
+      : context(tile_context),
+        draw(tile_draw),
+        edges(tile_edges32(tile_context.memory.group, i)),
+        value(splat(static_cast<std::int32_t>(new_value))),
+        color(interpolated),
+        writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))),
+        depth_writable(splat(tile_draw.depth_write ? -1 : 0)),
+        min_depth_key(nearest_key) {
+    const TriangleGroup& g = context.memory.group;
+    const SampleGroup& samples = context.memory.samples->samples32;
+    for (int k = 0; k < 3; ++k) {
+      edges.e[k] = samples.max_edge[k][i];
+      for (int s = 0; s < context.samples; ++s) below[s][k] = splat(samples.edge_delta[s][k][i]);
+    }
+    if constexpr (kHasDepth<Depth>) {
+      depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_format);
+      depth.prepare_blocks();
+    }
+    for (int s = 0; s < context.samples; ++s) {
+      stored_depth[s] = context.sample[s].depth;
+      stored[s] = reinterpret_cast<std::int32_t*>(kColorWrite == ColorWrite::constant || color != nullptr
+                                                      ? context.sample[s].color
+                                                      : context.sample[s].visibility);
+    }
+    for (int s = 0; s < context.samples; ++s)
+      anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(context.samples)[s], context.tile_x,
+                                 context.tile_y);
+  }
+
+  // Whether the block is full is known of the edges that dominate, not of each sample's.
+  template <bool>
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
+    if (kUsesHiz<Depth, kDepthTest> && hiz_culls(context, min_depth_key, bx, by)) return;
+    if (context.samples == 4) draw_block<4>(bx, by, block_edges);
+    else draw_block<kMaxSamples>(bx, by, block_edges);
+  }
+
+  // Once for all: it is long.
+  template <int kSamples>
+  HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
+    const int block = context.block_index(bx, by);
+    const auto step = depth.step_to(bx, by);
+    const bool needs_scissor =
+        context.needs_scissor;  // in registers: stores to the tile might change members
+    const Int writes_depth = depth_writable;
+    Int hiz_max = splat(std::numeric_limits<std::int32_t>::min());
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const int index = block + chunk * kLanes;
+      const Int e0 = block_edges.at(0, chunk), e1 = block_edges.at(1, chunk), e2 = block_edges.at(2, chunk);
+      if (hn::AllTrue(kInt, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(kInt)))) {  // outside at every sample
+        if constexpr (kUsesHiz<Depth, kDepthTest>)
+          for (int s = 0; s < kSamples; ++s)
+            hiz_max = hn::Max(hiz_max, hn::Load(kInt, stored_depth[s] + index));
+        continue;
+      }
+      const Int new_value =
+          kColorWrite == ColorWrite::deferred && color != nullptr ? color->packed(e0, e1, e2) : value;
+      Int chunk_visible = hn::Zero(kInt);
+      for (int s = 0; s < kSamples; ++s) {
+        auto mask = hn::Gt(
+            hn::Or(hn::Or(hn::Add(e0, below[s][0]), hn::Add(e1, below[s][1])), hn::Add(e2, below[s][2])),
+            splat(-1));
+        if (needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
+        if constexpr (kHasDepth<Depth>) {
+          std::int32_t* const at = stored_depth[s] + index;
+          const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(anchors[s], step), chunk);
+          mask = hn::And(mask, kDepthTest == DepthTestPath::less_write
+                                   ? hn::Lt(key, before)
+                                   : compare_lanes(key, draw.depth_test, before));
+          const Int after = hn::IfThenElse(
+              kDepthTest == DepthTestPath::less_write ? mask : hn::And(mask, hn::MaskFromVec(writes_depth)),
+              key, before);
+          hn::Store(after, kInt, at);
+          if constexpr (kUsesHiz<Depth, kDepthTest>) hiz_max = hn::Max(hiz_max, after);
+        }
+        chunk_visible = hn::Or(chunk_visible, hn::VecFromMask(kInt, mask));
+        if constexpr (kColorWrite == ColorWrite::constant)
+          store_packed(reinterpret_cast<std::uint32_t*>(stored[s]) + index, new_value, mask, writable);
+        if constexpr (kColorWrite == ColorWrite::deferred) {
+          std::int32_t* const at = stored[s] + index;
+          hn::Store(hn::IfThenElse(mask, new_value, hn::Load(kInt, at)), kInt, at);
+        }
+      }
+      if constexpr (kColorWrite != ColorWrite::none) visible = hn::Add(visible, chunk_visible);
+    }
+    if constexpr (kUsesHiz<Depth, kDepthTest>)
+      context.memory.samples->hiz_max[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, hiz_max));
+  }
+};
+
+/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of
+/// them waits for its colour, by numbers from `id` on.
+/// @pre set up, with the samples' reach
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+HWY_INLINE bool draw_edges32_msaa(TileContext& context, std::uint32_t draw_number, std::uint32_t id) {
+  const TriangleGroup& g = context.memory.group;
+  const TileDraw& draw = context.frame.draws[draw_number];
+  set_up_samples(g, context.memory.samples->samples32, context.samples,
+                 kHasDepth<Depth> ? context.frame.depth_format : DepthFormat::none, context.tile_x,
+                 context.tile_y);
+  bool any_visible = false;
+  for (std::uint32_t left = g.mask; left != 0; left &= left - 1, ++id) {
+    const int i = std::countr_zero(left);
+    std::int32_t min_depth_key = 0;
+    if constexpr (kUsesHiz<Depth, kDepthTest>) {
+      min_depth_key = Depth::nearest_key(g, i, context.frame.depth_format);
+      if (hiz_culls(context, min_depth_key, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
+    }
+    const std::uint32_t value = kColorWrite == ColorWrite::constant
+                                    ? packed_color_of(context, draw, i, is_back(context, draw, i))
+                                    : id;
+    const bool immediate =
+        kColorWrite == ColorWrite::deferred && !draw.deferred && draw.source == ColorSource::interpolated;
+    SampledColorEval color;
+    if (immediate) color.set_up(context, draw, context.memory.visible_triangles[id], i);
+    SampledTrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, i, value,
+                                                                 immediate ? &color : nullptr, min_depth_key);
+    const BlockOffsets offsets(pixels.edges);
+    for_each_block(pixels.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
+    if (kColorWrite == ColorWrite::constant || immediate)
+      context.counts.shaded_pixels += count_of(pixels.visible);
+    else if constexpr (kColorWrite == ColorWrite::deferred)
+      any_visible |= !hn::AllTrue(kInt, hn::Eq(pixels.visible, hn::Zero(kInt)));
+  }
+  return any_visible;
+}
+
+template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
+void draw_group_msaa(TileContext& context, std::uint32_t draw_number) {
+  TileWorkspace::Memory& memory = context.memory;
+  TriangleGroup& g = memory.group;
+  set_up_edges(g, context.tile_x, context.tile_y, context.rect, sample_reach(context.samples));
+  if (g.mask == 0) return;
+  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
+  bool any_wide = false;
+  for (int i = 0; i < g.count; ++i) any_wide |= g.needs_edges64[i] != 0;
+  if (any_wide) return draw_fragments_msaa(context, draw_number);
+  const std::size_t first_id = memory.visible_triangles.size();
+  if constexpr (kColorWrite == ColorWrite::deferred) {
+    set_up_weights(g);
+    for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      fill_shaded_triangle(memory.visible_triangles.emplace_back(), context, draw_number, i,
+                           is_back(context, context.frame.draws[draw_number], i));
+    }
+  }
+  const bool any_visible = draw_edges32_msaa<Depth, kDepthTest, kColorWrite>(
+      context, draw_number, static_cast<std::uint32_t>(first_id));
+  if constexpr (kColorWrite == ColorWrite::deferred) {
+    if (!any_visible) {
+      memory.visible_triangles.resize(first_id);
+    } else if (context.frame.shade_immediately) {
+      shade_whole_tile(context);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,253 @@
+// Draws of textured triangles where each pixel that is visible is shaded at once: coordinates, texels and
+// colours stay in registers. The same bits as where they wait (deferred_shading-inl.h).
+#if defined(TESSERA_SHADING_DRAW_TEXTURED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
+#undef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
+#else
+#define TESSERA_SHADING_DRAW_TEXTURED_INL_H_
+#endif
+
+#include <bit>
+
+#include "shading/draw_fragments-inl.h"
+#include "shading/texture_coordinates-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera::detail {
+namespace HWY_NAMESPACE {
+
+/// Those without operations, into RGB buffers, of colours that are there already.
+HWY_INLINE bool can_texture_immediately(const TileFrame& frame, const TileDraw& draw) {
+  return frame.shade_immediately && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr &&
+         draw.texture->levels != nullptr && !frame.layout.index && !frame.layout.luminance &&
+         frame.layout.alpha_bits == 0 &&
+         (draw.source == ColorSource::constant || draw.source == ColorSource::interpolated) &&
+         !draw.index[0] && !draw.index[1];
+}
+
+/// One triangle's way through the blocks of a tile.
+template <TexelFilter kFilter>
+struct TexturedBlocks {
+  TileContext& context;
+  const TileDraw& draw;
+  const ShadedTriangle& triangle;
+  bool uses_depth, is_rgb8, modulates, replaces_color, stores_full, full;
+  FragmentDepth depth;
+  TextureCoordinates coordinates;
+  Interpolant color[3];
+  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
+  std::uint64_t blocks = 0;      // drawn as a whole
+
+  /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of
+  /// their steps.
+  static constexpr int kBlocksPerGroup =
+      kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
+  struct FullBlock {
+    int bx, by;
+    BlockEdges edges;
+  };
+  FullBlock pending[kBlocksPerGroup];
+  int pending_count = 0;
+
+  HWY_INLINE void set_up(int i) {
+    uses_depth = has_depth(context.frame, draw);
+    const ColorLayout& layout = context.frame.layout;
+    is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
+    modulates = draw.texture->function == TextureEnv::modulate;
+    replaces_color = is_rgb8 && draw.texture->function == TextureEnv::replace;
+    stores_full = is_rgb8 && (replaces_color || modulates) && !uses_depth && !context.needs_scissor &&
+                  (draw.write_mask & 0xffffff) == 0xffffff;
+    depth.set_up(context.frame, draw, context.memory.group, i, context.memory.source[i], context.tile_x,
+                 context.tile_y);
+    coordinates.set_up(triangle, context.memory.edges64.data(), *draw.texture, false, 1);
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t face = triangle.back ? 1 : 0;
+      color[c] = draw.source == ColorSource::constant
+                     ? Interpolant{draw.color[face][static_cast<std::size_t>(c)], 0, 0}
+                     : make_interpolant(triangle, draw.color_attribute[face] + c, true);
+    }
+  }
+  HWY_INLINE std::uint64_t shaded_pixels() const {
+    return std::uint64_t{kBlockPixels} * blocks + count_of(visible);
+  }
+
+  template <bool kFull>
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
+    if (kFull && kFilter != TexelFilter::any && stores_full) {
+      const FullBlock block{bx, by, edges};
+      if constexpr (kBlocksPerGroup == 1) {
+        draw_full_blocks<1>(&block);
+      } else {
+        pending[pending_count++] = block;
+        if (pending_count == kBlocksPerGroup) draw_full_blocks<kBlocksPerGroup>(pending), pending_count = 0;
+      }
+      return;
+    }
+    full = kFull;  // no argument: the compiler would make a copy of draw_block for each
+    draw_block(bx, by, edges);
+  }
+  /// Those that no more company comes for.
+  HWY_INLINE void finish() {
+    full = true;
+    for (int i = 0; i < pending_count; ++i) draw_block(pending[i].bx, pending[i].by, pending[i].edges);
+  }
+  HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& edges) {
+    const int block = context.block_index(bx, by);
+    Int keys[kChunksPerBlock], passed[kChunksPerBlock], any = hn::Zero(kInt);
+    if (uses_depth) depth.block_keys(bx, by, keys);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      auto mask = full ? hn::Eq(hn::Zero(kInt), hn::Zero(kInt)) : edges.covered(chunk);
+      if (context.needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
+      if (uses_depth) {
+        std::int32_t* const at = context.memory.depth + block + chunk * kLanes;
+        const Int stored = hn::Load(kInt, at);
+        mask = hn::And(mask, compare_lanes(keys[chunk], draw.depth_test, stored));
+        if (draw.depth_write) hn::Store(hn::IfThenElse(mask, keys[chunk], stored), kInt, at);
+      }
+      passed[chunk] = hn::VecFromMask(kInt, mask);
+      any = hn::Or(any, passed[chunk]);
+      visible = hn::Add(visible, passed[chunk]);
+    }
+    if (hn::AllFalse(kInt, hn::MaskFromVec(any))) return;
+    Barycentric at[kChunksPerBlock];
+    Texels texels[kChunksPerBlock];
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) at[chunk] = barycentric_at(bx, by, edges, chunk);
+    find_texels(at, texels);
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      store_packed(context.color + block + chunk * kLanes, packed(at[chunk], texels[chunk]),
+                   hn::MaskFromVec(passed[chunk]), splat(static_cast<std::int32_t>(draw.write_mask)));
+  }
+
+ private:
+  template <int kBlocks>
+  HWY_INLINE void draw_full_blocks(const FullBlock* group) {
+    constexpr int kChunks = kBlocks * kChunksPerBlock;
+    Barycentric at[kChunks];
+    Texels texels[kChunks];
+    for (int i = 0; i < kChunks; ++i) {
+      const FullBlock& block = group[i / kChunksPerBlock];
+      at[i] = barycentric_at(block.bx, block.by, block.edges, i % kChunksPerBlock);
+    }
+    find_texels(at, texels);
+    for (int i = 0; i < kChunks; ++i) {
+      const FullBlock& block = group[i / kChunksPerBlock];
+      auto* const stored = reinterpret_cast<std::int32_t*>(
+          context.color + context.block_index(block.bx, block.by) + i % kChunksPerBlock * kLanes);
+      hn::Store(replaces_color ? pack_texels(texels[i]) : modulated_packed(at[i], texels[i]), kInt, stored);
+    }
+    blocks += kBlocks;
+  }
+  HWY_INLINE Barycentric barycentric_at(int bx, int by, const BlockEdges& edges, int chunk) const {
+    return HWY_UNLIKELY(triangle.edges64_index >= 0)
+               ? barycentric_edges64(triangle,
+                                     context.memory.edges64[static_cast<std::size_t>(triangle.edges64_index)],
+                                     bx, by, chunk)
+               : barycentric_from_edges(triangle, edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
+  }
+  template <int kChunks>
+  HWY_INLINE void find_texels(const Barycentric (&at)[kChunks], Texels (&texels)[kChunks]) const {
+    constexpr bool kClampsToRange = kFilter == TexelFilter::nearest || kFilter == TexelFilter::any;
+    constexpr bool kHasSlopes = kFilter == TexelFilter::linear_mipmapped || kFilter == TexelFilter::any;
+    Float s[kChunks], t[kChunks], footprint[kChunks];
+    for (int i = 0; i < kChunks; ++i)
+      coordinates.at<kHasSlopes, kClampsToRange>(at[i], [&](int field, Float value) HWY_ATTR {
+        (field == kTextureS ? s : field == kTextureT ? t : footprint)[i] = value;
+      });
+    texels_where<kFilter>(*draw.texture->levels, s, t, footprint, texels);
+  }
+  HWY_INLINE Int packed(const Barycentric& at, const Texels& texels) const {
+    if (replaces_color) return pack_texels(texels);
+    if (is_rgb8 && modulates) return modulated_packed(at, texels);
+    return pack_colors(context.frame.layout,
+                       texture_env_lanes(*draw.texture, own_colors(at), colors_of(texels)), splat(0.5f));
+  }
+  HWY_INLINE Int modulated_packed(const Barycentric& at, const Texels& texels) const {
+    return pack_rgb8(modulated(own_colors(at), colors_of(texels)));
+  }
+  HWY_INLINE Colors own_colors(const Barycentric& at) const {
+    return {{interpolate_clamped(at, color[0]), interpolate_clamped(at, color[1]),
+             interpolate_clamped(at, color[2]), splat(1.0f)}};
+  }
+};
+
+/// Of full blocks side by side, whose nearest texels are stored as they are, what they have in common stays
+/// in registers: copies, since the compiler must read again what a stored word might have changed.
+struct NearestRows {
+  TexturedBlocks<TexelFilter::nearest>& blocks;
+
+  HWY_INLINE bool applies() const {
+    return blocks.stores_full && blocks.replaces_color && blocks.triangle.edges64_index < 0;
+  }
+
+  template <bool kFull>
+  HWY_INLINE void operator()(int bx, int by, const BlockEdges& edges) {
+    static_assert(!kFull);  // those come by rows
+    blocks.template operator()<false>(bx, by, edges);
+  }
+  HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
+    const TextureLevels& levels = *blocks.draw.texture->levels;
+    const TextureLevel level = levels.level[0];
+    const std::uint32_t* const words = levels.words + level.first;
+    const TextureWrap wrap_s = levels.wrap_s, wrap_t = levels.wrap_t;
+    WeightLanes weights;
+    weights.set_up(blocks.triangle);
+    ClampedInterpolantLanes s, t;
+    s.set(blocks.coordinates.s.interpolant);
+    t.set(blocks.coordinates.t.interpolant);
+    RowEdges edges(blocks.triangle.edges, first);
+    auto* stored = reinterpret_cast<std::int32_t*>(blocks.context.color + blocks.context.block_index(bx, by));
+    for (const std::int32_t* const end = stored + kBlockPixels * count; stored < end; edges.step_right())
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored += kLanes) {
+        const Barycentric where = weights.at(edges.at(0, chunk), edges.at(1, chunk), edges.at(2, chunk));
+        const Int texels = nearest_words(words, level, wrapped(interpolate_clamped(where, s), wrap_s),
+                                         wrapped(interpolate_clamped(where, t), wrap_t));
+        hn::Store(hn::And(texels, splat(0xffffff)), kInt, stored);
+      }
+    blocks.blocks += static_cast<std::uint64_t>(count);
+  }
+};
+
+inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
+  TriangleGroup& g = context.memory.group;
+  const TileDraw& draw = context.frame.draws[draw_number];
+  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
+  if (g.mask == 0) return;
+  if (has_depth(context.frame, draw))
+    set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
+  set_up_weights(g);
+  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    Edges32 edges = tile_edges32(g, i);
+    Edges64 wide_edges;
+    if (g.needs_edges64[i] != 0 &&
+        !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
+      continue;
+    ShadedTriangle triangle;
+    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i));
+    if (g.needs_edges64[i] != 0) store_edges64(triangle, context.memory, wide_edges);
+    with_filter(*draw.texture->levels, [&]<TexelFilter kFilter>() HWY_ATTR {
+      TexturedBlocks<kFilter> blocks{.context = context, .draw = draw, .triangle = triangle};
+      blocks.set_up(i);
+      const BlockOffsets offsets(edges);
+      const auto draw_by = [&](auto& drawn) HWY_ATTR {
+        for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn);
+      };
+      bool by_rows = false;
+      if constexpr (kFilter == TexelFilter::nearest) {
+        NearestRows rows{blocks};
+        by_rows = rows.applies();
+        if (by_rows) draw_by(rows);
+      }
+      if (!by_rows) draw_by(blocks);
+      blocks.finish();
+      context.counts.shaded_pixels += blocks.shaded_pixels();
+    });
+    context.memory.edges64.clear();
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

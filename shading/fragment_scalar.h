@@ -1,0 +1,46 @@
+// One fragment's comparison and one colour's word, where a kernel has no lanes to fill: clears, small
+// triangles, accumulation.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "framebuffer/format.h"
+#include "shading/fragment_ops.h"
+
+namespace tessera::detail {
+
+template <class Number>
+constexpr bool compares(Number a, Compare op, Number b) {
+  switch (op) {
+    case Compare::never: return false;
+    case Compare::less: return a < b;
+    case Compare::equal: return a == b;
+    case Compare::lequal: return a <= b;
+    case Compare::greater: return a > b;
+    case Compare::notequal: return a != b;
+    case Compare::gequal: return a >= b;
+    default: return true;
+  }
+}
+
+using Rgba = std::array<float, 4>;
+
+inline float clamp_unit(float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
+
+/// The word of a clamped colour: each component floor(c (2^b - 1) + t). RGB and luminance layouts.
+inline std::uint32_t pack_color(const ColorLayout& layout, const Rgba& c, float t) {
+  const auto level = [&](float x, int bits) {
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::fma(x, static_cast<float>((1 << bits) - 1), t)));
+  };
+  const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : level(c[3], layout.alpha_bits) << layout.bits;
+  if (layout.luminance)
+    return alpha |
+           level(clamp_unit(std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]))), layout.bits);
+  return alpha | level(c[0], layout.r_bits) << layout.r_shift() |
+         level(c[1], layout.g_bits) << layout.g_shift() | level(c[2], layout.b_bits);
+}
+
+}  // namespace tessera::detail

@@ -1,0 +1,233 @@
+// Plans what a surface's lighting consists of: the one home of 'only the effects a scene calls for'.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "framebuffer/format.h"
+#include "shading/lighting.h"
+#include "shading/power_reference.h"
+#include "shading/trigonometry.h"
+
+namespace tessera::detail {
+namespace {
+
+std::array<float, 3> normalized(double x, double y, double z) {
+  const double length = std::sqrt(x * x + y * y + z * z);
+  if (length == 0) return {0, 0, 0};
+  return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
+}
+
+double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
+}
+
+// Directions that their roundings to floats alone take out of a cone, by less than this angle, are within it:
+// of 0 degrees, too.
+constexpr double kRoundingOfDirections = 0x1p-22,
+                 kDegreesOfRounding = kRoundingOfDirections * 180 / 3.14159265358979323846;
+
+// A cone on a directional light applies with V = -L: the same factor for every point.
+float directional_spot_factor(const EyeLight& light) {
+  const auto& l = light.position;
+  const auto& d = light.spot_direction;
+  const double lengths = std::sqrt(
+      dot(l, l) * dot(d, d));  // of floats, which miss 1 by more than the cosines of very narrow cones do
+  if (lengths == 0) return 0;
+  const double cosine = std::min(-dot(l, d) / lengths, 1.0);
+  if (cosine < sine_cosine(light.spot_cutoff + kDegreesOfRounding).cosine || cosine <= 0) return 0;
+  return power_of_reference(static_cast<float>(cosine), light.spot_exponent);
+}
+
+/// The square of how far unit vectors within a cone are apart from its direction.
+float squared_chord(float degrees) {
+  const double chord = 2 * sine_cosine(degrees / 2.0).sine + kRoundingOfDirections;
+  return static_cast<float>(chord * chord);
+}
+
+/// Bits before the binary point of what a highlight is multiplied by, its product of colours over the
+/// attenuation. No more than there are powers for, which end at 2^-126: what is multiplied by still more
+/// loses the foot of its highlight.
+float bits_above_one(const LightTerm& term) {
+  constexpr double kMaxBits = 94;
+  if (!is_black(term.tracked_specular)) return kMaxBits;  // whatever vertices have
+  double most =
+      std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
+  if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
+    const auto [constant, linear, quadratic] = term.attenuation;
+    if (!(constant > 0 && linear >= 0 && quadratic >= 0))
+      return kMaxBits;  // with the distance it may come to any
+    most /= constant;
+  }
+  return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMaxBits)) : 0.0f;
+}
+
+const char* kind_name(LightKind kind) {
+  switch (kind) {
+    case LightKind::directional: return "directional";
+    case LightKind::point: return "point, attenuation 1 0 0 left out";
+    case LightKind::attenuated_point: return "point with attenuation";
+    case LightKind::spot: return "spot, attenuation 1 0 0 left out";
+    case LightKind::attenuated_spot: return "spot with attenuation";
+  }
+  return "";
+}
+
+const char* highlight_name(HighlightKind kind) {
+  switch (kind) {
+    case HighlightKind::none: return "no highlight (specular product is black)";
+    case HighlightKind::blinn_infinite: return "Blinn highlight, infinite viewer";
+    case HighlightKind::blinn_local: return "Blinn highlight, local viewer";
+    case HighlightKind::phong_infinite: return "Phong highlight, infinite viewer";
+    case HighlightKind::phong_local: return "Phong highlight, local viewer";
+  }
+  return "";
+}
+
+LightKind kind_of(const EyeLight& light) {
+  if (light.directional) return LightKind::directional;
+  const bool attenuated =
+      !(light.attenuation[0] == 1 && light.attenuation[1] == 0 && light.attenuation[2] == 0);
+  if (light.spot_cutoff == 180) return attenuated ? LightKind::attenuated_point : LightKind::point;
+  return attenuated ? LightKind::attenuated_spot : LightKind::spot;
+}
+
+// What no float holds is the largest one: where no light arrives, nothing times it is still nothing.
+Rgb finite(Rgb color) {
+  for (float& component : color) component = std::clamp(component, -kMaxFloat, kMaxFloat);
+  return color;
+}
+
+EyeLight unchanged(const EyeLight& light) { return light; }
+EyeLight to_luminance(const EyeLight& light) {
+  const auto grey = [](const Rgb& c) {
+    const float luminance = std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]));
+    return Rgb{luminance, luminance, luminance};
+  };
+  EyeLight changed = light;
+  changed.ambient = {};
+  changed.diffuse = grey(light.diffuse);
+  changed.specular = grey(light.specular);
+  return changed;
+}
+
+/// @param convert  applied to each light: identity, or its luminance
+LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked,
+                           const std::vector<EyeLight>& lights, EyeLight (&convert)(const EyeLight&),
+                           const LightingModel& model, std::string* reasons,
+                           std::vector<LightTerm> term_storage) {
+  LightingProgram program;
+  program.terms = std::move(term_storage);
+  program.terms.clear();
+  program.tracked = tracked.any();
+  const Rgb white{1, 1, 1};
+  if (tracked.emission) program.tracked_base = program.tracked_base + white;
+  if (tracked.ambient) program.tracked_base = program.tracked_base + model.scene_ambient;
+  if (!tracked.emission) program.base = program.base + material.emission;
+  if (!tracked.ambient) program.base = program.base + model.scene_ambient * material.ambient;
+
+  for (std::size_t number = 0; number < lights.size(); ++number) {
+    const EyeLight light = convert(lights[number]);
+    const auto note = [&](const auto&... parts) {
+      if (!reasons) return;
+      *reasons += "  light " + std::to_string(number) + ": ";
+      (*reasons += ... += parts) += "\n";
+    };
+    LightTerm term;
+    const float factor =
+        light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
+    (tracked.ambient ? term.tracked_ambient : term.ambient) =
+        finite((tracked.ambient ? light.ambient : finite(light.ambient * material.ambient)) * factor);
+    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) =
+        finite((tracked.diffuse ? light.diffuse : finite(light.diffuse * material.diffuse)) * factor);
+    (tracked.specular ? term.tracked_specular : term.specular) =
+        finite((tracked.specular ? light.specular : finite(light.specular * material.specular)) * factor);
+    const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
+    const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
+    const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
+    if (!has_ambient && !has_diffuse && !has_specular) {
+      note("left out, it adds black");
+      continue;
+    }
+    term.kind = kind_of(light);
+    // The ambient part of a directional light is the same everywhere.
+    if (term.kind == LightKind::directional) {
+      program.base = program.base + term.ambient;
+      program.tracked_base = program.tracked_base + term.tracked_ambient;
+      term.ambient = term.tracked_ambient = {};
+      if (!has_diffuse && !has_specular) {
+        note("a constant ambient part");
+        continue;
+      }
+    }
+    if (has_specular) {
+      term.highlight =
+          model.phong_highlight
+              ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
+              : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
+    }
+    term.position = light.position;
+    term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
+    term.spot_direction = light.spot_direction;
+    term.attenuation = light.attenuation;
+    term.spot_power = make_power(light.spot_exponent);
+    term.spot_cosine = static_cast<float>(sine_cosine(light.spot_cutoff).cosine);
+    if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone)
+      term.spot_chord_squared = squared_chord(light.spot_cutoff);
+    term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
+    const bool half_varies =
+        term.highlight == HighlightKind::blinn_local ||
+        (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
+    const float visible_bits =
+        32 + bits_above_one(term);  // a power is not below 2^-visible_bits, where it is seen
+    // No square is below 2^-126, no cosine by squares below 2^-63.
+    term.squared =
+        half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= visible_bits;
+    const float exponent = term.squared ? material.shininess / 2 : material.shininess;
+    term.highlight_power = make_power(exponent);
+    // x^s < 2^-b where x < 2^(-b / s): most of a shiny surface, which then needs no power at all.
+    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                         : exp2_reference(std::max(-visible_bits / exponent, -126.0f));
+    program.needs_normal = true;
+    program.needs_position |= term.kind != LightKind::directional;
+    program.needs_view |=
+        term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
+    const bool has_more = !is_black(term.ambient) || !is_black(term.tracked_ambient) ||
+                          !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
+    note(kind_name(term.kind), "; ", highlight_name(term.highlight),
+         has_more ? "; ambient part or vertex colours" : "");
+    program.terms.push_back(term);
+  }
+  program.needs_position |= program.needs_view;
+  return program;
+}
+
+}  // namespace
+
+LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
+                              const std::vector<EyeLight>& lights, const LightingModel& model,
+                              std::string* reasons, std::vector<LightTerm> term_storage) {
+  return plan_terms(material, tracked, lights, unchanged, model, reasons, std::move(term_storage));
+}
+
+LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
+                                    const LightingModel& model, std::string* reasons,
+                                    std::vector<LightTerm> term_storage) {
+  const auto [ambient, diffuse, specular] = material.indexes;
+  // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not
+  // matter.
+  SurfaceMaterial surface{
+      .ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
+  if (diffuse != ambient) surface.diffuse = {1, 0, 0};
+  if (diffuse != ambient || specular != ambient) surface.specular = {0, 1, 0};
+  LightingModel dark = model;
+  dark.scene_ambient = {};
+  LightingProgram program =
+      plan_terms(surface, {}, lights, to_luminance, dark, reasons, std::move(term_storage));
+  program.index = true;
+  program.indexes = material.indexes;
+  program.index_modulus = material.modulus;
+  return program;
+}
+
+}  // namespace tessera::detail

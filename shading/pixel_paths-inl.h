@@ -1,0 +1,45 @@
+// What a draw's pixels go through, as far as there is code of its own for it.
+#if defined(TESSERA_SHADING_PIXEL_PATHS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_PIXEL_PATHS_INL_H_
+#undef TESSERA_SHADING_PIXEL_PATHS_INL_H_
+#else
+#define TESSERA_SHADING_PIXEL_PATHS_INL_H_
+#endif
+
+#include "raster/depth-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera::detail {
+namespace HWY_NAMESPACE {
+
+/// How a visible pixel gets its color.
+enum class ColorWrite { none, constant, interpolated, blended, deferred };
+inline constexpr bool is_interpolated(ColorWrite write) {
+  return write == ColorWrite::interpolated || write == ColorWrite::blended;
+}
+/// `less_write`, by draws that write depth and have no operations, has code of its own, since nearly
+/// everybody uses it.
+enum class DepthTestPath { less_write, generic };
+struct NoDepth {
+  struct Block {};
+  HWY_INLINE Block block(int, int) const { return {}; }
+  HWY_INLINE void step_right(Block&) const {}
+  HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthFormat) {}
+  HWY_INLINE void prepare_blocks() {}
+  struct Anchor {};
+  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int,
+                                  int) {
+    return {};
+  }
+  HWY_INLINE Block step_to(int, int) const { return {}; }
+};
+template <class Depth>
+inline constexpr bool kHasDepth = true;
+template <>
+inline constexpr bool kHasDepth<NoDepth> = false;
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,110 @@
+// Cameras as computer vision holds them: points fall on the pixels that the pinhole formula names, at their
+// own distances.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/engine/frame/api_support.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+constexpr Intrinsics kIntrinsics{
+    .fx = 310.5, .fy = 290.25, .cx = 170.3, .cy = 101.8, .width = 320, .height = 240};
+const FrameBufferFormat kFormat{.width = 320, .height = 240, .depth = DepthFormat::unorm32};
+
+// The matrix that is given, applied as on paper.
+std::array<double, 3> in_camera(const Matrix& m, const std::array<double, 3>& p) {
+  std::array<double, 3> out{};
+  for (std::size_t row = 0; row < 3; ++row)
+    out[row] = m.m[4 * row] * p[0] + m.m[4 * row + 1] * p[1] + m.m[4 * row + 2] * p[2] + m.m[4 * row + 3];
+  return out;
+}
+
+class CalibratedCamera : public testing::TestWithParam<std::tuple<CameraAxes, bool>> {};
+
+TEST_P(CalibratedCamera, PutsPointsOnTheirPixelsAtTheirDistances) {
+  const auto [axes, reversed] = GetParam();
+  const Matrix extrinsics = translate(0.1, -0.2, axes == CameraAxes::opencv ? 3 : -3) * rotate(25, 1, 2, -1);
+  const Camera camera = calibrated_camera(kIntrinsics, extrinsics, 0.5, 9, axes, reversed);
+  Random random(8);
+  Renderer renderer({.threads = 1});
+  int seen = 0;
+  for (int round = 0; round < 300; ++round) {
+    const std::array<double, 3> p{random.between(-1.5f, 1.5f), random.between(-1, 1),
+                                  random.between(-1.5f, 1.5f)};
+    std::array<double, 3> c = in_camera(extrinsics, p);
+    if (axes == CameraAxes::opengl) c[1] = -c[1], c[2] = -c[2];
+    const double u = kIntrinsics.fx * c[0] / c[2] + kIntrinsics.cx,
+                 v = kIntrinsics.fy * c[1] / c[2] + kIntrinsics.cy;
+    const double column = std::floor(u + 0.5), row = std::floor(v + 0.5);
+    const bool near_border = std::max(std::abs(u - column), std::abs(v - row)) > 0.45;
+    if (near_border || column < 0 || column >= 320 || row < 0 || row >= 240) continue;
+    // A tiny tetrahedron around the point, smaller than the distance to the pixel's border but around its
+    // centre: so move it there.
+    const double at_u = column, at_v = row, z = c[2];
+    std::array<double, 3> centre{(at_u - kIntrinsics.cx) / kIntrinsics.fx * z,
+                                 (at_v - kIntrinsics.cy) / kIntrinsics.fy * z, z};
+    if (axes == CameraAxes::opengl) centre[1] = -centre[1], centre[2] = -centre[2];
+    // Back to the world: the extrinsic matrix is rigid.
+    MeshData mesh;
+    const double size = 0.2 * z / kIntrinsics.fx;  // a fifth of a pixel
+    const double offsets[3][2] = {{-size, -size}, {2 * size, -size}, {-size, 2 * size}};
+    for (const auto& offset : offsets) {
+      const double camera_point[3] = {centre[0] + offset[0], centre[1] + offset[1], centre[2]};
+      for (std::size_t k = 0; k < 3; ++k) {
+        double world = 0;
+        for (std::size_t r = 0; r < 3; ++r)
+          world += extrinsics.m[4 * r + k] * (camera_point[r] - extrinsics.m[4 * r + 3]);
+        mesh.positions.push_back(static_cast<float>(world));
+      }
+    }
+    FrameBuffer buffer(kFormat);
+    Frame frame(buffer);
+    frame.set_camera(camera);
+    frame.clear({.color = Color{0, 0, 0, 1}, .depth = reversed ? 0.0 : 1.0});
+    DrawState state = unlit({1, 1, 1, 1});
+    state.depth.test = reversed ? Compare::greater : Compare::less;
+    frame.draw(mesh.view(), state);
+    renderer.finish(frame);
+    std::vector<float> depth(pixel_count(buffer));
+    buffer.read_view_depth(depth, camera, -1);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const bool expected = i == static_cast<std::size_t>(row) * 320 + static_cast<std::size_t>(column);
+      ASSERT_EQ(words[i] != 0, expected)
+          << i % 320 << ' ' << i / 320 << ", expected " << column << ' ' << row;
+      if (expected) ASSERT_NEAR(depth[i], z, 1e-5);
+      else ASSERT_EQ(depth[i], -1.0f);
+    }
+    ++seen;
+  }
+  EXPECT_GT(seen, 60);
+}
+
+INSTANTIATE_TEST_SUITE_P(Axes, CalibratedCamera,
+                         testing::Combine(testing::Values(CameraAxes::opencv, CameraAxes::opengl),
+                                          testing::Bool()));
+
+TEST(CalibratedCameraErrors, NameWhatIsOutOfRange) {
+  const auto says = [](Intrinsics i, double near, double far) {
+    return error_of([&] { calibrated_camera(i, {}, near, far); }).value_or("");
+  };
+  Intrinsics i = kIntrinsics;
+  i.fx = 0;
+  EXPECT_THAT(says(i, 1, 2), testing::HasSubstr("focal length is 0"));
+  i = kIntrinsics;
+  i.cy = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(says(i, 1, 2), testing::HasSubstr("principal point"));
+  i = kIntrinsics;
+  i.height = 0;
+  EXPECT_THAT(says(i, 1, 2), testing::HasSubstr("320x0"));
+  EXPECT_THAT(says(kIntrinsics, 2, 2), testing::HasSubstr("near is 2"));
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,79 @@
+// What the tests of the public interface share: small meshes, images, messages; and what frame buffers hold
+// (fingerprint.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/program/scene/fingerprint.h"
+#include "engine/program/scene/mesh_data.h"
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera::test {
+using namespace program;
+
+/// The same numbers on every machine and library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed * 2 + 1) {}
+  std::uint32_t next() {
+    state_ ^= state_ >> 12;
+    state_ ^= state_ << 25;
+    state_ ^= state_ >> 27;
+    return static_cast<std::uint32_t>(state_ * 0x2545f4914f6cdd1du >> 32);
+  }
+  /// 24 bits, so that every step is exact but the last.
+  float between(float low, float high) {
+    return low + (high - low) * (static_cast<float>(next() >> 8) / 16777216.0f);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// An axis-parallel rectangle of two triangles, counter-clockwise, in whatever space the camera makes of it.
+inline MeshData rectangle(float x0, float y0, float x1, float y1, float z = 0) {
+  MeshData mesh;
+  mesh.positions = {x0, y0, z, x1, y0, z, x1, y1, z, x0, y1, z};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+/// The whole window under the initial camera.
+inline MeshData whole_window(float z = 0) { return rectangle(-1, -1, 1, 1, z); }
+
+inline DrawState unlit(Color color) {
+  DrawState state;
+  state.lighting = false;
+  state.material.diffuse = color;
+  return state;
+}
+
+/// Pixels of its own, 4 bytes each without gaps.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;
+  explicit Image(const FrameBuffer& buffer)
+      : width(buffer.format().width), height(buffer.format().height), bytes(4 * pixel_count(buffer)) {}
+  ImageTarget target(PixelOrder order = PixelOrder::rgba8) {
+    return {.pixels = bytes.data(),
+            .width = width,
+            .height = height,
+            .stride_bytes = std::ptrdiff_t{4} * width,
+            .order = order};
+  }
+};
+
+/// The message of the tessera::Error that `act` throws; empty if it throws none.
+template <class Act>
+std::optional<std::string> error_of(const Act& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+}  // namespace tessera::test

@@ -1,0 +1,146 @@
+// Points and lines by the thousand, in the long tests a million of each, in one draw: every pixel against the
+// rules in exact integers. Many leave the window, and many lines are cut at the near or far plane.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "tests/engine/frame/api_support.h"
+#include "tests/raster/diamond_exit_rule.h"
+#include "tests/raster/random_triangles.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+constexpr int kWidth = 1024,
+              kHeight = 512;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
+
+/// A mesh, and the pixels of each of its elements.
+struct Elements {
+  MeshData mesh;
+  std::vector<std::uint32_t> words;
+  std::vector<std::vector<std::pair<int, int>>> pixels;
+
+  explicit Elements(Primitive primitive) { mesh.primitive = primitive; }
+  void add(const LinePoint& p, float z, std::uint32_t word) {
+    for (const float c :
+         {static_cast<float>(p.x) / (128 * kWidth) - 1, 1 - static_cast<float>(p.y) / (128 * kHeight), z})
+      mesh.positions.push_back(c);
+    for (int c = 2; c >= 0; --c) mesh.colors.push_back(static_cast<float>(word >> (8 * c) & 255) / 255.0f);
+    mesh.colors.push_back(1);
+  }
+};
+
+std::int32_t below(Random& random, std::int32_t n) {
+  return static_cast<std::int32_t>(random.next() % static_cast<std::uint32_t>(n));
+}
+std::int32_t about(Random& random, std::int32_t n) { return below(random, 2 * n + 1) - n; }
+LinePoint somewhere(Random& random) {
+  return {below(random, (kWidth + 64) * 256) - 32 * 256, below(random, (kHeight + 64) * 256) - 32 * 256};
+}
+int count() { return long_tests() ? 1'000'000 : 20'000; }
+
+// Squares of 3 pixels, around the pixel that holds the point. Of some the centre is before the near plane or
+// behind the far one.
+Elements random_points(std::uint64_t seed) {
+  Random random(seed);
+  Elements points(Primitive::points);
+  for (int i = 0; i < count(); ++i) {
+    LinePoint p = somewhere(random);
+    if (i % 3 == 0) p = {p.x & ~127, p.y & ~127};  // centres, borders and corners of pixels
+    const std::uint32_t word = random.next() & 0xffffff;
+    const float z = i % 8 == 0 ? random.between(-2, 2) : 0;
+    points.add(p, z, word);
+    points.words.push_back(word);
+    // Of a border, the pixel to the right or above has the point; the view volume has its own border.
+    const bool is_in_view =
+        z >= -1 && z <= 1 && p.x >= 0 && p.x <= kWidth * 256 && p.y >= 0 && p.y <= kHeight * 256;
+    std::vector<std::pair<int, int>> pixels;
+    for (int y = -1; y <= 1 && is_in_view; ++y)
+      for (int x = -1; x <= 1; ++x) pixels.push_back({(p.x >> 8) + x, ((p.y - 1) >> 8) + y});
+    points.pixels.push_back(pixels);
+  }
+  return points;
+}
+
+// A quarter of the lines ends outside of the near or far plane, at half, a quarter or three quarters of its
+// length: there it is cut in whole units of 1/256 pixel.
+Elements random_lines(std::uint64_t seed) {
+  Random random(seed);
+  Elements lines(Primitive::lines);
+  for (int i = 0; i < count(); ++i) {
+    LinePoint a = somewhere(random);
+    if (i % 3 == 0) a = {a.x & ~127, a.y & ~127};
+    const int unit = i % 3 == 1 ? 128 : 4, reach = (i % 16 == 0 ? 40 : 8) * 256 / unit;
+    LinePoint b{a.x + unit * about(random, reach), a.y + unit * about(random, reach)};
+    const std::uint32_t word = random.next() & 0xffffff;
+    LinePoint from = a, to = b;
+    float z[2] = {0, 0};
+    if (i % 4 == 0) {
+      // From 1 inside of the plane to 1, 3 or 1/3 outside.
+      const int quarters = 1 + below(random, 3), end = below(random, 2),
+                side = below(random, 2) != 0 ? 1 : -1;
+      z[end] = static_cast<float>(side) * (quarters == 1 ? 4.0f : quarters == 2 ? 2.0f : 1.25f);
+      z[1 - end] = quarters == 3 ? static_cast<float>(side) * 0.25f : 0.0f;
+      const LinePoint inner = end == 1 ? a : b, outer = end == 1 ? b : a;
+      const LinePoint cut{inner.x + (outer.x - inner.x) / 4 * quarters,
+                          inner.y + (outer.y - inner.y) / 4 * quarters};
+      (end == 1 ? to : from) = cut;
+    }
+    lines.add(a, z[0], word ^ 0xffffff);
+    lines.add(b, z[1], word);
+    lines.words.push_back(word);
+    const auto pixels = diamond_exit_pixels(from, to);
+    lines.pixels.emplace_back(pixels.begin(), pixels.end());
+  }
+  return lines;
+}
+
+std::vector<std::uint32_t> drawn(const Elements& elements, const DrawState& state) {
+  FrameBuffer buffer({.width = kWidth, .height = kHeight});
+  Frame frame(buffer);
+  frame.draw(elements.mesh.view(), state);
+  Renderer({.threads = 2}).finish(frame);
+  return packed_colors(buffer);
+}
+template <class Store>
+std::vector<std::uint32_t> by_the_rules(const Elements& elements, const Store& store) {
+  std::vector<std::uint32_t> words(std::size_t{kWidth} * kHeight);
+  for (std::size_t i = 0; i < elements.words.size(); ++i)
+    for (const auto& [x, y] : elements.pixels[i])
+      if (x >= 0 && x < kWidth && y >= 0 && y < kHeight)
+        store(words[static_cast<std::size_t>(y * kWidth + x)], elements.words[i]);
+  return words;
+}
+std::size_t differing(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n += a[i] != b[i];
+  return n;
+}
+
+// Stored, the last one of a pixel is seen; exclusive or tells of each one that is too many or too few.
+void expect_by_the_rules(const Elements& elements) {
+  DrawState state;
+  state.lighting = false;
+  state.shading = Shading::flat;
+  state.depth.enabled = false;
+  state.point_size = 3;
+  EXPECT_EQ(
+      differing(drawn(elements, state),
+                by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored = word; })),
+      0u);
+  state.logic_op = LogicOp::bit_xor;
+  EXPECT_EQ(
+      differing(drawn(elements, state),
+                by_the_rules(elements, [](std::uint32_t& stored, std::uint32_t word) { stored ^= word; })),
+      0u);
+}
+
+TEST(ManyPoints, CoverPixelsByTheRule) { expect_by_the_rules(random_points(71)); }
+TEST(ManyLines, CoverPixelsByTheRule) { expect_by_the_rules(random_lines(72)); }
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,81 @@
+// Cameras and lights of glTF 2 as they are read beside assimp, which would refuse some of these files first.
+#include <gtest/gtest.h>
+
+#include "engine/program/import/gltf_view.h"
+
+namespace tessera {
+using namespace program;
+namespace {
+
+constexpr const char* kOrthographic =
+    R"({"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}})";
+
+Model view_of(const std::string& members, const std::string& camera = kOrthographic) {
+  Model model;
+  EXPECT_TRUE(add_gltf_view_of_bytes(
+      R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "point"}]}},
+    "cameras": [)" +
+          camera + "], " + members + "}",
+      model))
+      << members;
+  return model;
+}
+
+// Where @ stands, an index of `kind`; node 0, whose camera is kept, comes before it.
+void expect_told(std::string members, const std::string& kind, std::size_t length, std::size_t cameras) {
+  const auto with = [&](const std::string& index) {
+    return std::string(members).replace(members.find('@'), 1, index);
+  };
+  const Model whole = view_of(with(std::to_string(length - 1)));
+  EXPECT_TRUE(whole.warnings.empty()) << whole.warnings[0];
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']'), end = std::to_string(length);
+  const std::pair<std::string, std::string> none[] = {{"1e+308", "1e+308"},
+                                                      {"-1e+308", "-1e+308"},
+                                                      {"-1", "-1"},
+                                                      {"0.5", "0.5"},
+                                                      {"1.0", "1.0"},
+                                                      {"18446744073709551615", "18446744073709551615"},
+                                                      {"18446744073709551616", "1.8446744073709552e+19"},
+                                                      {end, end},
+                                                      {"\"0\"", "string"},
+                                                      {"true", "boolean"},
+                                                      {"null", "null"},
+                                                      {deep, "array"}};
+  for (const auto& [index, found] : none) {
+    const Model model = view_of(with(index));
+    EXPECT_EQ(model.cameras.size(), cameras) << members << " with " << index.substr(0, 40);
+    ASSERT_EQ(model.warnings.size(), 1u) << members << " with " << index.substr(0, 40);
+    EXPECT_EQ(model.warnings[0], "its cameras and lights cannot all be read: found " + found +
+                                     ", expected the index of one of " + std::to_string(length) + " " + kind);
+  }
+}
+
+TEST(GltfView, IndicesThatNameNothingAreTold) {
+  expect_told(R"("scene": @, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}])", "scenes", 1, 0);
+  expect_told(R"("scenes": [{"nodes": [0, @]}], "nodes": [{"camera": 0}, {}])", "nodes", 2, 1);
+  expect_told(R"("scenes": [{"nodes": [0]}], "nodes": [{"camera": 0, "children": [1, @]}, {}, {}])", "nodes",
+              3, 1);
+  expect_told(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"camera": @}])", "cameras", 1, 1);
+  expect_told(
+      R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": @}}}])",
+      "lights", 2, 1);
+}
+
+TEST(GltfView, AngleOfAPerspectiveIsBelowHalfATurn) {
+  const auto view = [](const std::string& angle) {
+    return view_of(R"("scenes": [{"nodes": [0, 0]}], "nodes": [{"camera": 0}])",
+                   R"({"type": "perspective", "perspective": {"yfov": )" + angle + R"(, "znear": 1}})");
+  };
+  for (const char* angle : {"0.001", "3.1415"}) {
+    EXPECT_EQ(view(angle).cameras.size(), 2u) << angle;
+    EXPECT_TRUE(view(angle).warnings.empty()) << angle;
+  }
+  for (const std::string angle : {"0.0", "-0.7", "3.1416", "13.0", "1e+308", "-1e+308"}) {
+    EXPECT_TRUE(view(angle).cameras.empty()) << angle;
+    EXPECT_EQ(view(angle).warnings, std::vector{"a perspective camera is left out: found an angle of " +
+                                                angle + ", expected one between 0 and pi"});
+  }
+}
+
+}  // namespace
+}  // namespace tessera

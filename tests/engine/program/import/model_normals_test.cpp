@@ -1,0 +1,110 @@
+// Normals that are made, against what geometry says of a cube and of a fan.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "engine/program/import/model_normals.h"
+
+namespace tessera {
+using namespace program;
+namespace {
+
+// Eight shared vertices, wound counter-clockwise seen from outside.
+MeshData cube() {
+  MeshData mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.insert(mesh.positions.end(), {static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1),
+                                                 static_cast<float>(i >> 2)});
+  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                  2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  return mesh;
+}
+
+std::array<float, 3> normal(const MeshData& mesh, std::size_t index) {
+  const float* const n = &mesh.normals[3 * std::size_t{mesh.indices[index]}];
+  return {n[0], n[1], n[2]};
+}
+
+TEST(CreasedNormals, ACubeIsFlatAndItsVerticesAreSplitInThree) {
+  MeshData mesh = cube();
+  mesh.colors.assign(4 * 8, 0.5f);
+  mesh.texcoords.assign(2 * 8, 0.5f);
+  add_creased_normals(mesh);
+  EXPECT_EQ(mesh.vertex_count(), 24u);
+  EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
+  EXPECT_EQ(mesh.colors.size(), 4 * mesh.vertex_count());
+  EXPECT_EQ(mesh.texcoords.size(), 2 * mesh.vertex_count());
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const std::array<float, 3> n = normal(mesh, i);
+    EXPECT_EQ(std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]), 1) << "along an axis";
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      EXPECT_EQ(normal(mesh, i + corner), n);
+      // Away from the middle.
+      const float* const p = &mesh.positions[3 * std::size_t{mesh.indices[i + corner]}];
+      EXPECT_GT(n[0] * (p[0] - 0.5f) + n[1] * (p[1] - 0.5f) + n[2] * (p[2] - 0.5f), 0);
+    }
+  }
+}
+
+TEST(CreasedNormals, AWideAngleMakesACubeSmooth) {
+  MeshData mesh = cube();
+  add_creased_normals(mesh, 100);
+  EXPECT_EQ(mesh.vertex_count(), 8u);
+  for (std::size_t v = 0; v < 8; ++v)
+    EXPECT_GT(std::abs(mesh.normals[3 * v] * mesh.normals[3 * v + 1] * mesh.normals[3 * v + 2]), 0.05)
+        << "between three faces";
+}
+
+TEST(CreasedNormals, MeansAreWeightedByAreaOverPositionsNotVertices) {
+  MeshData mesh;  // two triangles that meet at a right angle along an edge, without shared vertices; the
+                  // second is twice as large
+  mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ -0.0f, 0, 0, 0, 1, 0, 0, 0, 2};
+  mesh.indices = {0, 1, 2, 3, 4, 5};
+  add_creased_normals(mesh, 90);
+  EXPECT_NEAR(mesh.normals[2], 1 / std::sqrt(5.0), 1e-6);
+  EXPECT_NEAR(mesh.normals[0], 2 / std::sqrt(5.0), 1e-6);
+  EXPECT_EQ(mesh.normals[3 * 1 + 2], 1);
+  EXPECT_EQ(mesh.normals[3 * 5 + 0], 1);
+}
+
+TEST(CreasedNormals, GivenOnesStayAndOddPositionsHarmNobody) {
+  MeshData mesh = cube();
+  mesh.normals.assign(3 * 8, 0);
+  mesh.normals[3 * 5 + 1] = -1;
+  mesh.positions.insert(mesh.positions.end(), {NAN, 0, 0, INFINITY, 0, 0, 0, 0, 0});
+  mesh.normals.resize(mesh.positions.size());
+  mesh.indices.insert(mesh.indices.end(), {8, 9, 10});
+  add_creased_normals(mesh);
+  EXPECT_EQ(mesh.normals[3 * 5 + 1], -1);
+  EXPECT_EQ(normal(mesh, 0), (std::array<float, 3>{0, 0, -1}))
+      << "a triangle without a place does not take part";
+}
+
+// More triangles at one place than are compared with each other: one smooth surface, and soon done.
+TEST(CreasedNormals, AFanOfManyTrianglesTakesNoTime) {
+  constexpr std::uint32_t kTriangles = 300000;
+  MeshData mesh;
+  mesh.positions = {0, 0, 1};
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / kTriangles;
+    mesh.positions.insert(mesh.positions.end(),
+                          {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+    mesh.indices.insert(mesh.indices.end(), {0, 1 + i, 1 + (i + 1) % kTriangles});
+  }
+  add_creased_normals(mesh);
+  EXPECT_NEAR(mesh.normals[2], 1, 1e-4);
+}
+
+TEST(WindByNormals, TurnsTheTrianglesThatFaceAwayFromTheirNormals) {
+  MeshData mesh = cube();
+  add_creased_normals(mesh);
+  const std::vector<std::uint32_t> right = mesh.indices;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 6)
+    std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  orient_by_normals(mesh);
+  EXPECT_EQ(mesh.indices, right);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,543 @@
+// The program as its users call it: exit codes, files, messages.
+#ifdef TESSERA_PROGRAM
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/engine/program/program.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(Program, AloneItPrintsHelp) {
+  const Result alone = run(""), help = run("--help"), version = run("--version"),
+               render_help = run("render --help");
+  EXPECT_EQ(alone.code, 0);
+  EXPECT_EQ(help.code, 0);
+  EXPECT_TRUE(contains(alone.out, "Examples:")) << alone.out;
+  EXPECT_EQ(version.code, 0);
+  EXPECT_TRUE(version.out.starts_with("tessera 0.")) << version.out;
+  EXPECT_EQ(render_help.code, 0);
+  for (const char* option : {"--output", "--size", "--shading", "--threads", "--color-bits", "--palette",
+                             "--planes", "--tile-size", "--isa", "--explain", "--stats"})
+    EXPECT_TRUE(contains(render_help.out, option)) << option;
+}
+
+TEST_F(Program, BadUsageExitsWithTwoAndOneLine) {
+  const struct {
+    const char *arguments, *fragment;
+  } kBad[] = {
+      {"rendr", "did you mean \"render\"?"},
+      {"--versoin", "did you mean \"--version\"?"},
+      {"render --colour-bits 4", "did you mean \"--color-bits\"?"},
+      {"render --shading=gourad", "did you mean \"gouraud\"?"},
+      {"render --palete ega16", "did you mean \"--palette\"?"},
+      {"render --palette ega", "expected one of"},
+      {"render --size 640", "WIDTHxHEIGHT"},
+      {"render --size 0x480", "WIDTHxHEIGHT"},
+      {"render --size 20000x480", "WIDTHxHEIGHT"},
+      {"render --size 640x480x3", "WIDTHxHEIGHT"},
+      {"render --threads 0", "expected an integer from 1 to 1024"},
+      {"render --threads many", "expected an integer from 1 to 1024"},
+      {"render --color-bits 25", "expected an integer from 1 to 24"},
+      {"render --tile-size 48", "expected one of 32, 64, 128"},
+      {"render --isa sse2", "expected one of"},
+      {"render -o", "-o"},
+      {"render a.json b.json", "unexpected argument \"b.json\""},
+      {"render -x", "-x"},
+      {"render --camera 1,2,3", "EX,EY,EZ,TX,TY,TZ[,FOVY]"},
+      {"render --camera 0,0,0,0,0,0", "EX,EY,EZ,TX,TY,TZ[,FOVY]"},
+      {"render --light 1,2", "X,Y,Z[,W]"},
+      {"render --light 1,2,nan", "X,Y,Z[,W]"},
+      {"render --stats=xml", "expected one of text, json"},
+      {"render --frames 0", "expected an integer from 1"},
+      {"render --frames 0x10", "found \"0x10\", expected an integer from 1"},
+      {"render --compression 10", "expected an integer from 0 to 9"},
+      {"render ''", "found \"\", expected a scene's or a model's name"},
+      {"render -o ''", "--output: found \"\", expected FILE's name"},
+      {"render --planes ''", "--planes: found \"\", expected DIR's name"},
+      {"render --compare ''", "--compare: found \"\", expected FILE's name"},
+      {"render --compare= --output x.png", "--compare: found \"\", expected a value"},
+      {"selftest --expect ''", "--expect: found \"\", expected FILE's name"},
+      {"completion csh", "expected one of bash, zsh, fish"},
+      {"inof", "did you mean \"info\"?"},
+      {"selftset", "did you mean \"selftest\"?"},
+      {"selftest --expct x", "did you mean \"--expect\"?"},
+      {"selftest x", "unexpected argument \"x\""},
+      {"selftest --threads 0", "expected an integer from 1 to 1024"},
+      {"selftest --hashes --expect x", "--hashes: it prints"},
+  };
+  for (const auto& [arguments, fragment] : kBad) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments << "\n" << result.err;
+    EXPECT_TRUE(result.err.starts_with("tessera: error: ")) << arguments << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, fragment)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  }
+}
+
+TEST_F(Program, FailuresExitWithOneAndOneLine) {
+  write("bad.json", R"({"tessera": 1, "framebuffer": {"width": 0}})");
+  write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+  write("fine.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
+  write("bad.ppm", "P6\n8 8\n255\nabc");
+  write("small.ppm", "P6 1 1 255 abc");
+  write("notes.txt", "no model");
+  write("empty.txt", "");
+  const struct {
+    const char *arguments, *fragment;
+  } kFailing[] = {
+      {"render nothing.json", "cannot read \"nothing.json\": No such file or directory"},
+      {"render nothing.obj", "cannot read \"nothing.obj\""},
+      {"render model.txt", "cannot read \"model.txt\": No such file"},
+      {"render notes.txt", "notes.txt: found the ending \".txt\", expected one of those that"},
+      {"render model.glb", "cannot read \"model.glb\": No such file"},
+      {"render bad.json", "bad.json: /framebuffer/width: found 0"},
+      {"render bad.obj", "bad.obj:2: index 2 out of bounds"},
+      {"render fine.json -o no/folder.ppm", "there is no folder \"no\""},
+      {"render fine.json -o picture", "no ending"},
+      {"render fine.json -o picture.xyz", "picture.xyz"},
+      {"render fine.json -o x.ppm --planes fine.json", "fine.json"},
+      {"render fine.json -o x.ppm --palette vga256 --color-bits 4", "256"},
+      {"render fine.json -o x.ppm --frames 2", "put {frame} into the name"},
+      {"render fine.json -o - --stats=json", "cannot both go to the standard output"},
+      {"render fine.json -o x.ppm --explain --stats=json", "cannot both go to the standard output"},
+      {"render fine.json -o 'x{frame}.ppm' --frames 2 --planes p", "put {frame} into the name"},
+      {"render fine.json -o x.ppm --compare nothing.ppm", "cannot read \"nothing.ppm\""},
+      {"render fine.json -o x.ppm --compare bad.ppm",
+       "cannot read \"bad.ppm\": it ends before its last pixel"},
+      {"render fine.json -o x.ppm --compare bad.json", "cannot read \"bad.json\""},
+      {"render fine.json -o x.ppm --compare small.ppm", "the reference 1x1"},
+      {"selftest --expect nothing.txt", "cannot read \"nothing.txt\": No such file or directory"},
+      {"selftest --expect notes.txt", "notes.txt:1: expected a scene's name and four hashes"},
+      {"selftest --expect empty.txt", "empty.txt: there is no hash of the scene \"terms_together\""},
+      {"selftest --expect /dev/zero", "cannot read \"/dev/zero\": it holds more than 1048576 bytes"},
+  };
+  for (const auto& [arguments, fragment] : kFailing) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 1) << arguments << "\n" << result.err;
+    EXPECT_TRUE(result.err.starts_with("tessera: error: ")) << arguments << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, fragment)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  }
+}
+
+TEST_F(Program, TheBuiltInSceneBecomesAPng) {
+  const Result result = run("render --size 64x48");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(content("tessera.png").starts_with("\x89PNG")) << result.err;
+}
+
+TEST_F(Program, TheNameOfThePictureComesFromTheScene) {
+  write(
+      "my scene.json",
+      R"({"tessera": 1, "framebuffer": {"width": 8, "height": 4}, "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
+  EXPECT_EQ(run("render 'my scene.json'").code, 0);
+  EXPECT_TRUE(exists("my scene.png"));
+  EXPECT_EQ(run("render 'my scene.json' -o red.ppm").code, 0);
+  std::string expected = "P6\n8 4\n255\n";
+  for (int i = 0; i < 32; ++i) expected.append("\xff\0\0", 3);
+  EXPECT_EQ(content("red.ppm"), expected);
+}
+
+TEST_F(Program, TheSameBytesForAnyNumberOfThreads) {
+  for (const char* options :
+       {"--threads 1 -o a.ppm", "--threads 5 -o b.ppm", "--tile-size 32 -o c.ppm", "--isa scalar -o d.ppm"}) {
+    const Result result = run(std::string("render --size 200x150 ") + options);
+    EXPECT_EQ(result.code, 0) << result.err;
+  }
+  EXPECT_GT(content("a.ppm").size(), 90000u);
+  for (const char* other : {"b.ppm", "c.ppm", "d.ppm"})
+    EXPECT_TRUE(content("a.ppm") == content(other)) << other;
+}
+
+TEST_F(Program, PlanesAreWrittenOneByOne) {
+  const Result result = run("render --size 20x10 --palette ega16 --planes deep/planes -o a.ppm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* name : {"color_00", "color_03", "depth_00", "depth_23", "stencil_00", "stencil_07"}) {
+    const std::string plane = content(std::string("deep/planes/") + name + ".pbm");
+    EXPECT_TRUE(plane.starts_with("P4\n20 10\n")) << name;
+    EXPECT_EQ(plane.size(), 9u + 3 * 10) << name;
+  }
+  EXPECT_FALSE(exists("deep/planes/color_04.pbm"));
+  EXPECT_FALSE(exists("deep/planes/stencil_08.pbm"));
+}
+
+TEST_F(Program, ExplainAndStatsSpeak) {
+  const Result result = run("render --size 32x32 --explain --stats -o a.ppm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "draw 0, \"teapot\":")) << result.out;
+  EXPECT_TRUE(contains(result.err, "triangles")) << result.err;
+  EXPECT_TRUE(contains(result.err, "ms")) << result.err;
+}
+
+TEST_F(Program, AModelAloneIsFramed) {
+  write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Result result = run("render t.obj --size 16x16 -o t.ppm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::string picture = content("t.ppm");
+  const std::string background = picture.substr(picture.size() - 3);
+  bool is_seen = false;
+  for (std::size_t i = 13; i + 3 <= picture.size(); i += 3) is_seen |= picture.compare(i, 3, background) != 0;
+  EXPECT_TRUE(is_seen);
+}
+
+TEST_F(Program, ThePictureGoesToTheStandardOutputOrTheTerminal) {
+  ASSERT_EQ(run("render --size 20x10 -o a.ppm").code, 0);
+  const Result out = run("render --size 20x10 -o -");
+  EXPECT_EQ(out.code, 0) << out.err;
+  EXPECT_TRUE(out.out == content("a.ppm"));
+  const Result term = run("render --size 20x10 -o term");
+  EXPECT_EQ(std::count(term.out.begin(), term.out.end(), '\n'), 5) << "two pixels a line";
+  EXPECT_TRUE(contains(term.out, "\x1b[38;2;")) << "colours";
+  ::setenv("NO_COLOR", "1", 1);
+  const Result letters = run("render --size 20x10 -o term");
+  ::unsetenv("NO_COLOR");
+  EXPECT_EQ(letters.out.size(), 5u * 21);
+  EXPECT_FALSE(contains(letters.out, "\x1b"));
+}
+
+TEST_F(Program, AFullDiskIsAnErrorAndLeavesNothing) {
+  if (!has_full_disk()) GTEST_SKIP() << "no /dev/full";
+  fs::create_symlink("/dev/full", folder_ / "full.ppm");
+  const Result file = run("render --size 200x200 -o full.ppm");
+  EXPECT_EQ(file.code, 1);
+  EXPECT_TRUE(contains(file.err, "No space left on device")) << file.err;
+  const Result out = run_without_room("render --size 200x200 -o -");
+  EXPECT_EQ(out.code, 1);
+  EXPECT_TRUE(contains(out.err, "No space left on device")) << out.err;
+}
+
+TEST_F(Program, WhatItCouldNotSayIsAnError) {
+  if (!has_full_disk()) GTEST_SKIP() << "no /dev/full";
+  for (const char* arguments :
+       {"render --size 8x8 -o term", "render --size 8x8 -o picture.ppm --stats=json", "info", "formats",
+        "completion bash", "man", "--help", "--version", "selftest --help"}) {
+    const Result result = run_without_room(arguments);
+    EXPECT_EQ(result.code, 1) << arguments;
+    EXPECT_TRUE(contains(result.err, "error: cannot write to the standard output")) << arguments << "\n"
+                                                                                    << result.err;
+  }
+  EXPECT_TRUE(exists("picture.ppm")) << "which was finished before";
+  EXPECT_EQ(run("render --size 8x8 --palette bw -o other.ppm").code, 0);
+  EXPECT_EQ(run_without_room("render --size 8x8 -o picture.ppm --stats=json --compare other.ppm").code, 3)
+      << "a verdict stands";
+}
+
+TEST_F(Program, AnimationsMoveAndCountTheirFrames) {
+  write(
+      "move.json",
+      R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}, "frame": [{"clear": {"color": [{"keys": [[0, 0], [1, 1]]}, 0, {"keys": [[0, 1], [0.5, 0]]}, 1]}}]})");
+  const Result result = run("render move.json --frames 3 -o 'f_{frame}.ppm'");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto pixel = [&](const char* name) { return content(name).substr(11, 3); };
+  EXPECT_EQ(pixel("f_0000.ppm"), std::string("\0\0\xff", 3));
+  EXPECT_EQ(pixel("f_0001.ppm"), std::string("\x80\0\0", 3));
+  EXPECT_EQ(pixel("f_0002.ppm"), std::string("\xff\0\0", 3));
+  EXPECT_FALSE(exists("f_0003.ppm"));
+  EXPECT_EQ(run("render move.json --frames 2").code, 0);
+  EXPECT_TRUE(exists("move_0001.png"));
+}
+
+TEST_F(Program, NumbersThatBeginWithZeroAreDecimal) {
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}})");
+  ASSERT_EQ(run("render s.json --frames 010 -o 'f_{frame}.ppm'").code, 0);
+  EXPECT_TRUE(exists("f_0009.ppm"));
+  EXPECT_FALSE(exists("f_0010.ppm"));
+}
+
+TEST_F(Program, ACameraIsReversedAsTheOneOfTheScene) {
+  const auto scene = [](const std::string& camera, const std::string& command) {
+    return R"({"tessera": 1, "framebuffer": {"width": 32, "height": 24}, "camera": {)" + camera +
+           R"(}, "lights": [],
+      "materials": {"red": {"emission": [1, 0, 0, 1]}, "green": {"emission": [0, 1, 0, 1]}},
+      "meshes": {"near": {"positions": [[-1, -1, 1], [1, -1, 1], [0, 1, 1]]}, "far": {"positions": [[-2, -2, -1], [2, -2, -1], [0, 2, -1]]}},
+      "frame": [)" +
+           command +
+           R"({"clear": {"color": [0, 0, 1, 1], "depth": 0}}, {"draw": "near", "material": "red", "depth": {"test": "greater"}}, {"draw": "far", "material": "green", "depth": {"test": "greater"}}]})";
+  };
+  write("written.json",
+        scene(R"("eye": [0, 0, 5], "projection": {"fovy": 40, "near": 0.05, "far": 500, "reversed": true})",
+              ""));
+  write("scene.json", scene(R"("projection": {"reversed": true})", ""));
+  write("frame.json", scene("", R"({"camera": {"projection": {"reversed": true}}}, )"));
+  const Result written = run("render written.json -o written.ppm");
+  EXPECT_EQ(written.code, 0) << written.err;
+  for (const char* name : {"scene", "frame"}) {
+    const Result other = run("render " + std::string(name) + ".json --camera 0,0,5,0,0,0,40 -o other.ppm");
+    EXPECT_EQ(other.code, 0) << other.err;
+    EXPECT_TRUE(content("other.ppm") == content("written.ppm")) << name;
+  }
+}
+
+TEST_F(Program, ComparesWithAReferenceAndExitsWithThree) {
+  ASSERT_EQ(run("render --size 64x48 -o right.png").code, 0);
+  EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare right.png").code, 0);
+  ASSERT_EQ(run("render --size 64x48 -o right.ppm").code, 0);
+  EXPECT_EQ(run("render --size 64x48 -o a.ppm --compare right.ppm --threads 1").code, 0);
+  const std::string before = content("right.ppm");
+  const Result itself = run("render --size 64x48 --light 1,0,0,0 -o right.ppm --compare ./right.ppm");
+  EXPECT_EQ(itself.code, 1);
+  EXPECT_TRUE(contains(itself.err, "is the reference itself")) << itself.err;
+  EXPECT_TRUE(content("right.ppm") == before) << "untouched";
+  const Result other = run("render --size 64x48 -o b.ppm --light 1,0,0,0 --compare right.png --threshold 9");
+  EXPECT_EQ(other.code, 3) << other.err;
+  EXPECT_TRUE(contains(other.err, "more than 9 of 255 levels"));
+  EXPECT_TRUE(exists("b.ppm")) << "the picture is written all the same";
+  EXPECT_EQ(run("render --size 64x48 -o b.ppm --light 1,0,0,0 --compare right.png --threshold 255").code, 0);
+}
+
+TEST_F(Program, FewBitsArePngFilesOfFewBits) {
+  const struct {
+    const char* options;
+    char bits, type;  // 3: palette, 0: grey
+  } kRows[] = {{"--palette bw", 1, 3},     {"--palette ega16", 4, 3}, {"--palette gray --color-bits 2", 2, 3},
+               {"--palette vga256", 8, 3}, {"--color-bits 1", 1, 0},  {"--color-bits 2", 2, 0},
+               {"--color-bits 3", 8, 2}};
+  for (const auto& row : kRows) {
+    const Result result = run("render --size 40x30 -o p.png " + std::string(row.options));
+    ASSERT_EQ(result.code, 0) << row.options << result.err;
+    const std::string png = content("p.png");
+    EXPECT_EQ(png[24], row.bits) << row.options;
+    EXPECT_EQ(png[25], row.type) << row.options;
+    EXPECT_EQ(run("render --size 40x30 -o q.ppm --compare p.png " + std::string(row.options)).code, 0)
+        << row.options;
+  }
+}
+
+TEST_F(Program, OptionsDoNotSwallowTheScene) {
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
+  for (const char* options : {"--stats", "--stats=json", "--light 1,0,0", "--light 1,0,0,0 --light 0,1,0",
+                              "--explain", "--progress never"}) {
+    const Result result = run("render " + std::string(options) + " s.json -o s.ppm");
+    EXPECT_EQ(result.code, 0) << options << ": " << result.err;
+  }
+}
+
+TEST_F(Program, StatsAreJsonForPrograms) {
+  const Result result = run("render --size 64x48 --repeat 3 --stats=json -o a.ppm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* part : {"\"triangles_in\": 9120", "\"fragments\":", "\"render_ms_median\":",
+                           "\"stages_ms\":", "\"buffer_bytes\":", "\"threads\":"})
+    EXPECT_TRUE(contains(result.out, part)) << part;
+  EXPECT_TRUE(result.out.starts_with("{") && result.out.ends_with("}\n"));
+  EXPECT_TRUE(contains(run("render --size 64x48 --repeat 3 --stats -o a.ppm").err, "median of 3"));
+}
+
+TEST_F(Program, EnvironmentAndLogAreHeard) {
+  ::setenv("TESSERA_THREADS", "1", 1);
+  const Result one = run("render --size 8x8 --log info -o a.ppm");
+  ::setenv("TESSERA_THREADS", "010", 1);
+  const Result ten = run("render --size 8x8 --log info -o a.ppm"),
+               as_option = run("render --size 8x8 --threads 010 --log info -o a.ppm");
+  ::setenv("TESSERA_THREADS", "0x3", 1);
+  const Result hexadecimal = run("render --size 8x8 -o a.ppm");
+  ::setenv("TESSERA_THREADS", "many", 1);
+  const Result wrong = run("render --size 8x8 -o a.ppm");
+  ::unsetenv("TESSERA_THREADS");
+  EXPECT_TRUE(contains(one.err, "1 thread, ")) << one.err;
+  for (const Result& result : {ten, as_option})
+    EXPECT_TRUE(contains(result.err, "10 threads, ")) << result.err;
+  for (const Result& result : {hexadecimal, wrong}) {
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_TRUE(contains(result.err, "TESSERA_THREADS")) << result.err;
+  }
+  EXPECT_TRUE(contains(run("render --size 8x8 --log debug -o a.ppm").err, "tessera: debug: frame: "));
+  EXPECT_TRUE(contains(run("render --size 8x8 --progress=always -o a.ppm").err, " left "))
+      << "a line of progress";
+  EXPECT_FALSE(contains(run("render --size 8x8 -o a.ppm").err, "left"));
+}
+
+TEST_F(Program, TellsOfTheMachineAndItself) {
+  const Result info = run("info"), formats = run("formats"), man = run("man");
+  for (const char* part : {"instruction sets", "cores", "caches", "CPU"})
+    EXPECT_TRUE(contains(info.out, part)) << info.out;
+  for (const char* part : {".json", ".obj", ".ppm", ".png"})
+    EXPECT_TRUE(contains(formats.out, part)) << formats.out;
+  EXPECT_TRUE(man.out.starts_with(".TH TESSERA 1")) << man.out.substr(0, 80);
+  EXPECT_TRUE(contains(man.out, "\\-\\-palette"));
+  for (const char* command : {"render", "info", "selftest", "formats", "completion", "man"})
+    EXPECT_TRUE(contains(man.out, std::string(".SS tessera ") + command + "\n") ||
+                contains(man.out, std::string(".SS tessera ") + command + " "))
+        << command;
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const Result script = run(std::string("completion ") + shell);
+    EXPECT_EQ(script.code, 0);
+    EXPECT_TRUE(contains(script.out, "palette")) << shell;
+  }
+  write("complete.sh",
+        run("completion bash").out +
+            "COMP_WORDS=(tessera render --pal); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n"
+            "COMP_WORDS=(tessera render --shading g); COMP_CWORD=3; _tessera; echo \"${COMPREPLY[0]}\"\n"
+            "COMP_WORDS=(tessera completion z); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[0]}\"\n");
+  const std::string command = "cd '" + folder_.string() + "' && bash complete.sh > said.txt 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content("said.txt"), "--palette\ngouraud\nzsh\n");
+}
+
+double seconds_of_children() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+TEST_F(Program, TheSelfTestPassesInSeconds) {
+  const double before = seconds_of_children();
+  const Result result = run("selftest --threads 2");
+  const double seconds = seconds_of_children() - before;
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  EXPECT_TRUE(result.err.empty()) << result.err;
+  for (const char* part :
+       {"CPU   ", "instruction sets   ", "1 and 2 threads, ", "tex_rows_in_scene ", "coverage, ",
+        "0 pixels wrong", "powers, ", "stored levels, ", "verdict            all is well: "})
+    EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(seconds, 10) << "of all cores together";
+#else
+  static_cast<void>(seconds);
+#endif
+}
+
+// The hashes are those of the one list; any other is told of, scene by scene.
+TEST_F(Program, TheSelfTestTellsWhatDiffers) {
+  const std::string hashes = run("selftest --hashes").out;
+  std::ifstream stream(TESSERA_SOURCE_DIR "/tests/picture_hashes.txt");
+  const std::string kept{std::istreambuf_iterator<char>(stream), {}};
+  std::size_t lines = 0;
+  for (std::size_t at = 0, end; (end = hashes.find('\n', at)) != std::string::npos; at = end + 1, ++lines)
+    EXPECT_TRUE(contains("\n" + kept, "\n" + hashes.substr(at, end + 1 - at))) << hashes.substr(at, end - at);
+  EXPECT_GE(lines, 12u);
+
+  // A digit of one scene's colours, of another one's depths, of a third one's stencil, of a fourth one's
+  // accumulation.
+  const std::string colors = "terms_together", depths = "tex_rows_in_scene",
+                    stencil = "fx_shadow_volumes_zfail_plain", accumulation = "ops_accum_motion_blur";
+  std::string other = "\n" + kept;
+  for (const auto& [scene, digit] :
+       {std::pair{colors, 3}, std::pair{depths, 20}, std::pair{stencil, 37}, std::pair{accumulation, 54}}) {
+    const std::size_t at = other.find("\n" + scene + " ");
+    ASSERT_NE(at, std::string::npos);
+    char& changed = other[at + scene.size() + 2 + digit];
+    changed = changed == '0' ? '1' : '0';
+  }
+  write("kept.txt", kept);
+  write("other.txt", other.substr(1));
+  EXPECT_EQ(run("selftest --threads 1 --expect kept.txt").code, 0) << "more scenes than are rendered";
+  const Result result = run("selftest --threads 1 --expect other.txt");
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_EQ(result.err, "tessera: error: the self-test failed: " + std::to_string(lines - 4) + " of " +
+                            std::to_string(lines) + " scenes and 3 of 3 oracles are right\n");
+  EXPECT_TRUE(contains(result.out, "verdict            NOT WELL: ")) << result.out;
+  std::vector<std::string> told;
+  std::istringstream said(result.out);
+  for (std::string line, before; std::getline(said, line); before = line)
+    if (before.ends_with("DIFFERS")) told.push_back(before.substr(0, before.find(' ')) + line);
+  ASSERT_EQ(told.size(), 4u) << result.out;
+  EXPECT_TRUE(told[0].starts_with(colors + "  each term of light")) << told[0];
+  EXPECT_TRUE(told[1].starts_with(stencil + "  shadow volumes")) << told[1];
+  EXPECT_TRUE(told[2].starts_with(accumulation + "  accumulation")) << told[2];
+  EXPECT_TRUE(told[3].starts_with(depths + "  textures")) << told[3];
+  const std::string times = result.out.substr(result.out.find("each scene         ") + 19),
+                    number = times.substr(0, times.find(' '));
+  for (const std::string& line : told)
+    EXPECT_TRUE(contains(
+        line, number + " of " + number +
+                  " renderings are wrong; the first: colours, depths, stencil and accumulation come to "))
+        << line;
+}
+
+// Things that are no models, and models that are too much: one line, in time, and in little memory.
+TEST_F(Program, HostileModelsCostLittle) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.stl").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "zero.stl");
+  fs::create_symlink("/dev/zero", folder_ / "zero.obj");
+  fs::create_directories(folder_ / "folder.glb");
+  write("new\nline.stl", "x");
+  write("escape.obj", "v 0 0 \x1b[31mRED\n");
+  // 2^30 instances of a triangle.
+  std::string nodes = R"({"mesh": 0})";
+  for (int i = 0; i < 30; ++i)
+    nodes += R"(, {"children": [)" + std::to_string(i) + ", " + std::to_string(i) + "]}";
+  write("bomb.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [30]}], "nodes": [)" +
+                         nodes + R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  const struct {
+    const char *name, *fragment;
+  } kHostile[] = {
+      {"pipe.stl", "no regular file"}, {"zero.stl", "no regular file"},       {"zero.obj", "no regular file"},
+      {"folder.glb", "a directory"},   {"new\nline.stl", "new\\x0aline.stl"}, {"escape.obj", "\\x1b[31mRED"},
+      {"bomb.gltf", "bomb.gltf"}};
+  for (const auto& [name, fragment] : kHostile) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    if (std::string(name) == "bomb.gltf") continue;  // there the memory has no limit
+#endif
+    const auto start = std::chrono::steady_clock::now();
+    const Result result = run("render '" + std::string(name) + "' -o x.ppm");
+    EXPECT_EQ(result.code, 1) << name;
+    EXPECT_TRUE(contains(result.err, fragment)) << result.err;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(13)) << name;
+  }
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);  // the largest of all that ended
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(usage.ru_maxrss, (1 << 20) + (1 << 17)) << "KiB";
+#endif
+}
+
+TEST_F(Program, CtrlCEndsTheReadingOfAModel) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 1500000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < 1500000; ++i) text += "3 0 1 2\n";
+  write("long.ply", text);
+  const auto start = std::chrono::steady_clock::now();
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --foreground --preserve-status -s INT 0.3 '" TESSERA_PROGRAM
+                              "' render long.ply -o x.ppm 2>err.txt";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130) << content("err.txt");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+  EXPECT_FALSE(exists("x.ppm"));
+}
+
+TEST_F(Program, CtrlCLeavesFinishedPicturesWhole) {
+  write("long.json", R"({"tessera": 1, "framebuffer": {"width": 500, "height": 400}})");
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --foreground --preserve-status -s INT 1 '" TESSERA_PROGRAM
+                              "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
+  EXPECT_TRUE(contains(content("err.txt"), "finished pictures are whole"));
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (!entry.path().filename().string().starts_with("f_")) {
+      EXPECT_FALSE(contains(entry.path().string(), ".part-")) << entry.path();
+      continue;
+    }
+    EXPECT_EQ(fs::file_size(entry.path()), 15u + 3 * 500 * 400);
+    ++pictures;
+  }
+  EXPECT_GT(pictures, 3);
+}
+
+}  // namespace
+}  // namespace tessera
+#endif

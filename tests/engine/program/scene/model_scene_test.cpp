@@ -1,0 +1,25 @@
+// A model as a scene of its own.
+#include <gtest/gtest.h>
+
+#include "engine/program/scene/model_scene.h"
+
+namespace tessera {
+using namespace program;
+namespace {
+
+TEST(ModelScene, ALensBeyondNumbersIsNotTaken) {
+  for (const ModelCamera& camera : {ModelCamera{.view = {}, .is_orthographic = true, .half_height = 1.7e308},
+                                    ModelCamera{.view = {}, .half_height = 5e-324, .near = 0.25}}) {
+    Model model;
+    model.mesh.positions = {-1, -1, -5, 1, -1, -5, 0, 1, -5};
+    model.mesh.indices = {0, 1, 2};
+    model.parts = {{.material_name = {}, .material = {}, .first_index = 0, .index_count = 3}};
+    model.cameras.push_back(camera);
+    const Scene scene = model_scene(model, "m", 64, 48);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0], "m: its cameras see nothing of the model, which is framed instead");
+  }
+}
+
+}  // namespace
+}  // namespace tessera
