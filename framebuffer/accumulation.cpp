@@ -19,15 +19,15 @@ std::int32_t saturated(std::int64_t level, Range range) {
   return static_cast<std::int32_t>(std::clamp(level, range.low, range.high));
 }
 
-// The nearest integer, halves up, no further from 0 than `limit`.
+// Nearest integer, halves up, clamped to -limit .. limit.
 std::int64_t rounded(double level, double limit) {
-  // Cut off first: the ends are integers. Conversion cuts towards 0, which is up for what is negative.
+  // Clamp first: the limits are integers. Truncation rounds negative values up; the last line corrects that.
   const double x = std::clamp(level + 0.5, -limit, limit);
-  const auto cut = static_cast<std::int64_t>(x);
-  return cut - (static_cast<double>(cut) > x ? 1 : 0);
+  const auto truncated = static_cast<std::int64_t>(x);
+  return truncated - (static_cast<double>(truncated) > x ? 1 : 0);
 }
 
-constexpr double kMaxTerm = 8589934592.0;  // 2^33: leaves the range of 32 bits from anywhere
+constexpr double kMaxTerm = 8589934592.0;  // 2^33: saturates a 32-bit component from any level
 
 }  // namespace
 
@@ -38,7 +38,8 @@ std::int32_t accumulation_level(double value, int bits) {
 Accumulation::Accumulation(AccumOp op, double value, int bits, const ColorLayout& layout)
     : op_(op), value_(value), bits_(bits), layout_(layout), terms_{} {
   TESSERA_ASSERT((bits == 16 || bits == 32) && std::isfinite(value) && !layout.index);
-  const Field alpha{layout.bits, layout.alpha_bits}, grey{0, layout.bits};
+  const Field alpha{layout.bits, layout.alpha_bits};
+  const Field grey{0, layout.bits};
   fields_ = layout.luminance ? std::array<Field, 4>{grey, grey, grey, alpha}
                              : std::array<Field, 4>{Field{layout.r_shift(), layout.r_bits},
                                                     Field{layout.g_shift(), layout.g_bits},

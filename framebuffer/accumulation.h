@@ -1,8 +1,8 @@
-// The arithmetic of the accumulation buffer [GL 2.1, 4.2.4]: signed components of 16 or 32 bits, where 1.0 is
-// the largest level, 32767 or 2^31 - 1. What leaves the range stays at its end.
+// Arithmetic of the accumulation buffer [GL 2.1, 4.2.4]: signed components of 16 or 32 bits. 1.0 is the
+// largest level, 32767 or 2^31 - 1. Results outside the range saturate.
 //
-// A stored component is an integer, so acc + floor(v c S + 0.5) is acc + v c rounded once: what a command
-// adds depends on the level of the colour alone, and is worked out once for each level.
+// A stored component is an integer, so acc + floor(v c S + 0.5) equals acc + v c S rounded once. The term
+// that an operation adds depends on the stored colour level alone: the terms are tabulated, one per level.
 #pragma once
 
 #include <array>
@@ -13,42 +13,43 @@
 
 namespace tessera::detail {
 
-inline constexpr int kMaxLevels = 256;  ///< of a stored colour component
+inline constexpr int kMaxLevels = 256;  ///< levels of a stored colour component of 8 bits
 
-/// Levels of red, green, blue, alpha: of one pixel, or where those of many start.
+/// Levels of one pixel: red, green, blue, alpha.
 using AccumulatedPixel = std::array<std::int32_t, 4>;
+/// Pointers to the levels of many pixels: red, green, blue, alpha.
 using AccumulatedPixels = std::array<std::int32_t*, 4>;
 
-/// 1.0 as a level. @param bits  16 or 32, as in all that follows
+/// The level of 1.0. @param bits  bits of a component: 16 or 32, here and below
 constexpr double accumulation_one(int bits) { return bits == 16 ? 32767.0 : 2147483647.0; }
-/// The nearest level, halves up, at the ends of the range where it lies outside. Infinities are fine, NaN is
-/// not.
+/// Nearest level of `value`, halves up, saturated. Infinities are allowed, NaN is not.
 std::int32_t accumulation_level(double value, int bits);
-/// A stored word with its sign.
+/// Sign-extends a component read from the planes.
 constexpr std::int32_t accumulation_level_from_stored(std::uint32_t word, int bits) {
   return bits == 16 ? static_cast<std::int16_t>(word) : static_cast<std::int32_t>(word);
 }
 
-/// One command, ready to run on many pixels.
+/// One accumulation operation, prepared for many pixels.
 class Accumulation {
  public:
   /// @param value   finite
-  /// @param layout  of the colour buffer: RGB or luminance, whose grey counts as red, green and blue; without
-  /// alpha planes alpha is 1.
+  /// @param layout  colour buffer: RGB, or luminance (its grey counts as red, green and blue). Without alpha
+  ///                planes alpha is 1.
   Accumulation(AccumOp op, double value, int bits, const ColorLayout& layout);
 
   AccumOp op() const { return op_; }
-  /// Changes the levels of `count` pixels. Not for give_back.
-  /// @param packed_colors  packed colours of these pixels; read by accumulate and load alone
+  /// Updates the levels of `count` pixels. @pre op() is not return_color
+  /// @param packed_colors  packed colours of these pixels; read by accum and load only
   void run(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
-  /// The colour word of give_back: each component floor(c (2^b - 1) + threshold).
+  /// Packed colour that return_color writes: each component is floor(c (2^b - 1) + threshold).
   std::uint32_t packed_color(const AccumulatedPixel& levels, double threshold) const;
 
  private:
-  // What is added to a component; at most twice the range, which leaves it from anywhere.
+  // Added to a component; clamped to twice the range of 32 bits, which saturates from any level.
   using Terms = std::array<std::int64_t, kMaxLevels>;
   struct Field {
-    int shift = 0, bits = 0;  ///< in the colour word; no bits: always 1
+    int shift = 0;  ///< lowest bit in the packed colour
+    int bits = 0;   ///< 0: the component is absent and reads as 1
   };
   template <bool kAccumulates>
   void add_colors(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
@@ -58,7 +59,7 @@ class Accumulation {
   int bits_;
   ColorLayout layout_;
   std::array<Field, 4> fields_;
-  std::array<Terms, 4> terms_;  ///< accumulate, load: by the component's level; add: the first
+  std::array<Terms, 4> terms_;  ///< accum, load: indexed by the component's level; add: element 0
 };
 
 }  // namespace tessera::detail

@@ -1,6 +1,8 @@
-// Stores go by strips of a row, as long as the instruction set likes. With vectors of bytes: 32 or 64 pixels,
-// by sign masks or tests of their bytes. Elsewhere: 8 pixels, as a square of bits. Whole lines have a way of
-// their own where there is an instruction for it (plane_lines-inl.h). Loads: bit_transpose_load.cpp.
+// Stores tiles in planes, one strip of a row at a time.
+// - AVX2: 32 pixels, by sign masks of bytes (MOVMSK).
+// - AVX-512: 64 pixels, by tests of bytes (VPTESTMB); whole cache lines with GFNI, see plane_lines-inl.h.
+// - Scalar: 8 pixels, as a square of bits.
+// Loads: bit_transpose_load.cpp.
 #include "framebuffer/bit_transpose.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -25,7 +27,7 @@
 namespace tessera::detail {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);  // a strip's bits are stored as one integer
+static_assert(std::endian::native == std::endian::little);  // the bits of a strip are stored as one integer
 
 StripRows strip_rows(std::span<const std::uint32_t* const> tiles, const TilePlace& first,
                      BitplaneStack& planes) noexcept {
@@ -52,15 +54,15 @@ namespace {
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
-// Two groups of 4 pixels, 16 pixels apart: they share a vector because bytes are shuffled within its halves.
+// Loads two groups of 4 pixels, 16 pixels apart, one per 128-bit half: bytes are shuffled within halves.
 HWY_INLINE __m256i load_groups(const std::uint32_t* pixels, int group) noexcept {
   const std::uint32_t* const low = pixels + group * kBlockPixels;
   const __m128i* const high = reinterpret_cast<const __m128i*>(low + 4 * kBlockPixels);
   return _mm256_inserti128_si256(
       _mm256_castsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(low))), _mm_load_si128(high), 1);
 }
-/// Stores those of 8 planes whose bit is set in `mask`; `bytes` has plane k's pixels in bit k. The sign mask
-/// takes bit 7 of all bytes; adding a byte to itself brings the next one up.
+/// Stores those of 8 planes whose bit is set in `mask`. Bit k of each byte of `bytes` belongs to plane k. The
+/// sign mask extracts bit 7 of all bytes; adding a byte to itself shifts the next bit up.
 HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mask) noexcept {
   if (mask == 0) return;
   for (int k = 7; k >= 0; --k) {
@@ -72,22 +74,22 @@ HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mas
   }
 }
 
-/// 32 pixels of a row.
+/// Stores 32 pixels of a row.
 ///
-/// @param kWholeBytes  the mask holds all of the lowest 8 kWholeBytes planes and no other; 0: any mask
-/// @param inside_px    how many of the pixels lie in the picture, from the left; 32 or more: all
+/// @param kWholeBytes  the mask selects exactly the lowest 8 kWholeBytes planes; 0: any mask
+/// @param inside_px    number of pixels inside the picture, from the left; 32 or more: all
 template <int kWholeBytes>
 HWY_INLINE void store_strip(const std::uint32_t* pixels, __m256i flips, int inside_px, StripBits to,
                             std::uint32_t mask) noexcept {
-  // In each group of 4 pixels: byte 0 of all, byte 1 of all, ...; right to left, because bit 7 is the
-  // leftmost pixel but byte 0 gives bit 0 of a sign mask.
+  // Collects byte 0 of each group's 4 pixels, then byte 1, and so on. Pixels are reversed: bit 7 of a plane's
+  // byte is the leftmost pixel, but byte 0 yields bit 0 of a sign mask.
   const __m256i split = _mm256_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3,  //
                                          12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3);
   const __m256i a = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 0), flips), split);
   const __m256i b = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 1), flips), split);
   const __m256i c = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 2), flips), split);
   const __m256i d = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 3), flips), split);
-  // 4x4 transposition; within a byte of the plane the left group is the upper half.
+  // 4x4 transposition; the left group becomes the upper nibble of a plane's byte.
   const __m256i ba01 = _mm256_unpacklo_epi32(b, a), ba23 = _mm256_unpackhi_epi32(b, a);
   const __m256i dc01 = _mm256_unpacklo_epi32(d, c), dc23 = _mm256_unpackhi_epi32(d, c);
   __m256i bytes[4] = {_mm256_unpacklo_epi64(ba01, dc01), _mm256_unpackhi_epi64(ba01, dc01),
@@ -106,20 +108,22 @@ HWY_INLINE void store_strip(const std::uint32_t* pixels, __m256i flips, int insi
 }
 
 #if HWY_TARGET == HWY_AVX3
-/// 64 pixels of a row that all lie in the picture: the steps of store_strip(), with four groups in a vector.
+/// Stores 64 pixels of a row, all inside the picture: store_strip() with four groups per vector.
 HWY_INLINE void store_wide_strip(const std::uint32_t* pixels, std::uint32_t flip, StripBits to,
                                  std::uint32_t mask) noexcept {
-  const __m512i flips = _mm512_set1_epi32(static_cast<int>(flip)),
-                split = _mm512_broadcast_i32x4(
-                    _mm_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3));
+  const __m512i flips = _mm512_set1_epi32(static_cast<int>(flip));
+  const __m512i split =
+      _mm512_broadcast_i32x4(_mm_setr_epi8(12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3));
   const auto split_groups = [&](int group) HWY_ATTR {
     const __m512i groups = _mm512_inserti64x4(_mm512_castsi256_si512(load_groups(pixels, group)),
                                               load_groups(pixels + 8 * kBlockPixels, group), 1);
     return _mm512_shuffle_epi8(_mm512_xor_si512(groups, flips), split);
   };
   const __m512i a = split_groups(0), b = split_groups(1), c = split_groups(2), d = split_groups(3);
-  const __m512i ba01 = _mm512_unpacklo_epi32(b, a), ba23 = _mm512_unpackhi_epi32(b, a),
-                dc01 = _mm512_unpacklo_epi32(d, c), dc23 = _mm512_unpackhi_epi32(d, c);
+  const __m512i ba01 = _mm512_unpacklo_epi32(b, a);
+  const __m512i ba23 = _mm512_unpackhi_epi32(b, a);
+  const __m512i dc01 = _mm512_unpacklo_epi32(d, c);
+  const __m512i dc23 = _mm512_unpackhi_epi32(d, c);
   const __m512i bytes[4] = {_mm512_unpacklo_epi64(ba01, dc01), _mm512_unpackhi_epi64(ba01, dc01),
                             _mm512_unpacklo_epi64(ba23, dc23), _mm512_unpackhi_epi64(ba23, dc23)};
 #pragma GCC unroll 4
@@ -152,7 +156,7 @@ void store_rows_of(const StripRows& tile, std::uint32_t flip, std::uint32_t mask
   }
 }
 
-#if HWY_TARGET == HWY_AVX3  // once: those that have lines, too, seldom come here
+#if HWY_TARGET == HWY_AVX3  // one instantiation: with GFNI, most stores take the whole-line path
 void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept {
   store_rows_of<0>(tile, flip, mask);
 }
@@ -170,7 +174,7 @@ void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) n
 
 #else
 
-/// The 8 planes from `base` on, of 8 pixels.
+/// Stores 8 pixels in the planes base .. base + 7.
 inline void store_byte_planes(const std::uint32_t* pixels, std::uint32_t flip, int inside_px, StripBits to,
                               int base, std::uint32_t mask) noexcept {
   std::uint64_t bytes = 0;

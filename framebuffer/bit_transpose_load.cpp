@@ -1,5 +1,5 @@
-// Loads go by strips of a row: with vectors of bytes 32 or 64 pixels, as 8x8 squares of bits, elsewhere 8.
-// AVX-512 has no way of its own.
+// Loads tiles from planes, one strip of a row at a time: 32 or 64 pixels as 8x8 squares of bits with AVX2, 8
+// pixels in the scalar build. AVX-512 uses the AVX2 code.
 //
 // Based on: H. S. Warren, Hacker's Delight, 2nd edition 2012, 7-3 (8x8 bits by three rounds of exchanges).
 #include "framebuffer/bit_transpose.h"
@@ -22,13 +22,14 @@
 namespace tessera::detail {
 namespace {
 
-/// What of a tile is loaded, and from where.
+/// Rows of a tile to be loaded, and their bits in the planes.
 struct LoadedRows {
   std::uint32_t* tile;
-  int tile_size, height_px;
-  PlaneBits<const std::uint8_t> bits;  ///< of the top left pixel
-  std::ptrdiff_t stride_bytes;         ///< of the planes' rows
-  /// Of pixel 0 of row y; those of pixel x, a multiple of 4, come x * kBlockSize later.
+  int tile_size;
+  int height_px;                       ///< rows inside the picture
+  PlaneBits<const std::uint8_t> bits;  ///< bits of the top left pixel
+  std::ptrdiff_t stride_bytes;         ///< row stride of the planes
+  /// Address of pixel 0 of row y; pixel x, a multiple of 4, is x * kBlockSize further on.
   std::uint32_t* pixels(int y) const noexcept { return tile + tile_index(0, y, tile_size); }
 };
 
@@ -43,16 +44,16 @@ namespace {
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
-/// Two groups of 4 pixels, 16 pixels apart: they share a vector because bytes are shuffled within its halves.
+/// Stores two groups of 4 pixels, 16 pixels apart, one per 128-bit half: bytes are shuffled within halves.
 HWY_INLINE void store_groups(__m256i groups, std::uint32_t* pixels, int group) noexcept {
   std::uint32_t* const low = pixels + group * kBlockPixels;
   _mm_store_si128(reinterpret_cast<__m128i*>(low), _mm256_castsi256_si128(groups));
   _mm_store_si128(reinterpret_cast<__m128i*>(low + 4 * kBlockPixels), _mm256_extracti128_si256(groups, 1));
 }
 
-/// Bit b of byte k goes to bit 7 - k of byte 7 - b, in each 64 bits: transposed about the other diagonal,
-/// which is what turns pixels whose first one is byte 0 into planes whose first pixel is bit 7. Its own
-/// inverse.
+/// In each 64 bits, moves bit b of byte k to bit 7 - k of byte 7 - b: a transposition about the other
+/// diagonal. Its own inverse. It maps planes, whose first pixel is bit 7, to pixels, whose first one is byte
+/// 0.
 HWY_INLINE __m256i anti_transpose_8x8(__m256i x) noexcept {
   const auto pattern = [](std::uint64_t bits)
                            HWY_ATTR { return _mm256_set1_epi64x(static_cast<long long>(bits)); };
@@ -64,7 +65,7 @@ HWY_INLINE __m256i anti_transpose_8x8(__m256i x) noexcept {
   return _mm256_xor_si256(_mm256_xor_si256(x, t), _mm256_srli_epi64(t, 36));
 }
 
-/// Bits of 32 or 64 pixels in two planes.
+/// Loads the bits of 32 or 64 pixels of two planes.
 template <int kPixels>
 HWY_INLINE __m128i load_pair(const std::uint8_t* low, const std::uint8_t* high) noexcept {
   if constexpr (kPixels == 64)
@@ -76,12 +77,12 @@ HWY_INLINE __m128i load_pair(const std::uint8_t* low, const std::uint8_t* high) 
   return _mm_unpacklo_epi64(_mm_cvtsi32_si128(bits[0]), _mm_cvtsi32_si128(bits[1]));
 }
 
-/// 8 planes -> a byte for each pixel, left to right; the left 32 pixels in `left`, the others, if there are
-/// any, in `right`.
+/// 8 planes -> one byte per pixel, left to right: pixels 0 to 31 in `left`, 32 to 63 (kPixels = 64) in
+/// `right`.
 template <int kPixels>
 HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* offset, __m256i& left,
                                  __m256i& right) noexcept {
-  // 8x8 transposition of bytes, to 8 planes of 8 pixels in each 64 bits, plane 7 in the lowest byte.
+  // 8x8 transposition of bytes: each 64 bits then hold 8 planes of 8 pixels, plane 7 in the lowest byte.
   const __m256i pairs = _mm256_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15,  //
                                          0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
   const __m256i planes76_32 = _mm256_set_m128i(load_pair<kPixels>(first + offset[3], first + offset[2]),
@@ -95,12 +96,12 @@ HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* o
     right = anti_transpose_8x8(_mm256_permutevar8x32_epi32(_mm256_unpackhi_epi16(a, b), zip));
 }
 
-/// 32 pixels from their bytes.
-HWY_INLINE void store_words(const __m256i (&bytes)[4], __m256i flips, std::uint32_t* pixels) noexcept {
-  const __m256i left01 = _mm256_unpacklo_epi8(bytes[0], bytes[1]),
-                right01 = _mm256_unpackhi_epi8(bytes[0], bytes[1]);
-  const __m256i left23 = _mm256_unpacklo_epi8(bytes[2], bytes[3]),
-                right23 = _mm256_unpackhi_epi8(bytes[2], bytes[3]);
+/// Assembles 32 packed pixels from their bytes.
+HWY_INLINE void store_pixels(const __m256i (&bytes)[4], __m256i flips, std::uint32_t* pixels) noexcept {
+  const __m256i left01 = _mm256_unpacklo_epi8(bytes[0], bytes[1]);
+  const __m256i right01 = _mm256_unpackhi_epi8(bytes[0], bytes[1]);
+  const __m256i left23 = _mm256_unpacklo_epi8(bytes[2], bytes[3]);
+  const __m256i right23 = _mm256_unpackhi_epi8(bytes[2], bytes[3]);
   store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(left01, left23), flips), pixels, 0);
   store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(left01, left23), flips), pixels, 1);
   store_groups(_mm256_xor_si256(_mm256_unpacklo_epi16(right01, right23), flips), pixels, 2);
@@ -109,8 +110,8 @@ HWY_INLINE void store_words(const __m256i (&bytes)[4], __m256i flips, std::uint3
 
 template <int kPixels, int kBytes>
 void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexcept {
-  // Planes that are absent from the last byte are read from the last plane and masked away: no branch for
-  // each plane.
+  // Absent planes of the last byte are read from the last plane and masked out, which avoids a branch per
+  // plane.
   std::size_t offset[kMaxPlanes];
   for (int k = 0; k < kMaxPlanes; ++k)
     offset[k] = static_cast<std::size_t>(std::min(k, plane_count - 1)) * rows.bits.plane_stride;
@@ -126,8 +127,8 @@ void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexc
       left[kBytes - 1] = _mm256_and_si256(left[kBytes - 1], present);
       right[kBytes - 1] = _mm256_and_si256(right[kBytes - 1], present);
       std::uint32_t* const pixels = rows.pixels(y) + x * kBlockSize;
-      store_words(left, flips, pixels);
-      if (kPixels == 64) store_words(right, flips, pixels + 32 * kBlockSize);
+      store_pixels(left, flips, pixels);
+      if (kPixels == 64) store_pixels(right, flips, pixels + 32 * kBlockSize);
     }
 }
 

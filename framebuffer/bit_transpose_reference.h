@@ -1,4 +1,4 @@
-// The scalar twins of bit_transpose.h: one pixel after the other.
+// Scalar twins of bit_transpose.h, pixel by pixel.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-// The frame buffer's storage: a stack of bitplanes, literally one bit for each pixel in each plane.
+// The storage of a frame buffer: a stack of bitplanes, one bit per pixel and plane.
 //
-// A pixel's word is up to 32 bits; plane k holds bit k of every pixel. Planes are separate images: the top
-// row first, bit 7 of a byte the leftmost pixel. Rows are padded to whole cache lines (512 pixels), and a
-// plane takes an odd number of them, so that the same pixel of neighbouring planes never competes for one set
-// of a cache. Pad bits are always 0.
+// A pixel is a value of up to 32 bits; plane k holds bit k of every pixel. Each plane is a separate image:
+// top row first, bit 7 of a byte is the leftmost pixel. Rows are padded to whole cache lines (512 pixels). A
+// plane takes an odd number of lines, so that a pixel's bits in neighbouring planes do not compete for one
+// cache set. Pad bits are always 0.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace tessera::detail {
 
 inline constexpr int kMaxPlanes = 32;
 inline constexpr int kPlaneAlignment = 64;               ///< bytes; rows of a plane are padded to it
-inline constexpr int kLinePixels = kPlaneAlignment * 8;  ///< of a plane in a cache line
+inline constexpr int kLinePixels = kPlaneAlignment * 8;  ///< pixels of a plane in one cache line
 
-/// A stack of planes of one size. Memory is taken at allocate(), not before. Copying is not offered; moving
-/// leaves a stack without memory behind.
+/// A stack of planes of one size. allocate() takes the memory, the constructor does not. Move-only; a
+/// moved-from stack has no memory.
 class BitplaneStack {
  public:
   BitplaneStack() = default;
@@ -41,17 +41,17 @@ class BitplaneStack {
   int width_px() const noexcept { return width_px_; }
   int height_px() const noexcept { return height_px_; }
   int plane_count() const noexcept { return plane_count_; }
-  /// Bits that a word of this stack may have.
+  /// Mask of the bits that a pixel of this stack has.
   std::uint32_t value_mask() const noexcept {
     return plane_count_ == 0 ? 0 : ~std::uint32_t{0} >> (kMaxPlanes - plane_count_);
   }
 
-  /// Bytes that the planes take, allocated or not.
+  /// Size of the planes in bytes, allocated or not.
   std::size_t needed_bytes() const noexcept {
     return plane_stride_bytes_ * static_cast<std::size_t>(plane_count_);
   }
-  /// From now on the planes stand in this memory, needed_bytes() at a multiple of kPlaneAlignment, which
-  /// outlives the stack; taking and giving back allocates nothing. @pre not allocated
+  /// Places the planes in the caller's memory: needed_bytes() bytes, kPlaneAlignment aligned, which outlive
+  /// the stack. allocate() and release() then neither allocate nor free. @pre not allocated
   void use_external_memory(std::uint8_t* memory) noexcept {
     TESSERA_ASSERT(!allocated() && reinterpret_cast<std::uintptr_t>(memory) % kPlaneAlignment == 0);
     external_memory_ = memory;
@@ -59,25 +59,24 @@ class BitplaneStack {
   bool uses_external_memory() const noexcept { return external_memory_ != nullptr; }
 
   bool allocated() const noexcept { return memory_ != nullptr; }
-  /// Takes the memory, if it is not there yet, and fills every pixel with `word`. Throws std::bad_alloc; then
-  /// nothing changed.
-  void allocate(std::uint32_t word);
+  /// Takes the memory and fills every pixel with `value`. Does nothing if allocated already. Throws
+  /// std::bad_alloc, with the strong guarantee.
+  void allocate(std::uint32_t value);
   void release() noexcept {
     if (external_memory_ != nullptr) static_cast<void>(memory_.release());
     memory_.reset();
   }
 
-  /// Every pixel becomes `word` (bits beyond the planes are ignored). Allocated stacks only, as for all that
-  /// follows.
-  void fill(std::uint32_t word) noexcept { fill_rows(0, height_px_, word); }
-  /// The same for the rows y0 <= y < y1; distinct rows may be filled by distinct threads.
-  void fill_rows(int y0, int y1, std::uint32_t word) noexcept;
+  /// Sets every pixel to `value`; bits beyond the planes are ignored. @pre allocated, here and below
+  void fill(std::uint32_t value) noexcept { fill_rows(0, height_px_, value); }
+  /// Sets the rows y0 <= y < y1. Distinct rows may be filled concurrently.
+  void fill_rows(int y0, int y1, std::uint32_t value) noexcept;
 
-  /// The word of one pixel, y from the top: the slow path, for tests and single pixels.
+  /// One pixel, y from the top. Slow: for tests and single pixels.
   std::uint32_t pixel(int x, int y) const noexcept;
-  void set_pixel(int x, int y, std::uint32_t word) noexcept;
+  void set_pixel(int x, int y, std::uint32_t value) noexcept;
 
-  /// Plane k: its top row, kPlaneAlignment aligned.
+  /// Top row of plane k, kPlaneAlignment aligned.
   std::uint8_t* plane(int k) noexcept {
     TESSERA_ASSERT(allocated() && k >= 0 && k < plane_count_);
     return memory_.get() + static_cast<std::size_t>(k) * plane_stride_bytes();
@@ -86,11 +85,11 @@ class BitplaneStack {
     TESSERA_ASSERT(allocated() && k >= 0 && k < plane_count_);
     return memory_.get() + static_cast<std::size_t>(k) * plane_stride_bytes();
   }
-  /// From a row of a plane to the row below it.
+  /// Distance from a row of a plane to the row below it.
   std::ptrdiff_t stride_bytes() const noexcept { return stride_bytes_; }
-  /// From a plane to the next.
+  /// Distance from a plane to the next one.
   std::size_t plane_stride_bytes() const noexcept { return plane_stride_bytes_; }
-  /// Memory taken now; 0 while not allocated.
+  /// Memory in use; 0 while not allocated.
   std::size_t bytes() const noexcept { return allocated() ? needed_bytes() : 0; }
 
  private:
@@ -99,11 +98,12 @@ class BitplaneStack {
       ::operator delete (memory, std::align_val_t{kPlaneAlignment});
     }
   };
-  int width_px_ = 0, height_px_ = 0, plane_count_ = 0;
+  int width_px_ = 0, height_px_ = 0;
+  int plane_count_ = 0;
   std::ptrdiff_t stride_bytes_ = 0;
   std::size_t plane_stride_bytes_ = 0;
   std::unique_ptr<std::uint8_t[], AlignedDelete> memory_;
-  std::uint8_t* external_memory_ = nullptr;  // the caller's memory; else the stack takes its own
+  std::uint8_t* external_memory_ = nullptr;  // memory of the caller; null: the stack allocates
 };
 
 }  // namespace tessera::detail

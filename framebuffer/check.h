@@ -1,4 +1,4 @@
-// The assertion for our own bugs: checked in debug and sanitizer builds, free in release builds.
+// Assertion of internal invariants: checked in debug and sanitizer builds, removed from release builds.
 #pragma once
 
 #if defined(TESSERA_CHECKED)

@@ -1,8 +1,8 @@
-// Colour, depth and stencil formats, and the one quantizer each way.
+// Colour and depth formats, with the one quantizer of each.
 //
-// In the tile a pixel's colour is the stored word itself: R:G:B with blue lowest, or the palette index, so
-// plane k is bit k; alpha planes follow above. A pixel's depth is a signed key whose order is the order of
-// depths: see DepthFormat.
+// Tiles keep a pixel's colour as the packed value that the planes store: R:G:B with blue lowest, or the
+// palette index, so plane k is bit k; alpha planes follow above. Tiles keep depth as a signed key that orders
+// as depth does: see depth_key_from_stored().
 #pragma once
 
 #include <cmath>
@@ -13,16 +13,18 @@
 
 namespace tessera::detail {
 
-/// How b colour bits are split: 1 and 2 bits luminance, else b/3 each, one odd bit to green, a second to red.
+/// Fields of a packed colour. RGB of b bits: luminance at 1 and 2 bits, else b / 3 bits per component; the
+/// first remaining bit goes to green, the second to red.
 struct ColorLayout {
-  int bits = 24;
-  bool index = false;      ///< the word is a palette index
-  bool luminance = false;  ///< the word is one grey component of `bits` bits
+  int bits = 24;           ///< colour bits, without alpha
+  bool index = false;      ///< the packed colour is a palette index
+  bool luminance = false;  ///< the packed colour is one grey component of `bits` bits
   int r_bits = 8, g_bits = 8, b_bits = 8;
   int alpha_bits = 0;  ///< 0 or 8
   int r_shift() const { return g_bits + b_bits; }
   int g_shift() const { return b_bits; }
-  std::uint32_t value_mask() const { return (std::uint32_t{1} << bits) - 1; }  ///< of the colour
+  /// Colour bits, without alpha.
+  std::uint32_t value_mask() const { return (std::uint32_t{1} << bits) - 1; }
   float index_modulus() const { return static_cast<float>(std::uint32_t{1} << bits); }
   std::uint32_t alpha_mask() const { return ((std::uint32_t{1} << alpha_bits) - 1) << bits; }
   std::uint32_t r_mask() const { return ((std::uint32_t{1} << r_bits) - 1) << r_shift(); }
@@ -39,48 +41,50 @@ constexpr ColorLayout rgb_layout(int bits) {
 }
 constexpr ColorLayout index_layout(int bits) { return {.bits = bits, .index = true}; }
 
-// Luminance of 1- and 2-bit buffers: 0.30 R + 0.59 G + 0.11 B.
+// Weights of luminance (1- and 2-bit buffers).
 inline constexpr float kLumaR = 0.30f, kLumaG = 0.59f, kLumaB = 0.11f;
 
-/// floor(c (2^b - 1) + 0.5), c clamped to 0..1; a NaN counts as 0.
+/// floor(c (2^b - 1) + 0.5), c clamped to 0..1; NaN counts as 0.
 inline std::uint32_t quantize(float c, int bits) {
   const float levels = static_cast<float>((1u << bits) - 1);
   const float clamped = c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f;
   return static_cast<std::uint32_t>(std::fma(clamped, levels, 0.5f));
 }
-/// The stored word of an RGB or luminance layout.
+/// Packed colour of an RGB or luminance layout.
 inline std::uint32_t quantize_rgb(const ColorLayout& layout, float r, float g, float b) {
   if (layout.luminance) return quantize(std::fma(kLumaR, r, std::fma(kLumaG, g, kLumaB * b)), layout.bits);
   return quantize(r, layout.r_bits) << layout.r_shift() | quantize(g, layout.g_bits) << layout.g_shift() |
          quantize(b, layout.b_bits);
 }
-/// An index modulo 2^bits, with its fraction: 0 .. modulus; a NaN counts as 0.
+/// Fractional index modulo 2^bits: 0 .. modulus; NaN counts as 0.
 inline float masked_index(float index, float modulus) {
-  const float rest =
-      index - modulus * std::floor(index * (1 / modulus));  // products by powers of two are exact
+  // Products with powers of two are exact.
+  const float rest = index - modulus * std::floor(index * (1 / modulus));
   return rest >= 0 ? rest : 0.0f;
 }
-/// The stored word of a masked index: floor(index + 0.5), masked again. The sum itself is not exact above
-/// 2^23.
+/// Packed colour of a masked index: floor(index + 0.5) modulo 2^bits. The fraction is compared with 0.5
+/// because index + 0.5 is not exact above 2^23.
 inline std::uint32_t quantize_index(const ColorLayout& layout, float index) {
   const auto whole = static_cast<std::uint32_t>(index > 0 ? index : 0.0f);
   return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.value_mask();
 }
-/// What a display shows of level v of b bits: round(255 v / (2^b - 1)), in integers.
+/// 8-bit level that a display shows for level v of b bits: round(255 v / (2^b - 1)), in integers.
 constexpr std::uint32_t display_level(std::uint32_t v, int bits) {
   const std::uint32_t levels = (1u << bits) - 1;
   return levels == 0 ? 0 : (2 * 255 * v + levels) / (2 * levels);
 }
 
 constexpr int depth_bits(DepthFormat kind) {
-  return kind == DepthFormat::none      ? 0
-         : kind == DepthFormat::unorm16 ? 16
-         : kind == DepthFormat::unorm24 ? 24
-                                        : 32;
+  switch (kind) {
+    case DepthFormat::none: return 0;
+    case DepthFormat::unorm16: return 16;
+    case DepthFormat::unorm24: return 24;
+    default: return 32;
+  }
 }
 
-// A depth key is the stored level for 16 and 24 bits, the level with its top bit flipped for 32 bits, and the
-// bits of the float (never negative) for float32: in each case a signed comparison of keys compares depths.
+// Depth keys compare as signed integers in every format. unorm16, unorm24: the stored level; unorm32: the
+// level with its top bit flipped; float32: the bits of the float, which is never negative.
 constexpr std::int32_t depth_key_from_stored(DepthFormat kind, std::uint32_t word) {
   return static_cast<std::int32_t>(kind == DepthFormat::unorm32 ? word ^ 0x80000000u : word);
 }
@@ -88,7 +92,7 @@ constexpr std::uint32_t stored_depth_from_key(DepthFormat kind, std::int32_t key
   return kind == DepthFormat::unorm32 ? static_cast<std::uint32_t>(key) ^ 0x80000000u
                                       : static_cast<std::uint32_t>(key);
 }
-/// floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
+/// Stored level floor(z (2^b - 1) + 0.5) for z in 0..1; the bits of the float for float32.
 inline std::uint32_t quantize_depth(DepthFormat kind, double z) {
   if (kind == DepthFormat::float32) {
     const float f = static_cast<float>(z) + 0.0f;  // + 0: no negative zero

@@ -5,8 +5,7 @@
 #if HWY_ONCE
 namespace tessera::detail {
 
-// What each set needs is what Highway compiles its target with (HWY_TARGET_STR), and AVX512CD: see
-// duplicate_lanes().
+// The features that Highway compiles each target with (HWY_TARGET_STR), and AVX512CD for duplicate_lanes().
 #if HWY_TARGETS & HWY_AVX2
 static bool machine_has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
@@ -44,7 +43,8 @@ bool machine_has_gfni() {
 
 bool machine_has_fast_gather() {
 #if HWY_TARGETS & HWY_AVX3
-  // Floats of 16 bits came with it, and after what had made Intel's gathers slow (INTEL-SA-00828).
+  // AVX512-FP16 identifies Sapphire Rapids and later, which are not slowed down by the gather mitigation
+  // (INTEL-SA-00828).
   return machine_has_avx512() && __builtin_cpu_is("intel") && __builtin_cpu_supports("avx512fp16");
 #else
   return false;

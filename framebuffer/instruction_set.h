@@ -1,5 +1,5 @@
-// The one place where the instruction set is chosen. Kernels are compiled once for each set (see lanes.h) and
-// picked from a table by InstructionSet, once a frame; algorithms do not know which one runs.
+// The choice of the instruction set. Kernels are compiled once per set (see lanes.h) and selected by
+// InstructionSet once per frame, never inside an algorithm.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,16 @@
 
 namespace tessera::detail {
 
-/// Those compiled in that this machine can run, best first; always ends with scalar (the build's baseline).
+/// Instruction sets that are compiled in and that this machine runs, best first. The last one is always
+/// scalar.
 std::vector<InstructionSet> available_isas();
 
-/// Whether this machine has AVX-512 with products of bit matrices (GFNI): the storing of planes has a faster
-/// way with them, to the same bits.
+// Two machine properties select faster code within AVX-512, with the same bits.
+
+/// True if this machine has AVX-512 and GFNI (products of bit matrices): planes are stored in whole cache
+/// lines.
 bool machine_has_gfni();
-/// Whether AVX-512 is quicker at gathering pairs of words than at loading them one by one, to the same bits:
-/// Intel's since Sapphire Rapids. These two are all that is chosen beside the set.
+/// True if AVX-512 gathers pairs of 32-bit words faster than single loads do: Intel since Sapphire Rapids.
 bool machine_has_fast_gather();
 
 }  // namespace tessera::detail

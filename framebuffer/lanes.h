@@ -1,17 +1,19 @@
-// Compiles the kernels of a translation unit once for each instruction set. Usage, at the top of a .cpp:
+// Compiles the kernels of a translation unit once per instruction set. Usage, at the top of a .cpp:
 //
 //   #undef HWY_TARGET_INCLUDE
-//   #define HWY_TARGET_INCLUDE "raster/coverage.cpp"
+//   #define HWY_TARGET_INCLUDE "raster/binning.cpp"
 //   #include "framebuffer/lanes.h"        // then all std headers, then any "*-inl.h", then
 //   HWY_BEFORE_NAMESPACE();
-//   namespace tessera { namespace HWY_NAMESPACE { void kernel(...) {...} } }
+//   namespace tessera::detail { namespace HWY_NAMESPACE { void kernel(...) {...} } }
 //   HWY_AFTER_NAMESPACE();
 //   #if HWY_ONCE
-//   namespace tessera::detail { KernelFn* kernel_for(InstructionSet isa) { return TESSERA_KERNEL(isa,
-//   kernel); } } #endif
+//   namespace tessera::detail {
+//   KernelFn* kernel_for(InstructionSet isa) { return TESSERA_KERNEL(isa, kernel); }
+//   }
+//   #endif
 //
-// Highway's SSSE3 and SSE4 targets are disabled: they have no fused multiply-add, so their bits would differ.
-// Older x86 takes the scalar path, whose multiply-adds are fused by std::fma.
+// Highway's SSSE3 and SSE4 targets are disabled: without fused multiply-add their results would differ. Older
+// x86 takes the scalar path, which fuses with std::fma.
 #ifndef TESSERA_LANES_CONFIGURED
 #define TESSERA_LANES_CONFIGURED
 #if defined(TESSERA_WITHOUT_AVX512)
@@ -19,10 +21,9 @@
 #else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #endif
-#define HWY_IS_DEBUG_BUILD 0  // its own asserts call its library, which is not linked
-#define HWY_BROKEN_EMU128 1   // one baseline for every compiler: a single lane
-// Vectors are for x86: the kernels take widths and layouts of its vectors for granted
-// (raster/lane_packing-inl.h).
+#define HWY_IS_DEBUG_BUILD 0  // Highway's asserts call its library, which is not linked
+#define HWY_BROKEN_EMU128 1   // the baseline of every compiler is a single lane
+// Vectors on x86 only: kernels depend on the widths and layouts of its vectors (raster/lane_packing-inl.h).
 #if defined(TESSERA_SCALAR_ONLY) || !defined(__x86_64__)
 #define HWY_COMPILE_ONLY_SCALAR
 #endif

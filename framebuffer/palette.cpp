@@ -26,21 +26,20 @@ constexpr std::array<Rgb8, 16> kEga16 = {{{0, 0, 0},
                                           {255, 255, 85},
                                           {255, 255, 255}}};
 
-// The default palette of VGA's mode 13h (IBM VGA BIOS), in the 6-bit levels of its converter.
+// Default palette of VGA mode 13h (IBM VGA BIOS), in the 6-bit levels of its DAC.
 constexpr std::array<int, 16> kVgaGreys = {0, 5, 8, 11, 14, 17, 20, 24, 28, 32, 36, 40, 45, 50, 56, 63};
-/// Levels of a leg of the hue circle, [intensity][saturation][step], from the weakest component to the
-/// strongest.
+/// Component levels along one leg of the hue circle, low to high: [intensity][saturation][step].
 constexpr int kVgaHueLevels[3][3][5] = {{{0, 16, 31, 47, 63}, {31, 39, 47, 55, 63}, {45, 49, 54, 58, 63}},
                                         {{0, 7, 14, 21, 28}, {14, 17, 21, 24, 28}, {20, 22, 24, 26, 28}},
                                         {{0, 4, 8, 12, 16}, {8, 10, 12, 14, 16}, {11, 12, 13, 15, 16}}};
 
-/// round(255 v / 63)
+/// 6-bit level -> 8-bit level: round(255 v / 63).
 constexpr std::uint8_t from_6_bits(int v) {
   return static_cast<std::uint8_t>(display_level(static_cast<std::uint32_t>(v), 6));
 }
 
 /// Hue h of the circle, 0 .. 23: blue, magenta, red, yellow, green, cyan at multiples of 4. On each leg one
-/// component moves in four steps while the two others rest at an end.
+/// component changes in four steps; the other two stay at the lowest or highest level.
 Rgb8 vga_hue(int h, const int (&levels)[5]) {
   const std::uint8_t low = from_6_bits(levels[0]), high = from_6_bits(levels[4]);
   const std::uint8_t rising = from_6_bits(levels[h % 4]), falling = from_6_bits(levels[4 - h % 4]);
@@ -67,7 +66,7 @@ std::vector<Rgb8> vga256() {
 std::vector<Rgb8> greys(int bits) {
   std::vector<Rgb8> entries(std::size_t{1} << bits);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    // display_level(i, bits), in 64 bits: 2 * 255 * 2^24 is more than 32 hold.
+    // display_level(i, bits) in 64 bits: 2 * 255 * 2^24 exceeds 32 bits.
     const std::uint64_t last = entries.size() - 1;
     const auto level = static_cast<std::uint8_t>((2 * 255 * std::uint64_t{i} + last) / (2 * last));
     entries[i] = {level, level, level};
@@ -104,7 +103,9 @@ std::optional<std::vector<Rgb8>> palette_entries(std::string_view name, int bits
 }
 
 std::string_view default_palette_name(int bits) noexcept {
-  return bits == 1 ? "bw" : bits <= 3 ? "gray" : bits <= 7 ? "ega16" : "vga256";
+  if (bits == 1) return "bw";
+  if (bits <= 3) return "gray";
+  return bits <= 7 ? "ega16" : "vga256";
 }
 
 Palette default_palette_of(int bits) {

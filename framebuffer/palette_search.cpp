@@ -9,15 +9,15 @@ namespace tessera::detail {
 namespace {
 
 float clamp_component(float c) noexcept { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
-constexpr float kMaxSquaredDistance = 16;  // more than the squared diagonal of what is looked up
+constexpr float kMaxSquaredDistance = 16;  // exceeds the squared diagonal of the searched cube, 12
 double square(double d) noexcept { return d * d; }
 
 struct DistinctColor {
   Rgb8 color;
-  std::uint32_t index = 0;  ///< the lowest one with this colour
+  std::uint32_t index = 0;  ///< lowest index of this colour
 };
 
-/// Each colour that was given once, by index. A palette without any is black.
+/// The distinct colours of the set entries, ordered by index. An empty palette yields black.
 std::vector<DistinctColor> distinct_colors(const Palette& palette) {
   std::vector<DistinctColor> colors;
   colors.reserve(palette.entries.size() + 1);
@@ -35,27 +35,27 @@ std::vector<DistinctColor> distinct_colors(const Palette& palette) {
   return colors;
 }
 
-/// Squared distances, on one axis, from a level to the nearest and to the farthest point of a cell.
+/// Squared distances on one axis: from a level to the nearest and to the farthest point of a cell.
 struct AxisDistances {
   float nearest, farthest;
 };
-using AxisTable = std::array<AxisDistances, 256>;  ///< by level
+using AxisTable = std::array<AxisDistances, 256>;  ///< indexed by level
 
 AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
   AxisTable table;
   for (int level = 0; level < 256; ++level) {
     const double c = level / 255.0;
-    const double below = low + (high - low) * cell / cells - c,
-                 above = c - (low + (high - low) * (cell + 1) / cells);
+    const double below = low + (high - low) * cell / cells - c;
+    const double above = c - (low + (high - low) * (cell + 1) / cells);
     table[static_cast<std::size_t>(level)] = {static_cast<float>(square(std::max({below, above, 0.0}))),
                                               static_cast<float>(square(std::min(below, above)))};
   }
   return table;
 }
 
-// A colour can be the nearest one to some point of a cell only if it is no farther from the cell than the
-// farthest point is from the colour that serves the cell best. `among`: candidates of a box that holds the
-// cell; `distances`: scratch.
+// Appends to `kept` the colours that can be nearest to some point of a cell: those no farther from the cell
+// than min over all colours of (distance to the farthest point of the cell). `among`: candidates of a box
+// that contains the cell; `distances`: scratch.
 void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among,
                      const AxisTable& x, const AxisTable& y, const AxisTable& z,
                      std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
@@ -66,16 +66,18 @@ void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector
     distances[i] = x[c.r].nearest + y[c.g].nearest + z[c.b].nearest;
     best_farthest = std::min(best_farthest, x[c.r].farthest + y[c.g].farthest + z[c.b].farthest);
   }
-  // Here and in nearest() distances are rounded, and so is the cell of a point, each by less than one part in
-  // 10^6: no colour may be lost to that.
+  // Distances, here and in search(), and the cell of a point are rounded, each by less than one part in 10^6.
+  // The margin keeps colours that rounding would drop.
   const float limit = best_farthest * (1.0f + 1e-4f);
   for (std::size_t i = 0; i < among.size(); ++i)
     if (distances[i] <= limit) kept.push_back(among[i]);
 }
 
-/// Cells in each direction: finer for more colours, so that a cell keeps few of them.
+/// Cells per axis: more for larger palettes, so that a cell keeps few candidates.
 int cells_for(std::size_t colors) noexcept {
-  return colors <= 4 ? 4 : colors <= 32 ? 8 : colors <= 1024 ? 16 : 32;
+  if (colors <= 4) return 4;
+  if (colors <= 32) return 8;
+  return colors <= 1024 ? 16 : 32;
 }
 
 constexpr std::size_t cell_index(int cells, int x, int y, int z) noexcept {
@@ -93,8 +95,7 @@ PaletteSearch::PaletteSearch(const Palette& palette, bool dithered)
     entries_.push_back({static_cast<float>(c.color.r) / 255.0f, static_cast<float>(c.color.g) / 255.0f,
                         static_cast<float>(c.color.b) / 255.0f, c.index});
 
-  // Each level of an octree hands its candidates down to the next, so that only the root looks at all
-  // colours.
+  // Octree: each level filters the candidates of its parent, so only the root tests all colours.
   std::vector<std::vector<std::uint32_t>> coarse(1), fine;
   for (std::size_t i = 0; i < colors.size(); ++i) coarse[0].push_back(static_cast<std::uint32_t>(i));
   std::vector<float> distances;
@@ -121,7 +122,7 @@ PaletteSearch::PaletteSearch(const Palette& palette, bool dithered)
 }
 
 std::uint32_t PaletteSearch::search(float r, float g, float b) const noexcept {
-  // The last cell holds the upper end.
+  // The upper end of the range belongs to the last cell.
   const auto cell_of = [this](float c) {
     return std::min(static_cast<int>((c - low_) * scale_), cells_ - 1);
   };

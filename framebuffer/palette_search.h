@@ -1,8 +1,8 @@
-// The nearest entry of a palette, exactly.
+// Exact nearest-entry search in a palette.
 //
-// The cube of colours that are looked up is cut into cells; each cell keeps the entries that can be nearest
-// to any point of it, so that a search looks at a handful of entries and still answers as if it had looked at
-// all. Twin: palette_search_reference.h.
+// The colour cube is divided into cells; each cell keeps the entries that can be nearest to one of its
+// points. A search compares a handful of entries, with the result of a search over all. Twin:
+// palette_search_reference.h.
 #pragma once
 
 #include <cstdint>
@@ -14,35 +14,34 @@ namespace tessera::detail {
 
 class PaletteSearch {
  public:
-  /// Builds the cells. Throws std::bad_alloc only. The palette need not outlive the call. 256 entries: about
-  /// 1 ms.
-  /// @param dithered  colours from -0.5 to 1.5 will be looked up
+  /// Builds the cells, about 1 ms for 256 entries. The palette need not outlive the call. Throws
+  /// std::bad_alloc only.
+  /// @param dithered  components of the searched colours range from -0.5 to 1.5, else from 0 to 1
   explicit PaletteSearch(const Palette& palette, bool dithered = false);
 
-  /// Index of the entry that was given (what is not set shows black, and nobody chose it) whose stored colour
-  /// is nearest: the smallest squared distance of components 0..1 (stored value / 255), ties to the lowest
-  /// index. Components are clamped to 0..1, a NaN counts as 0. Equals nearest_reference() bit for bit. Never
-  /// fails; thread-safe.
+  /// Index of the nearest set entry; unset entries are never chosen.
+  /// - Distance: squared, of components 0..1 (stored value / 255). Ties go to the lowest index.
+  /// - Components are clamped to 0..1, NaN counts as 0.
+  /// - Equals nearest_reference() bit for bit. Thread-safe, never fails.
   std::uint32_t nearest(float r, float g, float b) const noexcept;
-  /// The same without clamping to 0..1: the colour that dither looks up may lie beyond, where other entries
-  /// are nearest than to the cube's border. @pre the search is for dithered colours, and these are within its
-  /// bounds
+  /// Nearest entry of a dithered colour, which may lie outside the cube; clamping it first could change the
+  /// result. @pre constructed with `dithered`; components from -0.5 to 1.5
   std::uint32_t nearest_unclamped(float r, float g, float b) const noexcept;
 
  private:
   [[gnu::always_inline]] inline std::uint32_t search(float r, float g, float b) const noexcept;
   struct Entry {
     float r, g, b;
-    std::uint32_t index;  ///< in the palette
+    std::uint32_t index;  ///< palette index
     float squared_distance(float red, float green, float blue) const {
       const float dr = red - r, dg = green - g, db = blue - b;
       return dr * dr + dg * dg + db * db;
     }
   };
-  float low_ = 0, high_ = 1;               ///< of the components that are looked up
-  int cells_ = 1;                          ///< in each direction; a power of two
-  float scale_ = 1;                        ///< cells for each 1 of a component
-  std::vector<Entry> entries_;             ///< distinct colours, by index
+  float low_ = 0, high_ = 1;               ///< range of the searched components
+  int cells_ = 1;                          ///< cells per axis; a power of two
+  float scale_ = 1;                        ///< cells per unit of a component
+  std::vector<Entry> entries_;             ///< distinct colours, ordered by index
   std::vector<std::uint32_t> cell_begin_;  ///< cells_^3 + 1 positions in candidates_
   std::vector<std::uint32_t> candidates_;  ///< positions in entries_, ascending in each cell
 };

@@ -1,16 +1,16 @@
-// The twin of PaletteSearch: looks at every entry that was given.
+// Scalar twin of PaletteSearch: compares every set entry.
 #pragma once
 
 #include "framebuffer/palette.h"
 
 namespace tessera::detail {
 
-/// As PaletteSearch::nearest().
+/// Specification of PaletteSearch::nearest().
 inline std::uint32_t nearest_reference(const Palette& palette, float r, float g, float b) noexcept {
   const auto clamp = [](float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; };
   const auto square = [](float d) { return d * d; };
   std::uint32_t nearest = 0;
-  float nearest_distance = 4.0f;  // more than the cube's diagonal
+  float nearest_distance = 4.0f;  // exceeds the squared diagonal of the cube, 3
   for (std::uint32_t i = 0; i < palette.entries.size(); ++i) {
     const Rgb8 stored = palette[i];
     const float distance = square(clamp(r) - static_cast<float>(stored.r) / 255.0f) +

@@ -1,13 +1,17 @@
-// Whole cache lines of planes, 512 pixels of 4 rows at a time, for AVX-512 with products of bits (GFNI).
+// Stores whole cache lines of planes, 512 pixels of 4 rows at a time, with AVX-512 and products of bit
+// matrices (GFNI).
 //
-// A block of tile memory, 4x4 words, is one vector. From words to lines of planes by exchanges, until the
-// place of a byte among the 64 of a vector stands for, from its highest bits to the lowest:
+// A block of tile memory, 4x4 packed pixels, is one vector. Each step below permutes the 64 bytes of vectors.
+// The list gives the meaning of a byte's position in its vector, from the highest bits of the position to the
+// lowest:
 //
-//   row, pixel of 4, byte       blocks, as they are loaded
-//   row, half, pixel of 8       bytes of 4 blocks, split by which byte of the word they are; halves of 128
-//   pixels row, half, plane of 8       the same times 1: each 8x8 bits transposed row, half, byte of 64 8 of
-//   those, exchanged by the bits of their places: 128 pixels of 4 rows of one plane byte of 512 4 of those,
-//   exchanged by rows: a line
+//   - row (4), pixel (4), byte (4): a block as it is loaded.
+//   - row (4), half (2), pixel (8): byte b of the pixels of 4 blocks; `half` is the left or right half of a
+//     quarter line, 128 pixels.
+//   - row (4), half (2), plane (8): each 8x8 bits transposed, by a product with the identity matrix.
+//   - row (4), half (2), byte (8): 8 vectors, one per 8 pixels of each half, exchange bytes: 128 pixels of 4
+//     rows of one plane.
+//   - byte (64): 4 quarters exchange rows: a line of 512 pixels.
 #if defined(TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_
 #undef TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_
@@ -29,10 +33,10 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int kQuarterPixels = kLinePixels / 4;
 
-/// Byte kByte of the words of 4 blocks, each 8 pixels of a row as 8 planes: the first two are of the left
-/// half of a quarter.
+/// Byte kByte of the pixels of 4 blocks, transposed: every 8 pixels of a row become 8 planes. Blocks 0 and 1
+/// lie in the left half of a quarter line, 2 and 3 in the right half.
 template <int kByte>
-HWY_INLINE __m512i planes_of(const __m512i (&split)[4]) noexcept {
+HWY_INLINE __m512i transpose_byte(const __m512i (&split)[4]) noexcept {
   const __m512i left =
       kByte < 2 ? _mm512_unpacklo_epi32(split[0], split[1]) : _mm512_unpackhi_epi32(split[0], split[1]);
   const __m512i right =
@@ -40,17 +44,15 @@ HWY_INLINE __m512i planes_of(const __m512i (&split)[4]) noexcept {
   const __m512i pixels =
       kByte % 2 == 0 ? _mm512_unpacklo_epi64(left, right) : _mm512_unpackhi_epi64(left, right);
   const __m512i one = _mm512_set1_epi64(static_cast<long long>(0x8040201008040201));
-  return _mm512_gf2p8affine_epi64_epi8(
-      one, pixels,
-      0);  // the pixels are the matrix: byte k becomes bit k of each of them, the first one highest
+  // The pixels are the matrix: byte k becomes bit k of each pixel, the first pixel highest.
+  return _mm512_gf2p8affine_epi64_epi8(one, pixels, 0);
 }
 
-/// Those bytes of `a` whose place has bit kBit change places with those of `b` that lack it.
+/// Exchanges the bytes of `a` at positions with bit kBit set with those of `b` at positions without it.
 template <int kBit>
 HWY_INLINE void exchange(__m512i& a, __m512i& b) noexcept {
-  constexpr __mmask64 kHave = kBit == 0   ? 0xaaaaaaaaaaaaaaaa
-                              : kBit == 1 ? 0xcccccccccccccccc
-                                          : 0xf0f0f0f0f0f0f0f0;
+  constexpr __mmask64 kMasks[] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0};
+  constexpr __mmask64 kHave = kMasks[kBit];
   constexpr int n = 1 << kBit;
   const __m512i other =
       _mm512_broadcast_i32x4(_mm_setr_epi8(n, 1 ^ n, 2 ^ n, 3 ^ n, 4 ^ n, 5 ^ n, 6 ^ n, 7 ^ n, 8 ^ n, 9 ^ n,
@@ -66,14 +68,14 @@ HWY_INLINE void exchange_all(__m512i (&v)[8]) noexcept {
     if ((i >> kBit & 1) == 0) exchange<kBit>(v[i], v[i | 1 << kBit]);
 }
 
-/// The quarter of the strip that begins with pixel x, of the 4 rows from y on: plane k of its rows, one after
-/// the other.
+/// Transposes a quarter line, 128 pixels from x on, of the rows y .. y + 3. planes[k] gets plane k, row by
+/// row.
 ///
-/// @param bytes  of words, each of which holds 8 planes
+/// @param bytes  number of 8-plane bytes per pixel, 1 to 4
 HWY_INLINE void transpose_quarter(const StripRows& strip, int x, int y, int bytes, __m512i* planes) noexcept {
   const __m512i split =
       _mm512_broadcast_i32x4(_mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15));
-  // Through memory: more vectors than there are registers.
+  // In memory: more vectors than registers.
   alignas(64) __m512i eights[4][8];
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
@@ -84,10 +86,10 @@ HWY_INLINE void transpose_quarter(const StripRows& strip, int x, int y, int byte
                                _mm512_shuffle_epi8(_mm512_load_si512(left + 1), split),
                                _mm512_shuffle_epi8(_mm512_load_si512(right), split),
                                _mm512_shuffle_epi8(_mm512_load_si512(right + 1), split)};
-    _mm512_store_si512(&eights[0][i], planes_of<0>(blocks));
-    if (bytes > 1) _mm512_store_si512(&eights[1][i], planes_of<1>(blocks));
-    if (bytes > 2) _mm512_store_si512(&eights[2][i], planes_of<2>(blocks));
-    if (bytes > 3) _mm512_store_si512(&eights[3][i], planes_of<3>(blocks));
+    _mm512_store_si512(&eights[0][i], transpose_byte<0>(blocks));
+    if (bytes > 1) _mm512_store_si512(&eights[1][i], transpose_byte<1>(blocks));
+    if (bytes > 2) _mm512_store_si512(&eights[2][i], transpose_byte<2>(blocks));
+    if (bytes > 3) _mm512_store_si512(&eights[3][i], transpose_byte<3>(blocks));
   }
 #pragma GCC unroll 1
   for (int b = 0; b < bytes; ++b) {
@@ -102,7 +104,7 @@ HWY_INLINE void transpose_quarter(const StripRows& strip, int x, int y, int byte
   }
 }
 
-/// Bits of the first `inside_px` pixels of a line.
+/// Mask of the first `inside_px` pixels of a line.
 inline __m512i line_mask(int inside_px) noexcept {
   alignas(64) std::uint8_t bytes[kLinePixels / 8];
   for (int i = 0; i < kLinePixels / 8; ++i)
@@ -110,15 +112,15 @@ inline __m512i line_mask(int inside_px) noexcept {
   return _mm512_load_si512(bytes);
 }
 
-/// @pre the strip takes all of the picture's pixels in a line of the planes
+/// Stores a strip of tiles in whole lines. @pre the strip covers all pixels of the picture in its cache line
 inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_t mask) noexcept {
   const int bytes = (std::bit_width(mask) + 7) / 8;
-  alignas(64) __m512i quarters[4][kMaxPlanes] = {};  // those outside the picture are masked away
+  alignas(64) __m512i quarters[4][kMaxPlanes] = {};  // quarters outside the picture are masked out
   const __m512i inside = line_mask(strip.width_px);
   for (int y = 0; y < strip.height_px; y += kBlockSize) {
     const StripBits line{strip.bits.first + y * strip.stride_bytes, strip.bits.plane_stride};
     const int rows = std::min(kBlockSize, strip.height_px - y);
-    for (int k = 0; k < 8 * bytes; ++k)  // the lines come while the bits are collected
+    for (int k = 0; k < 8 * bytes; ++k)  // prefetch the lines during the transposition
       if ((mask >> k & 1) != 0) prefetch_lines(line.plane(k), strip.stride_bytes, 1, rows);
     for (int x = 0; x < strip.width_px; x += kQuarterPixels)
       transpose_quarter(strip, x, y, bytes, quarters[x / kQuarterPixels]);

@@ -1,7 +1,6 @@
 #include "framebuffer/prefetch_lines.h"
 
-// To fetch for writing is an instruction of its own, which 64-bit processors of x86 without it pass over, but
-// for some of 2004.
+// PREFETCHW needs a target attribute. x86-64 CPUs without it execute it as a NOP, except a few from 2004.
 #if defined(__x86_64__)
 #define TESSERA_PREFETCHW_TARGET [[gnu::target("prfchw")]]
 #else

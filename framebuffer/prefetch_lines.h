@@ -1,4 +1,4 @@
-// Memory that is about to be written is fetched in time.
+// Prefetch of memory that will be written.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 namespace tessera::detail {
 
-/// Fetches the lines of memory that rows of bytes will be written to. Rows of a tile are too short for the
-/// hardware to foresee the next one, and need not begin where a line does: without this the stores wait for
-/// one line after the other.
+/// Prefetches for writing the cache lines of `rows` rows of `bytes` bytes each. Rows of a tile are too short
+/// for the hardware prefetcher and need not be line-aligned; without this, stores miss the cache line by
+/// line.
 void prefetch_lines(const std::uint8_t* first_row, std::ptrdiff_t stride_bytes, int bytes, int rows) noexcept;
 
 }  // namespace tessera::detail

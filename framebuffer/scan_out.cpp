@@ -1,5 +1,5 @@
-// One rule serves every RGB layout: cut a component out of the word, scale it to 0 .. 255 in fixed point, put
-// it in its byte. Luminance is an RGB layout whose components are the same bits.
+// One rule covers every RGB layout: extract a component from the packed pixel, scale it to 0 .. 255 in fixed
+// point, insert it in its byte. Luminance is an RGB layout whose three components are the same bits.
 #include "framebuffer/scan_out.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -25,9 +25,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using PackedTag = hn::ScalableTag<std::uint32_t>;
 using PackedVec = hn::Vec<PackedTag>;
 
-static_assert(std::endian::native == std::endian::little);  // the first byte of a pixel is its word's lowest
+static_assert(std::endian::native == std::endian::little);  // first byte of a pixel: lowest of its 32 bits
 
-/// Pixels of an RGB or luminance layout.
+/// RGB or luminance layout without alpha.
 struct ComponentPixels {
   ScanOutRule rule;
 
@@ -43,7 +43,7 @@ struct ComponentPixels {
   }
 };
 
-/// The same with the alpha that is stored.
+/// RGB or luminance layout with stored alpha.
 struct AlphaPixels {
   ScanOutRule rule;
 
@@ -54,13 +54,13 @@ struct AlphaPixels {
   }
 };
 
-/// Pixels of 24 bits stored in the byte order wanted but for the alpha.
+/// 24-bit RGB to bgra8: the stored byte order; only alpha is set.
 struct BlueFirstPixels {
   PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
     return hn::Or(packed_pixels, hn::Set(d, 0xff000000u));
   }
 };
-/// The same with red and blue exchanged.
+/// 24-bit RGB to rgba8: red and blue exchanged.
 struct RedFirstPixels {
   PackedVec operator()(PackedTag d, PackedVec packed_pixels) const noexcept {
 #if HWY_TARGET == HWY_SCALAR
@@ -79,7 +79,7 @@ struct RedFirstPixels {
   }
 };
 
-/// Pixels through the palette.
+/// Palette lookup.
 struct IndexPixels {
   const std::uint32_t* pixels;
   std::uint32_t mask, last;
@@ -90,7 +90,7 @@ struct IndexPixels {
   }
 };
 
-/// The first lanes of a row of pixels, `step` packed_pixels from one group of 4 to the next.
+/// Loads one vector of a row of pixels. Groups of 4 pixels are kStep apart.
 template <int kStep>
 HWY_INLINE PackedVec load_pixels(PackedTag d, const std::uint32_t* packed_pixels) noexcept {
 #if HWY_TARGET == HWY_SCALAR
@@ -114,7 +114,7 @@ HWY_INLINE PackedVec load_pixels(PackedTag d, const std::uint32_t* packed_pixels
 #endif
 }
 
-/// Pixels may stand at any address, which a pointer to packed_pixels must not.
+/// Stores pixels at an address of any alignment.
 HWY_INLINE void store_pixels(PackedTag d, PackedVec pixels, std::uint8_t* to) noexcept {
 #if HWY_TARGET == HWY_SCALAR
   const std::uint32_t pixel = hn::GetLane(pixels);
@@ -127,19 +127,19 @@ HWY_INLINE void store_pixels(PackedTag d, PackedVec pixels, std::uint8_t* to) no
 #endif
 }
 
-/// One row; groups of 4 pixels stand kStep packed_pixels apart: kBlockPixels in a tile, kBlockSize in a plain
-/// row.
+/// Converts one row. Groups of 4 pixels are kStep apart: kBlockPixels in a tile, kBlockSize in a plain row.
 template <int kStep, class Pixels>
 HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels, int width_px,
                                   std::uint8_t* row) noexcept {
   const PackedTag d;
-  constexpr int kLanes = static_cast<int>(HWY_LANES(std::uint32_t)), kUnit = std::max(kLanes, kBlockSize);
+  constexpr int kLanes = static_cast<int>(HWY_LANES(std::uint32_t));
+  constexpr int kUnit = std::max(kLanes, kBlockSize);  // pixels per iteration
   int x = 0;
   for (; x + kUnit <= width_px; x += kUnit, packed_pixels += kUnit / kBlockSize * kStep, row += 4 * kUnit)
     for (int i = 0; i < kUnit; i += kLanes)
       store_pixels(d, pixels(d, load_pixels<kStep>(d, packed_pixels + i)), row + 4 * i);
-  // The rest, in memory of its own: neither the packed_pixels beyond the last pixel nor the bytes beyond the
-  // row are touched.
+  // The remainder goes through a buffer: neither pixels beyond the last one nor bytes beyond the row are
+  // touched.
   const int rest_px = width_px - x;
   if (rest_px <= 0) return;
   HWY_ALIGN std::uint32_t rest[kUnit] = {};
@@ -149,8 +149,8 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* pac
 }
 
 #if HWY_TARGET == HWY_AVX3
-/// Four rows, by blocks of 16 pixels: a block's rows are the quarters of a vector, and four blocks exchange
-/// them.
+/// Converts four rows, four blocks at a time. The rows of a block are the quarters of a vector; four blocks
+/// exchange quarters to form 16 pixels of each row.
 template <class Pixels>
 HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_t* packed_pixels,
                                         int width_px, std::uint8_t* first_row,
@@ -163,10 +163,11 @@ HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_
       return pixels(d, hn::Load(d, packed_pixels + (x / kBlockSize + i) * kBlockPixels)).raw;
     };
     const __m512i b0 = block(0), b1 = block(1), b2 = block(2), b3 = block(3);
-    const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0)),
-                  upper23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(1, 0, 1, 0));  // rows 0 1 0 1
-    const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2)),
-                  lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
+    // Rows 0 1 0 1 in upper, 2 3 2 3 in lower.
+    const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0));
+    const __m512i upper23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(1, 0, 1, 0));
+    const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2));
+    const __m512i lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
     const auto store = [&](__m512i row, int y) HWY_ATTR {
       store_pixels(d, PackedVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
     };
@@ -186,16 +187,16 @@ template <class Pixels>
 HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* tile, int tile_size,
                                    int width_px, int height_px, std::uint8_t* first_row,
                                    std::ptrdiff_t stride_bytes) noexcept {
-  // While four rows are written, the next four come: no rows of other tiles, which other cores may be
-  // writing.
-  const auto fetch = [&](int y) HWY_ATTR {
+  // Prefetch the next four rows while four are written. Never rows of other tiles: other cores may be writing
+  // those.
+  const auto prefetch = [&](int y) HWY_ATTR {
     if (y < height_px)
       prefetch_lines(first_row + y * stride_bytes, stride_bytes, 4 * width_px,
                      std::min(kBlockSize, height_px - y));
   };
-  fetch(0);
+  prefetch(0);
   for (int y = 0; y < height_px; y += kBlockSize) {
-    fetch(y + kBlockSize);
+    prefetch(y + kBlockSize);
     const std::uint32_t* const packed_pixels = tile + tile_index(0, y, tile_size);
     std::uint8_t* const to = first_row + y * stride_bytes;
 #if HWY_TARGET == HWY_AVX3
@@ -210,15 +211,16 @@ HWY_INLINE void scan_out_tile_with(const Pixels& pixels, const std::uint32_t* ti
   }
 }
 
-/// Calls `scan` with what makes pixels by the rule.
+/// Calls `scan` with the converter that implements the rule.
 template <class Scan>
 HWY_INLINE void with_pixels(const ScanOutRule& rule, const Scan& scan) noexcept {
   if (rule.index) return scan(IndexPixels{rule.pixels, rule.index_mask, rule.last_index});
   if (rule.alpha_shift >= 0) return scan(AlphaPixels{rule});
   const auto& [r, g, b] = rule.components;
-  const bool bytes = r.shift == 16 && g.shift == 8 && b.shift == 0 && (r.mask & g.mask & b.mask) == 255;
-  if (bytes && b.byte_shift == 0) return scan(BlueFirstPixels{});
-  if (bytes) return scan(RedFirstPixels{});
+  const bool has_byte_masks = (r.mask & g.mask & b.mask) == 255;
+  const bool is_rgb8 = has_byte_masks && r.shift == 16 && g.shift == 8 && b.shift == 0;
+  if (is_rgb8 && b.byte_shift == 0) return scan(BlueFirstPixels{});
+  if (is_rgb8) return scan(RedFirstPixels{});
   scan(ComponentPixels{rule});
 }
 
@@ -247,8 +249,8 @@ HWY_AFTER_NAMESPACE();
 namespace tessera::detail {
 
 static ScanOutRule::Component component_rule(std::uint32_t mask, int shift, int byte_shift) {
-  // 255 v / mask lies at least 1 / (2 mask) from the next half, mask being odd; v times the scale's rounding
-  // error is less than 1 / 512 wherever mask < 255, and 0 at 255.
+  // Rounding is exact: mask is odd, so 255 v / mask is at least 1 / (2 mask) away from a half. v times the
+  // rounding error of the scale is below 1 / 512 for mask < 255, and 0 for mask = 255.
   return {.shift = shift, .mask = mask, .scale = ((255u << 16) + mask / 2) / mask, .byte_shift = byte_shift};
 }
 
@@ -271,7 +273,7 @@ void ScanOut::set(const ColorLayout& layout, const Palette* palette, PixelOrder 
     for (Rgb8 c : palette->entries)
       pixels_.push_back(std::uint32_t{c.r} << r_byte | std::uint32_t{c.g} << 8 |
                         std::uint32_t{c.b} << b_byte | 0xff000000u);
-    pixels_.push_back(0xff000000u);  // black, for all that was not given
+    pixels_.push_back(0xff000000u);  // black, for unset entries
     rule_.index = true;
     rule_.index_mask = layout.value_mask();
     rule_.last_index = static_cast<std::uint32_t>(given);

@@ -1,5 +1,5 @@
-// Scan-out: packed pixels -> what a display shows, straight into the caller's memory; 4 bytes a pixel, alpha
-// 255 or as stored. Twin: scan_out_reference.h.
+// Scan-out: packed pixels -> display pixels of 4 bytes in the caller's memory; alpha is 255 or as stored.
+// Twin: scan_out_reference.h.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace tessera::detail {
 
-/// How packed pixels become display pixels. A component is `(word >> shift & mask) * scale`, rounded from 16
-/// fraction bits, and goes to `byte_shift` of the pixel; an index is looked up.
+/// Conversion of packed pixels to display pixels. A component is `(packed >> shift & mask) * scale`, rounded
+/// from 16 fraction bits, at `byte_shift` of the display pixel. An index is looked up in `pixels`.
 struct ScanOutRule {
   struct Component {
-    int shift = 0;            ///< of its lowest bit in the word
+    int shift = 0;            ///< lowest bit of the component in the packed pixel
     std::uint32_t mask = 0;   ///< 2^bits - 1
     std::uint32_t scale = 0;  ///< 255 / mask in 16.16 fixed point, rounded
-    int byte_shift = 0;       ///< of its byte in the pixel: 0, 8 or 16
+    int byte_shift = 0;       ///< lowest bit of its byte in the display pixel: 0, 8 or 16
   };
   bool index = false;
   std::array<Component, 3> components;  ///< red, green, blue
   std::uint32_t index_mask = 0;
-  std::uint32_t last_index = 0;  ///< of `pixels`
-  int alpha_shift = -1;          ///< from the stored alpha to the pixel's highest byte; -1: none is stored
-  const std::uint32_t* pixels = nullptr;  ///< pixel of each index; the last one stands for all beyond it
+  std::uint32_t last_index = 0;  ///< last index of `pixels`
+  int alpha_shift = -1;          ///< left shift of stored alpha to the highest byte; -1: no alpha planes
+  const std::uint32_t* pixels = nullptr;  ///< display pixel per index; larger indices use the last one
 };
 
 using ScanOutTileFn = void(const ScanOutRule& rule, const std::uint32_t* tile, int tile_size, int width_px,
@@ -36,28 +36,31 @@ using ScanOutTileFn = void(const ScanOutRule& rule, const std::uint32_t* tile, i
 using ScanOutRowFn = void(const ScanOutRule& rule, const std::uint32_t* packed_pixels, int width_px,
                           std::uint8_t* row) noexcept;
 
-/// Set once a frame; const use is thread-safe.
+/// Converter of one frame; const use is thread-safe.
 class ScanOut {
  public:
-  /// @param palette  for index layouts, with layout.bits bits; copied. Ignored (may be null) for the others.
   /// Throws std::bad_alloc only.
+  /// @param palette  palette of layout.bits bits for index layouts, copied; ignored (may be null) for others
   ScanOut(const ColorLayout& layout, const Palette* palette, PixelOrder order, InstructionSet isa);
-  /// For another frame, in the same memory. Throws std::bad_alloc only; then it may but be set again.
+  /// Prepares for another frame and reuses the memory. Throws std::bad_alloc only; the object must then be
+  /// set again before use.
   void set(const ColorLayout& layout, const Palette* palette, PixelOrder order);
   ScanOut(ScanOut&&) noexcept = default;
   ScanOut& operator=(ScanOut&&) noexcept = default;
 
-  /// The top left width_px x height_px pixels of a tile (tile memory, kTileAlignment aligned) go to the rows
-  /// that start at `first_row`, top row first. stride_bytes may be negative. Nothing else is written. Bits of
-  /// a word beyond the layout's are ignored. Bit-identical to scan_out_pixel_reference() on every instruction
-  /// set. Never fails, never allocates.
-  /// @param width_px, height_px  what of the tile lies in the picture: 0 .. tile_size.
-  /// @param first_row            any alignment.
+  /// Converts the top left width_px x height_px pixels of a tile.
+  /// - Writes these pixels only, top row first. Bits beyond the layout are ignored.
+  /// - Bit-identical to scan_out_pixel_reference() on every instruction set. Never fails, never allocates.
+  ///
+  /// @param packed_tile          tile memory, kTileAlignment aligned
+  /// @param width_px, height_px  part of the tile inside the picture: 0 .. tile_size
+  /// @param first_row            top row of the destination, any alignment
+  /// @param stride_bytes         row stride of the destination; may be negative
   void tile(const std::uint32_t* packed_tile, int tile_size, int width_px, int height_px,
             std::uint8_t* first_row, std::ptrdiff_t stride_bytes) const noexcept {
     tile_fn_(rule_, packed_tile, tile_size, width_px, height_px, first_row, stride_bytes);
   }
-  /// The same for one row of packed pixels, left to right.
+  /// Converts one row of packed pixels, left to right.
   void row(const std::uint32_t* packed_pixels, int width_px, std::uint8_t* row_bytes) const noexcept {
     row_fn_(rule_, packed_pixels, width_px, row_bytes);
   }

@@ -1,26 +1,27 @@
-// Tiles and the blocks inside them: constants and pixel <-> tile arithmetic. Rows are counted from the top of
-// the picture.
+// Tiles and their blocks: constants and the arithmetic between pixels and tiles. Rows are counted from the
+// top of the picture.
 #pragma once
 
 #include <cstdint>
 
 namespace tessera::detail {
 
-inline constexpr int kBlockSize = 4;  ///< pixels; a block is 4x4, stored in 16 consecutive words
+inline constexpr int kBlockSize = 4;  ///< pixels; a block is 4x4 pixels, contiguous in tile memory
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
-inline constexpr int kMinTileSize = 32,
-                     kMaxTileSize = 128;   ///< pixels; tiles are 32, 64 or 128 wide and high
+// Tiles are squares of 32, 64 or 128 pixels.
+inline constexpr int kMinTileSize = 32;
+inline constexpr int kMaxTileSize = 128;
 inline constexpr int kTileAlignment = 64;  ///< bytes
 
-/// Tile memory keeps blocks row by row and the pixels of a block row by row, so that one block is one or two
-/// vectors.
+/// Index of a pixel in tile memory: blocks row by row, the pixels of a block row by row. A block is one or
+/// two vectors.
 constexpr int tile_index(int x, int y, int tile_size) {
   return ((y / kBlockSize) * (tile_size / kBlockSize) + x / kBlockSize) * kBlockPixels +
          (y % kBlockSize) * kBlockSize + x % kBlockSize;
 }
 
 struct TileGrid {
-  int width_px = 0, height_px = 0;  ///< of the frame buffer
+  int width_px = 0, height_px = 0;  ///< size of the frame buffer
   int tile_size = 64;
   int columns() const { return (width_px + tile_size - 1) / tile_size; }
   int rows() const { return (height_px + tile_size - 1) / tile_size; }

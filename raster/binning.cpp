@@ -12,14 +12,14 @@
 namespace tessera::detail {
 #ifndef TESSERA_BINNING_SHARED
 #define TESSERA_BINNING_SHARED
-/// Sorts one triangle, already known to have pixels in tiles [x0, x1] x [y0, y1], into those that its edges
-/// may touch.
+/// Bins one triangle, whose bounds span tiles [x0, x1] x [y0, y1], into the tiles that its edges do not
+/// exclude.
 void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
                              const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1);
-/// Clips one triangle and bins what is left of it.
+/// Clips one triangle and bins the resulting triangles.
 void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
                           std::uint8_t outcodes);
-/// Whether the side that is seen of a triangle is kept.
+/// True if face culling keeps the visible side of the triangle.
 inline bool passes_face_culling(const BinDraw& draw, std::uint32_t triangle, double area) {
   const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front
                                             : is_front(area, draw.front_is_clockwise);
@@ -32,20 +32,21 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-// A group of triangles as arrays, so that bounds and areas become lanes.
+// A group of triangles as arrays, so that the loops over them vectorize.
 inline constexpr int kBinningGroupSize = 16;
 struct BinningGroup {
   int count = 0;
   std::uint32_t ids[kBinningGroupSize];
   alignas(64) std::int32_t x[3][kBinningGroupSize], y[3][kBinningGroupSize];
   alignas(64) double area[kBinningGroupSize];
-  alignas(64) std::int32_t area_sign[kBinningGroupSize];  // the area's sign
-  alignas(64) std::int32_t px0[kBinningGroupSize], py0[kBinningGroupSize], px1[kBinningGroupSize],
-      py1[kBinningGroupSize];  // pixels whose centres the bounds hold, inclusive
-  alignas(64) std::int32_t passes_culling[kBinningGroupSize];      // 1: the side that is seen is
-  alignas(64) std::int32_t extent[kBinningGroupSize];              // the greater one of width and height
-  alignas(64) std::int32_t tile[kBinningGroupSize];                // of the first pixel
-  alignas(64) std::int32_t second_tile_offset[kBinningGroupSize];  // from there to the other one, of two
+  alignas(64) std::int32_t area_sign[kBinningGroupSize];  // -1, 0 or 1
+  // Bounds: first and last pixel whose centre may be covered, inclusive.
+  alignas(64) std::int32_t px0[kBinningGroupSize], py0[kBinningGroupSize];
+  alignas(64) std::int32_t px1[kBinningGroupSize], py1[kBinningGroupSize];
+  alignas(64) std::int32_t passes_culling[kBinningGroupSize];      // 1 or 0
+  alignas(64) std::int32_t extent[kBinningGroupSize];              // max(width, height), 1/256 pixel
+  alignas(64) std::int32_t tile[kBinningGroupSize];                // tile of the first pixel
+  alignas(64) std::int32_t second_tile_offset[kBinningGroupSize];  // to the other tile of kInTwoTiles
   alignas(64) std::int32_t triangle_class[kBinningGroupSize];
 
   HWY_INLINE void add(const BinDraw& draw, std::uint32_t triangle, std::uint32_t i0, std::uint32_t i1,
@@ -56,7 +57,7 @@ struct BinningGroup {
     x[2][count] = v2.x, y[2][count] = v2.y;
     ids[count++] = triangle;
   }
-  /// Sixteen in a row. @pre empty
+  /// Fills the group with 16 consecutive triangles. @pre empty
   HWY_INLINE void fill(const BinDraw& draw, std::uint32_t first) {
 #if HWY_TARGET == HWY_SCALAR
     for (std::uint32_t t = first; t < first + kBinningGroupSize; ++t)
@@ -79,20 +80,20 @@ struct BinningGroup {
 
  private:
 #if HWY_TARGET != HWY_SCALAR
-  // Four rows of x y z rw: two columns of them.
+  // Transposes four vertices: stores their x and their y.
   static HWY_INLINE void store_four(const WindowVertex* const (&v)[4], std::int32_t* x, std::int32_t* y) {
     constexpr hn::CappedTag<std::int32_t, 4> four;
     constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
     const auto row = [&](int k) HWY_ATTR { return hn::LoadU(four, &v[k]->x); };
-    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, row(0), row(1))),
-               xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, row(2), row(3)));  // x x y y
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, row(0), row(1)));
+    const auto xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, row(2), row(3)));  // x x y y
     hn::StoreU(hn::BitCast(four, hn::InterleaveLower(pairs, xy01, xy23)), four, x);
     hn::StoreU(hn::BitCast(four, hn::InterleaveUpper(pairs, xy01, xy23)), four, y);
   }
 #endif
 };
 
-// What becomes of a triangle: the first of these that is true.
+// Classification of a triangle: the first condition that holds.
 enum TriangleClass : std::int32_t {
   kZeroArea = 1,
   kCulled = 2,
@@ -106,9 +107,9 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
   for (int k = g.count; k < kBinningGroupSize; ++k)
     for (int corner = 0; corner < 3; ++corner) g.x[corner][k] = g.y[corner][k] = 0;
   for (int k = 0; k < kBinningGroupSize; ++k) {
-    const double dx1 = g.x[1][k] - g.x[0][k], dy1 = g.y[1][k] - g.y[0][k], dx2 = g.x[2][k] - g.x[0][k],
-                 dy2 = g.y[2][k] - g.y[0][k];
-    const double area = dx1 * dy2 - dx2 * dy1;  // exact: see fixed_point.h
+    const double dx1 = g.x[1][k] - g.x[0][k], dy1 = g.y[1][k] - g.y[0][k];
+    const double dx2 = g.x[2][k] - g.x[0][k], dy2 = g.y[2][k] - g.y[0][k];
+    const double area = dx1 * dy2 - dx2 * dy1;  // exact, see fixed_point.h
     g.area[k] = area;
     g.area_sign[k] = (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
   }
@@ -118,19 +119,19 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
           (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
   } else {
     const std::int32_t keeps_negative =
-                           is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back,
-                       keeps_positive =
-                           is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
+        is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
+    const std::int32_t keeps_positive =
+        is_front(1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
     for (int k = 0; k < kBinningGroupSize; ++k)
       g.passes_culling[k] = g.area_sign[k] < 0 ? keeps_negative : keeps_positive;
   }
-  const PixelRect rect = draw.rect;  // of its own: lanes do not mix with what may be elsewhere
+  const PixelRect rect = draw.rect;  // local copy: possible aliasing would prevent vectorization
   const std::int32_t reach = draw.sample_reach, two_tiles = 2 << (shift + kSubpixelBits);
   for (int k = 0; k < kBinningGroupSize; ++k) {
-    const std::int32_t low_x = min_of(g.x[0][k], g.x[1][k], g.x[2][k]),
-                       high_x = max_of(g.x[0][k], g.x[1][k], g.x[2][k]);
-    const std::int32_t low_y = min_of(g.y[0][k], g.y[1][k], g.y[2][k]),
-                       high_y = max_of(g.y[0][k], g.y[1][k], g.y[2][k]);
+    const std::int32_t low_x = min_of(g.x[0][k], g.x[1][k], g.x[2][k]);
+    const std::int32_t high_x = max_of(g.x[0][k], g.x[1][k], g.x[2][k]);
+    const std::int32_t low_y = min_of(g.y[0][k], g.y[1][k], g.y[2][k]);
+    const std::int32_t high_y = max_of(g.y[0][k], g.y[1][k], g.y[2][k]);
     g.px0[k] = max_of(first_pixel(low_x - reach), rect.x0);
     g.py0[k] = max_of(first_pixel(low_y - reach), rect.y0);
     g.px1[k] = min_of(last_pixel(high_x + reach), rect.x1 - 1);
@@ -140,48 +141,49 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
     const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
     g.second_tile_offset[k] = down == 0 ? 1 : columns;
     g.extent[k] = max_of(high_x - low_x, high_y - low_y);
+    // The rectangle may have cut a much larger triangle to two tiles: hence the limit on the extent.
     const std::int32_t multi_tile_class =
-        across + down == 1 && g.extent[k] <= two_tiles
-            ? kInTwoTiles
-            : kInSeveralTiles;  // the rectangle may have cut much larger ones to two
+        across + down == 1 && g.extent[k] <= two_tiles ? kInTwoTiles : kInSeveralTiles;
     const std::int32_t visible_class = across + down == 0 ? kInOneTile : multi_tile_class;
     const std::int32_t kept_class =
         ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : visible_class;
-    g.triangle_class[k] = g.area_sign[k] == 0 ? kZeroArea : g.passes_culling[k] == 0 ? kCulled : kept_class;
+    const std::int32_t class_with_area = g.passes_culling[k] == 0 ? kCulled : kept_class;
+    g.triangle_class[k] = g.area_sign[k] == 0 ? kZeroArea : class_with_area;
   }
 }
 
-/// Of triangles of a pixel's size many lie between centres: with no more than 2x2 of those in their bounds
-/// that is found out here, and tiles need not look at them.
+/// Culls triangles between pixel centres, which are frequent among triangles of a pixel's size. Tests
+/// triangles with at most 2x2 centres in their bounds.
 HWY_INLINE void cull_between_samples(BinningGroup& g) {
   for (int first = 0; first < kBinningGroupSize; first += kLanes) {
     const auto load = [first](const std::int32_t* array) HWY_ATTR { return hn::Load(kInt, array + first); };
-    const Int zero = hn::Zero(kInt), px0 = load(g.px0), py0 = load(g.py0),
-              triangle_class = load(g.triangle_class);
+    const Int zero = hn::Zero(kInt);
+    const Int px0 = load(g.px0), py0 = load(g.py0);
+    const Int triangle_class = load(g.triangle_class);
     const Int max_pixel_extent = hn::Max(hn::Sub(load(g.px1), px0), hn::Sub(load(g.py1), py0));
+    // The rectangle may have cut a larger triangle to 2x2 pixels: hence the limit on the extent.
     const auto is_small =
-        hn::And(hn::Lt(max_pixel_extent, splat(2)),
-                hn::Lt(load(g.extent), splat(3 * kSubpixelScale)));  // the rectangle may have cut larger ones
-    const auto in_question = hn::And(is_small, hn::Gt(triangle_class, splat(std::int32_t{kOutside})));
-    if (hn::AllFalse(kInt, in_question)) continue;
+        hn::And(hn::Lt(max_pixel_extent, splat(2)), hn::Lt(load(g.extent), splat(3 * kSubpixelScale)));
+    const auto is_candidate = hn::And(is_small, hn::Gt(triangle_class, splat(std::int32_t{kOutside})));
+    if (hn::AllFalse(kInt, is_candidate)) continue;
     const auto from_center = [&](const std::int32_t* at, Int pixel) HWY_ATTR {
       return hn::Sub(load(at), hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(kHalfPixel)));
     };
     const Int x0 = from_center(g.x[0], px0), x1 = from_center(g.x[1], px0), x2 = from_center(g.x[2], px0);
     const Int y0 = from_center(g.y[0], py0), y1 = from_center(g.y[1], py0), y2 = from_center(g.y[2], py0);
     const auto turns_left = hn::Lt(load(g.area_sign), zero);
-    const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0},
-              y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
-    Int outside[4] = {zero, zero, zero, zero};  // whose sign is that of an edge that the centre is outside of
+    const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0};
+    const Int y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
+    Int outside[4] = {zero, zero, zero, zero};  // per centre: negative if it lies outside an edge
     for (int k = 0; k < 3; ++k) {
       const Int a = hn::Sub(y[k], y[k + 1]), b = hn::Sub(x[k + 1], x[k]);
-      // The fill rule (triangle_setup-inl.h): what lies on a left or top edge, with a > 0 or a = 0 and b > 0,
-      // is inside; what lies on another is less than 0.
+      // Fill rule as in triangle_setup-inl.h: a centre on a left edge (a > 0) or top edge (a = 0, b > 0) is
+      // inside; on any other edge the biased value is negative.
       const auto top_left = hn::Gt(hn::Add(hn::ShiftLeft<16>(a), b), zero);
       const Int edge =
           hn::Sub(hn::Not(hn::Add(hn::Mul(a, x[k]), hn::Mul(b, y[k]))), hn::VecFromMask(kInt, top_left));
-      const Int right = hn::Add(edge, hn::ShiftLeft<kSubpixelBits>(a)),
-                down = hn::ShiftLeft<kSubpixelBits>(b);
+      const Int right = hn::Add(edge, hn::ShiftLeft<kSubpixelBits>(a));
+      const Int down = hn::ShiftLeft<kSubpixelBits>(b);
       outside[0] = hn::Or(outside[0], edge);
       outside[1] = hn::Or(outside[1], right);
       outside[2] = hn::Or(outside[2], hn::Add(edge, down));
@@ -189,7 +191,7 @@ HWY_INLINE void cull_between_samples(BinningGroup& g) {
     }
     const auto is_missed =
         hn::Lt(hn::And(hn::And(outside[0], outside[1]), hn::And(outside[2], outside[3])), zero);
-    hn::Store(hn::IfThenElse(hn::And(in_question, is_missed), splat(std::int32_t{kOutside}), triangle_class),
+    hn::Store(hn::IfThenElse(hn::And(is_candidate, is_missed), splat(std::int32_t{kOutside}), triangle_class),
               kInt, g.triangle_class + first);
   }
 }
@@ -203,8 +205,8 @@ HWY_INLINE std::uint32_t class_mask(const BinningGroup& g, TriangleClass triangl
   return bits & low_bits_mask(g.count);
 }
 
-/// Entries of a group for the two tiles that came last: what follows one another is mostly in one and the
-/// same tile, or along a border in the same two.
+/// Write-combining cache of bin entries for the two most recent tiles: consecutive triangles mostly fall into
+/// the same tile, or along a border into the same two.
 struct BinWriteCache {
   Bins& bins;
   const std::uint32_t draw;
@@ -213,30 +215,33 @@ struct BinWriteCache {
   int last = 0;
   std::uint32_t ids[2][kBinningGroupSize];
 
-  HWY_INLINE BinWriteCache(Bins& to, std::uint32_t of_draw) : bins(to), draw(of_draw) {}
-  HWY_INLINE void add(int to, std::uint32_t id) {
-    if (tile[last] != to) {
+  HWY_INLINE BinWriteCache(Bins& target, std::uint32_t draw_number) : bins(target), draw(draw_number) {}
+  HWY_INLINE void add(int to_tile, std::uint32_t id) {
+    if (tile[last] != to_tile) {
       last ^= 1;
-      if (tile[last] != to) push(last), tile[last] = to;
+      if (tile[last] != to_tile) flush(last), tile[last] = to_tile;
     }
     ids[last][count[last]++] = id;
   }
-  HWY_INLINE void push() { push(0), push(1); }
+  HWY_INLINE void flush() { flush(0), flush(1); }
 
  private:
-  HWY_INLINE void push(int of) {
-    if (count[of] != 0) bins.push(tile[of], draw, std::span(ids[of], count[of]));
-    count[of] = 0;
+  HWY_INLINE void flush(int slot) {
+    if (count[slot] != 0) bins.push(tile[slot], draw, std::span(ids[slot], count[slot]));
+    count[slot] = 0;
   }
 };
 
 HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& draw, BinningGroup& g) {
   if (g.count == 0) return;
-  const int shift = grid.tile_size == 32 ? 5 : grid.tile_size == 64 ? 6 : 7, columns = grid.columns();
+  const int shift = std::countr_zero(static_cast<unsigned>(grid.tile_size));
+  const int columns = grid.columns();
   classify_triangles(g, draw, shift, columns);
   if (draw.sample_reach == 0) cull_between_samples(g);
-  const std::uint32_t in_one = class_mask(g, kInOneTile), in_two = class_mask(g, kInTwoTiles),
-                      in_few = in_one | in_two, binned = in_few | class_mask(g, kInSeveralTiles);
+  const std::uint32_t in_one = class_mask(g, kInOneTile);
+  const std::uint32_t in_two = class_mask(g, kInTwoTiles);
+  const std::uint32_t in_few = in_one | in_two;
+  const std::uint32_t binned = in_few | class_mask(g, kInSeveralTiles);
   BinCounts& counts = bins.counts;
   const auto count_of = [](std::uint32_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); };
   counts.zero_area += count_of(class_mask(g, kZeroArea));
@@ -251,18 +256,18 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
       if ((in_two >> k & 1) != 0) cache.add(g.tile[k] + g.second_tile_offset[k], g.ids[k]);
       continue;
     }
-    cache.push();
+    cache.flush();
     const WindowVertex* const v[3] = {&draw.vertices[vertex_index<3>(draw, g.ids[k], 0)],
                                       &draw.vertices[vertex_index<3>(draw, g.ids[k], 1)],
                                       &draw.vertices[vertex_index<3>(draw, g.ids[k], 2)]};
     bin_multi_tile_triangle(bins, grid, v, g.area[k], draw, g.ids[k], g.px0[k] >> shift, g.py0[k] >> shift,
                             g.px1[k] >> shift, g.py1[k] >> shift);
   }
-  cache.push();
+  cache.flush();
   g.count = 0;
 }
 
-/// What is to be done with a triangle of which some vertex has a code.
+/// Treatment of a triangle whose vertices have outcodes or whose polygon is dropped.
 enum class ClipDecision { unusable, outside, clipped };
 HWY_INLINE ClipDecision clip_decision(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0,
                                       std::uint8_t c1, std::uint8_t c2) {
@@ -284,8 +289,9 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
       bin_group(bins, grid, draw, group);
     }
   for (; triangle < last; ++triangle) {
-    const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0), i1 = vertex_index<3>(draw, triangle, 1),
-                        i2 = vertex_index<3>(draw, triangle, 2);
+    const std::uint32_t i0 = vertex_index<3>(draw, triangle, 0);
+    const std::uint32_t i1 = vertex_index<3>(draw, triangle, 1);
+    const std::uint32_t i2 = vertex_index<3>(draw, triangle, 2);
     if (draw.any_outcode) {
       const std::uint8_t c0 = draw.outcodes[i0], c1 = draw.outcodes[i1], c2 = draw.outcodes[i2];
       const bool is_dropped = draw.facing != nullptr && draw.facing[triangle] == Facing::dropped;
@@ -294,7 +300,7 @@ void bin_triangles_lanes(Bins& bins, const TileGrid& grid, const BinDraw& draw, 
           case ClipDecision::unusable: ++counts.non_finite; break;
           case ClipDecision::outside: ++counts.outside; break;
           case ClipDecision::clipped:
-            bin_group(bins, grid, draw, group);  // order within a tile is submission order
+            bin_group(bins, grid, draw, group);  // keep submission order within a tile
             ++counts.clipped;
             bin_clipped_triangle(bins, grid, draw, triangle, c0 | c1 | c2);
             break;
@@ -322,9 +328,10 @@ void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::u
 
 void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
                              const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
-  // For each edge its largest value over the pixel centres (or samples) of a tile; where it is negative the
-  // tile is outside. Ties at 0 belong to the fill rule and are left to the tile.
-  const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits, reach = side - kSubpixelScale;
+  // Per edge, its maximum over the pixel centres (or samples) of a tile; the tile is outside if one is
+  // negative. Values of 0 are left to the fill rule in the tile.
+  const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits;
+  const std::int64_t reach = side - kSubpixelScale;  // first to last pixel centre
   std::int64_t row_value[3], step_x[3], step_y[3];
   for (int k = 0; k < 3; ++k) {
     const WindowVertex &p = *v[k], &q = *v[(k + 1) % 3];
@@ -383,19 +390,20 @@ void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw,
     ++bins.counts.zero_area;
     return;
   }
-  if (!passes_face_culling(draw, triangle, polygon.area)) {  // facing belongs to the whole of it
+  if (!passes_face_culling(draw, triangle, polygon.area)) {  // the whole clipped polygon decides
     ++bins.counts.culled;
     return;
   }
   for (const WindowPolygon::Corners& corner : polygon.triangles()) {
-    const WindowVertex &a = polygon.window[corner[0]], &b = polygon.window[corner[1]],
-                       &c = polygon.window[corner[2]];
+    const WindowVertex& a = polygon.window[corner[0]];
+    const WindowVertex& b = polygon.window[corner[1]];
+    const WindowVertex& c = polygon.window[corner[2]];
     const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
     const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
-    const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0),
-              px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
-    const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0),
-              py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
+    const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0);
+    const int px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
+    const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0);
+    const int py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
     if (px0 > px1 || py0 > py1) continue;
     DerivedPrimitive& derived = bins.add_derived(triangle, 3, draw.attribute_count);
     for (int k = 0; k < 3; ++k) {

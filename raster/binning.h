@@ -1,5 +1,5 @@
-// Which tiles a triangle may touch. Pure and without threads: each batch of triangles fills bins of its own,
-// in submission order, and the tiles read the batches one after the other.
+// Binning: assigns primitives to the tiles that they may touch. Single-threaded: each batch of primitives
+// fills its own bins in submission order, and tiles read the batches in order.
 #pragma once
 
 #include <cstddef>
@@ -18,75 +18,77 @@
 
 namespace tessera::detail {
 
-/// What binning needs besides of a draw whose polygons are not all filled.
+/// Additional input for draws with polygon modes other than fill.
 struct PolygonModes {
-  PolygonMode style[2] = {};   ///< of fronts and backs
-  std::uint32_t draw[3] = {};  ///< the numbers in the frame of what is filled, of lines, of points
-  float line_width = 1, point_size = 1;
-  std::size_t triangles = 1;                ///< that each polygon was split into
-  const std::uint32_t* boundary = nullptr;  ///< the vertices of each polygon, two more than triangles
+  PolygonMode style[2] = {};                ///< per face: [0] front, [1] back
+  std::uint32_t draw[3] = {};               ///< draw number per PolygonMode: fill, line, point
+  float line_width = 1;                     ///< pixels
+  float point_size = 1;                     ///< pixels
+  std::size_t triangles = 1;                ///< triangles per polygon
+  const std::uint32_t* boundary = nullptr;  ///< vertex indices of each polygon: triangles + 2 per polygon
 };
 
-/// What binning needs of a draw.
+/// Binning input of a draw.
 struct BinDraw {
-  std::uint32_t draw = 0;  ///< its number in the frame
+  std::uint32_t draw = 0;  ///< number of the draw in the frame
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
   const std::uint8_t* outcodes = nullptr;
-  bool any_outcode = false;  ///< false: no vertex has one
-  bool keep_front = true, keep_back = true;
-  bool front_is_clockwise = false;  ///< seen in the window
-  const Facing* facing =
-      nullptr;                    ///< of each triangle, where it is its polygon's; null: its own area decides
-  PixelRect rect;                 ///< scissor, viewport and frame buffer
-  std::int32_t sample_reach = 0;  ///< how far a pixel is looked at around its centre, 1/256 pixel
+  bool any_outcode = false;  ///< false: all outcodes are 0
+  bool keep_front = true;
+  bool keep_back = true;
+  bool front_is_clockwise = false;  ///< in window space, y up
+  /// Facing per triangle, decided by the whole polygon; null: each triangle's own area decides.
+  const Facing* facing = nullptr;
+  PixelRect rect;  ///< intersection of scissor, viewport and frame buffer
+  std::int32_t sample_reach =
+      0;  ///< largest distance per axis of a sample from its pixel's centre, 1/256 pixel
   // For clipping.
   const VertexTransform* transform = nullptr;
   StridedFloats positions;
-  int components = 3;
+  int components = 3;  ///< of a position: 3 or 4
   const float* attributes = nullptr;
-  int attribute_count = 0, attribute_stride = 0;
+  int attribute_count = 0;
+  int attribute_stride = 0;  ///< floats from vertex to vertex
   // Points and lines.
-  float size = 1;  ///< of points, or the lines' width
+  float size = 1;  ///< point size or line width, pixels
   int samples = 1;
-  const PolygonModes* modes = nullptr;  ///< null: polygons are filled
+  const PolygonModes* modes = nullptr;  ///< null: all polygons are filled
 };
 
-/// True for a triangle whose snapped area faces the viewer; `area` is its doubled area in raster space (y
-/// down).
+/// True if a triangle is front-facing. `area` is its doubled area in raster space (y down), after snapping.
 constexpr bool is_front(double area, bool front_is_clockwise) { return (area < 0) != front_is_clockwise; }
 
-/// Of an element of so many corners.
+/// Vertex index of a corner of an element with kCorners corners.
 template <std::uint32_t kCorners>
 std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint32_t corner) {
   const std::uint32_t i = element * kCorners + corner;
   return draw.indices ? draw.indices[i] : i;
 }
-/// A vertex with its attributes, before clipping.
+/// Clip-space vertex with its attributes, before clipping.
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
 
-/// A triangle after clipping, with the attributes that are asked for. @param outcodes  the three vertices'
-/// outcodes or-ed
+/// Clips a triangle and projects the result. @param outcodes  bitwise or of the vertices' outcodes
 WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t outcodes,
                              int attribute_count);
 
-/// Bins a bitmap or an image that changes pixels of a rectangle, not empty.
+/// Bins a bitmap or an image that covers `rect`. @pre rect is not empty
 void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect);
 
-/// Points whose centres are outside of the view volume are not drawn [GL 2.1, 2.12]; lines are clipped to its
-/// near and far planes and to the guard band.
+/// Bins points. A point whose centre lies outside the view volume is dropped [GL 2.1, 2.12].
 void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                 std::uint32_t last);
+/// Bins lines, clipped to the near and far planes and to the guard band.
 void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                std::uint32_t last);
 
-/// Polygons that begin in triangles [first, last), each in the style of the face that is seen. Of what
-/// clipping leaves of a polygon the edges that clipping made are lines, too. Throws std::bad_alloc. @pre
-/// draw.modes and draw.facing
+/// Bins the polygons that begin in triangles [first, last), each in the mode of its visible face. In line
+/// mode, edges made by clipping are drawn too. Throws std::bad_alloc. @pre draw.modes and draw.facing are set
 void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                   std::uint32_t last, InstructionSet isa);
-/// Pieces of points and lines that stand last in the list of clipped ones. False if they are outside.
+/// Bin the last derived primitive of `bins` as a point or a line. Return false if it covers no pixel of
+/// draw.rect.
 bool bin_derived_point(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 bool bin_derived_line(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 

@@ -11,9 +11,9 @@ std::size_t Bins::bytes() const {
          attributes_.capacity() * sizeof(float);
 }
 
-/// Room for `count` more, if the budget has what that takes: the old memory is given back only after the new
-/// is there.
-/// @param min_bytes  bytes of what is to grow step by step
+/// Reserves room for `count` more items; false if the budget refuses. Old memory is returned to the budget
+/// after the new memory is charged, as both exist during the copy.
+/// @param min_bytes  smallest size of an array that grows geometrically; 0: reserve exactly
 template <class T>
 bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t min_bytes) {
   const std::size_t wanted = items.size() + count, before = items.capacity();
@@ -38,13 +38,13 @@ void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   tile_lists_.clear();
   triangles_.clear();
   const std::size_t before = bytes();
-  if (blocks_.empty()) blocks_.resize(1);  // the one that is left after an overflow
+  if (blocks_.empty()) blocks_.resize(1);  // the block that takes the entries after an overflow
   attributes_.clear();
   attributes_.assign(kAttributePadding, 0.0f);
   if (budget_ != nullptr) budget_->charge(bytes() - before);
   overflowed_ = !reserve(tile_lists_, tiles, 0) || !reserve(triangles_, tiles, 0);
-  tile_mask_ =
-      overflowed_ ? 0 : ~std::size_t{0};  // without room for all they share one list, which nobody reads
+  // Without room for a list per tile, all tiles share one list, which is never read.
+  tile_mask_ = overflowed_ ? 0 : ~std::size_t{0};
   const std::size_t lists = overflowed_ ? 1 : tiles;
   tile_lists_.assign(lists, TileList{kNone, kNone, kNone});
   triangles_.assign(lists, 0);
@@ -61,7 +61,7 @@ void Bins::add_block(TileList& list) {
     if (reserve(blocks_, 1)) blocks_.resize(blocks_.capacity());
     else overflow();
   }
-  if (overflowed_) {  // entries of all tiles go into one block, which nobody reads
+  if (overflowed_) {  // entries of all tiles go into one block, which is never read
     blocks_.front().count = 0;
     list.last = 0;
     return;
@@ -91,7 +91,8 @@ void Bins::drop_last_derived() {
 }
 
 void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile) {
-  const auto tiles = static_cast<std::size_t>(tile_count), words = (bins.size() + 63) / 64;
+  const auto tiles = static_cast<std::size_t>(tile_count);
+  const std::size_t words = (bins.size() + 63) / 64;
   triangles_.resize(tiles);
   batch_mask_.resize(tiles * words);
   bins_ = bins.data();

@@ -11,16 +11,16 @@
 namespace tessera::detail {
 namespace {
 
-// Near and far first: what they leave has w >= 0, so the guard band's planes then mean what they say.
+// Near and far first: the remaining part has w >= 0, as the guard band's plane equations assume.
 constexpr Outcode kPlanes[] = {kBeforeNear,       kBehindFar,      kLeftOfGuardBand,
                                kRightOfGuardBand, kBelowGuardBand, kAboveGuardBand};
-// A cut moves vertices, and rounding may carry one across a plane that no vertex crossed before: after the
-// first cut every plane is looked at.
+// Cuts at the near and far planes make new vertices, which rounding may move across a guard plane that no
+// original vertex crosses. After such a cut every plane is tested.
 bool may_clip(Outcode plane, std::uint8_t outcodes) {
   return (outcodes & (plane | kBeforeNear | kBehindFar)) != 0;
 }
 
-// How far inside a plane a position lies; negative outside.
+// Signed distance of a position from a plane, up to scale; negative outside.
 double distance(const VertexTransform& t, Outcode plane, const ClipPosition& p) {
   switch (plane) {
     case kLeftOfGuardBand: return p.x + t.guard_x * p.w;
@@ -37,7 +37,7 @@ double max_abs(const ClipPosition& p) {
   return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(p.w)});
 }
 
-// Of the sums that the coordinates are.
+// Magnitude of the terms whose sums are the coordinates.
 double term_magnitude(const VertexTransform& t, const ClipVertex& v) {
   if (!v.object || v.needs_exact) return max_abs(v.position);
   const auto& [x, y, z, w] = *v.object;
@@ -49,18 +49,19 @@ int side(const VertexTransform& t, Outcode plane, const ClipVertex& v) {
   const double d = v.needs_exact && v.object
                        ? ExactVertex(t, *v.object, v.object_exponent).distance(t, plane).value()
                        : distance(t, plane, v.position);
-  return d > 0 ? 1 : d < 0 ? -1 : 0;
+  return (d > 0 ? 1 : 0) - (d < 0 ? 1 : 0);
 }
 
-// The polygon as it was, of which things are cut off.
+// The unclipped polygon. Every cut is computed between its original vertices, so that neighbours sharing an
+// edge get the same point.
 class UnclippedPolygon {
  public:
   UnclippedPolygon(const VertexTransform& transform, std::span<const ClipVertex> vertices,
                    int attribute_count)
       : transform_(transform), vertices_(vertices), attribute_count_(attribute_count) {}
 
-  // The point of the edge from `a` to `b` on a plane, of which one is inside. It is the same whichever end is
-  // named first.
+  // Intersection of the edge from `a` to `b` with a plane; exactly one end is inside. Independent of the
+  // edge's direction.
   ClipVertex cut(Outcode plane, const ClipCorner& a, const ClipVertex& b, bool a_is_inside) const {
     if (a.edge >= 0) {
       const auto first = static_cast<std::size_t>(a.edge);
@@ -71,16 +72,17 @@ class UnclippedPolygon {
     const InterpolatedVertex interpolated =
         a_is_inside ? interpolate(plane, a.vertex, b) : interpolate(plane, b, a.vertex);
     if (interpolated.is_accurate || a.edge >= 0) return on_plane(plane, interpolated.vertex);
-    for (std::size_t i = 2; i < vertices_.size() && exact_cuts_left_ > 0;
-         ++i, --exact_cuts_left_)  // the triangles from the first vertex to all others
+    // The point lies on two planes and in one triangle of the fan around vertex 0.
+    for (std::size_t i = 2; i < vertices_.size() && exact_cuts_left_ > 0; ++i, --exact_cuts_left_)
       if (const auto v = exact_two_plane_intersection(transform_, plane, a.plane, vertices_[0],
                                                       vertices_[i - 1], vertices_[i], attribute_count_))
         return on_plane(plane, *v);
     return on_plane(plane, interpolated.vertex);
   }
-  // The same of a whole edge. Absent if both ends are on one side.
+  // Intersection of an original edge. Absent if both ends are on one side.
   std::optional<ClipVertex> cut_whole_edge(Outcode plane, const ClipVertex& a, const ClipVertex& b) const {
-    const bool a_inside = side(transform_, plane, a) >= 0, b_inside = side(transform_, plane, b) >= 0;
+    const bool a_inside = side(transform_, plane, a) >= 0;
+    const bool b_inside = side(transform_, plane, b) >= 0;
     if (a_inside == b_inside) return std::nullopt;
     const InterpolatedVertex interpolated = a_inside ? interpolate(plane, a, b) : interpolate(plane, b, a);
     return on_plane(plane, interpolated.is_accurate
@@ -96,12 +98,16 @@ class UnclippedPolygon {
     bool is_accurate;
   };
   InterpolatedVertex interpolate(Outcode plane, const ClipVertex& inner, const ClipVertex& outer) const {
-    const bool from_inner = max_abs(inner.position) <= max_abs(outer.position);  // the end that rounds less
-    const ClipVertex &from = from_inner ? inner : outer, &to = from_inner ? outer : inner;
-    const double first = distance(transform_, plane, from.position),
-                 second = distance(transform_, plane, to.position), apart = first - second;
-    const bool is_crossed = (first < 0) != (second < 0);  // rounding may have both ends on one side
-    const double t = is_crossed ? first / apart : 0;
+    const bool from_inner =
+        max_abs(inner.position) <= max_abs(outer.position);  // start at the end that rounds less
+    const ClipVertex& from = from_inner ? inner : outer;
+    const ClipVertex& to = from_inner ? outer : inner;
+    const double from_distance = distance(transform_, plane, from.position);
+    const double to_distance = distance(transform_, plane, to.position);
+    const double crossing = from_distance - to_distance;
+    const bool is_crossed =
+        (from_distance < 0) != (to_distance < 0);  // rounding may put both ends on one side
+    const double t = is_crossed ? from_distance / crossing : 0;
     const auto interpolate = [t](double a, double b) { return std::fma(t, b - a, a); };
     const ClipPosition &p = from.position, &q = to.position;
     InterpolatedVertex interpolated{{.position = {interpolate(p.x, q.x), interpolate(p.y, q.y),
@@ -112,23 +118,21 @@ class UnclippedPolygon {
       interpolated.vertex.attributes[k] =
           std::clamp(static_cast<float>(interpolate(a, b)), std::min(a, b), std::max(a, b));
     }
-    // What is interpolated is off by some 2^-50 of what that end is the sum of, and by as much more as the
-    // edge is long for its way through the plane; by its share, also of the other end's. With less than 2^20
-    // of what is seen, its w, that is less than 2^-7 of the 1/256 pixel of a vertex in a window of 2^14
-    // pixels.
-    const double guard = (plane & (kBeforeNear | kBehindFar)) != 0               ? 1
-                         : (plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0 ? transform_.guard_x
-                                                                                 : transform_.guard_y;
-    const ClipPosition way{q.x - p.x, q.y - p.y, q.z - p.z, q.w - p.w};
-    const double rounded = std::max(term_magnitude(transform_, from), t * term_magnitude(transform_, to));
-    interpolated.is_accurate =
-        is_crossed &&
-        rounded / std::abs(apart) * (1 + guard) <=
-            0x1p20 * (interpolated.vertex.position.w /
-                      max_abs(way));  // doubles hold quotients of coordinates, but not all their products
+    // Error bound of the interpolated point: about 2^-50 of the magnitude of the terms of `from`, scaled by
+    // the edge's length over the difference of the end points' plane distances; plus t times the same of
+    // `to`. If that magnitude is below 2^20 w, the error is below 2^-7 of the 1/256 pixel grid in a window of
+    // 2^14 pixels.
+    double guard = transform_.guard_y;
+    if ((plane & (kBeforeNear | kBehindFar)) != 0) guard = 1;
+    else if ((plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0) guard = transform_.guard_x;
+    const ClipPosition edge{q.x - p.x, q.y - p.y, q.z - p.z, q.w - p.w};
+    const double magnitude = std::max(term_magnitude(transform_, from), t * term_magnitude(transform_, to));
+    // Quotients of coordinates stay in the range of doubles; their products may not.
+    interpolated.is_accurate = is_crossed && magnitude / std::abs(crossing) * (1 + guard) <=
+                                                 0x1p20 * (interpolated.vertex.position.w / max_abs(edge));
     return interpolated;
   }
-  // Nothing is off in the direction that counts.
+  // Moves a vertex exactly onto a guard plane.
   ClipVertex on_plane(Outcode plane, ClipVertex v) const {
     switch (plane) {
       case kLeftOfGuardBand: v.position.x = -(transform_.guard_x * v.position.w); break;
@@ -143,32 +147,32 @@ class UnclippedPolygon {
   const VertexTransform& transform_;
   std::span<const ClipVertex> vertices_;
   int attribute_count_;
-  // Each plane cuts what is left of a convex polygon in two places. Of others, which it may cut in any number
-  // of them, the rest is as doubles have it.
+  // Each plane cuts a convex polygon at most twice. A polygon that is not convex may be cut more often;
+  // further points are not computed exactly.
   mutable std::size_t exact_cuts_left_ = 2 * std::size(kPlanes) * vertices_.size();
 };
 
-// False where the eye's plane is touched in a single point, which is no pixel; and where sums of the largest
-// numbers overflowed.
+// False for w = 0 (the polygon touches the eye plane in a point, which covers no pixel) and for coordinates
+// that overflowed.
 bool is_usable(const ClipPosition& p) {
   return p.w > 0 && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
 }
 
-// What of a polygon is inside of one plane, vertex by vertex.
+// Passes the vertices of the polygon's part inside one plane to `keep`.
 template <class Keep>
 void clip_to_plane(const VertexTransform& transform, const UnclippedPolygon& unclipped, Outcode plane,
                    std::span<const ClipCorner> corners, const Keep& keep) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ClipCorner &a = corners[i], &b = corners[i + 1 == corners.size() ? 0 : i + 1];
-    const int of_a = side(transform, plane, a.vertex), of_b = side(transform, plane, b.vertex);
-    if (of_a >= 0) keep(of_a > 0 || of_b >= 0 ? a : ClipCorner{a.vertex, -1, plane});
-    if (of_a > 0 && of_b < 0) keep({unclipped.cut(plane, a, b.vertex, true), -1, plane});
-    if (of_a < 0 && of_b > 0) keep({unclipped.cut(plane, a, b.vertex, false), a.edge, a.plane});
+    const int side_a = side(transform, plane, a.vertex), side_b = side(transform, plane, b.vertex);
+    if (side_a >= 0) keep(side_a > 0 || side_b >= 0 ? a : ClipCorner{a.vertex, -1, plane});
+    if (side_a > 0 && side_b < 0) keep({unclipped.cut(plane, a, b.vertex, true), -1, plane});
+    if (side_a < 0 && side_b > 0) keep({unclipped.cut(plane, a, b.vertex, false), a.edge, a.plane});
   }
 }
 
-// Distances, and differences of positions, of the largest doubles would be infinite. A power of two in all
-// positions of a polygon moves none of its points.
+// Scales very large positions down: their distances and differences would overflow. A common power of two in
+// all positions of a polygon moves none of its points in the window.
 void scale_to_finite(std::span<ClipVertex> vertices) {
   constexpr double kLarge = 0x1p980;  // sums of two numbers below 2^984, times at most 2^15 of a guard band
   if (std::none_of(vertices.begin(), vertices.end(),
@@ -193,9 +197,8 @@ ClippedPolygon clip_triangle(const VertexTransform& transform, const ClipVertex 
     ClipCorner corners[kMaxClippedVertices];
     std::size_t count = 0;
     void add(const ClipCorner& corner) {
-      if (count < kMaxClippedVertices)
-        corners[count++] =
-            corner;  // a convex polygon gains one vertex a plane; only rounding could make more
+      // A convex polygon gains at most one vertex per plane; only rounding could make more.
+      if (count < kMaxClippedVertices) corners[count++] = corner;
     }
   } polygon;
   for (int i = 0; i < 3; ++i) polygon.add({vertices[i], i});
@@ -243,8 +246,8 @@ bool clip_line(const VertexTransform& transform, ClipVertex (&line)[2], std::uin
   const UnclippedPolygon unclipped(transform, ends, attribute_count);
   for (const Outcode plane : kPlanes) {
     if (!may_clip(plane, outcodes)) continue;
-    const bool first_inside = side(transform, plane, line[0]) >= 0,
-               second_inside = side(transform, plane, line[1]) >= 0;
+    const bool first_inside = side(transform, plane, line[0]) >= 0;
+    const bool second_inside = side(transform, plane, line[1]) >= 0;
     if (!first_inside && !second_inside) return false;
     if (first_inside != second_inside)
       line[first_inside ? 1 : 0] = unclipped.cut(plane, {line[0], 0}, line[1], first_inside);

@@ -1,8 +1,8 @@
-// Which pixels of a tile a triangle covers. Small triangles (bounds of at most 4x4 pixels) go one to a lane,
-// all sample points at once. All others go by 4x4 blocks (some of them in boxes of these, see
-// shading/box_pixels-inl.h): as many as there are lanes, of a row or of several short ones, are sorted at
-// once into those outside, which are passed over, those inside, whose pixels need no look, and those in
-// between. Twin: coverage_reference.h.
+// Coverage: the pixels of a tile that a triangle covers. Twin: coverage_reference.h.
+// - Small triangles (bounds of at most 4x4 pixels): one triangle per lane, pixel by pixel.
+// - All others: 4x4 blocks, one block per lane, from one row of blocks or from several short rows. Blocks
+//   outside are skipped, blocks inside need no test per pixel, the rest is tested. Some triangles go by boxes
+//   of blocks instead, see shading/box_pixels-inl.h.
 #if defined(TESSERA_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_COVERAGE_INL_H_
 #undef TESSERA_RASTER_COVERAGE_INL_H_
@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Sets up the 32-bit edges of lane i for coverage.
+/// Copies the 32-bit edges of triangle i.
 HWY_INLINE void set_tile_edges32(Edges32& t, const TriangleGroup& g, int i) {
   for (int k = 0; k < 3; ++k) t.a[k] = g.a[k][i], t.b[k] = g.b[k][i], t.e[k] = g.e[k][i];
 }
@@ -30,8 +30,9 @@ HWY_INLINE Edges32 tile_edges32(const TriangleGroup& g, int i) {
   return t;
 }
 
-/// The same for a triangle whose edges need 64 bits: an edge that the whole tile is inside of is dropped, any
-/// other fits 32 bits in the tile. False if the tile is outside. `edges64` gets the undivided edges.
+/// Edges of a triangle whose edges need 64 bits. An edge that contains the whole tile is replaced by 0; any
+/// other fits in 32 bits in the tile. Returns false if the tile is outside. `edges64` gets the undivided
+/// edges.
 inline HWY_NOINLINE bool tile_edges64(const TriangleGroup& g, int i, int tile_x, int tile_y, int tile_size,
                                       Edges32& edges, Edges64& edges64) {
   bool touched = true;
@@ -57,7 +58,7 @@ inline HWY_NOINLINE bool tile_edges64(const TriangleGroup& g, int i, int tile_x,
   return touched;
 }
 
-/// Offsets of the edges at the pixels of a block from its first pixel.
+/// Differences of the edges between the pixels of a block and its first pixel.
 struct BlockOffsets {
   alignas(64) std::int32_t edge[3][16];
   HWY_INLINE explicit BlockOffsets(const Edges32& t) {
@@ -70,24 +71,24 @@ struct BlockOffsets {
   }
 };
 
-/// The three edges at the pixels of one block, from those at its first pixel.
+/// The three edges at the pixels of one block.
 struct BlockEdges {
-  std::int32_t start[3];
+  std::int32_t start[3];  ///< at the block's first pixel
   const BlockOffsets* offsets;
   HWY_INLINE Int at(int k, int chunk) const {
     return hn::Add(splat(start[k]), hn::Load(kInt, offsets->edge[k] + chunk * kLanes));
   }
-  /// Lanes inside all three: no sign bit.
+  /// Lanes inside all three edges: no sign bit set.
   HWY_INLINE auto covered(int chunk) const {
     return hn::Gt(hn::Or(hn::Or(at(0, chunk), at(1, chunk)), at(2, chunk)), splat(-1));
   }
-  /// To the block below.
+  /// Moves to the block below.
   HWY_INLINE void step_down(const Edges32& t) {
     for (int k = 0; k < 3; ++k) start[k] += 4 * t.b[k];
   }
 };
 
-/// The same of blocks side by side, one after another.
+/// The three edges at the pixels of the blocks of a row, stepped from block to block.
 struct RowEdges {
   Int edge[3][kChunksPerBlock], to_right[3];
   HWY_INLINE RowEdges(const Edges32& t, const BlockEdges& first) {
@@ -106,37 +107,41 @@ struct RowEdges {
 alignas(64) inline constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                               8, 9, 10, 11, 12, 13, 14, 15};
 
-inline constexpr int kBoxRows = kLanes / 4;  ///< of four blocks: so many lanes hold
+inline constexpr int kBoxRows = kLanes / 4;  ///< rows of four blocks in one vector
 
-/// Those of a box's blocks, a bit each, that are in the first `columns` and `rows`.
+/// Mask of a box's blocks (four per row) in the first `columns` columns and `rows` rows.
 HWY_INLINE std::uint32_t blocks_within(int columns, int rows) {
-  return ((1u << std::min(columns, 4)) - 1) * 0x1111u &
-         ((1u << (4 * std::min(rows, kBoxRows))) - 1);  // the same four bits for each row
+  return ((1u << std::min(columns, 4)) - 1) * 0x1111u & ((1u << (4 * std::min(rows, kBoxRows))) - 1);
 }
 
-/// The least value of an edge over the pixel centres of `columns` x `rows` blocks, from the value at their
-/// first. Each sum is the edge's value at one of those pixels, so that it fits (fixed_point.h).
+/// Minimum of an edge over the pixel centres of `columns` x `rows` blocks, from its value at the first. Each
+/// sum is the edge's value at one of those pixels, so it does not overflow (fixed_point.h).
 HWY_INLINE std::int32_t min_over_blocks(std::int32_t first, std::int32_t a, std::int32_t b, int columns,
                                         int rows) {
   return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
 }
 
-/// Calls block.operator()<full>(bx, by, edges) for the blocks of the bounds that the triangle may cover;
-/// `full` says that all 16 pixels are inside. Blocks side by side that all are full go to block.full_row(bx,
-/// by, how many, edges of the first), where there is such a function: as many as there are lanes at most, or
-/// whole rows of the bounds where all are full. Lanes are blocks: those of a row, or of several short rows;
-/// where all blocks are full nothing is sorted. @pre the offsets are those of the edges
+/// Enumerates the blocks of the bounds that the triangle may cover.
+/// - Calls block.operator()<full>(bx, by, edges); `full` is true if all 16 pixels are inside.
+/// - If the function object has full_row(bx, by, count, edges of the first), runs of full blocks of a row go
+///   there instead: up to one vector of blocks, or whole rows of the bounds if all blocks are full.
+/// - Lanes are blocks of one row, or of several short rows (a box). If all blocks are full, none is
+///   classified.
+///
+/// @pre `offsets` was built from `t`
 template <class BlockFunction>
 HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, int x0, int y0, int x1, int y1,
                                BlockFunction& block) {
-  const int first_x = x0 & ~3, first_y = y0 & ~3, columns = ((x1 - first_x) >> 2) + 1,
-            rows = ((y1 - first_y) >> 2) + 1;
+  const int first_x = x0 & ~3, first_y = y0 & ~3;
+  const int columns = ((x1 - first_x) >> 2) + 1;
+  const int rows = ((y1 - first_y) >> 2) + 1;
   const bool is_box = columns <= 4 && rows <= kBoxRows;
-  const int row_shift = is_box ? 2 : std::countr_zero(static_cast<unsigned>(kLanes)), in_row = 1 << row_shift;
-  // Largest and smallest value of each edge over the pixel centres of a block, from the value at its first;
-  // to the blocks of the lanes, and to the next row.
+  const int row_shift = is_box ? 2 : std::countr_zero(static_cast<unsigned>(kLanes));
+  const int in_row = 1 << row_shift;  // lanes per row of blocks
+  // Edge differences: from a block's first pixel centre to its maximum and minimum over the block, to the
+  // blocks of the lanes, and to the next row of blocks.
   Int to_highest[3], to_lowest[3], to_lane[3], down[3];
-  bool is_whole = true;  // there is no block but full ones
+  bool is_whole = true;  // all blocks are full
   for (int k = 0; k < 3; ++k) {
     to_highest[k] = splat(3 * (std::max(t.a[k], 0) + std::max(t.b[k], 0)));
     to_lowest[k] = splat(3 * (std::min(t.a[k], 0) + std::min(t.b[k], 0)));
@@ -168,19 +173,20 @@ HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, in
         e[k] = hn::Add(e[k], down[k]);
       }
       while (touched != 0) {
-        const int i = std::countr_zero(touched), in_its_row = i & (in_row - 1), bx = left + 4 * in_its_row,
-                  by = top + 4 * (i >> row_shift);
+        const int i = std::countr_zero(touched);
+        const int in_its_row = i & (in_row - 1);
+        const int bx = left + 4 * in_its_row, by = top + 4 * (i >> row_shift);
         BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
         touched &= touched - 1;
         if ((inside >> i & 1) == 0) {
           block.template operator()<false>(bx, by, edges);
         } else if constexpr (requires { block.full_row(bx, by, 1, edges); }) {
-          const bool at_once = kLanes > 1 && is_whole;  // one lane gains nothing
-          const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row),
-                    last = at_once ? rows - 1 : 0;
+          const bool at_once = kLanes > 1 && is_whole;  // no gain with a single lane
+          const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row);
+          const int last = at_once ? rows - 1 : 0;
           for (int below = 0;; ++below, edges.step_down(t)) {
             block.full_row(bx, by + 4 * below, count, edges);
-            if (below == last) break;  // edges need not fit below the last row
+            if (below == last) break;  // edges may overflow below the last row
           }
           if (at_once) return;
           touched &= ~(((1u << count) - 1) << i);
@@ -192,26 +198,26 @@ HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, in
   }
 }
 
-/// Those triangles of the group, a bit each, whose bounds are 4x4 pixels at most. Compiled once for all ways
-/// to draw them.
+/// Mask of the group's triangles whose bounds are at most 4x4 pixels. Not inlined: one copy for all pixel
+/// paths.
 inline HWY_NOINLINE std::uint32_t small_triangles(const TriangleGroup& g) {
   std::uint32_t bits = 0;
   for (int first = 0; first < kGroupSize; first += kLanes) {
-    const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first)),
-              height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));
-    const auto fits_edges32 = hn::Eq(hn::Load(kInt, g.needs_edges64 + first), hn::Zero(kInt)),
-               fits = hn::And(hn::Lt(width, splat(4)), hn::Lt(height, splat(4)));
+    const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), hn::Load(kInt, g.x0 + first));
+    const Int height = hn::Sub(hn::Load(kInt, g.y1 + first), hn::Load(kInt, g.y0 + first));
+    const auto fits_edges32 = hn::Eq(hn::Load(kInt, g.needs_edges64 + first), hn::Zero(kInt));
+    const auto fits = hn::And(hn::Lt(width, splat(4)), hn::Lt(height, splat(4)));
     bits |= mask_bits(kInt, hn::And(fits_edges32, fits)) << first;
   }
   return bits & g.mask;
 }
 
-/// Triangles whose bounds are at most 4x4 pixels: one triangle a lane, all sample points at once. hits[i]
-/// gets a bit for each covered pixel of triangle i: bit 4 dy + dx for pixel (x0 + dx, y0 + dy).
+/// Coverage of kLanes triangles from `first` on, whose bounds are at most 4x4 pixels. hits[i] gets bit 4 dy +
+/// dx for every covered pixel (x0 + dx, y0 + dy) of lane i.
 inline HWY_NOINLINE void cover_small(const TriangleGroup& g, int first, std::uint32_t* hits) {
   const Int x0 = hn::Load(kInt, g.x0 + first), y0 = hn::Load(kInt, g.y0 + first);
-  const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), x0),
-            height = hn::Sub(hn::Load(kInt, g.y1 + first), y0);
+  const Int width = hn::Sub(hn::Load(kInt, g.x1 + first), x0);
+  const Int height = hn::Sub(hn::Load(kInt, g.y1 + first), y0);
   Int a[3] = {hn::Load(kInt, g.a[0] + first), hn::Load(kInt, g.a[1] + first), hn::Load(kInt, g.a[2] + first)};
   Int b[3] = {hn::Load(kInt, g.b[0] + first), hn::Load(kInt, g.b[1] + first), hn::Load(kInt, g.b[2] + first)};
   Int row[3];

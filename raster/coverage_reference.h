@@ -1,5 +1,5 @@
-// The scalar twin of coverage-inl.h and its specification: which pixels a triangle covers, in 128-bit
-// integers straight from its snapped vertices.
+// Scalar twin and specification of coverage-inl.h: the pixels that a triangle covers, in 128-bit integers
+// from its snapped vertices.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,18 @@ namespace tessera::detail {
 
 __extension__ using Exact = __int128;
 
-/// One edge of a triangle, positive inside: value at a pixel's centre and its steps to the next pixel, exact.
+/// Exact edge function at pixel centres, positive inside.
 struct EdgeReference {
-  Exact at_origin = 0, dx = 0, dy = 0;  ///< at pixel (0, 0); for one pixel to the right, one down
-  bool is_top_left = false;             ///< pixel centres on the edge belong to the triangle
+  Exact at_origin = 0;       ///< at pixel (0, 0)
+  Exact dx = 0, dy = 0;      ///< steps to the next pixel to the right and below
+  bool is_top_left = false;  ///< pixel centres on the edge belong to the triangle
   Exact at(int x, int y) const { return at_origin + dx * x + dy * y; }
 };
 
 struct TriangleReference {
   EdgeReference edge[3];  ///< edge k lies opposite vertex k
-  Exact area = 0;  ///< doubled, never negative, in (1/256 pixel)^2: the sum of the three edges at every point
+  Exact area =
+      0;  ///< doubled area in (1/256 pixel)^2, never negative: the sum of the three edges at any point
 
   explicit TriangleReference(const WindowVertex (&v)[3]) {
     const auto cross = [](Exact ax, Exact ay, Exact bx, Exact by) { return ax * by - ay * bx; };
@@ -32,8 +34,8 @@ struct TriangleReference {
       edge[k].at_origin = cross(along_x, along_y, Exact{kHalfPixel} - p.x, Exact{kHalfPixel} - p.y);
       edge[k].dx = -along_y * kSubpixelScale;
       edge[k].dy = along_x * kSubpixelScale;
-      // The fill rule: a centre on an edge counts as if it lay a hair to the right, and a hair of a hair
-      // below.
+      // Fill rule: a centre on an edge is classified as if moved by (e, e^2) with an infinitesimal e: to the
+      // right and, by less, down.
       edge[k].is_top_left = edge[k].dx > 0 || (edge[k].dx == 0 && edge[k].dy > 0);
     }
   }
@@ -47,12 +49,11 @@ struct TriangleReference {
     return true;
   }
 
-  /// Calls pixel(x, y) for the covered ones in x0 <= x < x1, y0 <= y < y1.
+  /// Calls pixel(x, y) for the covered pixels with x0 <= x < x1, y0 <= y < y1.
   template <class PixelFunction>
   void for_each_covered(int x0, int y0, int x1, int y1, const PixelFunction& pixel) const {
     if (area == 0) return;
-    // A border that does not belong to the triangle is moved inwards by the smallest difference that there
-    // is.
+    // An edge that does not belong to the triangle is biased by -1, the smallest integer step.
     Exact row[3];
     for (int k = 0; k < 3; ++k) row[k] = edge[k].at(x0, y0) - (edge[k].is_top_left ? 0 : 1);
     for (int y = y0; y < y1; ++y) {

@@ -1,9 +1,9 @@
-// Depth of a triangle's pixels, as keys that compare as signed integers (framebuffer/format.h).
+// Depth keys of a triangle's pixels (framebuffer/format.h: keys compare as signed integers).
 //
-// Unorm: a plane in 64-bit fixed point, modulo 2^64: sums are exact in any order, so the depth of a pixel
-// does not depend on tiles or blocks, and a gradient too steep for 64 bits comes right again inside the
-// triangle. Gradients come from doubles, those of needles, where doubles are not enough, from exact
-// quotients. float32: a plane of doubles from the anchor, rounded once and kept within the vertices' range.
+// Unorm: a plane in 64-bit fixed point, modulo 2^64. Sums are exact in any order, so the depth of a pixel
+// does not depend on tiles or blocks, and overflow of steep gradients cancels inside the triangle. Gradients
+// are computed in double, or as exact quotients for needles, where double is not accurate enough. float32: a
+// plane of doubles from the anchor vertex, rounded once and clamped to the range of the vertices.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
 #undef TESSERA_RASTER_DEPTH_INL_H_
@@ -28,18 +28,17 @@ using Int64Tag = hn::RebindToSigned<Uint64Tag>;
 inline constexpr Uint64Tag kUint64{};
 inline constexpr Int64Tag kInt64{};
 
-// Of eight pixels of a block those in columns 1 and 3, in columns 2 and 3, and in the second row.
+// Masks of eight pixels of a block: columns 1 and 3, columns 2 and 3, the second row.
 alignas(64) inline constexpr std::uint64_t kOddColumns[8] = {0, ~0ull, 0, ~0ull, 0, ~0ull, 0, ~0ull};
 alignas(64) inline constexpr std::uint64_t kRightColumns[8] = {0, 0, ~0ull, ~0ull, 0, 0, ~0ull, ~0ull};
 alignas(64) inline constexpr std::uint64_t kSecondRow[8] = {0, 0, 0, 0, ~0ull, ~0ull, ~0ull, ~0ull};
 
-/// 16 and 24 bits: 32.32 fixed point of the vertices' depth words. Those are at least 128 away from 0 and
-/// from 2^32 (the half that rounds the level), so rounding never wraps around. The key is the word's top
-/// bits.
+/// unorm16, unorm24: planes of depth words in 32.32 fixed point. Depth words are at least 128 away from 0 and
+/// from 2^32 (the added half level), so rounding never wraps around. The key is the top bits of the word.
 struct UnormDepth {
   std::uint64_t base, dx, dy;
   int shift;
-  alignas(64) std::uint64_t offset[16];  // of a block's pixels
+  alignas(64) std::uint64_t offset[16];  // from a block's first pixel to each of its pixels
 
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat kind) {
     shift = kind == DepthFormat::unorm16 ? 16 : 8;
@@ -51,8 +50,7 @@ struct UnormDepth {
 #if HWY_TARGET == HWY_SCALAR
     for (std::uint64_t p = 0; p < 16; ++p) offset[p] = p % 4 * dx + p / 4 * dy;
 #else
-    // Half of the lanes of a block's chunk, whole rows: a column's number is its lowest two bits, and those
-    // above are the row's.
+    // kHalf lanes are one or two whole rows of the block.
     constexpr std::size_t kHalf = hn::MaxLanes(Uint64Tag());
     static_assert(kHalf == 4 || kHalf == 8);
     const auto bit_of = [](const std::uint64_t(&bits)[8], std::uint64_t step)
@@ -65,7 +63,7 @@ struct UnormDepth {
     }
 #endif
   }
-  /// From the tile's first pixel, or from a sample there.
+  /// Difference from the tile's first pixel (or its sample) to pixel (x, y).
   HWY_INLINE std::uint64_t step(int x, int y) const {
     return dx * static_cast<std::uint64_t>(std::int64_t{x}) +
            dy * static_cast<std::uint64_t>(std::int64_t{y});
@@ -74,25 +72,26 @@ struct UnormDepth {
   HWY_INLINE std::int32_t key(int x, int y) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift);
   }
-  /// What is moved from sample to sample.
+  /// Value of the plane at a sample of the tile's first pixel.
   using Anchor = std::uint64_t;
   static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup& samples, int s, int i,
                                   SamplePosition, int, int) {
     return samples.fixed_base[s][i];
   }
-  /// No pixel or sample of triangle i has a smaller key: its vertices' smallest but for the plane's rounding.
+  /// Lower bound of the keys of triangle i's pixels and samples: the smallest of its vertices, less the
+  /// plane's rounding.
   static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthFormat kind) {
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])) >>
                                      (32 - depth_bits(kind))) -
            1;
   }
-  /// A block's first pixel; keys(chunk) are those of its lanes.
+  /// Depth at the first pixel of a block.
   struct Block {
     hn::Vec<Uint64Tag> start;
   };
   static HWY_INLINE Block block_at(std::uint64_t start) { return {hn::Set(kUint64, start)}; }
   HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
-  /// The first pixels of a box's blocks, which stand as the pixels of a block do. @pre prepare_blocks()
+  /// Depth at the first pixels of a box's blocks, arranged like the pixels of a block. @pre prepare_blocks()
   struct Box {
     alignas(64) std::uint64_t start[kLanes];
   };
@@ -107,7 +106,7 @@ struct UnormDepth {
   HWY_INLINE void step_right(Block& block) const {
     block.start = hn::Add(block.start, hn::Set(kUint64, 4 * dx));
   }
-  /// The same of a sample, from the step to the block that step_to() gives.
+  /// Step from the tile's first pixel to a block; block(sample, step) adds it to a sample's value.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
   static HWY_INLINE Block block(Anchor sample, const Block& step) {
     return {hn::Add(block_at(sample).start, step.start)};
@@ -125,7 +124,7 @@ struct UnormDepth {
   }
 };
 
-/// 32 bits: see kUnorm32RangeBias.
+/// unorm32: 34.30 fixed point, see kUnorm32RangeBias.
 struct Unorm32Depth : UnormDepth {
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat) {
     shift = 0;
@@ -136,12 +135,13 @@ struct Unorm32Depth : UnormDepth {
   static HWY_INLINE std::int32_t key_of(std::uint64_t value) {
     constexpr std::int64_t kTop = kUnorm32RangeBias + 0xffffffff;
     const std::int64_t biased = static_cast<std::int64_t>(value >> kUnorm32Fraction);
-    const std::int64_t cut = biased < kUnorm32RangeBias ? kUnorm32RangeBias : biased > kTop ? kTop : biased;
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(cut) ^ 0x80000000u);
+    const std::int64_t at_least_zero = biased < kUnorm32RangeBias ? kUnorm32RangeBias : biased;
+    const std::int64_t clamped = at_least_zero > kTop ? kTop : at_least_zero;
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(clamped) ^ 0x80000000u);
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }
-  static std::int32_t nearest_key(const TriangleGroup& g, int i,
-                                  DepthFormat kind) = delete;  // keys are others than above
+  // The keys of UnormDepth have no flipped bit.
+  static std::int32_t nearest_key(const TriangleGroup& g, int i, DepthFormat kind) = delete;
   struct Block {
     std::uint64_t start;
   };
@@ -156,19 +156,22 @@ struct Unorm32Depth : UnormDepth {
   }
 };
 
-/// A plane of doubles, rounded once: where a wide triangle is tilted against the rows, the shares of x and y
-/// are many times the depth itself.
+/// float32: a plane of doubles, rounded once. Double, because the terms of x and y can be many times the
+/// depth itself if a large triangle is tilted against the rows.
 struct Float32Depth {
-  double z0, dx, dy, first_x,
-      first_y;  // z0: the anchor's; first_x, y: from there to the tile's first pixel centre
-  float low, high;
+  double z0;                // depth of the anchor vertex
+  double dx, dy;            // per pixel
+  double first_x, first_y;  // from the anchor to the tile's first pixel centre, pixels
+  float low, high;          // range of the vertices' depths
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthFormat) {
     float z[3], at_anchor;
     for (int k = 0; k < 3; ++k) std::memcpy(&z[k], &g.z[k][i], sizeof z[k]);
     std::memcpy(&at_anchor, &g.anchor_z[i], sizeof at_anchor);
     z0 = at_anchor;
-    low = z[0] < z[1] ? (z[0] < z[2] ? z[0] : z[2]) : (z[1] < z[2] ? z[1] : z[2]);
-    high = z[0] > z[1] ? (z[0] > z[2] ? z[0] : z[2]) : (z[1] > z[2] ? z[1] : z[2]);
+    const float low_01 = z[0] < z[1] ? z[0] : z[1];
+    const float high_01 = z[0] > z[1] ? z[0] : z[1];
+    low = low_01 < z[2] ? low_01 : z[2];
+    high = high_01 > z[2] ? high_01 : z[2];
     dx = g.depth_dx[i];
     dy = g.depth_dy[i];
     const Anchor first = from_anchor(g, i, {0, 0}, tile_x, tile_y);
@@ -179,8 +182,9 @@ struct Float32Depth {
   struct Anchor {
     double x, y;
   };
+  /// Vector from the anchor to a sample of the tile's first pixel, in pixels. Exact: 24 bits.
   static HWY_INLINE Anchor from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x,
-                                       int tile_y) {  // exact: 24 bits
+                                       int tile_y) {
     return {(tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256),
             (tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256)};
   }
@@ -188,16 +192,16 @@ struct Float32Depth {
                                   int tile_x, int tile_y) {
     return from_anchor(g, i, at, tile_x, tile_y);
   }
-  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i,
-                                             DepthFormat) {  // of floats that are not negative: their bits
+  /// The bits of floats that are not negative compare as the floats do.
+  static HWY_INLINE std::int32_t nearest_key(const TriangleGroup& g, int i, DepthFormat) {
     return static_cast<std::int32_t>(std::min(g.z[0][i], std::min(g.z[1][i], g.z[2][i])));
   }
   HWY_INLINE std::int32_t key(int x, int y) const {
     const auto z = static_cast<float>((dx * (first_x + x) + dy * (first_y + y)) + z0);
-    const float low_cut = z > low ? z : low,
-                cut = (low_cut < high ? low_cut : high) + 0.0f;  // + 0: no negative zero
+    const float at_least_low = z > low ? z : low;
+    const float clamped = (at_least_low < high ? at_least_low : high) + 0.0f;  // + 0: no negative zero
     std::int32_t bits;
-    std::memcpy(&bits, &cut, sizeof bits);
+    std::memcpy(&bits, &clamped, sizeof bits);
     return bits;
   }
   struct Block {
@@ -219,11 +223,11 @@ struct Float32Depth {
     return {sample.x + step.x, sample.y + step.y};
   }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
-    const Doubles x = plus(to_doubles(block_columns(chunk)), block.x),
-                  y = plus(to_doubles(block_rows(chunk)), block.y);
+    const Doubles x = plus(to_doubles(block_columns(chunk)), block.x);
+    const Doubles y = plus(to_doubles(block_rows(chunk)), block.y);
     const Float z = to_floats(plus(plus(times(x, dx), times(y, dy)), z0));
-    const Float cut = lesser_of(greater_of(z, splat(low)), splat(high));
-    return hn::BitCast(kInt, hn::Add(cut, hn::Zero(kFloat)));
+    const Float clamped = lesser_of(greater_of(z, splat(low)), splat(high));
+    return hn::BitCast(kInt, hn::Add(clamped, hn::Zero(kFloat)));  // + 0: no negative zero
   }
 };
 

@@ -1,5 +1,6 @@
 // Depth with polygon offset: factor times the polygon's slope, plus units times the smallest difference of
-// the format, cut to 0..1 [GL 2.1, 3.5.5; for floats Direct3D 11]. Draws without an offset never come here.
+// the format; the result is clamped to 0..1 [GL 2.1, 3.5.5; float32: Direct3D 11]. Used by draws with an
+// offset only.
 #if defined(TESSERA_RASTER_DEPTH_OFFSET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_OFFSET_INL_H_
 #undef TESSERA_RASTER_DEPTH_OFFSET_INL_H_
@@ -16,13 +17,13 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// max(|dz/dx|, |dz/dy|), in the units of the vertices' depth words (unorm) or of depth.
+/// max(|dz/dx|, |dz/dy|) per pixel, in depth words (unorm) or in depth (float32).
 HWY_INLINE double slope_of(const TriangleGroup& g, int i) {
   return std::max(std::abs(g.depth_dx[i]), std::abs(g.depth_dy[i]));
 }
 
-/// Unorm of any size: on the plane of draws without an offset, so that one unit is one level for whoever
-/// draws the same triangle.
+/// All unorm formats. The offset is added to the plane of draws without an offset, so that one unit separates
+/// two draws of the same triangle by exactly one level.
 struct OffsetUnormDepth : UnormDepth {
   int fraction_bits = kUnormFraction;
   std::int64_t range_bias = 0, polygon_offset = 0;
@@ -42,13 +43,14 @@ struct OffsetUnormDepth : UnormDepth {
     set_polygon_offset_value(double{factor} * slope_of(g, i) + std::ldexp(double{units}, shift));
   }
   HWY_INLINE void set_polygon_offset_value(double words) {
-    constexpr double kWhole = 0x1p32;  // nothing is further away
-    polygon_offset = static_cast<std::int64_t>(std::floor(std::clamp(words, -kWhole, kWhole) + 0.5));
+    constexpr double kRange = 0x1p32;  // offsets beyond the whole range of depth words have no further effect
+    polygon_offset = static_cast<std::int64_t>(std::floor(std::clamp(words, -kRange, kRange) + 0.5));
   }
   HWY_INLINE std::int32_t key_of(std::uint64_t value) const {
     const std::int64_t word = static_cast<std::int64_t>(value >> fraction_bits) - range_bias + polygon_offset;
-    const std::int64_t cut = word < 0 ? 0 : word > 0xffffffff ? 0xffffffff : word;
-    return static_cast<std::int32_t>((static_cast<std::uint32_t>(cut) >> shift) ^ flip);
+    const std::int64_t at_least_zero = word < 0 ? 0 : word;
+    const std::int64_t clamped = at_least_zero > 0xffffffff ? 0xffffffff : at_least_zero;
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(clamped) >> shift) ^ flip);
   }
   struct Block {
     std::uint64_t start;
@@ -64,8 +66,8 @@ struct OffsetUnormDepth : UnormDepth {
 struct OffsetFloat32Depth : Float32Depth {
   float polygon_offset = 0;
   HWY_INLINE void set_polygon_offset(const TriangleGroup& g, int i, float factor, float units) {
-    const int exponent = std::max(high > 0 ? std::ilogb(high) : -126,
-                                  -126);  // of the largest depth; the smallest normal float's
+    // Exponent of the largest depth, at least that of the smallest normal float.
+    const int exponent = std::max(high > 0 ? std::ilogb(high) : -126, -126);
     set_polygon_offset_value(double{factor} * slope_of(g, i) + std::ldexp(double{units}, exponent - 23));
   }
   HWY_INLINE void set_polygon_offset_value(double depth) { polygon_offset = static_cast<float>(depth); }

@@ -1,5 +1,5 @@
-// Doubles for each lane of an Int, in two vectors: what is more than 32 bits wide, and exact or rounded the
-// same on every target. No sum is fused.
+// Doubles for every lane of an Int, in two vectors, for values of more than 32 bits. Rounded the same on
+// every target: no multiply-add is fused.
 #if defined(TESSERA_RASTER_DOUBLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DOUBLE_LANES_INL_H_
 #undef TESSERA_RASTER_DOUBLE_LANES_INL_H_
@@ -49,7 +49,7 @@ HWY_INLINE void store(const Doubles& a, double* to) {
 HWY_INLINE Doubles floor(const Doubles& a) {
   return each_part([&](int p) HWY_ATTR { return hn::Floor(a.part[p]); });
 }
-/// Moved into low .. high; a NaN is low.
+/// Clamps to low .. high; NaN becomes low.
 HWY_INLINE Doubles clamped(const Doubles& a, double low, double high) {
   return each_part([&](int p) HWY_ATTR {
     return hn::Min(hn::Max(a.part[p], hn::Set(kDouble, low)), hn::Set(kDouble, high));
@@ -58,7 +58,7 @@ HWY_INLINE Doubles clamped(const Doubles& a, double low, double high) {
 
 #if HWY_TARGET == HWY_SCALAR
 HWY_INLINE Doubles to_doubles(Int a) { return {hn::PromoteTo(kDouble, a)}; }
-/// Towards zero. @pre it fits
+/// Rounds towards zero. @pre the result fits in 32 bits
 HWY_INLINE Int truncate(const Doubles& a) { return hn::DemoteTo(kInt, a.part[0]); }
 HWY_INLINE Float to_floats(const Doubles& a) { return hn::DemoteTo(kFloat, a.part[0]); }
 #else

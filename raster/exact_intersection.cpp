@@ -11,12 +11,12 @@ namespace {
 
 constexpr double ClipPosition::*kCoordinates[] = {&ClipPosition::x, &ClipPosition::y, &ClipPosition::z,
                                                   &ClipPosition::w};
-// Sides of corners that cuts have made are those of rounded positions: what lies beyond a triangle by no more
-// than that belongs to it.
+// Corners made by cuts are classified by their rounded positions, so an intersection may lie outside its
+// triangle by that rounding. Barycentric weights down to -kMaxOvershoot are accepted.
 constexpr double kMaxOvershoot = 0x1p-20;
 
-/// The ends of an edge, or the vertices of a triangle, scaled to about 1: products of some of them are well
-/// within a double's range.
+/// Exact positions of an edge's ends or a triangle's vertices, scaled to about 1 so that their products stay
+/// well within the range of doubles.
 template <std::size_t kCount>
 struct ExactVertices {
   const std::array<const ClipVertex*, kCount> vertices;
@@ -36,23 +36,23 @@ struct ExactVertices {
                                : ExactVertex(vertex.position, -exponent);
     }
   }
-  /// The sum of the vertices times their weights, over the sum of the weights. Absent where that is not among
-  /// them.
+  /// Sum of weight times vertex over the sum of the weights. Absent if the point does not lie between the
+  /// vertices.
   std::optional<ClipVertex> interpolate(int attribute_count) const {
     ExactSum weight_sum;
     for (const ExactSum& weight : weights) weight_sum.add_product(weight, 1);
-    const double all = weight_sum.value();
-    if (all == 0 || !std::isfinite(all)) return std::nullopt;
-    double part[kCount];
+    const double divisor = weight_sum.value();
+    if (divisor == 0 || !std::isfinite(divisor)) return std::nullopt;
+    double normalized[kCount];
     for (std::size_t k = 0; k < kCount; ++k) {
-      part[k] = weights[k].value() / all;
-      if (!(part[k] >= -kMaxOvershoot)) return std::nullopt;
+      normalized[k] = weights[k].value() / divisor;
+      if (!(normalized[k] >= -kMaxOvershoot)) return std::nullopt;
     }
     ClipVertex interpolated;
     for (std::size_t c = 0; c < 4; ++c) {
       ExactSum sum;
       for (std::size_t k = 0; k < kCount; ++k) sum.add_product(weights[k], exact[k].coordinate(c), 1);
-      const double value = std::scalbn(sum.value() / all, exponent);
+      const double value = std::scalbn(sum.value() / divisor, exponent);
       if (!std::isfinite(value)) return std::nullopt;
       interpolated.position.*kCoordinates[c] = value;
     }
@@ -62,7 +62,7 @@ struct ExactVertices {
       double value = first;
       for (std::size_t k = 1; k < kCount; ++k) {
         const float at = vertices[k]->attributes[j];
-        value = std::fma(part[k], double{at} - first, value);
+        value = std::fma(normalized[k], double{at} - first, value);
         low = std::min(low, at);
         high = std::max(high, at);
       }
@@ -95,8 +95,8 @@ std::optional<ClipVertex> exact_two_plane_intersection(const VertexTransform& tr
     on_plane[k] = triangle.exact[k].distance(transform, plane);
     on_other[k] = triangle.exact[k].distance(transform, other);
   }
-  for (std::size_t k = 0; k < 3;
-       ++k) {  // weights of three distances whose sums are 0 for both planes: their cross product
+  // Weights for which the weighted distances from both planes sum to 0: the cross product of the distances.
+  for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
     triangle.weights[k].add_product(on_plane[next], on_other[last], 1);
     triangle.weights[k].add_product(on_plane[last], on_other[next], -1);

@@ -1,5 +1,5 @@
-// Where clip planes cut what is so large, beside what is seen of it, that doubles have no digits left for
-// that.
+// Exact intersections with clip planes, for primitives so much larger than their visible part that doubles
+// lack digits.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,13 @@
 
 namespace tessera::detail {
 
-/// The point of an edge on a plane. Absent if there is not just one. Attributes are within those of the ends.
+/// Intersection of an edge with a plane; absent if it is not a single point. Attributes are clamped to the
+/// range of the ends.
 std::optional<ClipVertex> exact_edge_intersection(const VertexTransform& transform, Outcode plane,
                                                   const ClipVertex& a, const ClipVertex& b,
                                                   int attribute_count);
-/// The point of a triangle on two planes, likewise.
+/// Intersection of a triangle with two planes; absent if it is not a single point. Attributes are clamped to
+/// the range of the vertices.
 std::optional<ClipVertex> exact_two_plane_intersection(const VertexTransform& transform, Outcode plane,
                                                        Outcode other, const ClipVertex& a,
                                                        const ClipVertex& b, const ClipVertex& c,

@@ -1,4 +1,4 @@
-// Sums of doubles and of their products without rounding.
+// Exact sums of doubles and of their products.
 #pragma once
 
 #include <cmath>
@@ -6,23 +6,27 @@
 
 namespace tessera::detail {
 
-/// A sum that is exact, held by doubles that do not overlap, the smallest first. Exact while no product is
-/// below 2^-960; NaN once anything overflows. Source: J. Shewchuk, Adaptive Precision Floating-Point
-/// Arithmetic and Fast Robust Geometric Predicates, 1997: grow-expansion, compress.
+/// An exact sum as an expansion: non-overlapping doubles, the smallest first.
+/// - Exact while no product is below 2^-960 in magnitude. NaN after any overflow.
+///
+/// Source: J. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
+/// 1997 (grow-expansion, compress).
 class ExactSum {
  public:
   void add(double term) {
     if (count_ == kMaxParts) compress();
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
-      const double sum = term + parts_[i], of_term = sum - parts_[i],
-                   rounded_off = (parts_[i] - (sum - of_term)) + (term - of_term);
-      if (rounded_off != 0) parts_[kept++] = rounded_off;
+      const double sum = term + parts_[i];
+      const double term_part = sum - parts_[i];
+      const double error = (parts_[i] - (sum - term_part)) + (term - term_part);
+      if (error != 0) parts_[kept++] = error;
       term = sum;
     }
-    if (!std::isfinite(term))
-      kept = 0,
-      term = std::numeric_limits<double>::quiet_NaN();  // what was rounded off is NaN, and does not compress
+    if (!std::isfinite(term)) {  // the errors are NaN, which compress() cannot reduce
+      kept = 0;
+      term = std::numeric_limits<double>::quiet_NaN();
+    }
     if (term != 0) parts_[kept++] = term;
     count_ = kept;
   }
@@ -31,7 +35,7 @@ class ExactSum {
     add(std::fma(a, b, -product));
     add(product);
   }
-  /// a b 2^exponent, which alone has to be within a double's range.
+  /// Adds a b 2^exponent. Only this product must be within the range of doubles, not a b itself.
   void add_product(double a, double b, int exponent) {
     int exponent_a, exponent_b;
     a = std::frexp(a, &exponent_a);
@@ -43,11 +47,11 @@ class ExactSum {
   void add_product(const ExactSum& a, double b) {
     for (int i = 0; i < a.count_; ++i) add_product(a.parts_[i], b);
   }
-  /// The product of two sums times `sign`, 1 or -1.
+  /// Adds the product of two sums times `sign`, 1 or -1.
   void add_product(const ExactSum& a, const ExactSum& b, double sign) {
     for (int i = 0; i < b.count_; ++i) add_product(a, b.parts_[i] * sign);
   }
-  /// Off by less than 2^-52 of itself.
+  /// Rounded value; relative error below 2^-52.
   double value() const {
     double sum = 0;
     for (int i = 0; i < count_; ++i) sum += parts_[i];
@@ -55,7 +59,7 @@ class ExactSum {
   }
 
  private:
-  // Compressed parts have all 53 bits, so 40 of them hold those from 2^1023 to 2^-1074.
+  // Compressed parts have 53 bits each, so 40 of them span 2^1023 to 2^-1074.
   static constexpr int kMaxParts = 64;
 
   void compress() {

@@ -1,4 +1,4 @@
-// A vertex in clip space without rounding.
+// Exact clip-space coordinates of a vertex.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@ namespace tessera::detail {
 class ExactVertex {
  public:
   ExactVertex() = default;
-  /// A mesh's own vertex, times 2^exponent.
+  /// The transform of a mesh vertex, times 2^exponent.
   ExactVertex(const VertexTransform& transform, const std::array<float, 4>& object, int exponent);
-  /// A position as it is, times 2^exponent.
+  /// A clip-space position, times 2^exponent.
   ExactVertex(const ClipPosition& position, int exponent);
 
-  const ExactSum& coordinate(std::size_t i) const { return coordinates_[i]; }  ///< x y z w
-  /// How far inside of a plane it lies; negative outside.
+  const ExactSum& coordinate(std::size_t i) const { return coordinates_[i]; }  ///< 0 to 3: x, y, z, w
+  /// Signed distance from a plane, up to scale; negative outside.
   ExactSum distance(const VertexTransform& transform, Outcode plane) const;
-  /// Each coordinate off by 2^-52 of itself.
+  /// Rounded coordinates; relative error of each below 2^-52.
   ClipPosition position() const;
-  /// As compute_outcode() has it.
+  /// The outcode of compute_outcode(), from exact distances.
   std::uint8_t outcode(const VertexTransform& transform) const;
 
  private:

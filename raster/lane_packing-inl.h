@@ -1,4 +1,4 @@
-// Packing of lanes, as indices for TableLookupLanes.
+// Lane packing (lane_packing.h) as indices for TableLookupLanes.
 #if defined(TESSERA_RASTER_LANE_PACKING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_LANE_PACKING_INL_H_
 #undef TESSERA_RASTER_LANE_PACKING_INL_H_
@@ -13,10 +13,10 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Not IndicesFromVec itself: where that checks, it wants Highway's library, which nothing else does.
+/// Replaces hn::IndicesFromVec(), whose checks in debug builds need Highway's library.
 template <class Tag>
-HWY_INLINE auto lane_indices(Tag tag, const LaneShuffle& numbers) {
-  const Int lanes = hn::PromoteTo(kInt, hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), numbers.byte));
+HWY_INLINE auto lane_indices(Tag tag, const LaneShuffle& shuffle) {
+  const Int lanes = hn::PromoteTo(kInt, hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), shuffle.byte));
   return decltype(hn::IndicesFromVec(tag, lanes)){lanes.raw};
 }
 

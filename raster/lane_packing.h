@@ -1,6 +1,5 @@
-// Packs some lanes of a vector side by side, and brings them back: numbers of lanes for a table lookup, from
-// tables of eight bits at a time. Highway 1.0.3 packs with a table that it copies at each use, and has no way
-// back.
+// Compresses selected lanes of a vector and expands them again: lane indices for a table lookup, from tables
+// indexed by eight mask bits. Highway 1.0.3 copies its table at every Compress() and has no Expand().
 #pragma once
 
 #include <array>
@@ -10,10 +9,10 @@
 
 namespace tessera::detail {
 
-/// For each set of eight bits a word of eight bytes.
+/// Eight bytes per 8-bit mask.
 using LaneTable = std::array<std::uint64_t, 256>;
 
-/// Byte j: the place of the set bit that has j others below it.
+/// Byte j: position of the j-th set bit, counted from 0.
 inline constexpr LaneTable kSetBits = [] {
   LaneTable table{};
   for (std::uint32_t bits = 0; bits < 256; ++bits) {
@@ -24,7 +23,7 @@ inline constexpr LaneTable kSetBits = [] {
   return table;
 }();
 
-/// Byte l: how many bits are set below bit l.
+/// Byte l: number of set bits below bit l.
 inline constexpr LaneTable kBitRanks = [] {
   LaneTable table{};
   for (std::uint32_t bits = 0; bits < 256; ++bits)
@@ -33,31 +32,32 @@ inline constexpr LaneTable kBitRanks = [] {
   return table;
 }();
 
-/// Which lane each lane takes, for up to 16; the bytes after those are never looked at.
+/// Source lane of each lane, for up to 16 lanes; the remaining bytes are unused.
 struct LaneShuffle {
   std::uint8_t byte[24] = {};
 };
 
-/// What the table says of the second eight lanes goes to byte `second_at`, and counts from `offset`.
+/// Combines the table entries of the lower and upper eight mask bits. The upper one is stored at byte
+/// `second_at`, with `offset` added to its indices.
 template <int kLanes>
 LaneShuffle lane_shuffle(const LaneTable& table, std::uint32_t bits, int second_at, int offset) {
   static_assert(kLanes <= 16);
-  LaneShuffle numbers;
-  std::memcpy(numbers.byte, &table[bits & 255], 8);
+  LaneShuffle shuffle;
+  std::memcpy(shuffle.byte, &table[bits & 255], 8);
   if constexpr (kLanes > 8) {
     const std::uint64_t second =
         table[bits >> 8 & 255] + 0x0101010101010101u * static_cast<std::uint64_t>(offset);
-    std::memcpy(numbers.byte + second_at, &second, 8);
+    std::memcpy(shuffle.byte + second_at, &second, 8);
   }
-  return numbers;
+  return shuffle;
 }
 
-/// The lanes whose bit is set come first, in their order; what follows them is any lane.
+/// Moves the lanes whose bit is set to the front, in order; the remaining lanes are arbitrary.
 template <int kLanes>
 LaneShuffle compress_lanes(std::uint32_t bits) {
   return lane_shuffle<kLanes>(kSetBits, bits, std::popcount(bits & 255), 8);
 }
-/// Takes packed lanes back to those whose bit is set; the others get any lane.
+/// Moves compressed lanes back to the lanes whose bit is set; the other lanes are arbitrary.
 template <int kLanes>
 LaneShuffle expand_lanes(std::uint32_t bits) {
   return lane_shuffle<kLanes>(kBitRanks, bits, 8, std::popcount(bits & 255));

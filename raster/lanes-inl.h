@@ -1,5 +1,5 @@
-// The few lane operations that Highway does not give with the same bits on every target. Included by kernels,
-// once for each instruction set; see framebuffer/lanes.h.
+// Lane types, and lane operations that Highway lacks or that it does not round identically on every target.
+// Included by kernels once per instruction set, see framebuffer/lanes.h.
 #if defined(TESSERA_RASTER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_LANES_INL_H_
 #undef TESSERA_RASTER_LANES_INL_H_
@@ -16,7 +16,7 @@ namespace tessera::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, 16>;  // at most a block
+using FloatTag = hn::CappedTag<float, 16>;  // at most one block
 using IntTag = hn::RebindToSigned<FloatTag>;
 using UintTag = hn::RebindToUnsigned<FloatTag>;
 using Float = hn::Vec<FloatTag>;
@@ -49,8 +49,7 @@ HWY_INLINE Float neg_mul_add(Float a, Float b, Float c) {
 #endif
 }
 
-/// a where it is above b, else b, also where either is no number: what x86 has an instruction for, whose
-/// operands Highway keeps in this order.
+/// a > b ? a : b; hence b if either is NaN. On x86 one MAXPS, whose operand order Highway keeps.
 HWY_INLINE Float greater_of(Float a, Float b) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   return hn::Max(a, b);
@@ -58,7 +57,7 @@ HWY_INLINE Float greater_of(Float a, Float b) {
   return hn::IfThenElse(hn::Gt(a, b), a, b);
 #endif
 }
-/// a where it is below b, else b, also where either is no number.
+/// a < b ? a : b; hence b if either is NaN.
 HWY_INLINE Float lesser_of(Float a, Float b) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   return hn::Min(a, b);
@@ -67,7 +66,8 @@ HWY_INLINE Float lesser_of(Float a, Float b) {
 #endif
 }
 
-/// Towards zero, for values that fit: Highway's ConvertTo spends three more steps on those that do not.
+/// Rounds towards zero. @pre the result fits in 32 bits; Highway's ConvertTo spends three more instructions
+/// on those that do not.
 HWY_INLINE Int truncate(Float v) {
 #if HWY_TARGET == HWY_AVX2
   return Int{_mm256_cvttps_epi32(v.raw)};
@@ -79,7 +79,7 @@ HWY_INLINE Int truncate(Float v) {
 }
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-/// Indices of eight lanes, for loads one by one.
+/// Eight lane indices in general registers, for scalar loads.
 struct LaneIndices {
   std::uint64_t two[4];
   explicit HWY_INLINE LaneIndices(__m256i index) {
@@ -95,8 +95,7 @@ struct LaneIndices {
 };
 #endif
 
-/// The words at an index of at least 0: by a gather where there are sixteen, else one by one, the faster
-/// ways.
+/// Loads words[index] per lane, index >= 0. AVX2 uses scalar loads, which are faster there than its gather.
 HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
 #if HWY_TARGET == HWY_AVX2
   const LaneIndices at(index.raw);
@@ -107,14 +106,14 @@ HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
 #endif
 }
 
-/// One bit a lane, lane 0 lowest.
+/// One bit per lane, lane 0 lowest.
 template <class Tag, class Mask>
 HWY_INLINE std::uint32_t mask_bits(Tag tag, Mask mask) {
 #if HWY_TARGET == HWY_SCALAR
   (void)tag;
   return mask.bits != 0;
 #elif HWY_TARGET == HWY_AVX3
-  static_assert(hn::MaxLanes(Tag()) >= 8);  // there are no bits but lanes'
+  static_assert(hn::MaxLanes(Tag()) >= 8);  // the mask has no bits beyond the lanes
   (void)tag;
   return mask.raw;
 #else
@@ -123,7 +122,7 @@ HWY_INLINE std::uint32_t mask_bits(Tag tag, Mask mask) {
   return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
 #endif
 }
-/// The lanes whose bit is set; bits above the lanes are ignored.
+/// Mask of the lanes whose bit is set; bits beyond the lanes are ignored.
 HWY_INLINE LaneMask mask_from_bits(std::uint32_t bits) {
 #if HWY_TARGET == HWY_AVX3
   return LaneMask{static_cast<__mmask16>(bits)};
@@ -135,25 +134,25 @@ HWY_INLINE LaneMask mask_from_bits(std::uint32_t bits) {
 #endif
 }
 
-/// A bit for each of the first `count`, fewer than 32.
+/// Mask with the lowest `count` bits set. @pre count < 32
 HWY_INLINE std::uint32_t low_bits_mask(int count) { return (1u << count) - 1; }
 
-/// The bits of one chunk's lanes, of a block's 16.
+/// Bits of one chunk's lanes, from the 16 bits of a block.
 HWY_INLINE std::uint32_t chunk_bits(std::uint32_t block_bits, int chunk) {
   return block_bits >> (chunk * kLanes) & ((1u << kLanes) - 1);
 }
 
 #if HWY_TARGET == HWY_AVX3
-/// The lanes that hold what a lane before them holds. In assembly, because Highway's AVX3 does not name
-/// AVX512CD, which all processors have that have the rest.
+/// Lanes whose value equals that of an earlier lane. In assembly, because Highway's AVX3 target does not
+/// enable AVX512CD; available_isas() requires it.
 HWY_INLINE LaneMask duplicate_lanes(Int v) {
-  __m512i earlier;  // a bit for each lane that is equal
+  __m512i earlier;  // per lane: one bit per equal earlier lane
   asm("vpconflictd %1, %0" : "=v"(earlier) : "v"(v.raw));
   return hn::Ne(Int{earlier}, hn::Zero(kInt));
 }
 #endif
 
-// Pixel p of a 4x4 block stands in column p % 4 and row p / 4.
+// Pixel p of a 4x4 block is in column p % 4 and row p / 4.
 alignas(64) inline constexpr std::int32_t kBlockColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) inline constexpr std::int32_t kBlockRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 HWY_INLINE Int block_columns(int chunk) { return hn::Load(kInt, kBlockColumn + chunk * kLanes); }

@@ -5,7 +5,7 @@
 namespace tessera::detail {
 namespace {
 
-// Several maxima side by side, which become lanes.
+// Independent accumulators, so that the loop vectorizes.
 template <class Index>
 Index largest(std::span<const Index> indices) {
   constexpr std::size_t kAccumulators = 64 / sizeof(Index);

@@ -1,4 +1,4 @@
-// The largest of a mesh's indices, which says whether all its vertices are there.
+// The largest index of a mesh, for bounds checks.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace tessera::detail {
 
-/// 0 of none.
+/// Largest of `indices`; 0 if there are none.
 std::uint32_t largest_index(std::span<const std::uint32_t> indices);
 std::uint16_t largest_index(std::span<const std::uint16_t> indices);
 

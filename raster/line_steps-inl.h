@@ -1,11 +1,11 @@
-// The lines of a group as functions of the step along their major axis: the pixels of their twin
-// (line_walk.h), in any order.
+// Lines of one sample, vectorized along the major axis: the pixels of line_walk.h (the twin), in any order.
 //
-// With integers n and d the minor coordinate of a step is floor(n / d), d = 256 length < 2^33. As floor((n +
-// 1/2) / d) it may be found by a product: the quotient stands at least 1 / (2 d) > 2^-34 away from whole
-// numbers; it is below 2^17 (coordinates to 2^16 pixels, half a width to 2^15, a vector of steps beyond the
-// end), so reciprocal and product are off by 2^-35 at most. n + 1/2 is below 2^51, which makes all sums
-// exact.
+// The minor coordinate of a step is floor(n / d) with integers n and d, d = 256 length < 2^33. Computed as
+// floor((n + 1/2) (1 / d)), it is exact:
+// - (n + 1/2) / d is at least 1 / (2 d) > 2^-34 away from integers.
+// - It is below 2^17 (coordinates up to 2^16 pixels, half a width up to 2^15, a vector of steps beyond the
+//   end), so the errors of reciprocal and product are at most 2^-35.
+// - n + 1/2 is below 2^51, so all sums are exact.
 #if defined(TESSERA_RASTER_LINE_STEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_LINE_STEPS_INL_H_
 #undef TESSERA_RASTER_LINE_STEPS_INL_H_
@@ -24,39 +24,42 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// A point in raster space in each lane.
+/// One point in raster space per lane.
 struct LinePoints {
   Int x, y;
 };
 
-/// The twin of in_diamond().
+/// Vector form of in_diamond().
 HWY_INLINE auto are_in_diamonds(const LinePoints& p) {
   const Int within = splat(kSubpixelScale - 1), half = splat(kHalfPixel), one = splat(1);
-  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within), hn::Sub(half, one)),
-            dy = hn::Sub(hn::And(p.y, within), half);
+  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within), hn::Sub(half, one));
+  const Int dy = hn::Sub(hn::And(p.y, within), half);
   const Int distance = hn::Add(hn::Abs(dx), hn::Abs(dy));
   return hn::Or(hn::Gt(half, distance), hn::And(hn::Eq(distance, half), hn::Gt(dx, hn::Zero(kInt))));
 }
 
 class LineSteps {
  public:
-  /// All lines of a group, `width` pixels wide. @pre coordinates below 2^24
+  /// Sets up all lines of a group, `width` pixels wide. @pre coordinates below 2^24
   HWY_NOINLINE void set_up(const TriangleGroup& g, int width) {
     width_ = width;
     for (int i = 0; i < g.count; i += kLanes) set_up_lanes(g, i);
   }
-  /// Calls pixels(x, y, inside) until each pixel of line i that lies in `window` was `inside` once.
+  /// Calls pixels(x, y, inside) with vectors of pixels of line i. Each pixel of the line in `window` is in
+  /// exactly one lane with `inside` set.
   template <class Pixels>
   HWY_INLINE void for_each(int i, const PixelRect& window, const Pixels& pixels) const {
     const bool x_major = x_major_[i] != 0;
-    const int from = std::max(first_[i], x_major ? window.x0 : window.y0),
-              to = std::min(last_[i] + 1, x_major ? window.x1 : window.y1);
-    const int low = x_major ? window.y0 : window.x0,
-              high = x_major ? window.y1 : window.x1;  // of the minor coordinate
+    const int from = std::max(first_[i], x_major ? window.x0 : window.y0);
+    const int to = std::min(last_[i] + 1, x_major ? window.x1 : window.y1);
+    // Range of the minor coordinate.
+    const int low = x_major ? window.y0 : window.x0;
+    const int high = x_major ? window.y1 : window.x1;
     for (int step = from; step < to; step += kLanes) {
       const Int major = hn::Iota(kInt, step);
       const Int base = truncate(floor(times(plus(times(to_doubles(major), rise_[i]), start_[i]), per_[i])));
-      int k0 = 0, k1 = 0;  // across, upwards (x-major) or to the right: what of the width may be inside
+      // Range of the offset across the line, upwards (x-major) or to the right, that may be inside.
+      int k0 = 0, k1 = 0;
       if (width_ > 1) {
         alignas(64) std::int32_t bases[kLanes];
         hn::Store(base, kInt, bases);
@@ -75,20 +78,22 @@ class LineSteps {
 
  private:
   HWY_INLINE void set_up_lanes(const TriangleGroup& g, int i) {
-    const Int zero = hn::Zero(kInt), one = splat(1), aside = splat(kHalfPixel * (width_ - 1));
-    LinePoints a{hn::Load(kInt, g.x[0] + i), hn::Load(kInt, g.y[0] + i)},
-        b{hn::Load(kInt, g.x[1] + i), hn::Load(kInt, g.y[1] + i)};
+    const Int zero = hn::Zero(kInt), one = splat(1);
+    const Int aside = splat(kHalfPixel * (width_ - 1));  // shift of wide lines along the minor axis
+    LinePoints a{hn::Load(kInt, g.x[0] + i), hn::Load(kInt, g.y[0] + i)};
+    LinePoints b{hn::Load(kInt, g.x[1] + i), hn::Load(kInt, g.y[1] + i)};
     const Int dx = hn::Sub(b.x, a.x), dy = hn::Sub(b.y, a.y);
     const auto steep = hn::Gt(hn::Abs(dy), hn::Abs(dx));
     for (LinePoints* p : {&a, &b})
       *p = {hn::Sub(p->x, hn::IfThenElseZero(steep, aside)), hn::Add(p->y, hn::IfThenZeroElse(steep, aside))};
     const Int along = hn::IfThenElse(steep, dy, dx), across = hn::IfThenElse(steep, dx, dy);
     const auto forward = hn::Gt(along, zero);
-    // Along x the ends move by -e, along y by +e^2.
-    const Int moved = hn::IfThenZeroElse(steep, one), from = hn::IfThenElse(steep, a.y, a.x),
-              to = hn::IfThenElse(steep, b.y, b.x);
-    const Int from_moved = hn::Sub(from, moved), to_moved = hn::Sub(to, moved),
-              step = hn::IfThenElse(forward, one, splat(-1));
+    // The rule moves the ends by -e along x and by +e^2 along y.
+    const Int moved = hn::IfThenZeroElse(steep, one);
+    const Int from = hn::IfThenElse(steep, a.y, a.x);
+    const Int to = hn::IfThenElse(steep, b.y, b.x);
+    const Int from_moved = hn::Sub(from, moved), to_moved = hn::Sub(to, moved);
+    const Int step = hn::IfThenElse(forward, one, splat(-1));
     const auto is_before = [&](Int major) HWY_ATTR {
       return hn::Gt(splat(kHalfPixel), hn::And(major, splat(kSubpixelScale - 1)));
     };
@@ -102,12 +107,13 @@ class LineSteps {
     hn::Store(hn::IfThenElse(is_point, one, hn::IfThenElse(forward, begin, end)), kInt, first_ + i);
     hn::Store(hn::IfThenZeroElse(is_point, hn::IfThenElse(forward, end, begin)), kInt, last_ + i);
 
-    const Int slope = hn::IfThenElse(forward, across, hn::Neg(across)),
-              minor = hn::IfThenElse(steep, a.x, a.y);
+    const Int slope = hn::IfThenElse(forward, across, hn::Neg(across));
+    const Int minor = hn::IfThenElse(steep, a.x, a.y);
     const auto tie_goes_down = hn::Or(steep, hn::Gt(zero, slope));
-    const Doubles length = to_doubles(hn::Max(hn::Abs(along), one)), scaled = times(length, kSubpixelScale);
-    const Doubles at_first = times(to_doubles(minor), length),
-                  to_center = times(to_doubles(slope), to_doubles(hn::Sub(splat(kHalfPixel), from)));
+    const Doubles length = to_doubles(hn::Max(hn::Abs(along), one));
+    const Doubles scaled = times(length, kSubpixelScale);
+    const Doubles at_first = times(to_doubles(minor), length);
+    const Doubles to_center = times(to_doubles(slope), to_doubles(hn::Sub(splat(kHalfPixel), from)));
     const Doubles tie = plus(to_doubles(hn::IfThenElseZero(tie_goes_down, splat(-1))), 0.5);
     store(plus(plus(at_first, to_center), tie), start_ + i);
     store(times(to_doubles(slope), kSubpixelScale), rise_ + i);
@@ -116,10 +122,10 @@ class LineSteps {
 
   int width_ = 1;
   alignas(64) std::int32_t x_major_[kGroupSize];  // -1 or 0
-  alignas(64) std::int32_t first_[kGroupSize],
-      last_[kGroupSize];  // inclusive, ascending; first > last: no pixels
-  alignas(64) double start_[kGroupSize], rise_[kGroupSize],
-      per_[kGroupSize];  // the minor coordinate of a step: floor((start + step rise) per)
+  // Steps along the major axis, inclusive, ascending; first > last: no pixels.
+  alignas(64) std::int32_t first_[kGroupSize], last_[kGroupSize];
+  // Minor coordinate of a step: floor((start + step rise) per).
+  alignas(64) double start_[kGroupSize], rise_[kGroupSize], per_[kGroupSize];
 };
 
 }  // namespace HWY_NAMESPACE

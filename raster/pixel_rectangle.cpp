@@ -8,7 +8,7 @@
 namespace tessera::detail {
 namespace {
 
-// Where a sample lies in the window; exact.
+// Window coordinates of a sample; exact.
 double window_x(int x, SamplePosition sample) {
   return x + 0.5 + static_cast<double>(sample.x) / kSubpixelScale;
 }
@@ -16,39 +16,43 @@ double window_y(int y, int frame_height, SamplePosition sample) {
   return frame_height - y - 0.5 - static_cast<double>(sample.y) / kSubpixelScale;
 }
 
-int clamped(double pixel, int most) {
-  return static_cast<int>(std::clamp(pixel, 0.0, static_cast<double>(most)));
+int clamped(double pixel, int max) {
+  return static_cast<int>(std::clamp(pixel, 0.0, static_cast<double>(max)));
 }
 
-/// The texels' rows or columns, and where the samples of a pixel stand beside its centre.
+/// Rows or columns of texels, and the offsets of the samples from a pixel's centre.
 struct Axis {
   double start, zoom;
-  int count, samples;
+  int count;
+  int samples;
   double offset[kMaxSamples];
 
-  [[gnu::noinline]] bool sees(double center) const {  // twice in each of two loops
+  /// True if a sample of the pixel at `center` hits a texel. Not inlined, for code size: four calls.
+  [[gnu::noinline]] bool has_texel(double center) const {
     for (int s = 0; s < samples; ++s)
       if (texel_at(start, zoom, count, center + offset[s]) != kNoTexel) return true;
     return false;
   }
 };
 
-/// Pixels [first, last) of a row or column, without those at its ends that see nothing.
+/// Shrinks [first, last) by the pixels at its ends that hit no texel.
 template <class Center>
 void tighten(int& first, int& last, const Axis& axis, const Center& center) {
-  while (first < last && !axis.sees(center(first))) ++first;
-  while (first < last && !axis.sees(center(last - 1))) --last;
+  while (first < last && !axis.has_texel(center(first))) ++first;
+  while (first < last && !axis.has_texel(center(last - 1))) --last;
 }
 
 }  // namespace
 
-std::int32_t texel_at(double start, double zoom, int count, double place) {
-  // The borders are the same numbers for the texels on both sides, and never turn back: those up to some n
-  // are passed.
-  const auto passed = [&](int n) { return zoom > 0 ? start + zoom * n <= place : place < start + zoom * n; };
+std::int32_t texel_at(double start, double zoom, int count, double position) {
+  // A border has the same value for the texels on both sides, and borders are monotonic: if border n is
+  // passed, so are those before it.
+  const auto passed = [&](int n) {
+    return zoom > 0 ? start + zoom * n <= position : position < start + zoom * n;
+  };
   if (zoom == 0 || !passed(0) || passed(count)) return kNoTexel;
-  // The quotient is right but where it rounds next to a border.
-  const double guess = std::floor((place - start) / zoom);
+  // The quotient is correct unless it rounds across a border.
+  const double guess = std::floor((position - start) / zoom);
   if (guess >= 0 && guess < count && passed(static_cast<int>(guess)) && !passed(static_cast<int>(guess) + 1))
     return static_cast<std::int32_t>(guess);
   int low = 0, high = count;
@@ -65,8 +69,8 @@ PixelRect covered_pixels(const PixelRectangle& texels, int frame_width, int fram
   PixelRect rect{
       clamped(std::floor(left), frame_width), frame_height - clamped(std::ceil(high), frame_height),
       clamped(std::ceil(right), frame_width), frame_height - clamped(std::floor(low), frame_height)};
-  Axis x{texels.x, texels.zoom_x, texels.width, samples, {}},
-      y{texels.y, texels.zoom_y, texels.height, samples, {}};
+  Axis x{texels.x, texels.zoom_x, texels.width, samples, {}};
+  Axis y{texels.y, texels.zoom_y, texels.height, samples, {}};
   for (int s = 0; s < samples; ++s) {
     const SamplePosition position = sample_positions(samples)[s];
     x.offset[s] = window_x(0, position) - 0.5;

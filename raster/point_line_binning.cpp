@@ -10,8 +10,8 @@ namespace {
 
 LinePoint point_of(const WindowVertex& v) { return {v.x, v.y}; }
 
-// Window coordinates are off by half of 1/256 pixel: only within a whole one of the viewport's border are
-// they not enough to tell.
+// Window coordinates are rounded by up to half of 1/256 pixel. Only within 1/256 pixel of the viewport's
+// border is the clip position needed for the decision.
 bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v) {
   const VertexTransform& t = *draw.transform;
   const double x = std::abs(static_cast<double>(v.x) - t.center_x) - kSubpixelScale * t.half_width;
@@ -23,37 +23,38 @@ bool is_in_view(const BinDraw& draw, std::uint32_t vertex, const WindowVertex& v
 
 PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
   if (draw.samples == 1) return intersect(point_square(at, rounded_size(draw.size)), draw.rect);
-  const std::int32_t reach =
-      (rounded_size(draw.size) + 3) * kHalfPixel;  // what is seen at the centres of pixels alone included
+  // Reach of the disc, and of the square that is tested at pixel centres only.
+  const std::int32_t reach = (rounded_size(draw.size) + 3) * kHalfPixel;
   return intersect(pixels_near(at, at, reach), draw.rect);
 }
 
-// Tiles are powers of two wide, and a division would be much of a point's work.
+// Tiles that a rectangle of pixels touches. By shifts: divisions would dominate the cost of a point.
 struct TileSpan {
   int x0, y0, x1, y1;  // inclusive
   int columns;         // of the grid
   TileSpan(const TileGrid& grid, const PixelRect& pixels) {
     const int shift = std::countr_zero(static_cast<unsigned>(grid.tile_size));
-    x0 = pixels.x0 >> shift, y0 = pixels.y0 >> shift, x1 = (pixels.x1 - 1) >> shift,
-    y1 = (pixels.y1 - 1) >> shift;
+    x0 = pixels.x0 >> shift, y0 = pixels.y0 >> shift;
+    x1 = (pixels.x1 - 1) >> shift, y1 = (pixels.y1 - 1) >> shift;
     columns = (grid.width_px + grid.tile_size - 1) >> shift;
   }
 };
 
-// Into the tiles that it may have pixels in. Returns whether there are any.
+// Bins a line into the tiles that it may touch. Returns false if there are none.
 bool bin_line(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint a, LinePoint b,
               std::uint32_t id) {
   const std::int32_t reach = line_reach(draw.size, draw.samples);
   const PixelRect pixels = intersect(pixels_near(a, b, reach), draw.rect);
   if (pixels.empty()) return false;
   const TileSpan tiles(grid, pixels);
-  const int size = grid.tile_size, x0 = tiles.x0, y0 = tiles.y0, x1 = tiles.x1, y1 = tiles.y1;
+  const int x0 = tiles.x0, y0 = tiles.y0, x1 = tiles.x1, y1 = tiles.y1;
   if (x0 == x1 && y0 == y1) {
     bins.push(y0 * tiles.columns + x0, draw.draw, id);
     return true;
   }
-  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y,
-                     half = std::int64_t{size} * kHalfPixel;
+  // |distance of the tile's centre from the line| <= half a tile + reach, times the length, in the 1-norm.
+  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
+  const std::int64_t half = std::int64_t{grid.tile_size} * kHalfPixel;  // half a tile, 1/256 pixel
   const std::int64_t max_across = (std::abs(dx) + std::abs(dy)) * (half + reach);
   for (int ty = y0; ty <= y1; ++ty)
     for (int tx = x0; tx <= x1; ++tx) {
@@ -72,7 +73,8 @@ bool bin_square(Bins& bins, const TileGrid& grid, const BinDraw& draw, LinePoint
   return true;
 }
 
-// Clips a line that has outcodes. False if nothing is left, else its derived primitive stands last.
+// Clips a line that has outcodes and appends the derived primitive. Returns false, and appends nothing, if
+// nothing remains.
 bool clip_to_window(Bins& bins, const BinDraw& draw, std::uint32_t line, std::uint8_t outcodes) {
   ClipVertex ends[2] = {clip_vertex(draw, vertex_index<2>(draw, line, 0), draw.attribute_count),
                         clip_vertex(draw, vertex_index<2>(draw, line, 1), draw.attribute_count)};
@@ -109,9 +111,8 @@ void bin_points(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint
       continue;
     }
     const WindowVertex& v = draw.vertices[vertex];
-    ++(outcodes == 0 && is_in_view(draw, vertex, v) && bin_square(bins, grid, draw, point_of(v), point)
-           ? counts.binned
-           : counts.outside);
+    const bool is_visible = outcodes == 0 && is_in_view(draw, vertex, v);
+    ++(is_visible && bin_square(bins, grid, draw, point_of(v), point) ? counts.binned : counts.outside);
   }
 }
 
@@ -121,22 +122,22 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
   counts.triangles_in += last - first;
   for (std::uint32_t line = first; line < last; ++line) {
     const std::uint32_t i0 = vertex_index<2>(draw, line, 0), i1 = vertex_index<2>(draw, line, 1);
-    const std::uint8_t c0 = draw.any_outcode ? draw.outcodes[i0] : 0,
-                       c1 = draw.any_outcode ? draw.outcodes[i1] : 0;
+    const std::uint8_t c0 = draw.any_outcode ? draw.outcodes[i0] : 0;
+    const std::uint8_t c1 = draw.any_outcode ? draw.outcodes[i1] : 0;
     if (((c0 | c1) & kNonFinite) != 0) {
       ++counts.non_finite;
       continue;
     }
-    bool is_left = (c0 & c1) == 0;
-    if (is_left && (c0 | c1) != 0) {
+    bool is_visible = (c0 & c1) == 0;
+    if (is_visible && (c0 | c1) != 0) {
       ++counts.clipped;
       const bool has_derived = clip_to_window(bins, draw, line, c0 | c1);
-      is_left = has_derived && bin_derived_line(bins, grid, draw);
-      if (has_derived && !is_left) bins.drop_last_derived();
-    } else if (is_left) {
-      is_left = bin_line(bins, grid, draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1]), line);
+      is_visible = has_derived && bin_derived_line(bins, grid, draw);
+      if (has_derived && !is_visible) bins.drop_last_derived();
+    } else if (is_visible) {
+      is_visible = bin_line(bins, grid, draw, point_of(draw.vertices[i0]), point_of(draw.vertices[i1]), line);
     }
-    ++(is_left ? counts.binned : counts.outside);
+    ++(is_visible ? counts.binned : counts.outside);
   }
 }
 

@@ -1,4 +1,4 @@
-// Which pixels and samples points and lines cover, in exact integers of 1/256 pixel. Lines of one sample:
+// Pixels and samples that points and lines cover, in exact integers of 1/256 pixel. Lines of one sample:
 // line_walk.h, line_steps-inl.h.
 #pragma once
 
@@ -11,43 +11,42 @@
 
 namespace tessera::detail {
 
-/// Points and lines that are larger, in pixels, are drawn at this size, which more than covers any frame
-/// buffer.
+/// Larger points and lines, in pixels, are drawn at this size, which exceeds any frame buffer.
 inline constexpr float kMaxPointLineSize = 65536;
 
-/// The size in pixels where pixels have one sample: rounded, halves up, at least 1 [GL 2.1, 3.3 and 3.4].
+/// Size in whole pixels for pixels of one sample: rounded, halves up, at least 1 [GL 2.1, 3.3 and 3.4].
 inline int rounded_size(float size) {
   return std::max(1, static_cast<int>(std::floor(std::min(size, kMaxPointLineSize) + 0.5f)));
 }
-/// In 1/256 pixel, where they have several: sizes are snapped as positions are.
+/// Size in 1/256 pixel for pixels of several samples: snapped like positions.
 inline std::int32_t snapped_size(float size) {
   return std::max(1, static_cast<std::int32_t>(std::floor(
                          static_cast<double>(std::min(size, kMaxPointLineSize)) * kSubpixelScale + 0.5)));
 }
 
-/// Of what covers pixels with one sample the centre is within this of a line along each axis, in 1/256 pixel.
-/// Of others too: a sample is less than half a pixel from the centre, and by less whole sizes differ from
-/// snapped ones.
+/// Largest distance per axis, in 1/256 pixel, of a covered pixel's centre from a line. With several samples:
+/// a sample is less than half a pixel from the centre, and a rounded size differs from the snapped one by
+/// less than that.
 inline std::int32_t line_reach(float width, int samples) {
   return samples == 1 ? rounded_size(width) * kHalfPixel : (snapped_size(width) + 1) / 2 + kHalfPixel;
 }
 
-/// The pixels whose centres are within `reach` of a line along each axis.
+/// Bounds of the pixels whose centres are within `reach` of a line, per axis.
 constexpr PixelRect pixels_near(LinePoint a, LinePoint b, std::int32_t reach) {
   return {first_pixel(std::min(a.x, b.x) - reach), first_pixel(std::min(a.y, b.y) - reach),
           last_pixel(std::max(a.x, b.x) + reach) + 1, last_pixel(std::max(a.y, b.y) + reach) + 1};
 }
 
-/// The square of a point of `size` pixels: an odd size lies around the pixel that holds the point, an even
-/// one around the nearest corner of pixels. On a border, what lies to the right or above has it.
+/// Square of a point of `size` pixels. An odd size is centred on the pixel that contains the point, an even
+/// size on the nearest pixel corner. On a border, the pixel or corner to the right or above is chosen.
 constexpr PixelRect point_square(LinePoint at, int size) {
   const bool odd = size % 2 != 0;
-  const int x = (odd ? at.x : at.x + kHalfPixel) >> kSubpixelBits,
-            y = (odd ? at.y - 1 : at.y + kHalfPixel - 1) >> kSubpixelBits;
+  const int x = (odd ? at.x : at.x + kHalfPixel) >> kSubpixelBits;
+  const int y = (odd ? at.y - 1 : at.y + kHalfPixel - 1) >> kSubpixelBits;
   return {x - size / 2, y - size / 2, x - size / 2 + size, y - size / 2 + size};
 }
 
-/// A point of several samples: a disc, its border included.
+/// Coverage of a point with several samples: a closed disc.
 class PointDisc {
  public:
   /// @param diameter  snapped
@@ -63,8 +62,8 @@ class PointDisc {
   std::int32_t diameter_;
 };
 
-/// A line of several samples: the rectangle of its width along it. Points on its border belong to it by the
-/// rule of polygons: those on a left or top side [GL 2.1, 3.4.4].
+/// Coverage of a line with several samples: a rectangle along the line, of its width. The fill rule of
+/// polygons applies to its border: left and top sides belong to it [GL 2.1, 3.4.4].
 class LineRectangle {
  public:
   /// @param width  snapped
@@ -73,7 +72,7 @@ class LineRectangle {
         dx_(std::int64_t{b.x} - a.x),
         dy_(std::int64_t{b.y} - a.y),
         squared_length_(dx_ * dx_ + dy_ * dy_) {
-    // The largest `half` with half <= width / 2 * length: 4 half^2 <= width^2 length^2.
+    // Largest integer half <= width / 2 * length, that is, 4 half^2 <= width^2 length^2.
     __extension__ using Wide = __int128;
     const Wide bound = Wide{width} * width * squared_length_;
     half_ = static_cast<std::int64_t>(0.5 * width * std::sqrt(static_cast<double>(squared_length_)));
@@ -83,16 +82,16 @@ class LineRectangle {
   }
 
   std::int64_t squared_length() const { return squared_length_; }
-  /// How far along the line a point is, as a part of squared_length().
+  /// Position along the line, 0 to squared_length() between its ends.
   std::int64_t along(LinePoint p) const { return dx_ * (p.x - a_.x) + dy_ * (p.y - a_.y); }
-  /// How far to its right, y down, in units of the length.
+  /// Signed distance from the line times its length; positive to the right of its direction (y down).
   std::int64_t across(LinePoint p) const { return dx_ * (p.y - a_.y) - dy_ * (p.x - a_.x); }
 
   bool covers(LinePoint p) const {
     const std::int64_t forward = along(p), aside = across(p);
-    if (forward < 0 || forward > squared_length_ || aside < -half_ || aside > half_ || squared_length_ == 0)
-      return false;
-    // A side is a left one if what is inside lies to the right of it, a top one if that lies below it.
+    const bool is_beside = aside < -half_ || aside > half_;
+    if (forward < 0 || forward > squared_length_ || is_beside || squared_length_ == 0) return false;
+    // A left side has the inside to its right, a top side has it below.
     const auto owns = [](std::int64_t inside_x, std::int64_t inside_y) {
       return inside_x > 0 || (inside_x == 0 && inside_y > 0);
     };
@@ -102,16 +101,19 @@ class LineRectangle {
     if (aside == half_ && !owns(dy_, -dx_)) return false;
     return aside != -half_ || owns(-dy_, dx_);
   }
-  /// Whether a square around `p`, `reach` to each side, may have points of it.
+  /// False if the square around `p`, `reach` to each side, does not touch the rectangle. Conservative.
   bool may_touch(LinePoint p, std::int32_t reach) const {
-    const std::int64_t most = (std::abs(dx_) + std::abs(dy_)) * reach;
-    return std::abs(across(p)) <= half_ + most && along(p) >= -most && along(p) <= squared_length_ + most;
+    const std::int64_t margin = (std::abs(dx_) + std::abs(dy_)) * reach;
+    return std::abs(across(p)) <= half_ + margin && along(p) >= -margin &&
+           along(p) <= squared_length_ + margin;
   }
 
  private:
   LinePoint a_;
-  std::int64_t dx_, dy_, squared_length_, half_ = 0;
-  bool meets_border_ = false;
+  std::int64_t dx_, dy_;
+  std::int64_t squared_length_;
+  std::int64_t half_ = 0;      // half the width times the length, rounded down
+  bool meets_border_ = false;  // half_ is not rounded: grid points can lie on the long sides
 };
 
 }  // namespace tessera::detail

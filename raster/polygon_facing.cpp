@@ -5,18 +5,20 @@
 namespace tessera::detail {
 namespace {
 
-std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle, bool of_all) {
+// Outcodes that all vertices of a triangle share, or that any of them has.
+enum class Combine { all, any };
+std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle, Combine combine) {
   const std::uint8_t c[3] = {draw.outcodes[vertex_index<3>(draw, triangle, 0)],
                              draw.outcodes[vertex_index<3>(draw, triangle, 1)],
                              draw.outcodes[vertex_index<3>(draw, triangle, 2)]};
-  return of_all ? c[0] & c[1] & c[2] : c[0] | c[1] | c[2];
+  return combine == Combine::all ? c[0] & c[1] & c[2] : c[0] | c[1] | c[2];
 }
 
-// Doubled area of what of a triangle is inside the view volume.
+// Doubled window area of a triangle after clipping.
 double visible_area(const BinDraw& draw, std::uint32_t triangle) {
   if (draw.any_outcode) {
-    if (outcodes_of(draw, triangle, true) != 0) return 0;
-    if (const std::uint8_t outcodes = outcodes_of(draw, triangle, false); outcodes != 0)
+    if (outcodes_of(draw, triangle, Combine::all) != 0) return 0;
+    if (const std::uint8_t outcodes = outcodes_of(draw, triangle, Combine::any); outcodes != 0)
       return clip_to_window(draw, triangle, outcodes, 0).area;
   }
   return doubled_area(draw.vertices[vertex_index<3>(draw, triangle, 0)],
@@ -28,7 +30,8 @@ Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {
   double area = 0;
   for (std::size_t t = begin; t < end; ++t) {
     const auto triangle = static_cast<std::uint32_t>(t);
-    if (draw.any_outcode && (outcodes_of(draw, triangle, false) & kNonFinite) != 0) return Facing::dropped;
+    if (draw.any_outcode && (outcodes_of(draw, triangle, Combine::any) & kNonFinite) != 0)
+      return Facing::dropped;
     area += visible_area(draw, triangle);
   }
   return area == 0 || is_front(area, draw.front_is_clockwise) ? Facing::front : Facing::back;

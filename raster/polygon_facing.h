@@ -1,5 +1,4 @@
-// Which side of a polygon is seen, where polygons are split into several triangles: the whole decides, not
-// the triangle.
+// Facing of polygons that are split into several triangles: the whole polygon decides, not each triangle.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +8,12 @@ namespace tessera::detail {
 
 struct BinDraw;
 
-/// What all triangles of a polygon share. dropped: one of its vertices is not finite.
+/// Facing shared by all triangles of a polygon. dropped: one of its vertices is not finite.
 enum class Facing : std::uint8_t { back, front, dropped };
 
-/// Of the polygons of `per_polygon` triangles that begin in [first, last): writes `facing` of all their
-/// triangles, by the sign of the area in the window of what clipping leaves of them [GL 2.1, 3.5.1]. An area
-/// of 0 is a front, whichever way fronts turn.
+/// Classifies the polygons, of `per_polygon` triangles each, that begin in triangles [first, last), and
+/// writes `facing` of all their triangles. The sign of the polygon's window area after clipping decides
+/// [GL 2.1, 3.5.1]. An area of 0 is front-facing, whatever the winding of front faces.
 void classify_polygon_facing(const BinDraw& draw, std::size_t per_polygon, std::size_t first,
                              std::size_t last, Facing* facing);
 

@@ -17,11 +17,13 @@ double depth_of(DepthFormat kind, std::uint32_t z) {
   return depth;
 }
 
-// max(|dz/dx|, |dz/dy|), per pixel. `area` is doubled.
+// max(|dz/dx|, |dz/dy|) per pixel. `area` is the doubled area.
 double slope_of(DepthFormat kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c,
                 double area) {
-  const double z = depth_of(kind, a.z), to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
-  const double by_x = to_b * (c.y - a.y) - to_c * (b.y - a.y), by_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
+  const double z = depth_of(kind, a.z);
+  const double to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
+  const double by_x = to_b * (c.y - a.y) - to_c * (b.y - a.y);
+  const double by_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
   return std::max(std::abs(by_x), std::abs(by_y)) * kSubpixelScale / area;
 }
 
@@ -43,8 +45,9 @@ WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
 double slope_of(DepthFormat kind, const WindowPolygon& triangle) {
   double slope = 0, largest = 0;
   for (const WindowPolygon::Corners& corner : triangle.triangles()) {
-    const WindowVertex &a = triangle.window[corner[0]], &b = triangle.window[corner[1]],
-                       &c = triangle.window[corner[2]];
+    const WindowVertex& a = triangle.window[corner[0]];
+    const WindowVertex& b = triangle.window[corner[1]];
+    const WindowVertex& c = triangle.window[corner[2]];
     const double area = std::abs(doubled_area(a, b, c));
     if (area <= largest) continue;
     largest = area;
@@ -64,9 +67,9 @@ double offset_of(const BinDraw& draw, float factor, float units, std::size_t fir
     largest_area = std::abs(triangle.area);
     slope = slope_of(kind, triangle);
   }
-  const int exponent = kind != DepthFormat::float32
-                           ? 32 - depth_bits(kind)
-                           : std::max(largest_depth > 0 ? std::ilogb(largest_depth) : -126, -126) - 23;
+  int exponent = 32 - depth_bits(kind);  // one level, in depth words
+  if (kind == DepthFormat::float32)
+    exponent = std::max(largest_depth > 0 ? std::ilogb(largest_depth) : -126, -126) - 23;
   return double{factor} * slope + std::ldexp(double{units}, exponent);
 }
 

@@ -1,4 +1,4 @@
-// Polygon offset of whole polygons, where they are split into several triangles, cut, or drawn as lines or
+// Polygon offset of whole polygons that are split into several triangles, clipped, or drawn as lines or
 // points.
 #pragma once
 
@@ -8,11 +8,15 @@ namespace tessera::detail {
 
 struct BinDraw;
 
-/// Of the polygons of `per_polygon` triangles that begin in [first, last), to all of their triangles: factor
-/// times the polygon's slope, that of the largest triangle that is seen of it, and within it of the largest
-/// part that clipping left, plus units times the smallest difference of the format at its largest depth
-/// [GL 2.1, 3.5.5; floats as Direct3D 11]. In units of depth words (unorm) or of depth. NaN for a triangle
-/// alone that nothing cuts: it has its own, of the same plane as its depth.
+/// Computes the offset of the polygons, of `per_polygon` triangles each, that begin in triangles [first,
+/// last), and writes it to `offsets` of all their triangles.
+/// - Offset: factor times the slope, plus units times the smallest difference of the format [GL 2.1, 3.5.5;
+///   float32: at the polygon's largest depth, Direct3D 11].
+/// - Slope: that of the polygon's largest visible triangle, and of the largest part if that triangle is
+///   clipped.
+/// - Unit: depth words (unorm) or depth (float32).
+/// - NaN for a polygon of one triangle that is not clipped: its offset comes from its depth plane
+///   (depth_offset-inl.h).
 void offset_polygons(const BinDraw& draw, std::size_t per_polygon, float factor, float units,
                      std::size_t first, std::size_t last, double* offsets);
 

@@ -1,4 +1,4 @@
-// Polygons whose boundaries or corners are drawn.
+// Binning of polygons in line or point mode: their boundary edges or corners.
 #include <algorithm>
 #include <vector>
 
@@ -7,7 +7,8 @@
 namespace tessera::detail {
 namespace {
 
-/// Returns whether it was cut, and not left out as a whole.
+/// Sets `boundary` to the polygon's boundary after clipping. Returns true if the polygon was clipped without
+/// being entirely outside a plane.
 bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
   auto& [vertices, window, clipper] = boundary;
   const std::size_t corners = draw.modes->triangles + 2;
@@ -15,7 +16,8 @@ bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_
       draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
   vertices.clear();
   window.clear();
-  std::uint8_t outcodes = 0, shared = draw.any_outcode ? 0xff : 0;
+  std::uint8_t outcodes = 0;                          // of any vertex
+  std::uint8_t shared = draw.any_outcode ? 0xff : 0;  // of all vertices
   for (std::size_t i = 0; i < corners; ++i) {
     if (draw.any_outcode) {
       outcodes |= draw.outcodes[polygon[i]];
@@ -38,7 +40,8 @@ void add_corner(Bins& bins, const BinDraw& draw, DerivedPrimitive& derived, int 
               bins.attributes(derived) + k * draw.attribute_count);
 }
 
-// Of triangle `source`'s polygon. Returns whether any of it is seen.
+// Bin the boundary's edges, or its corners, as derived primitives of triangle `source`. Return true if one
+// was binned.
 bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary,
                std::uint32_t source) {
   bool any = false;
@@ -46,9 +49,9 @@ bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Clip
     DerivedPrimitive& derived = bins.add_derived(source, 2, draw.attribute_count);
     add_corner(bins, draw, derived, 0, boundary, i);
     add_corner(bins, draw, derived, 1, boundary, i + 1 == boundary.vertices.size() ? 0 : i + 1);
-    const bool is_seen = bin_derived_line(bins, grid, draw);
-    if (!is_seen) bins.drop_last_derived();
-    any |= is_seen;
+    const bool is_visible = bin_derived_line(bins, grid, draw);
+    if (!is_visible) bins.drop_last_derived();
+    any |= is_visible;
   }
   return any;
 }
@@ -58,9 +61,9 @@ bool bin_corners(Bins& bins, const TileGrid& grid, const BinDraw& draw, const Cl
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
     if (!is_inside_side_planes(boundary.vertices[i].position)) continue;
     add_corner(bins, draw, bins.add_derived(source, 1, draw.attribute_count), 0, boundary, i);
-    const bool is_seen = bin_derived_point(bins, grid, draw);
-    if (!is_seen) bins.drop_last_derived();
-    any |= is_seen;
+    const bool is_visible = bin_derived_point(bins, grid, draw);
+    if (!is_visible) bins.drop_last_derived();
+    any |= is_visible;
   }
   return any;
 }
@@ -81,19 +84,19 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
   for (std::uint32_t t = (first + per_polygon - 1) / per_polygon * per_polygon; t < last; t += per_polygon) {
     const Facing facing = draw.facing[t];
     const bool front = facing == Facing::front;
-    const PolygonMode style = modes.style[front ? 0 : 1];
+    const PolygonMode mode = modes.style[front ? 0 : 1];
     if (facing == Facing::dropped) {
       counts.non_finite += per_polygon;
     } else if (!(front ? draw.keep_front : draw.keep_back)) {
       counts.culled += per_polygon;
-    } else if (style == PolygonMode::fill) {
+    } else if (mode == PolygonMode::fill) {
       bin_triangles(bins, grid, filled, t, t + per_polygon, isa);
       continue;
     } else {
       if (set_up(bins.boundary, draw, t)) counts.clipped += per_polygon;
-      const bool is_seen = style == PolygonMode::line ? bin_lines(bins, grid, lines, bins.boundary, t)
-                                                      : bin_corners(bins, grid, corners, bins.boundary, t);
-      (is_seen ? counts.binned : counts.outside) += per_polygon;
+      const bool is_visible = mode == PolygonMode::line ? bin_lines(bins, grid, lines, bins.boundary, t)
+                                                        : bin_corners(bins, grid, corners, bins.boundary, t);
+      (is_visible ? counts.binned : counts.outside) += per_polygon;
     }
     counts.triangles_in += per_polygon;
   }

@@ -1,7 +1,8 @@
-// Sets up the triangles of a tile's bin, a group at a time: edge functions with the fill rule, bounds, depth
-// gradients. Plain loops over the arrays of a group, which become lanes. Based on: J. Pineda, A Parallel
-// Algorithm for Polygon Rasterization, SIGGRAPH 1988; differs in that edges are exact integers, scaled down
-// by 256 without losing their sign.
+// Triangle setup in a tile, a group at a time: edge functions with the fill rule, bounds, depth gradients,
+// weights. Plain loops over the arrays of a group, which the compiler vectorizes.
+//
+// Based on: J. Pineda, A Parallel Algorithm for Polygon Rasterization, SIGGRAPH 1988. Differs in that edges
+// are exact integers, divided by 256 without losing their sign.
 #if defined(TESSERA_RASTER_TRIANGLE_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
 #undef TESSERA_RASTER_TRIANGLE_SETUP_INL_H_
@@ -26,7 +27,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// A bit for each triangle of a group whose number is not 0.
+/// Mask of the triangles of a group whose number is not 0.
 HWY_INLINE std::uint32_t nonzero_mask(const std::int32_t (&numbers)[kGroupSize]) {
   std::uint32_t bits = 0;
   for (int first = 0; first < kGroupSize; first += kLanes)
@@ -34,14 +35,14 @@ HWY_INLINE std::uint32_t nonzero_mask(const std::int32_t (&numbers)[kGroupSize])
   return bits;
 }
 
-/// Edges and bounds of group.count triangles whose vertices stand in group.x, y. Tile-relative: pixel (0, 0)
-/// is the tile's top left. Triangles without a pixel in `rect` get no bit in group.mask.
-/// @param reach  how far from its centre a pixel is looked at, 1/256 pixel; bounds are those of such pixels
+/// Sets up edges and bounds of g.count triangles from g.x and g.y. Coordinates are relative to the tile:
+/// pixel (0, 0) is its top left. Bits of g.mask are set for triangles with a pixel in `rect`.
+/// @param reach  bounds include pixels within this distance from the triangle per axis (samples), 1/256 pixel
 inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, const PixelRect& rect,
                                       std::int32_t reach = 0) {
   for (int i = 0; i < kGroupSize; ++i) {
-    const double dx1 = g.x[1][i] - g.x[0][i], dy1 = g.y[1][i] - g.y[0][i], dx2 = g.x[2][i] - g.x[0][i],
-                 dy2 = g.y[2][i] - g.y[0][i];
+    const double dx1 = g.x[1][i] - g.x[0][i], dy1 = g.y[1][i] - g.y[0][i];
+    const double dx2 = g.x[2][i] - g.x[0][i], dy2 = g.y[2][i] - g.y[0][i];
     const double area = dx1 * dy2 - dx2 * dy1;  // exact
     g.signed_area[i] = area;
     g.area[i] = area < 0 ? -area : area;
@@ -49,12 +50,12 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   }
   for (int k = 0; k < 3; ++k) {
     // The edge opposite vertex k, from vertex p to vertex q.
-    const std::int32_t *px = g.x[(k + 1) % 3], *py = g.y[(k + 1) % 3], *qx = g.x[(k + 2) % 3],
-                       *qy = g.y[(k + 2) % 3];
+    const std::int32_t *px = g.x[(k + 1) % 3], *py = g.y[(k + 1) % 3];
+    const std::int32_t *qx = g.x[(k + 2) % 3], *qy = g.y[(k + 2) % 3];
     for (int i = 0; i < kGroupSize; ++i) {
       const std::int32_t flip = g.flip[i];
       const std::int32_t a = ((py[i] - qy[i]) ^ flip) - flip, b = ((qx[i] - px[i]) ^ flip) - flip;
-      // A pixel centre on a left edge (the inside is to its right) or a top edge (the inside is below it)
+      // Top-left rule: a pixel centre on a left edge (inside to its right) or a top edge (inside below it)
       // belongs to the triangle.
       const bool top_left = a > 0 || (a == 0 && b > 0);
       const std::uint32_t ua = static_cast<std::uint32_t>(a), ub = static_cast<std::uint32_t>(b);
@@ -65,8 +66,8 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
       g.edge_fraction[k][i] = static_cast<float>(at_anchor - e * kSubpixelScale);
       g.a[k][i] = a;
       g.b[k][i] = b;
-      // Steps from the anchor's pixel to the tile's first one; wraps where that is far away, and comes right
-      // again at the pixels that count (kMaxEdges32Extent).
+      // From the pixel of vertex p to the tile's first pixel. Wraps if that is far away; the wrap cancels at
+      // the pixels of the triangle's bounds (kMaxEdges32Extent).
       g.e[k][i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(e) +
                                             ua * static_cast<std::uint32_t>(tile_x - (px[i] >> 8)) +
                                             ub * static_cast<std::uint32_t>(tile_y - (py[i] >> 8)));
@@ -75,10 +76,10 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   alignas(64) std::int32_t visible[kGroupSize];
   const PixelRect bounds = rect;
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::int32_t low_x = min_of(g.x[0][i], g.x[1][i], g.x[2][i]),
-                       high_x = max_of(g.x[0][i], g.x[1][i], g.x[2][i]);
-    const std::int32_t low_y = min_of(g.y[0][i], g.y[1][i], g.y[2][i]),
-                       high_y = max_of(g.y[0][i], g.y[1][i], g.y[2][i]);
+    const std::int32_t low_x = min_of(g.x[0][i], g.x[1][i], g.x[2][i]);
+    const std::int32_t high_x = max_of(g.x[0][i], g.x[1][i], g.x[2][i]);
+    const std::int32_t low_y = min_of(g.y[0][i], g.y[1][i], g.y[2][i]);
+    const std::int32_t high_y = max_of(g.y[0][i], g.y[1][i], g.y[2][i]);
     g.x0[i] = max_of(first_pixel(low_x - reach) - tile_x, bounds.x0);
     g.y0[i] = max_of(first_pixel(low_y - reach) - tile_y, bounds.y0);
     g.x1[i] = min_of(last_pixel(high_x + reach) - tile_x, bounds.x1 - 1);
@@ -92,32 +93,35 @@ inline HWY_NOINLINE void set_up_edges(TriangleGroup& g, int tile_x, int tile_y, 
   g.mask = nonzero_mask(visible) & low_bits_mask(g.count);
 }
 
-/// `value` * 2^kFraction modulo 2^64, to the nearest: whole and broken part each by the bits of a double,
-/// which is how lanes convert. Only the lowest 64 - kFraction bits of the whole part count.
+/// value * 2^kFraction modulo 2^64, rounded to nearest. Integer and fractional part are converted separately
+/// through the bits of a double, which vectorizes. Only the lowest 64 - kFraction bits of the integer part
+/// matter.
 template <int kFraction>
 HWY_INLINE std::uint64_t fixed_modulo(double value) {
-  constexpr double kPeriod = kFraction == 32 ? 0x1p32 : 0x1p34, kScale = kFraction == 32 ? 0x1p32 : 0x1p30,
-                   kBias = 0x1.8p52;
-  const double turns = (value * (1 / kPeriod) + kBias) - kBias;  // to the nearest whole number
-  const double rest = value - turns * kPeriod;                   // exact: |rest| <= kPeriod / 2
-  const double whole_bits = rest + kBias, whole = whole_bits - kBias;
-  const double broken_bits = (rest - whole) * kScale + kBias;  // the difference is exact
-  std::uint64_t w, b;
-  std::memcpy(&w, &whole_bits, sizeof w);
-  std::memcpy(&b, &broken_bits, sizeof b);
+  constexpr double kPeriod = kFraction == 32 ? 0x1p32 : 0x1p34;
+  constexpr double kScale = kFraction == 32 ? 0x1p32 : 0x1p30;
+  constexpr double kBias = 0x1.8p52;
+  const double periods = (value * (1 / kPeriod) + kBias) - kBias;  // rounded to the nearest integer
+  const double rest = value - periods * kPeriod;                   // exact: |rest| <= kPeriod / 2
+  const double biased_integer = rest + kBias;
+  const double integer = biased_integer - kBias;
+  const double biased_fraction = (rest - integer) * kScale + kBias;  // the difference is exact
+  std::uint64_t integer_bits, fraction_bits;
+  std::memcpy(&integer_bits, &biased_integer, sizeof integer_bits);
+  std::memcpy(&fraction_bits, &biased_fraction, sizeof fraction_bits);
   constexpr std::uint64_t kBiasBits = 0x4338000000000000u;
-  return ((w - kBiasBits) << kFraction) + (b - kBiasBits);
+  return ((integer_bits - kBiasBits) << kFraction) + (fraction_bits - kBiasBits);
 }
 
-/// What depth 0 is in a plane.
+/// Representation of depth word 0 in a plane, including the biases.
 template <int kFraction>
 inline constexpr std::uint64_t kPlaneZero =
     kFraction == kUnorm32Fraction
         ? (std::uint64_t{kUnorm32RangeBias} << kUnorm32Fraction) + kUnorm32RoundingBias
         : std::uint64_t{kUnormRoundingBias};
 
-/// The value of a unorm plane at the tile's first pixel, seen `from` its centre: exact steps from the
-/// anchor's pixel.
+/// Value of a unorm plane at a sample of the tile's first pixel (`from`: its offset from the centre). Steps
+/// from the anchor's pixel are exact.
 template <int kFraction>
 HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t dx, std::uint64_t dy,
                                     SamplePosition from, int tile_x, int tile_y) {
@@ -130,19 +134,20 @@ HWY_INLINE std::uint64_t fixed_base(const TriangleGroup& g, int i, std::uint64_t
          dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)});
 }
 
-/// The planes of a group's unorm depths in fixed point.
+/// Sets up the unorm depth planes of a group in fixed point.
 template <int kFraction>
 HWY_INLINE void set_up_fixed_depth(TriangleGroup& g, int tile_x, int tile_y) {
   for (int i = 0; i < kGroupSize; ++i) {
-    const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]),
-                        dy = fixed_modulo<kFraction>(g.depth_dy[i]);
+    const std::uint64_t dx = fixed_modulo<kFraction>(g.depth_dx[i]);
+    const std::uint64_t dy = fixed_modulo<kFraction>(g.depth_dy[i]);
     g.fixed_dx[i] = dx;
     g.fixed_dy[i] = dy;
     g.fixed_base[i] = fixed_base<kFraction>(g, i, dx, dy, {0, 0}, tile_x, tile_y);
   }
 }
 
-/// The same in exact integers, for triangle i: of a needle, whose gradients are steep and whose terms cancel.
+/// Unorm depth plane of triangle i in exact integers, for needles: their gradients are steep and the terms
+/// cancel.
 struct ExactDepth {
   std::uint64_t dx, dy, base;
 };
@@ -157,7 +162,8 @@ ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int t
     nx += g.a[k][i] * dz;
     ny += g.b[k][i] * dz;
   }
-  const auto fixed = [area](Wide numerator) {  // numerator / area in fixed point, to the nearest, modulo 2^64
+  // numerator / area in fixed point, rounded to nearest, modulo 2^64.
+  const auto fixed = [area](Wide numerator) {
     const Wide scaled = numerator * (Wide{1} << kFraction), half = area / 2;
     return static_cast<std::uint64_t>((scaled + (scaled < 0 ? -half : half)) / area);
   };
@@ -170,17 +176,22 @@ ExactDepth exact_depth(const TriangleGroup& g, int i, SamplePosition from, int t
               dy * static_cast<std::uint64_t>(std::int64_t{tile_y - (y >> 8)})};
 }
 
-/// Depth planes of a group: in doubles where those are good for 2^-8 of a depth word, else exactly.
+/// Sets up the unorm depth planes of a group: in double if the error is below 2^-8 of a depth word, else
+/// exactly.
 template <int kFraction>
 HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGroupSize], int tile_x,
                                    int tile_y) {
   set_up_fixed_depth<kFraction>(g, tile_x, tile_y);
-  // A gradient is off by four roundings, 2^-51 of its terms, and counts once for each pixel from the anchor
-  // on, whose pixel's centre is less than two away. Fixed point rounds by half of its last place for each
-  // pixel. In places of fixed point, and times the area:
-  constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21, kSteps = 1.0 / (2 * kSubpixelScale),
-                   kRoundingBias = kFraction == 32 ? kUnormRoundingBias : kUnorm32RoundingBias;
-  alignas(64) double off[kGroupSize];
+  // Error bound of a plane at a pixel:
+  // - A gradient has four roundings, 2^-51 of its terms, and is multiplied by the pixels from the anchor,
+  //   whose pixel's centre is less than two away.
+  // - Fixed point rounds by half a unit in the last place per pixel.
+  //
+  // `error` is the bound in units of the last place of fixed point, times the area.
+  constexpr double kGradients = kFraction == 32 ? 0x1p-19 : 0x1p-21;
+  constexpr double kSteps = 1.0 / (2 * kSubpixelScale);
+  constexpr double kRoundingBias = kFraction == 32 ? kUnormRoundingBias : kUnorm32RoundingBias;
+  alignas(64) double error[kGroupSize];
   alignas(64) std::int32_t exceeds_bias[kGroupSize];
   for (int i = 0; i < kGroupSize; ++i) {
     double terms = 0, extents = 0;
@@ -190,24 +201,23 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGrou
       terms += steps * __builtin_fabs(dz[k][i]);
       extents += steps;
     }
-    const double reach =
-        0.5 * extents +
-        4 * kSubpixelScale;  // in 1/256 pixel; the three edges go once there and once back, in x and in y
-    off[i] = (terms * kGradients + g.area[i] * kSteps) * reach;
-    exceeds_bias[i] = off[i] > kRoundingBias * g.area[i] ? 1 : 0;
+    // In 1/256 pixel. The three edges cover width and height twice, forth and back.
+    const double reach = 0.5 * extents + 4 * kSubpixelScale;
+    error[i] = (terms * kGradients + g.area[i] * kSteps) * reach;
+    exceeds_bias[i] = error[i] > kRoundingBias * g.area[i] ? 1 : 0;
   }
-  constexpr double kTolerated = kFraction == 32 ? 0x1p24 : 0x1p22;  // 2^-8 of a word
+  constexpr double kTolerance = kFraction == 32 ? 0x1p24 : 0x1p22;  // 2^-8 of a depth word
   g.extra_bias_mask = nonzero_mask(exceeds_bias) & g.mask;
   g.exact_depth_mask = 0;
   for (std::uint32_t left = g.extra_bias_mask; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    if (off[i] <= kTolerated * g.area[i]) {
-      g.extra_bias[i] = static_cast<std::uint64_t>(off[i] / g.area[i]);
+    if (error[i] <= kTolerance * g.area[i]) {
+      g.extra_bias[i] = static_cast<std::uint64_t>(error[i] / g.area[i]);
       g.fixed_base[i] += g.extra_bias[i];
       continue;
     }
     g.exact_depth_mask |= 1u << i;
-    g.extra_bias[i] = std::uint64_t{1} << 17;  // the steps alone, of the widest triangle
+    g.extra_bias[i] = std::uint64_t{1} << 17;  // bounds the rounding of the steps in the largest triangle
     const ExactDepth exact = exact_depth<kFraction>(g, i, {0, 0}, tile_x, tile_y);
     g.fixed_dx[i] = exact.dx;
     g.fixed_dy[i] = exact.dy;
@@ -215,7 +225,7 @@ HWY_INLINE void set_up_unorm_depth(TriangleGroup& g, const double (&dz)[3][kGrou
   }
 }
 
-/// Chooses the vertices where depth planes are anchored.
+/// Selects the anchor vertices of depth planes.
 HWY_INLINE void set_up_anchors(TriangleGroup& g) {
   for (int i = 0; i < kGroupSize; ++i) {
     const bool second = g.y[1][i] < g.y[0][i] || (g.y[1][i] == g.y[0][i] && g.x[1][i] < g.x[0][i]);
@@ -228,7 +238,7 @@ HWY_INLINE void set_up_anchors(TriangleGroup& g) {
   }
 }
 
-/// A depth word as a number, exactly.
+/// A depth word as a double, exactly.
 template <bool kFloat>
 HWY_INLINE double depth_number(std::uint32_t word) {
   if constexpr (kFloat) {
@@ -236,13 +246,14 @@ HWY_INLINE double depth_number(std::uint32_t word) {
     std::memcpy(&f, &word, sizeof f);
     return f;
   } else {
-    return static_cast<double>(static_cast<std::int32_t>(word ^ 0x80000000u)) +
-           2147483648.0;  // the offset makes the word signed, which is what converts in lanes
+    // Through a signed integer, whose conversion vectorizes.
+    return static_cast<double>(static_cast<std::int32_t>(word ^ 0x80000000u)) + 2147483648.0;
   }
 }
 
-/// Gradients per pixel, in units of the vertices' depth words (unorm) or of depth itself (float32). `dz` gets
-/// the differences from the anchor, of which one is 0: the sum of the two others is the same in any order.
+/// Depth gradients per pixel, in depth words (unorm) or in depth (float32). `dz` gets the vertices'
+/// differences from the anchor. One of them is 0, so the sums below do not depend on the order of the
+/// vertices.
 template <bool kFloat>
 HWY_INLINE void set_up_gradients(TriangleGroup& g, double (&dz)[3][kGroupSize]) {
   for (int k = 0; k < 3; ++k)
@@ -264,8 +275,8 @@ inline HWY_NOINLINE void set_up_depth(TriangleGroup& g, DepthFormat kind, int ti
   else set_up_unorm_depth<kUnormFraction>(g, dz, tile_x, tile_y);
 }
 
-/// Edges and unorm depths of a narrow group at the samples of its pixels. @pre set_up_edges and, where it has
-/// unorm depth, set_up_depth
+/// Sets up edges and unorm depth of a group at the samples of its pixels. For triangles with 32-bit edges.
+/// @pre set_up_edges() and, for unorm depth, set_up_depth() have run
 inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to, int samples,
                                         DepthFormat kind, int tile_x, int tile_y) {
   const SamplePosition* const positions = sample_positions(samples);
@@ -313,19 +324,21 @@ inline HWY_NOINLINE void set_up_samples(const TriangleGroup& g, SampleGroup& to,
   }
 }
 
-/// Weights of the vertices as linear functions of the (scaled-down) edges: weight_k(pixel) = scale_k * E_k +
-/// shift_k, which is the barycentric coordinate times the vertex's 1/w, over the triangle's largest 1/w.
+/// Perspective weights of the vertices as linear functions of the divided edges:
+/// weight_k(pixel) = scale_k E_k + shift_k, the barycentric coordinate times the vertex's 1/w over the
+/// triangle's largest 1/w.
 inline HWY_NOINLINE void set_up_weights(TriangleGroup& g) {
   for (int i = 0; i < kGroupSize; ++i) {
     const float r0 = g.rw[0][i], r1 = g.rw[1][i], r2 = g.rw[2][i];
-    const float of_two = r0 > r1 ? r0 : r1, largest = of_two > r2 ? of_two : r2;
+    const float largest_01 = r0 > r1 ? r0 : r1;
+    const float largest = largest_01 > r2 ? largest_01 : r2;
     const bool affine = ((r0 == r1) & (r1 == r2)) | !((largest > 0x1p-120f) & (largest < 0x1p120f));
     g.affine[i] = affine ? 1 : 0;
     const float divisor = affine ? 1.0f : largest;
     const float inverse = static_cast<float>(1.0 / g.area[i]);
     for (int k = 0; k < 3; ++k) {
-      const float share = (affine ? 1.0f : g.rw[k][i]) / divisor,
-                  relative = share > kMinWeight ? share : kMinWeight;
+      const float ratio = (affine ? 1.0f : g.rw[k][i]) / divisor;
+      const float relative = ratio > kMinWeight ? ratio : kMinWeight;
       g.unit_scale[k][i] = inverse * relative;
       g.scale[k][i] = 256.0f * (inverse * relative);
       g.shift[k][i] = g.edge_fraction[k][i] * (inverse * relative);

@@ -1,4 +1,4 @@
-// What triangle setup yields: groups of triangles as arrays, and the edges of one triangle in one tile.
+// Results of triangle setup: groups of triangles as arrays, and the edges of one triangle in one tile.
 #pragma once
 
 #include <cstdint>
@@ -11,69 +11,71 @@ namespace tessera::detail {
 
 inline constexpr int kGroupSize = 16;  ///< triangles set up at a time
 
-// Planes of unorm depth are 32.32 fixed point modulo 2^64.
+/// unorm16, unorm24: depth planes are 32.32 fixed point modulo 2^64, in depth words.
 inline constexpr int kUnormFraction = 32;
-/// Unorm32 uses the whole depth word, so there is no margin at the ends: 34.30 fixed point, lifted by 2^32
-/// and cut to range.
+/// unorm32 uses the whole depth word and so has no margin at the ends of the range: 34.30 fixed point, biased
+/// by 2^32 and clamped to the range.
 inline constexpr int kUnorm32Fraction = 30;
 inline constexpr std::int64_t kUnorm32RangeBias = std::int64_t{1} << 32;
-// Planes are lifted by what rounding may take from them, so that at no pixel they fall below the least of the
-// vertices' words, where a level may end; above the greatest there is room for both. For nearly all triangles
-// a 2^-19th of a word is enough.
-inline constexpr std::int64_t kUnormRoundingBias = std::int64_t{1} << (kUnormFraction - 19),
-                              kUnorm32RoundingBias = std::int64_t{1} << (kUnorm32Fraction - 19);
+// Planes are biased by a bound of their rounding error, so that at no pixel they fall below the smallest of
+// the vertices' depth words, which may be the lower end of a level. Above the largest there is room for bias
+// and error. 2^-19 of a depth word suffices for nearly all triangles.
+inline constexpr std::int64_t kUnormRoundingBias = std::int64_t{1} << (kUnormFraction - 19);
+inline constexpr std::int64_t kUnorm32RoundingBias = std::int64_t{1} << (kUnorm32Fraction - 19);
 
-/// A vertex weighs at least so much of the heaviest one, by 1/w: the products with 1/area stay normal floats,
-/// and on the edge opposite to that one, where the others alone have weight, their sum is not 0.
+/// Smallest 1/w of a vertex, relative to the triangle's largest; smaller ones are raised to it. Products with
+/// 1/area then stay normal floats, and on the edge opposite the vertex with the largest 1/w the sum of
+/// weights is not 0.
 inline constexpr float kMinWeight = 0x1p-64f;
 
-/// Index k of a, b, e, ... is the edge opposite vertex k; edges are positive inside, whatever the winding.
+/// Edge k, and index k of its fields, lies opposite vertex k. Edges are positive inside for both windings.
 struct TriangleGroup {
   int count = 0;
-  // Read from the vertices.
+  // Input: vertices.
   alignas(64) std::int32_t x[3][kGroupSize], y[3][kGroupSize];  ///< raster space, 1/256 pixel
-  alignas(64) std::uint32_t z[3][kGroupSize];
-  alignas(64) float rw[3][kGroupSize];
-  // Edges at pixel centres, divided by 256 and rounded down, the fill rule's bias included: E(x, y) = e + a x
-  // + b y with x, y counted in pixels from the tile's first. Exact for narrow triangles.
+  alignas(64) std::uint32_t z[3][kGroupSize];                   ///< depth words
+  alignas(64) float rw[3][kGroupSize];                          ///< 1/w
+  // Edges at pixel centres, divided by 256 and rounded down, including the bias of the fill rule:
+  // E(x, y) = e + a x + b y, x and y in pixels from the tile's first. Exact for triangles with 32-bit edges.
   alignas(64) std::int32_t a[3][kGroupSize], b[3][kGroupSize], e[3][kGroupSize];
-  alignas(64) float edge_fraction[3][kGroupSize];  ///< the exact edge is 256 E + edge_fraction, without the
-                                                   ///< bias; 0 .. 256
-  alignas(64) std::int32_t flip[kGroupSize];
+  /// The exact edge without the bias is 256 E + edge_fraction; 0 .. 256.
+  alignas(64) float edge_fraction[3][kGroupSize];
+  alignas(64) std::int32_t flip[kGroupSize];                     ///< -1 if signed_area is negative, else 0
   alignas(64) double signed_area[kGroupSize], area[kGroupSize];  ///< doubled area, exact
-  alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize],
-      y1[kGroupSize];  ///< pixel bounds in the tile, inclusive
-  alignas(64) std::int32_t needs_edges64[kGroupSize], affine[kGroupSize];
-  // Depth planes: float32 as they are, unorm in fixed point modulo 2^64 with the value at the tile's first
-  // pixel; see depth-inl.h. They are anchored at the topmost vertex, the leftmost of those, so that the order
-  // of the vertices does not change their roundings.
+  // Pixel bounds in the tile, inclusive.
+  alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize], y1[kGroupSize];
+  alignas(64) std::int32_t needs_edges64[kGroupSize];  ///< 1: edges do not fit in 32 bits
+  alignas(64) std::int32_t affine[kGroupSize];         ///< 1: all weights are affine, 1/w plays no part
+  // Depth planes: float32 in double, unorm in fixed point modulo 2^64 with the value at the tile's first
+  // pixel; see depth-inl.h. The anchor is the topmost vertex, and the leftmost of several, so that rounding
+  // does not depend on the order of the vertices.
   alignas(64) std::int32_t anchor_x[kGroupSize], anchor_y[kGroupSize];
   alignas(64) std::uint32_t anchor_z[kGroupSize];
   alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
   alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
+  // Weights, see set_up_weights().
   alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
-  std::uint32_t mask = 0;             ///< those with a pixel in the tile
-  std::uint32_t extra_bias_mask = 0;  ///< of these, those whose unorm depth is rounded by more than planes
-                                      ///< are lifted by, and so lifted further
-  std::uint32_t exact_depth_mask =
-      0;  ///< of those, the ones whose unorm depth is worked out in exact integers
-  std::uint64_t extra_bias[kGroupSize];  ///< triangles of extra_bias_mask
+  std::uint32_t mask = 0;  ///< triangles with a pixel in the tile
+  /// Triangles of `mask` whose error bound of unorm depth exceeds the rounding bias; their plane gets
+  /// extra_bias.
+  std::uint32_t extra_bias_mask = 0;
+  /// Triangles of extra_bias_mask whose unorm depth is computed in exact integers.
+  std::uint32_t exact_depth_mask = 0;
+  std::uint64_t extra_bias[kGroupSize];  ///< set for triangles of extra_bias_mask
 };
 
-/// What differs of a group from sample to sample: edges, and the value of unorm depth planes at the tile's
-/// first pixel.
+/// Per-sample part of a group: edges, and unorm depth planes at the tile's first pixel.
 struct SampleGroup {
-  alignas(64) std::int32_t max_edge[3][kGroupSize];  ///< e of the sample that has the greatest
-  alignas(64) std::int32_t
-      edge_delta[kMaxSamples][3][kGroupSize];  ///< what a sample's e has more than that: 0 or less
+  alignas(64) std::int32_t max_edge[3][kGroupSize];                 ///< largest e of all samples
+  alignas(64) std::int32_t edge_delta[kMaxSamples][3][kGroupSize];  ///< e of the sample minus max_edge; <= 0
   alignas(64) std::uint64_t fixed_base[kMaxSamples][kGroupSize];
 };
 
-/// The three edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in
-/// the tile.
+/// The edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in the
+/// tile.
 struct Edges32 {
-  std::int32_t a[4], b[4], e[4];  ///< of three; lanes are loaded in fours
-  /// Edge k at a pixel of the tile. Sums may wrap on their way there.
+  std::int32_t a[4], b[4], e[4];  ///< three are used; four are loaded at once
+  /// Edge k at a pixel of the tile. Intermediate sums may wrap.
   std::int32_t at(int k, int x, int y) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(e[k]) +
                                      static_cast<std::uint32_t>(a[k]) * static_cast<std::uint32_t>(x) +
@@ -81,7 +83,7 @@ struct Edges32 {
   }
 };
 
-/// The edges of a wide triangle: doubles hold every value exactly.
+/// The edges of a triangle that needs 64 bits. Doubles hold all values exactly.
 struct Edges64 {
   double a[3], b[3], e[3];  ///< undivided edge at pixel (x, y) of the tile: e + a x + b y
 };

@@ -1,6 +1,6 @@
-// Plain loops over arrays of a batch: the compiler turns them into lanes for each instruction set. Every step
-// is one exact IEEE operation, so all sets give the same bits. Where rows become columns and columns rows,
-// Highway does it.
+// Plain loops over the arrays of a batch, which the compiler vectorizes for each instruction set. Every step
+// is one correctly rounded IEEE operation, so all sets give the same bits. Highway transposes between rows
+// and columns.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/vertex_transform.cpp"
 #include "framebuffer/lanes.h"
@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One row of a matrix times a point, in the order that clip_position() has too.
+// One matrix row times a point, in the order of operations of clip_position().
 HWY_INLINE double row_times_point(const double* row, double x, double y, double z, double w) {
   return __builtin_fma(row[0], x, __builtin_fma(row[1], y, __builtin_fma(row[2], z, row[3] * w)));
 }
@@ -32,7 +32,7 @@ struct PositionBatch {
   alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
 };
 
-// Rows of three floats as three arrays; lanes beyond `count` are harmless zeros.
+// Transposes rows of three floats into three arrays; elements from `count` on are 0.
 HWY_NOINLINE void gather_rows(StridedFloats rows, std::size_t count, double* x, double* y, double* z) {
   if (rows.stride == 3 && count == kVertexBatch) {
     constexpr hn::ScalableTag<float> floats;
@@ -54,12 +54,12 @@ HWY_NOINLINE void gather_rows(StridedFloats rows, std::size_t count, double* x, 
   for (std::size_t i = count; i < kVertexBatch; ++i) x[i] = y[i] = z[i] = 0;
 }
 
-// Positions as four arrays.
+// Transposes positions into four arrays; w is 1 if it is not given.
 HWY_INLINE void gather_positions(StridedFloats positions, int components, std::size_t count,
                                  PositionBatch& batch) {
   gather_rows(positions, count, batch.x, batch.y, batch.z);
-  for (std::size_t i = 0; i < kVertexBatch; ++i)
-    batch.w[i] = i >= count ? 0.0f : components == 4 ? positions.at(i)[3] : 1.0f;
+  const auto w = [&](std::size_t i) HWY_ATTR { return components == 4 ? positions.at(i)[3] : 1.0f; };
+  for (std::size_t i = 0; i < kVertexBatch; ++i) batch.w[i] = i >= count ? 0.0f : w(i);
 }
 
 std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
@@ -74,16 +74,18 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     cz[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
     cw[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
   }
-  // Numbers of one width become lanes: outcodes are sums of their bits, in doubles.
+  // Outcodes are sums of their bits in doubles: loops vectorize if all elements have the same width.
   alignas(64) double outcode[kVertexBatch], inexact[kVertexBatch];
   const auto bit = [](Outcode plane) HWY_ATTR { return static_cast<double>(std::uint8_t{plane}); };
-  // Branches do not: what depends on the depth's direction is a factor of 1, -1 or 0.
-  const double near_of_z = t.reversed ? -1 : 1, far_of_z = -near_of_z, far_of_w = t.reversed ? 0 : 1;
+  // Loops with branches do not vectorize: the direction of depth is a factor of 1, -1 or 0.
+  const double near_of_z = t.reversed ? -1 : 1;
+  const double far_of_z = -near_of_z;
+  const double far_of_w = t.reversed ? 0 : 1;
   for (int i = 0; i < kVertexBatch; ++i) {
     const double gx = t.guard_x * cw[i], gy = t.guard_y * cw[i];
-    const double near_z = __builtin_fma(near_of_z, cz[i], cw[i]),
-                 far_z = __builtin_fma(far_of_z, cz[i], far_of_w * cw[i]);
-    const double probe = cx[i] * 0 + cy[i] * 0 + cz[i] * 0 + cw[i] * 0;  // NaN where any is not finite
+    const double near_z = __builtin_fma(near_of_z, cz[i], cw[i]);
+    const double far_z = __builtin_fma(far_of_z, cz[i], far_of_w * cw[i]);
+    const double probe = cx[i] * 0 + cy[i] * 0 + cz[i] * 0 + cw[i] * 0;  // NaN if one is not finite
     double c = cx[i] < -gx ? bit(kLeftOfGuardBand) : 0.0;
     c += cx[i] > gx ? bit(kRightOfGuardBand) : 0.0;
     c += cy[i] < -gy ? bit(kBelowGuardBand) : 0.0;
@@ -94,14 +96,16 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     c += probe == 0 ? 0.0 : bit(kNonFinite);
     outcode[i] = c;
     const double xyz = larger(larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), __builtin_fabs(p.z[i]));
-    const double size =
+    const double magnitude =
         __builtin_fma(t.max_row_norm_xyz, xyz, t.max_abs_translation * __builtin_fabs(p.w[i]));
-    double r = __builtin_fabs(near_z) <= t.near_error * size ? 1.0 : 0.0;
-    r += __builtin_fabs(far_z) <= t.far_error * size ? 1.0 : 0.0;
-    r += __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i])) <= t.guard_x_error * size ? 1.0 : 0.0;
-    r += __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i])) <= t.guard_y_error * size ? 1.0 : 0.0;
-    r += __builtin_fabs(cw[i]) <= t.w_error * size ? 1.0 : 0.0;
-    inexact[i] = r;
+    const double to_guard_x = __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i]));
+    const double to_guard_y = __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i]));
+    double n = __builtin_fabs(near_z) <= t.near_error * magnitude ? 1.0 : 0.0;
+    n += __builtin_fabs(far_z) <= t.far_error * magnitude ? 1.0 : 0.0;
+    n += to_guard_x <= t.guard_x_error * magnitude ? 1.0 : 0.0;
+    n += to_guard_y <= t.guard_y_error * magnitude ? 1.0 : 0.0;
+    n += __builtin_fabs(cw[i]) <= t.w_error * magnitude ? 1.0 : 0.0;
+    inexact[i] = n;
   }
   std::int32_t any_inexact = 0;
   for (int i = 0; i < kVertexBatch; ++i) any_inexact |= static_cast<std::int32_t>(inexact[i]);
@@ -118,8 +122,9 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   alignas(64) double depth[kVertexBatch];
   const double unit_of_z = t.reversed ? 1 : 0.5, first_unit = t.reversed ? 0 : 0.5;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double w = outcode[i] == 0 ? cw[i] : 1.0, x = outcode[i] == 0 ? cx[i] : 0.0,
-                 y = outcode[i] == 0 ? cy[i] : 0.0, z = outcode[i] == 0 ? cz[i] : 0.0;
+    const double w = outcode[i] == 0 ? cw[i] : 1.0;
+    const double x = outcode[i] == 0 ? cx[i] : 0.0, y = outcode[i] == 0 ? cy[i] : 0.0;
+    const double z = outcode[i] == 0 ? cz[i] : 0.0;
     const double inverse_w = 1.0 / w;
     sx[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
     sy[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
@@ -137,20 +142,21 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     }
   } else if (t.depth != DepthFormat::none) {
     const int bits = depth_bits(t.depth);
-    const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1),
-                 fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
-    // To the nearest fraction, but never to another level: so a depth in the middle of one, which roundings
-    // have moved a little, is that middle again.
+    const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1);
+    const double fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
+    // Rounded to the nearest fraction of the same level: a depth in the middle of a level that rounding
+    // errors have moved a little maps to that middle again.
     for (int i = 0; i < kVertexBatch; ++i) {
-      const double level = depth[i] * levels + 0.5, nearest = __builtin_floor(level * fraction + 0.5),
-                   highest = __builtin_floor(level) * fraction + (fraction - 1);
+      const double level = depth[i] * levels + 0.5;
+      const double nearest = __builtin_floor(level * fraction + 0.5);
+      const double highest = __builtin_floor(level) * fraction + (fraction - 1);
       const double value = nearest < highest ? nearest : highest;
       sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
     }
   } else {
     for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
   }
-  // Columns become rows, in memory of their own where there are fewer of them.
+  // Transpose to rows; a partial batch goes through a buffer.
   static_assert(offsetof(WindowVertex, x) == 0 && offsetof(WindowVertex, y) == 4 &&
                 offsetof(WindowVertex, z) == 8 && offsetof(WindowVertex, rw) == 12);
   alignas(64) std::int32_t rest[4 * kVertexBatch];
@@ -179,15 +185,15 @@ void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int com
   gather_positions(positions, components, count, p);
   const double* m = t.eye_from_object;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double px = p.x[i], py = p.y[i], pz = p.z[i], pw = p.w[i],
-                 w = row_times_point(m + 12, px, py, pz, pw);
+    const double px = p.x[i], py = p.y[i], pz = p.z[i], pw = p.w[i];
+    const double w = row_times_point(m + 12, px, py, pz, pw);
     p.x[i] = row_times_point(m, px, py, pz, pw);
     p.y[i] = row_times_point(m + 4, px, py, pz, pw);
     p.z[i] = row_times_point(m + 8, px, py, pz, pw);
     p.w[i] = w != 0 ? w : 1.0;
   }
   const bool keeps_w = m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
-  if (components == 4 || !keeps_w)  // else w is 1, which changes nothing
+  if (components == 4 || !keeps_w)  // otherwise w is 1
     for (int i = 0; i < kVertexBatch; ++i) p.x[i] /= p.w[i], p.y[i] /= p.w[i], p.z[i] /= p.w[i];
   for (int i = 0; i < kVertexBatch; ++i)
     x[i] = static_cast<float>(p.x[i]), y[i] = static_cast<float>(p.y[i]), z[i] = static_cast<float>(p.z[i]);
@@ -213,11 +219,12 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
     });
     return;
   }
-  const double min_squared = shortest * shortest, max_squared = longest * longest,
-               per_shortest = 1 / shortest, per_longest = 1 / longest;
+  const double min_squared = shortest * shortest, max_squared = longest * longest;
+  const double per_shortest = 1 / shortest, per_longest = 1 / longest;
   carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
     const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
-    const bool is_short = squared > 0 && squared<min_squared, is_long = squared> max_squared;
+    const bool is_short = squared > 0 && squared < min_squared;
+    const bool is_long = squared > max_squared;
     const double length =
         is_short || is_long ? __builtin_sqrt(squared) * (is_short ? per_shortest : per_longest) : 1.0;
     x[i] = static_cast<float>(ex / length);
@@ -247,9 +254,12 @@ ClipPosition clip_position(const VertexTransform& t, double x, double y, double 
   return {row(0), row(1), row(2), row(3)};
 }
 
+static bool is_finite(const ClipPosition& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
+}
+
 std::uint8_t compute_outcode(const VertexTransform& t, const ClipPosition& p) {
-  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(p.w))
-    return kNonFinite;
+  if (!is_finite(p)) return kNonFinite;
   std::uint8_t outcode = 0;
   if (p.x < -(t.guard_x * p.w)) outcode |= kLeftOfGuardBand;
   if (p.x > t.guard_x * p.w) outcode |= kRightOfGuardBand;
@@ -261,25 +271,28 @@ std::uint8_t compute_outcode(const VertexTransform& t, const ClipPosition& p) {
   return outcode;
 }
 
-// Whether all of a row's products with floats, and their sum, are exact: one product, of no more than 29
-// digits and far from what doubles end with.
+// True if a row's product with any float vector is exact: at most one nonzero element, of at most 29 bits and
+// far from the ends of the double range.
 static bool is_exact(const double* row) {
   int terms = 0;
   for (int column = 0; column < 4; ++column) {
-    const double size = std::abs(row[column]);
-    if (size == 0) continue;
+    const double magnitude = std::abs(row[column]);
+    if (magnitude == 0) continue;
     ++terms;
-    if (size < 0x1p-800 || size > 0x1p800 || std::bit_cast<std::uint64_t>(size) % (1 << 24) != 0)
-      return false;
+    const bool has_29_bits = std::bit_cast<std::uint64_t>(magnitude) % (1 << 24) == 0;
+    if (magnitude < 0x1p-800 || magnitude > 0x1p800 || !has_29_bits) return false;
   }
   return terms <= 1;
 }
 
-// With u = 2^-53 and S the sum of a coordinate's sizes, it is off by 4 u S (its four roundings), a distance z
-// + w by twice that and by its own rounding, one from the guard band by 1 + guard times it: 2^-49 of S is
-// twice as much. A distance of two exact coordinates has the right sign; that of equal rows is 0 as it should
-// be. A w that is off by 2^-20 of itself moves what is seen by no more than that share of a guard band's
-// width.
+// Let u = 2^-53 and S the sum of the magnitudes of a coordinate's terms.
+// - A coordinate has four roundings: its error is at most 4 u S.
+// - A distance z + w has twice that error and one rounding; a distance from a guard plane has (1 + guard)
+//   times the error of a coordinate. 2^-48 S and (1 + guard) 2^-49 S are at least twice as much.
+// - The distance of two exact coordinates has the right sign, and that of equal rows is exactly 0: no bound
+//   is needed.
+// - A relative error of 2^-20 in w moves a visible vertex by at most that fraction of the guard band's width;
+//   for |w| > 2^-30 S the error is smaller.
 void VertexTransform::set_error_bounds() {
   const double* const m = clip_from_object;
   max_row_norm_xyz = max_abs_translation = 0;
@@ -288,31 +301,35 @@ void VertexTransform::set_error_bounds() {
         std::max(max_row_norm_xyz, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
     max_abs_translation = std::max(max_abs_translation, std::abs(m[row + 3]));
   }
-  constexpr double kOfDepth = 0x1p-48, kNever = -1;
-  const bool has_exact_z = is_exact(m + 8), has_exact_both = has_exact_z && is_exact(m + 12);
-  const auto alike = [&](double sign) {
-    return std::equal(m + 8, m + 12, m + 12,
-                      [sign](double of_z, double of_w) { return of_z == sign * of_w; });
+  constexpr double kDepthError = 0x1p-48;
+  constexpr double kNoError = -1;
+  const bool has_exact_z = is_exact(m + 8);
+  const bool has_exact_zw = has_exact_z && is_exact(m + 12);
+  const auto z_row_equals_w_row = [&](double sign) {
+    return std::equal(m + 8, m + 12, m + 12, [sign](double z, double w) { return z == sign * w; });
   };
-  near_error = has_exact_both || alike(reversed ? 1 : -1) ? kNever : kOfDepth;
-  far_error = has_exact_both || (reversed ? has_exact_z : alike(1)) ? kNever : kOfDepth;
+  near_error = has_exact_zw || z_row_equals_w_row(reversed ? 1 : -1) ? kNoError : kDepthError;
+  far_error = has_exact_zw || (reversed ? has_exact_z : z_row_equals_w_row(1)) ? kNoError : kDepthError;
   guard_x_error = (1 + guard_x) * 0x1p-49;
   guard_y_error = (1 + guard_y) * 0x1p-49;
   w_error = 0x1p-30;
 }
 
-static bool needs_exact(const VertexTransform& t, const ClipPosition& p, double size) {
-  const double near_z = t.reversed ? p.w - p.z : p.z + p.w, far_z = t.reversed ? p.z : p.w - p.z;
-  return std::abs(near_z) <= t.near_error * size || std::abs(far_z) <= t.far_error * size ||
-         std::abs(t.guard_x * std::abs(p.w) - std::abs(p.x)) <= t.guard_x_error * size ||
-         std::abs(t.guard_y * std::abs(p.w) - std::abs(p.y)) <= t.guard_y_error * size ||
-         std::abs(p.w) <= t.w_error * size;
+static bool needs_exact(const VertexTransform& t, const ClipPosition& p, double magnitude) {
+  const double near_z = t.reversed ? p.w - p.z : p.z + p.w;
+  const double far_z = t.reversed ? p.z : p.w - p.z;
+  const double to_guard_x = t.guard_x * std::abs(p.w) - std::abs(p.x);
+  const double to_guard_y = t.guard_y * std::abs(p.w) - std::abs(p.y);
+  const bool is_depth_unsure =
+      std::abs(near_z) <= t.near_error * magnitude || std::abs(far_z) <= t.far_error * magnitude;
+  const bool is_guard_unsure = std::abs(to_guard_x) <= t.guard_x_error * magnitude ||
+                               std::abs(to_guard_y) <= t.guard_y_error * magnitude;
+  return is_depth_unsure || is_guard_unsure || std::abs(p.w) <= t.w_error * magnitude;
 }
 
-// Whether doubles hold a position: with all digits of what others are divided by.
+// True if doubles represent a position. A nonzero w, the divisor, must be a normal number.
 static bool is_representable(const ClipPosition& p, bool has_w) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) &&
-         (!has_w || std::abs(p.w) >= std::numeric_limits<double>::min());
+  return is_finite(p) && (!has_w || std::abs(p.w) >= std::numeric_limits<double>::min());
 }
 
 TransformedVertex transform_vertex(const VertexTransform& t, const std::array<float, 4>& object) {
@@ -321,20 +338,21 @@ TransformedVertex transform_vertex(const VertexTransform& t, const std::array<fl
   if (v.outcode == kNonFinite ||
       !needs_exact(t, v.position, t.term_magnitude(object[0], object[1], object[2], object[3])))
     return v;
-  const double size = std::max(
+  const double largest = std::max(
       {std::abs(v.position.x), std::abs(v.position.y), std::abs(v.position.z), std::abs(v.position.w)});
-  const int exponent =
-      size > 0 ? std::ilogb(size)
-               : 0;  // of what is about 1 no distance overflows, unless its terms are 2^1000 times as large
+  // Scaled to about 1, no distance overflows unless its terms are 2^1000 times as large.
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   const ExactVertex exact(t, object, -exponent);
-  const ClipPosition p = exact.position(), scaled{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
-                                                  std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
+  const ClipPosition p = exact.position();
+  const ClipPosition scaled{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
+                            std::scalbn(p.z, exponent), std::scalbn(p.w, exponent)};
   if (!is_representable(scaled, p.w != 0)) return v;
   return {.position = scaled, .outcode = exact.outcode(t), .needs_exact = true};
 }
 
-// 1/256 pixels. Cuts round beside the largest number of their edge: where w is far smaller than that, what
-// was cut at the guard band may lie beyond it, by any factor, and is put back.
+// Pixels relative to the viewport's centre -> 1/256 pixel, clamped to the guard band. A cut at the guard band
+// is rounded relative to the largest coordinate of its edge; if w is much smaller, the point may lie far
+// beyond the guard band.
 static std::int32_t snapped(double pixels) {
   constexpr double kFarthest = kGuardBandPixels * kSubpixelScale;
   return static_cast<std::int32_t>(
@@ -343,21 +361,22 @@ static std::int32_t snapped(double pixels) {
 
 WindowVertex project(const VertexTransform& t, const ClipPosition& p) {
   WindowVertex v;
-  // Snapping is relative to the viewport's centre, so moving the viewport by whole pixels moves every vertex
+  // Relative to the viewport's centre, so that moving the viewport by whole pixels moves every vertex
   // exactly.
   v.x = t.center_x + snapped(p.x / p.w * t.half_width);
   v.y = t.center_y - snapped(p.y / p.w * t.half_height);
   v.rw = static_cast<float>(1.0 / p.w);
   const double unit = t.reversed ? p.z / p.w : std::fma(p.z / p.w, 0.5, 0.5);
   const double ranged = std::fma(unit, t.depth_far - t.depth_near, t.depth_near);
-  const double z =
-      ranged > 0 ? std::min(ranged, 1.0) : 0;  // also where an infinite quotient met a range of no depth
+  // NaN (an infinite quotient times an empty depth range) becomes 0.
+  const double z = ranged > 0 ? std::min(ranged, 1.0) : 0;
   if (t.depth == DepthFormat::float32) {
     v.z = quantize_depth(DepthFormat::float32, z);
   } else if (t.depth != DepthFormat::none) {
     const int bits = depth_bits(t.depth);
     const double levels = std::ldexp(1.0, bits) - 1;
-    const double fraction = std::ldexp(1.0, 32 - bits), level = z * levels + 0.5;
+    const double fraction = std::ldexp(1.0, 32 - bits);
+    const double level = z * levels + 0.5;
     v.z = static_cast<std::uint32_t>(static_cast<std::uint64_t>(
         std::min(std::floor(level * fraction + 0.5), std::floor(level) * fraction + (fraction - 1))));
   }

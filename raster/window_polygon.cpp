@@ -18,14 +18,13 @@ WindowPolygon::WindowPolygon(const WindowVertex& a, const WindowVertex& b, const
   add({0, 1, 2});
 }
 
-// Positive for triangles that turn as the whole does.
+// Doubled area; positive if the triangle winds like the whole polygon.
 double WindowPolygon::oriented_area(const Corners& c) const {
   const double turn = doubled_area(window[c[0]], window[c[1]], window[c[2]]);
   return area < 0 ? -turn : turn;
 }
 
-// What decides between corners is their place, so that the order of the triangle's vertices does not change
-// what is drawn.
+// Orders corners by position, so that the result does not depend on the order of the triangle's vertices.
 bool WindowPolygon::is_before(int a, int b) const {
   return std::tie(window[a].y, window[a].x, window[a].z) < std::tie(window[b].y, window[b].x, window[b].z);
 }
@@ -34,42 +33,44 @@ void WindowPolygon::add(const Corners& corners) {
   if (oriented_area(corners) != 0) triangles_[static_cast<std::size_t>(count_++)] = corners;
 }
 
-// Around the topmost corner. False if a triangle is turned over: snapping has dented the polygon, and the
-// others would cover the dent, which is a neighbour's.
+// Splits the polygon into a fan around its topmost corner. Returns false, with no triangles, if one of them
+// winds the other way: snapping has made the polygon concave, and the fan would cover pixels of a neighbour.
 bool WindowPolygon::add_fan() {
   int first = 0;
   for (int i = 1; i < clipped.count; ++i)
     if (is_before(i, first)) first = i;
-  bool turned = false;
+  bool is_concave = false;
   for (int i = 2; i < clipped.count; ++i) {
     const Corners corners{first, (first + i - 1) % clipped.count, (first + i) % clipped.count};
-    turned |= oriented_area(corners) < 0;
+    is_concave |= oriented_area(corners) < 0;
     add(corners);
   }
-  if (turned) count_ = 0;
-  return !turned;
+  if (is_concave) count_ = 0;
+  return !is_concave;
 }
 
-// Cuts off one corner after the other, none together with which others would go. There is always one, unless
-// edges cross.
+// Ear clipping. There is always an ear unless edges cross; then the first corner by position is cut off.
 void WindowPolygon::add_ears() {
-  std::array<int, kMaxClippedVertices> left{};
-  for (int i = 0; i < clipped.count; ++i) left[static_cast<std::size_t>(i)] = i;
+  std::array<int, kMaxClippedVertices> remaining{};
+  for (int i = 0; i < clipped.count; ++i) remaining[static_cast<std::size_t>(i)] = i;
   for (int count = clipped.count; count > 2; --count) {
     const auto ear_at = [&](int i) {
-      return Corners{left[static_cast<std::size_t>((i + count - 1) % count)],
-                     left[static_cast<std::size_t>(i)], left[static_cast<std::size_t>((i + 1) % count)]};
+      return Corners{remaining[static_cast<std::size_t>((i + count - 1) % count)],
+                     remaining[static_cast<std::size_t>(i)],
+                     remaining[static_cast<std::size_t>((i + 1) % count)]};
     };
     const auto is_ear = [&](const Corners& ear) {
-      const auto holds = [&](int other) {
+      const auto contains = [&](int other) {
         const bool is_corner = std::any_of(ear.begin(), ear.end(), [&](int c) {
           return window[c].x == window[other].x && window[c].y == window[other].y;
         });
-        return !is_corner && oriented_area({ear[0], ear[1], other}) >= 0 &&
-               oriented_area({ear[1], ear[2], other}) >= 0 && oriented_area({ear[2], ear[0], other}) >= 0;
+        const bool is_inside = oriented_area({ear[0], ear[1], other}) >= 0 &&
+                               oriented_area({ear[1], ear[2], other}) >= 0 &&
+                               oriented_area({ear[2], ear[0], other}) >= 0;
+        return !is_corner && is_inside;
       };
       return oriented_area(ear) == 0 ||
-             (oriented_area(ear) > 0 && std::none_of(left.begin(), left.begin() + count, holds));
+             (oriented_area(ear) > 0 && std::none_of(remaining.begin(), remaining.begin() + count, contains));
     };
     int best = 0;
     bool found = false;
@@ -80,7 +81,7 @@ void WindowPolygon::add_ears() {
       found = ear;
     }
     add(ear_at(best));
-    std::copy(left.begin() + best + 1, left.begin() + count, left.begin() + best);
+    std::copy(remaining.begin() + best + 1, remaining.begin() + count, remaining.begin() + best);
   }
 }
 

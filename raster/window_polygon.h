@@ -1,4 +1,4 @@
-// What clipping leaves of a triangle, snapped to the window's grid and cut into triangles again.
+// A clipped triangle, snapped to the raster grid and split into triangles.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 namespace tessera::detail {
 
+/// Twice the signed area, exact; positive for clockwise triangles on screen (raster space, y down).
 constexpr double doubled_area(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
   return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(c.x - a.x) * (b.y - a.y);
 }
@@ -19,16 +20,15 @@ struct WindowPolygon {
 
   ClippedPolygon clipped;
   WindowVertex window[kMaxClippedVertices];
-  double area = 0;  ///< doubled; of what snapping left of it
+  double area = 0;  ///< doubled signed area after snapping
 
   WindowPolygon(const VertexTransform& transform, const ClippedPolygon& polygon);
-  /// A triangle that is not clipped.
+  /// An unclipped triangle.
   WindowPolygon(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c);
 
-  /// Triangles that cover it exactly, the same ones wherever its corners begin and whichever way round; none
-  /// without an area. They turn as it does, unless snapping made its edges cross: that happens to polygons
-  /// thinner than a step of the grid, which then overlap their neighbours, and all of it is drawn rather than
-  /// holes left.
+  /// Triangles with an area that cover the polygon exactly and wind like it. Independent of the polygon's
+  /// first corner and direction. Exception: if snapping made edges cross, which happens to polygons thinner
+  /// than a grid step, all of the polygon is covered, and it may overlap its neighbours, but leaves no holes.
   std::span<const Corners> triangles() const { return {triangles_.data(), static_cast<std::size_t>(count_)}; }
 
  private:

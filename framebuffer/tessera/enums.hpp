@@ -1,5 +1,5 @@
-// Public enumerations that the kernels use, too. They stand on the lowest floor, so that every floor and the
-// public API share one set.
+// Public enumerations that the kernels share. They belong to the lowest floor, so that the public API and
+// every floor use one set.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,17 @@ namespace tessera {
 /// Storage of a depth buffer: unsigned normalized integers or floats.
 enum class DepthFormat : std::uint8_t { none, unorm16, unorm24, unorm32, float32 };
 
-/// Bytes of a pixel in memory, in this order.
+/// Order of the bytes of a pixel in memory.
 enum class PixelOrder : std::uint8_t { rgba8, bgra8 };
 
-/// Vector instructions that the kernels use. `automatic` is the best set of this machine.
+/// Vector instructions that the kernels use. `automatic` selects the best set of this machine.
 enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
 
 /// Comparison of a fragment's value with the stored or the reference value [GL 2.1, 4.1].
 enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
 
-/// What a stencil test writes [GL 2.1, 4.1.5]. incr and decr saturate; incr_wrap and decr_wrap wrap around.
+/// Update of the stencil value after a test [GL 2.1, 4.1.5]. incr and decr saturate; incr_wrap and decr_wrap
+/// wrap around.
 enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
 
 /// Weight of the source or destination in a blend [GL 2.1, 4.1.8].
@@ -40,13 +41,13 @@ enum class BlendFactor : std::uint8_t {
   src_alpha_saturate
 };
 
-/// How a blend combines the weighted source and destination [GL 2.1, 4.1.8].
+/// Combination of the weighted source and destination in a blend [GL 2.1, 4.1.8].
 enum class BlendEquation : std::uint8_t {
   add,               ///< source + destination
   subtract,          ///< source - destination
   reverse_subtract,  ///< destination - source
-  min,               ///< the lesser of both, without the factors
-  max                ///< the greater of both, without the factors
+  min,               ///< min(source, destination), without the factors
+  max                ///< max(source, destination), without the factors
 };
 
 /// Bitwise operation on stored bits, in OpenGL's order [GL 2.1, 4.1.10].
@@ -69,12 +70,12 @@ enum class LogicOp : std::uint8_t {
   set
 };
 
-/// Addressing of texels outside 0 .. 1.
+/// Addressing of texture coordinates outside 0 .. 1.
 enum class TextureWrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
 
-/// How a texel changes a fragment's colour, after shading and its clamp [GL 1.5, table 3.22]. C, A: colour
-/// and alpha of the fragment; Ct, At: of the texel, whose luminance counts as red, green and blue. At is 1
-/// for textures without alpha.
+/// Combination of a texel with a fragment's shaded and clamped colour [GL 1.5, table 3.22]. C, A: colour and
+/// alpha of the fragment. Ct, At: colour and alpha of the texel; luminance counts as red, green and blue, and
+/// At is 1 for textures without alpha.
 enum class TextureEnv : std::uint8_t {
   modulate,  ///< C Ct, A At
   replace,   ///< Ct; At, or A for textures without alpha
@@ -92,8 +93,8 @@ enum class AccumOp : std::uint8_t {
   return_color  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
 };
 
-/// How polygons are drawn: filled, as the lines of their boundary, or as points at their corners. Clipping
-/// adds the edges that it makes to the boundary.
+/// Rasterization of polygons: filled, as the lines of their boundary, or as points at their corners. Edges
+/// made by clipping belong to the boundary.
 enum class PolygonMode : std::uint8_t { fill, line, point };
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// The accumulation buffer's arithmetic against the same in long double, written out for one component.
+// Accumulation buffer arithmetic against a long double reference for one component.
 #include "framebuffer/accumulation.h"
 
 #include <gtest/gtest.h>
@@ -20,17 +20,17 @@ std::int32_t rounded(long double level, int bits) {
 
 std::int32_t expected(Op op, double value, std::int32_t acc, long double color, int bits) {
   switch (op) {
-    case Op::accumulate: return rounded(acc + value * color * one(bits), bits);
+    case Op::accum: return rounded(acc + value * color * one(bits), bits);
     case Op::load: return rounded(value * color * one(bits), bits);
     case Op::add: return rounded(acc + value * one(bits), bits);
     default: return rounded(acc * static_cast<long double>(value), bits);
   }
 }
 
-// r g b a of a stored word.
-std::array<long double, 4> color_of(std::uint32_t word, const ColorLayout& layout) {
+// Components r, g, b, a of a packed colour.
+std::array<long double, 4> color_of(std::uint32_t packed, const ColorLayout& layout) {
   const auto field = [&](int shift, int bits) {
-    return static_cast<long double>(word >> shift & ((1u << bits) - 1)) / ((1u << bits) - 1);
+    return static_cast<long double>(packed >> shift & ((1u << bits) - 1)) / ((1u << bits) - 1);
   };
   const long double alpha = layout.alpha_bits == 0 ? 1 : field(layout.bits, layout.alpha_bits);
   if (layout.luminance) return {field(0, layout.bits), field(0, layout.bits), field(0, layout.bits), alpha};
@@ -38,8 +38,8 @@ std::array<long double, 4> color_of(std::uint32_t word, const ColorLayout& layou
           field(0, layout.b_bits), alpha};
 }
 
-std::uint32_t expected_word(double value, const AccumulatedPixel& acc, int bits, const ColorLayout& layout,
-                            long double threshold) {
+std::uint32_t expected_packed(double value, const AccumulatedPixel& acc, int bits, const ColorLayout& layout,
+                              long double threshold) {
   std::array<long double, 4> c;
   for (std::size_t i = 0; i < 4; ++i) c[i] = std::clamp(value * (acc[i] / one(bits)), 0.0L, 1.0L);
   const auto level = [&](long double x, int b) {
@@ -67,15 +67,15 @@ std::uint32_t next_random() {
   return state = state * 1664525u + 1013904223u, state ^ state >> 15;
 }
 
-// Of many digits, so that no product falls on a half.
+// Values with many digits, so that no product falls on a half.
 constexpr double kValues[] = {1,    -1,   0,     0.2987654321, -0.7123456789, 1 / 256.0, -2.4987654321,
                               1e-9, 1e20, -1e300};
 
-// Levels at the ends, near them, near 0, and anywhere.
+// Levels at and near the ends of the range, near 0, and random.
 std::vector<AccumulatedPixel> levels_of(int bits) {
-  const auto most = static_cast<std::int32_t>(one(bits));
+  const auto max = static_cast<std::int32_t>(one(bits));
   std::vector<AccumulatedPixel> pixels{
-      {most, -most - 1, 0, 1}, {-1, most - 1, -most, most / 2}, {most / 3, -most / 3, 2, -2}};
+      {max, -max - 1, 0, 1}, {-1, max - 1, -max, max / 2}, {max / 3, -max / 3, 2, -2}};
   for (int i = 0; i < 60; ++i) {
     AccumulatedPixel pixel;
     for (std::int32_t& level : pixel) level = accumulation_level_from_stored(next_random(), bits);
@@ -84,31 +84,31 @@ std::vector<AccumulatedPixel> levels_of(int bits) {
   return pixels;
 }
 
-TEST(Accumulation, IsThatOfLongDoubleForEveryDepthOpAndSign) {
+TEST(AccumulationArithmetic, MatchesLongDoubleForEveryDepthOpAndSign) {
   int low_ends = 0, high_ends = 0;
   for (const int bits : {16, 32})
     for (const ColorLayout& layout : layouts())
-      for (const Op op : {Op::accumulate, Op::load, Op::add, Op::multiply})
+      for (const Op op : {Op::accum, Op::load, Op::add, Op::mult})
         for (const double value : kValues) {
           const Accumulation accumulation(op, value, bits, layout);
           const std::vector<AccumulatedPixel> before = levels_of(bits);
           const int count = static_cast<int>(before.size());
-          std::vector<std::uint32_t> words;
+          std::vector<std::uint32_t> packed_colors;
           std::array<std::vector<std::int32_t>, 4> after;
           for (const AccumulatedPixel& pixel : before) {
-            words.push_back(next_random());  // bits beyond the planes are nobody's
+            packed_colors.push_back(next_random());  // bits beyond the planes must be ignored
             for (std::size_t c = 0; c < 4; ++c) after[c].push_back(pixel[c]);
           }
-          accumulation.run(words.data(), {after[0].data(), after[1].data(), after[2].data(), after[3].data()},
-                           count);
+          accumulation.run(packed_colors.data(),
+                           {after[0].data(), after[1].data(), after[2].data(), after[3].data()}, count);
           for (std::size_t i = 0; i < before.size(); ++i)
             for (std::size_t c = 0; c < 4; ++c) {
               const std::int32_t wanted =
-                  expected(op, value, before[i][c], color_of(words[i], layout)[c], bits);
+                  expected(op, value, before[i][c], color_of(packed_colors[i], layout)[c], bits);
               ASSERT_EQ(after[c][i], wanted)
                   << bits << " bits, colour " << layout.bits << "+" << layout.alpha_bits << ", op " << int(op)
-                  << ", value " << value << ", component " << c << ", before " << before[i][c] << ", word "
-                  << words[i];
+                  << ", value " << value << ", component " << c << ", before " << before[i][c] << ", packed "
+                  << packed_colors[i];
               low_ends += wanted == -one(bits) - 1;
               high_ends += wanted == one(bits);
             }
@@ -117,24 +117,24 @@ TEST(Accumulation, IsThatOfLongDoubleForEveryDepthOpAndSign) {
   EXPECT_GT(high_ends, 1000);
 }
 
-TEST(Accumulation, GivesBackTheWordOfLongDouble) {
+TEST(AccumulationArithmetic, ReturnMatchesLongDouble) {
   int differing = 0, all = 0;
   for (const int bits : {16, 32})
     for (const ColorLayout& layout : layouts())
       for (const double value : kValues)
         for (const AccumulatedPixel& pixel : levels_of(bits))
           for (const double threshold : {0.5, 0.0078125, 0.9921875}) {
-            const std::uint32_t word =
-                Accumulation(Op::give_back, value, bits, layout).packed_color(pixel, threshold);
-            ASSERT_EQ(word & ~(layout.value_mask() | layout.alpha_mask()), 0u);
-            differing += word != expected_word(value, pixel, bits, layout, threshold);
+            const std::uint32_t packed =
+                Accumulation(Op::return_color, value, bits, layout).packed_color(pixel, threshold);
+            ASSERT_EQ(packed & ~(layout.value_mask() | layout.alpha_mask()), 0u);
+            differing += packed != expected_packed(value, pixel, bits, layout, threshold);
             ++all;
           }
   EXPECT_EQ(differing, 0) << "of " << all;
 }
 
-TEST(Accumulation, RoundsHalvesUp) {
-  // 32767 * 0.5 = 16383.5; -16383.5 goes up to -16383.
+TEST(AccumulationArithmetic, RoundsHalvesUp) {
+  // 32767 * 0.5 = 16383.5; -16383.5 rounds up to -16383.
   EXPECT_EQ(accumulation_level(0.5, 16), 16384);
   EXPECT_EQ(accumulation_level(-0.5, 16), -16383);
   EXPECT_EQ(accumulation_level(1, 32), 2147483647);
@@ -143,24 +143,24 @@ TEST(Accumulation, RoundsHalvesUp) {
   EXPECT_EQ(accumulation_level(-7, 16), -32768);
 }
 
-// Every level of 8 bits, added up from 256 parts and given back: how far it is off at most.
+// Largest error, in levels of 8 bits, after 256 passes of weight 1/256 and a return.
 int largest_loss(int bits) {
   const ColorLayout layout = rgb_layout(24);
-  const Accumulation accumulate(Op::accumulate, 1 / 256.0, bits, layout),
-      give_back(Op::give_back, 1, bits, layout);
+  const Accumulation accumulate(Op::accum, 1 / 256.0, bits, layout);
+  const Accumulation return_color(Op::return_color, 1, bits, layout);
   int loss = 0;
   for (std::uint32_t level = 0; level < 256; ++level) {
-    const std::uint32_t word = level * 0x010101u;
+    const std::uint32_t packed = level * 0x010101u;
     AccumulatedPixel acc{};
-    for (int pass = 0; pass < 256; ++pass) accumulate.run(&word, {&acc[0], &acc[1], &acc[2], &acc[3]}, 1);
-    const std::uint32_t back = give_back.packed_color(acc, 0.5);
-    EXPECT_EQ(back, (back & 255) * 0x010101u) << "the components are equal";
+    for (int pass = 0; pass < 256; ++pass) accumulate.run(&packed, {&acc[0], &acc[1], &acc[2], &acc[3]}, 1);
+    const std::uint32_t back = return_color.packed_color(acc, 0.5);
+    EXPECT_EQ(back, (back & 255) * 0x010101u) << "components differ";
     loss = std::max(loss, std::abs(static_cast<int>(back & 255) - static_cast<int>(level)));
   }
   return loss;
 }
 
-TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
+TEST(AccumulationArithmetic, LosesAtMostOneLevelIn256PassesAt16BitsAndNoneAt32) {
   EXPECT_LE(largest_loss(16), 1);
   EXPECT_EQ(largest_loss(32), 0);
 }

@@ -16,7 +16,7 @@ namespace tessera::detail {
 namespace {
 
 struct TileMemory {
-  alignas(kTileAlignment) std::uint32_t words[kMaxTileSize * kMaxTileSize];
+  alignas(kTileAlignment) std::uint32_t pixels[kMaxTileSize * kMaxTileSize];
 };
 
 struct Case {
@@ -48,9 +48,9 @@ std::string text(const Case& c) {
 }
 
 void randomize(TileMemory& tile, std::mt19937& random) {
-  for (std::uint32_t& word : tile.words) word = static_cast<std::uint32_t>(random());
+  for (std::uint32_t& pixel : tile.pixels) pixel = static_cast<std::uint32_t>(random());
 }
-/// A stack of random words.
+/// A stack of random pixels.
 BitplaneStack random_stack(const Case& c, std::mt19937& random) {
   BitplaneStack stack(c.width, c.height, c.planes);
   stack.allocate(0);
@@ -66,7 +66,7 @@ BitplaneStack copy_of(const BitplaneStack& stack) {
                 static_cast<std::size_t>(stack.stride_bytes() * stack.height_px()));
   return copy;
 }
-/// Every byte of the rows, pad included.
+/// Compares every byte of the rows, padding included.
 bool same_bits(const BitplaneStack& a, const BitplaneStack& b) {
   for (int k = 0; k < a.plane_count(); ++k)
     if (std::memcmp(a.plane(k), b.plane(k), static_cast<std::size_t>(a.stride_bytes() * a.height_px())) != 0)
@@ -74,62 +74,63 @@ bool same_bits(const BitplaneStack& a, const BitplaneStack& b) {
   return true;
 }
 
-/// All ways to store that this machine can run.
-std::vector<StorePlanesFn*> ways() {
+/// All store kernels that this machine can run.
+std::vector<StorePlanesFn*> store_kernels() {
   std::vector<StorePlanesFn*> all;
   for (InstructionSet isa : available_isas())
-    for (StorePlanesFn* way : {store_planes_for(isa), store_planes_per_tile(isa)})
-      if (std::find(all.begin(), all.end(), way) == all.end()) all.push_back(way);
+    for (StorePlanesFn* kernel : {store_planes_for(isa), store_planes_per_tile(isa)})
+      if (std::find(all.begin(), all.end(), kernel) == all.end()) all.push_back(kernel);
   return all;
 }
-void store_tile(StorePlanesFn* store, const std::uint32_t* words, const TilePlace& place,
+void store_tile(StorePlanesFn* store, const std::uint32_t* pixels, const TilePlace& place,
                 BitplaneStack& planes, std::uint32_t mask = ~0u) {
-  store({&words, 1}, place, planes, mask);
+  store({&pixels, 1}, place, planes, mask);
 }
 
-enum class Together { one_tile, a_line, any_number };
-/// How many tiles from x on go into the planes together.
-int run_of(Together together, const Case& c, int x, std::mt19937& random) {
-  const int to_line_end = kLinePixels / c.tile_size - x % kLinePixels / c.tile_size,
-            to_edge = (c.width - x + c.tile_size - 1) / c.tile_size;
-  const int most = std::min(to_line_end, to_edge);
-  return together == Together::one_tile ? 1
-         : together == Together::a_line ? most
-                                        : static_cast<int>(1 + random() % static_cast<unsigned>(most));
+enum class TilesPerCall { one, line, random };
+/// Number of tiles from x on that are stored in one call.
+int run_length(TilesPerCall tiles_per_call, const Case& c, int x, std::mt19937& random) {
+  const int to_line_end = kLinePixels / c.tile_size - x % kLinePixels / c.tile_size;
+  const int to_edge = (c.width - x + c.tile_size - 1) / c.tile_size;
+  const int max = std::min(to_line_end, to_edge);
+  if (tiles_per_call == TilesPerCall::one) return 1;
+  if (tiles_per_call == TilesPerCall::line) return max;
+  return static_cast<int>(1 + random() % static_cast<unsigned>(max));
 }
 
-TEST(BitTranspose, StoreMatchesReferenceBitForBitHoweverManyTilesGoTogether) {
+TEST(BitTranspose, StoreMatchesReferenceForAnyNumberOfTilesPerCall) {
   std::vector<TileMemory> tiles(kLinePixels / kMinTileSize);
-  const std::vector<StorePlanesFn*> all = ways();
-  for (std::size_t w = 0; w < all.size(); ++w)
+  const std::vector<StorePlanesFn*> kernels = store_kernels();
+  for (std::size_t kernel = 0; kernel < kernels.size(); ++kernel)
     for (const Case& c : cases())
-      for (const Together together : {Together::one_tile, Together::a_line, Together::any_number}) {
+      for (const TilesPerCall per_call : {TilesPerCall::one, TilesPerCall::line, TilesPerCall::random}) {
         std::mt19937 random(11);
         BitplaneStack stored = random_stack(c, random);
         BitplaneStack expected = copy_of(stored);
         for (int y = 0; y < c.height; y += c.tile_size)
           for (int x = 0, run; x < c.width; x += run * c.tile_size) {
-            run = run_of(together, c, x, random);
-            std::vector<const std::uint32_t*> words;
+            run = run_length(per_call, c, x, random);
+            std::vector<const std::uint32_t*> pixels;
             for (int t = 0; t < run; ++t) {
               TileMemory& tile = tiles[static_cast<std::size_t>(t)];
               randomize(tile, random);
-              words.push_back(tile.words);
+              pixels.push_back(tile.pixels);
               store_planes_reference(
-                  tile.words,
+                  tile.pixels,
                   {.x0_px = x + t * c.tile_size, .y0_px = y, .tile_size = c.tile_size, .flip = c.flip},
                   expected, c.mask);
             }
-            all[w](words, {.x0_px = x, .y0_px = y, .tile_size = c.tile_size, .flip = c.flip}, stored, c.mask);
-            // At once: what it did to tiles on its right would be stored over.
+            kernels[kernel](pixels, {.x0_px = x, .y0_px = y, .tile_size = c.tile_size, .flip = c.flip},
+                            stored, c.mask);
+            // Compare after every call: later calls would overwrite damage done to tiles on the right.
             ASSERT_TRUE(same_bits(stored, expected))
-                << "way " << w << ", together " << static_cast<int>(together) << ", from " << x << " " << y
-                << ", " << text(c);
+                << "kernel " << kernel << ", tiles per call " << static_cast<int>(per_call) << ", from " << x
+                << " " << y << ", " << text(c);
           }
       }
 }
 
-TEST(BitTranspose, LoadMatchesReferenceBitForBitOnEveryIsa) {
+TEST(BitTranspose, LoadMatchesReferenceOnEveryInstructionSet) {
   for (InstructionSet isa : available_isas())
     for (const Case& c : cases()) {
       std::mt19937 random(13);
@@ -137,27 +138,27 @@ TEST(BitTranspose, LoadMatchesReferenceBitForBitOnEveryIsa) {
       TileMemory loaded, expected;
       for (int y = 0; y < c.height; y += c.tile_size)
         for (int x = 0; x < c.width; x += c.tile_size) {
-          randomize(loaded, random);  // rows below the picture stay as they were
+          randomize(loaded, random);  // rows below the picture must keep this content
           expected = loaded;
           const TilePlace place{.x0_px = x, .y0_px = y, .tile_size = c.tile_size, .flip = c.flip};
-          load_planes_for(isa)(loaded.words, place, stack);
-          load_planes_reference(expected.words, place, stack);
-          ASSERT_EQ(std::memcmp(loaded.words, expected.words, sizeof loaded.words), 0)
+          load_planes_for(isa)(loaded.pixels, place, stack);
+          load_planes_reference(expected.pixels, place, stack);
+          ASSERT_EQ(std::memcmp(loaded.pixels, expected.pixels, sizeof loaded.pixels), 0)
               << static_cast<int>(isa) << " " << text(c);
         }
     }
 }
 
-TEST(BitTranspose, PadBitsStayZeroWhateverTheTileHolds) {
-  for (StorePlanesFn* store : ways())
+TEST(BitTranspose, PadBitsStayZeroForAnyTileContent) {
+  for (StorePlanesFn* store : store_kernels())
     for (int width : {1, 5, 31, 33, 70, 130})
       for (int tile_size : {32, 64, 128}) {
         BitplaneStack stack(width, 3, 20);
         stack.allocate(0);
         TileMemory tile;
-        std::memset(tile.words, 0xff, sizeof tile.words);
+        std::memset(tile.pixels, 0xff, sizeof tile.pixels);
         for (int x = 0; x < width; x += tile_size)
-          store_tile(store, tile.words, {.x0_px = x, .tile_size = tile_size}, stack);
+          store_tile(store, tile.pixels, {.x0_px = x, .tile_size = tile_size}, stack);
         for (int k = 0; k < 20; ++k)
           for (int y = 0; y < 3; ++y) {
             int bits = 0;
@@ -168,14 +169,14 @@ TEST(BitTranspose, PadBitsStayZeroWhateverTheTileHolds) {
       }
 }
 
-TEST(BitTranspose, ATileWritesNothingOfItsNeighbours) {
-  for (StorePlanesFn* store : ways())
+TEST(BitTranspose, StoreLeavesNeighbouringTilesUntouched) {
+  for (StorePlanesFn* store : store_kernels())
     for (int tile_size : {32, 64, 128}) {
       BitplaneStack stack(3 * tile_size, 3 * tile_size, 24);
       stack.allocate(0xffffff);
       TileMemory tile;
-      std::memset(tile.words, 0, sizeof tile.words);
-      store_tile(store, tile.words, {.x0_px = tile_size, .y0_px = tile_size, .tile_size = tile_size}, stack);
+      std::memset(tile.pixels, 0, sizeof tile.pixels);
+      store_tile(store, tile.pixels, {.x0_px = tile_size, .y0_px = tile_size, .tile_size = tile_size}, stack);
       for (int y = 0; y < 3 * tile_size; ++y)
         for (int x = 0; x < 3 * tile_size; ++x)
           ASSERT_EQ(stack.pixel(x, y), x / tile_size == 1 && y / tile_size == 1 ? 0u : 0xffffffu)
@@ -183,17 +184,17 @@ TEST(BitTranspose, ATileWritesNothingOfItsNeighbours) {
     }
 }
 
-TEST(BitTranspose, DepthKeysOf32BitsComeBackThroughTheFlip) {
+TEST(BitTranspose, FlippedDepthKeysOf32BitsRoundTrip) {
   for (InstructionSet isa : available_isas()) {
     BitplaneStack stack(64, 64, 32);
     stack.allocate(0);
     TileMemory keys, back;
-    for (std::uint32_t i = 0; i < 64 * 64; ++i) keys.words[i] = (i * 0x100401u) ^ 0x80000000u;
+    for (std::uint32_t i = 0; i < 64 * 64; ++i) keys.pixels[i] = (i * 0x100401u) ^ 0x80000000u;
     const TilePlace place{.flip = 0x80000000u};
-    store_tile(store_planes_for(isa), keys.words, place, stack);
+    store_tile(store_planes_for(isa), keys.pixels, place, stack);
     EXPECT_EQ(stack.pixel(1, 0), 0x100401u);
-    load_planes_for(isa)(back.words, place, stack);
-    EXPECT_EQ(std::memcmp(keys.words, back.words, 64 * 64 * 4), 0);
+    load_planes_for(isa)(back.pixels, place, stack);
+    EXPECT_EQ(std::memcmp(keys.pixels, back.pixels, 64 * 64 * 4), 0);
   }
 }
 

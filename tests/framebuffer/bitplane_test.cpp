@@ -10,7 +10,7 @@
 namespace tessera::detail {
 namespace {
 
-/// Bits set in the bytes of a row of a plane, pad included.
+/// Number of set bits in a row of a plane, padding included.
 int bits_in_row(const BitplaneStack& stack, int k, int y) {
   int count = 0;
   for (std::ptrdiff_t i = 0; i < stack.stride_bytes(); ++i)
@@ -42,7 +42,7 @@ TEST(Bitplane, RowsArePaddedToCacheLinesAndPlanesTakeAnOddNumberOfThem) {
   }
 }
 
-TEST(Bitplane, Bit7OfAByteIsTheLeftmostPixelAndTheFirstRowIsTheTop) {
+TEST(Bitplane, Bit7IsTheLeftmostPixelAndRow0IsTheTop) {
   BitplaneStack stack(20, 3, 2);
   stack.allocate(0);
   stack.set_pixel(0, 0, 1);
@@ -73,7 +73,7 @@ TEST(Bitplane, FillSetsEveryPixelAndNoPadBit) {
   }
 }
 
-TEST(Bitplane, FillRowsLeavesTheOtherRowsAlone) {
+TEST(Bitplane, FillRowsKeepsOtherRows) {
   BitplaneStack stack(30, 6, 8);
   stack.allocate(0x11);
   stack.fill_rows(2, 4, 0xee);
@@ -90,32 +90,32 @@ TEST(Bitplane, BitsBeyondThePlanesAreIgnored) {
   EXPECT_EQ(stack.pixel(1, 1), 31u);
 }
 
-TEST(Bitplane, ASecondAllocateKeepsWhatIsThere) {
+TEST(Bitplane, SecondAllocateKeepsContent) {
   BitplaneStack stack(3, 3, 5);
   stack.allocate(9);
   stack.allocate(0);
   EXPECT_EQ(stack.pixel(2, 2), 9u);
 }
 
-TEST(Bitplane, AStackWithoutPlanesIsNeverAllocated) {
+TEST(Bitplane, StackWithoutPlanesIsNeverAllocated) {
   BitplaneStack stack(3, 3, 0);
   stack.allocate(0);
   EXPECT_FALSE(stack.allocated());
 }
 
-TEST(Bitplane, MovingHandsTheMemoryOn) {
+TEST(Bitplane, MoveTransfersMemory) {
   BitplaneStack from(10, 10, 4);
   from.allocate(6);
   const BitplaneStack to = std::move(from);
   EXPECT_EQ(to.pixel(9, 9), 6u);
-  EXPECT_FALSE(from.allocated());  // NOLINT: that is what is tested
+  EXPECT_FALSE(from.allocated());  // NOLINT: the moved-from state is under test
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
-TEST(Bitplane, ThrowsBadAllocWhereMemoryRunsOutAndStaysUnallocated) {
-  const int most = std::numeric_limits<int>::max();
-  BitplaneStack stack(most, most, 32);  // 18 exabytes
+// The allocators of the sanitizers terminate the program instead of throwing.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Bitplane, AllocateThrowsBadAllocAndStaysUnallocated) {
+  const int max = std::numeric_limits<int>::max();
+  BitplaneStack stack(max, max, 32);  // 18 exabytes
   EXPECT_THROW(stack.allocate(0), std::bad_alloc);
   EXPECT_FALSE(stack.allocated());
 }

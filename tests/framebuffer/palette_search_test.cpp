@@ -26,9 +26,9 @@ std::vector<Palette> palettes() {
   for (int bits = 1; bits <= 8; ++bits) all.push_back(default_palette_of(bits));
   for (const char* name : {"bw", "gray", "ega16", "vga256", "web216"})
     all.push_back({.bits = 8, .entries = *palette_entries(name, 8)});
-  all.push_back({.bits = 1, .entries = {}});                          // all black
-  all.push_back({.bits = 4, .entries = {{255, 0, 0}, {255, 0, 0}}});  // a tie of twins, black behind them
-  all.push_back({.bits = 2, .entries = {{9, 9, 9}, {0, 0, 0}, {3, 3, 3}}});  // black before the unset one
+  all.push_back({.bits = 1, .entries = {}});                                 // all black
+  all.push_back({.bits = 4, .entries = {{255, 0, 0}, {255, 0, 0}}});         // equal entries, then unset ones
+  all.push_back({.bits = 2, .entries = {{9, 9, 9}, {0, 0, 0}, {3, 3, 3}}});  // black before an unset entry
   all.push_back(random_palette(8, 256, 1));
   all.push_back(random_palette(8, 256, 2, 3));  // few levels: many ties
   all.push_back(random_palette(10, 777, 3));
@@ -36,8 +36,8 @@ std::vector<Palette> palettes() {
   return all;
 }
 
-/// Components that matter: levels, the middles between them, cells' borders, their float neighbours, and odd
-/// values.
+/// Critical components: levels, midpoints between levels, cell borders and their neighbouring floats, and
+/// random values.
 float component(std::mt19937& random) {
   const auto pick = random();
   const float c = static_cast<float>(random() % 511) / 510.0f;
@@ -51,7 +51,7 @@ float component(std::mt19937& random) {
   }
 }
 
-TEST(PaletteSearch, FindsWhatLookingAtEveryEntryFinds) {
+TEST(PaletteSearch, MatchesExhaustiveSearch) {
   for (const Palette& palette : palettes()) {
     const PaletteSearch search(palette);
     std::mt19937 random(5);
@@ -64,10 +64,10 @@ TEST(PaletteSearch, FindsWhatLookingAtEveryEntryFinds) {
   }
 }
 
-// A dithered colour may leave the cube by half its width. Nearest to it is not what is nearest to the cube's
-// border.
-TEST(PaletteSearch, UnclampedLooksBeyondTheCube) {
-  std::size_t other = 0;
+// A dithered colour may lie outside the cube by up to half its width. Its nearest entry can differ from that
+// of the clamped colour.
+TEST(PaletteSearch, UnclampedMatchesExhaustiveSearchOutsideTheCube) {
+  std::size_t differing = 0;
   for (const Palette& palette : palettes()) {
     if (palette.entries.empty() || palette.entries.size() > 300) continue;
     const PaletteSearch search(palette, true);
@@ -76,24 +76,25 @@ TEST(PaletteSearch, UnclampedLooksBeyondTheCube) {
       const float color[3] = {2 * component(random) - 0.5f, 2 * component(random) - 0.5f,
                               2 * component(random) - 0.5f};
       std::uint32_t expected = 0;
-      float least = 100;
+      float min_distance = 100;
       for (std::uint32_t e = 0; e < palette.entries.size(); ++e) {
-        const float r = color[0] - static_cast<float>(palette[e].r) / 255.0f,
-                    g = color[1] - static_cast<float>(palette[e].g) / 255.0f,
-                    b = color[2] - static_cast<float>(palette[e].b) / 255.0f;
-        const float distance = r * r + g * g + b * b;
-        if (distance < least) least = distance, expected = e;
+        const float dr = color[0] - static_cast<float>(palette[e].r) / 255.0f;
+        const float dg = color[1] - static_cast<float>(palette[e].g) / 255.0f;
+        const float db = color[2] - static_cast<float>(palette[e].b) / 255.0f;
+        const float distance = dr * dr + dg * dg + db * db;
+        if (distance < min_distance) min_distance = distance, expected = e;
       }
       const std::uint32_t found = search.nearest_unclamped(color[0], color[1], color[2]);
       ASSERT_EQ(found, expected) << palette.entries.size() << " given: " << color[0] << " " << color[1] << " "
                                  << color[2];
-      other += found != search.nearest(color[0], color[1], color[2]);
+      differing += found != search.nearest(color[0], color[1], color[2]);
     }
   }
-  EXPECT_GT(other, 1000u);
+  EXPECT_GT(differing, 1000u);
 }
 
-TEST(PaletteSearch, GreyDiagonalsAndBlackAndWhiteWhereTiesLive) {
+// Lines through the cube on which ties are frequent.
+TEST(PaletteSearch, MatchesExhaustiveSearchOnDiagonals) {
   for (const Palette& palette : palettes()) {
     const PaletteSearch search(palette);
     for (int i = -10; i <= 1030; ++i) {
@@ -105,7 +106,7 @@ TEST(PaletteSearch, GreyDiagonalsAndBlackAndWhiteWhereTiesLive) {
   }
 }
 
-TEST(PaletteSearch, OddComponentsAreClampedAndNanIsZero) {
+TEST(PaletteSearch, ClampsComponentsAndTakesNanAsZero) {
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   const Palette palette = default_palette_of(4);
   const PaletteSearch search(palette);
@@ -115,15 +116,15 @@ TEST(PaletteSearch, OddComponentsAreClampedAndNanIsZero) {
   EXPECT_EQ(search.nearest(nan, 1.0f, -0.0f), search.nearest(0, 1, 0));
 }
 
-TEST(PaletteSearch, TiesGoToTheLowestIndexAndUnsetEntriesAreNeverChosen) {
+TEST(PaletteSearch, PrefersLowestIndexAndIgnoresUnsetEntries) {
   const PaletteSearch red({.bits = 2, .entries = {{255, 0, 0}, {255, 0, 0}}});
   EXPECT_EQ(red.nearest(1, 0, 0), 0u);
-  EXPECT_EQ(red.nearest(0, 0, 0), 0u);  // what is not set is never chosen
+  EXPECT_EQ(red.nearest(0, 0, 0), 0u);  // unset entries are never chosen
   const PaletteSearch full({.bits = 1, .entries = {{255, 0, 0}, {0, 255, 0}}});
-  EXPECT_EQ(full.nearest(0, 0, 0), 0u);  // no entry is unset; a tie
+  EXPECT_EQ(full.nearest(0, 0, 0), 0u);  // all entries are set; a tie
 }
 
-TEST(PaletteSearch, EveryEntryFindsItsColour) {
+TEST(PaletteSearch, FindsTheColourOfEveryEntry) {
   for (const Palette& palette : palettes()) {
     const PaletteSearch search(palette);
     for (std::uint32_t i = 0; i < palette.entries.size(); ++i) {
@@ -137,7 +138,7 @@ TEST(PaletteSearch, EveryEntryFindsItsColour) {
   }
 }
 
-TEST(PaletteSearch, ServesSixtyFiveThousandEntries) {
+TEST(PaletteSearch, MatchesExhaustiveSearchFor65536Entries) {
   const Palette palette = random_palette(16, 65536, 6);
   const PaletteSearch search(palette);
   std::mt19937 random(8);

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Rgb8> entries(std::string_view name, int bits) { return palette_entries(name, bits).value(); }
 
-TEST(Palette, UnsetEntriesAreBlackAndAnyIndexMayBeRead) {
+TEST(PaletteEntries, UnsetAndOutOfRangeIndicesAreBlack) {
   const Palette palette{.bits = 3, .entries = entries("bw", 1)};
   EXPECT_EQ(palette.size(), 8u);
   EXPECT_EQ(palette[1], (Rgb8{255, 255, 255}));
@@ -21,12 +21,12 @@ TEST(Palette, UnsetEntriesAreBlackAndAnyIndexMayBeRead) {
   EXPECT_EQ(palette[0xffffffffu], Rgb8{});
 }
 
-TEST(Palette, StoredColorRoundsClampsAndTakesNanAsZero) {
+TEST(PaletteEntries, QuantizeRoundsClampsAndTakesNanAsZero) {
   EXPECT_EQ(quantize_rgb8(0.5f, 1.0f, 0.0f), (Rgb8{128, 255, 0}));
   EXPECT_EQ(quantize_rgb8(-1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN()), (Rgb8{0, 255, 0}));
 }
 
-TEST(Palette, NamesThatAreKnownAndOneThatIsNot) {
+TEST(PaletteEntries, UnknownNameYieldsNothing) {
   EXPECT_EQ(entries("bw", 1), (std::vector<Rgb8>{{0, 0, 0}, {255, 255, 255}}));
   EXPECT_EQ(entries("ega16", 4).size(), 16u);
   EXPECT_EQ(entries("vga256", 8).size(), 256u);
@@ -35,7 +35,7 @@ TEST(Palette, NamesThatAreKnownAndOneThatIsNot) {
   EXPECT_FALSE(palette_entries("", 8).has_value());
 }
 
-TEST(Palette, GreysAreSpreadEvenlyAtEveryDepth) {
+TEST(PaletteEntries, GreysAreEvenlySpacedAtEveryDepth) {
   EXPECT_EQ(entries("gray", 1), (std::vector<Rgb8>{{0, 0, 0}, {255, 255, 255}}));
   EXPECT_EQ(entries("gray", 2),
             (std::vector<Rgb8>{{0, 0, 0}, {85, 85, 85}, {170, 170, 170}, {255, 255, 255}}));
@@ -44,7 +44,7 @@ TEST(Palette, GreysAreSpreadEvenlyAtEveryDepth) {
   EXPECT_EQ(entries("gray", 24)[1u << 23], (Rgb8{128, 128, 128}));
 }
 
-TEST(Palette, Ega16IsTheStandardOneWithItsBrown) {
+TEST(PaletteEntries, Ega16HasBrownAtIndex6) {
   const auto ega = entries("ega16", 4);
   EXPECT_EQ(ega[1], (Rgb8{0, 0, 170}));
   EXPECT_EQ(ega[4], (Rgb8{170, 0, 0}));
@@ -53,7 +53,7 @@ TEST(Palette, Ega16IsTheStandardOneWithItsBrown) {
   EXPECT_EQ(ega[15], (Rgb8{255, 255, 255}));
 }
 
-TEST(Palette, Web216CountsBlueFastest) {
+TEST(PaletteEntries, Web216VariesBlueFastest) {
   const auto web = entries("web216", 8);
   for (int r = 0; r < 6; ++r)
     for (int g = 0; g < 6; ++g)
@@ -63,8 +63,8 @@ TEST(Palette, Web216CountsBlueFastest) {
       }
 }
 
-// The colours that listings of the power-on palette give, 24 bits each.
-TEST(Palette, Vga256IsTheDefaultPaletteOfMode13h) {
+// Colours of published listings of the power-on palette, 24 bits each.
+TEST(PaletteEntries, Vga256IsTheDefaultPaletteOfMode13h) {
   const auto vga = entries("vga256", 8);
   const auto ega = entries("ega16", 4);
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(vga[i], ega[i]);
@@ -85,7 +85,7 @@ TEST(Palette, Vga256IsTheDefaultPaletteOfMode13h) {
   for (std::size_t i = 248; i < 256; ++i) EXPECT_EQ(vga[i], Rgb8{});
 }
 
-TEST(Palette, DefaultsGoByTheNumberOfBits) {
+TEST(PaletteEntries, DefaultDependsOnBits) {
   EXPECT_EQ(default_palette_name(1), "bw");
   for (int bits : {2, 3}) EXPECT_EQ(default_palette_name(bits), "gray");
   for (int bits : {4, 5, 6, 7}) EXPECT_EQ(default_palette_name(bits), "ega16");

@@ -15,13 +15,12 @@ namespace tessera::detail {
 namespace {
 
 struct TileMemory {
-  alignas(kTileAlignment) std::uint32_t words[kMaxTileSize * kMaxTileSize];
+  alignas(kTileAlignment) std::uint32_t pixels[kMaxTileSize * kMaxTileSize];
 };
 
 constexpr std::uint8_t kUntouched = 0xa5;
 
-/// Layouts of every number of bits, RGB and index; the index ones with a palette that is full, or given in
-/// part.
+/// RGB and index layouts of every depth; index layouts with a full, a partial and an empty palette.
 struct Source {
   ColorLayout layout;
   Palette palette;
@@ -43,46 +42,47 @@ std::uint32_t pixel_at(const std::uint8_t* bytes) {
   return pixel;
 }
 
-TEST(ScanOut, EveryLevelOfEveryLayoutIsShownAsDefined) {
+TEST(ScanOut, RowMatchesReferenceForEveryLevelOfEveryLayout) {
   for (InstructionSet isa : available_isas())
     for (PixelOrder order : {PixelOrder::rgba8, PixelOrder::bgra8})
       for (const Source& source : sources()) {
         const ScanOut scan_out(source.layout, &source.palette, order, isa);
-        // All words of up to 12 bits; beyond that every level of each component, and random words.
-        std::vector<std::uint32_t> words;
+        // Up to 12 bits: all packed pixels. Beyond: every level of each component. Random ones in both cases.
+        std::vector<std::uint32_t> packed_pixels;
         if (source.layout.bits <= 12) {
-          for (std::uint32_t w = 0; w <= source.layout.value_mask(); ++w) words.push_back(w);
+          for (std::uint32_t w = 0; w <= source.layout.value_mask(); ++w) packed_pixels.push_back(w);
         } else {
           for (std::uint32_t v = 0; v < 256; ++v)
-            words.insert(words.end(), {v, v << source.layout.g_shift(), v << source.layout.r_shift(), ~v});
+            packed_pixels.insert(packed_pixels.end(),
+                                 {v, v << source.layout.g_shift(), v << source.layout.r_shift(), ~v});
         }
         std::mt19937 random(3);
         for (int i = 0; i < 501; ++i)
-          words.push_back(static_cast<std::uint32_t>(random()));  // bits beyond the layout too
-        std::vector<std::uint8_t> row(words.size() * 4 + 64, kUntouched);
-        scan_out.row(words.data(), static_cast<int>(words.size()), row.data());
-        for (std::size_t i = 0; i < words.size(); ++i)
+          packed_pixels.push_back(static_cast<std::uint32_t>(random()));  // including bits beyond the layout
+        std::vector<std::uint8_t> row(packed_pixels.size() * 4 + 64, kUntouched);
+        scan_out.row(packed_pixels.data(), static_cast<int>(packed_pixels.size()), row.data());
+        for (std::size_t i = 0; i < packed_pixels.size(); ++i)
           ASSERT_EQ(pixel_at(&row[4 * i]),
-                    scan_out_pixel_reference(source.layout, &source.palette, order, words[i]))
+                    scan_out_pixel_reference(source.layout, &source.palette, order, packed_pixels[i]))
               << static_cast<int>(isa) << " bits " << source.layout.bits << " index " << source.layout.index
-              << " word " << words[i];
-        for (std::size_t i = words.size() * 4; i < row.size(); ++i) ASSERT_EQ(row[i], kUntouched);
+              << " packed_pixel " << packed_pixels[i];
+        for (std::size_t i = packed_pixels.size() * 4; i < row.size(); ++i) ASSERT_EQ(row[i], kUntouched);
       }
 }
 
-TEST(ScanOut, BytesStandInTheOrderAskedFor) {
-  const std::uint32_t word = 0x102030;
+TEST(ScanOut, WritesBytesInTheRequestedOrder) {
+  const std::uint32_t packed_pixel = 0x102030;
   std::uint8_t pixel[4];
-  ScanOut(rgb_layout(24), nullptr, PixelOrder::rgba8, InstructionSet::scalar).row(&word, 1, pixel);
+  ScanOut(rgb_layout(24), nullptr, PixelOrder::rgba8, InstructionSet::scalar).row(&packed_pixel, 1, pixel);
   EXPECT_TRUE(pixel[0] == 0x10 && pixel[1] == 0x20 && pixel[2] == 0x30 && pixel[3] == 255);
-  ScanOut(rgb_layout(24), nullptr, PixelOrder::bgra8, InstructionSet::scalar).row(&word, 1, pixel);
+  ScanOut(rgb_layout(24), nullptr, PixelOrder::bgra8, InstructionSet::scalar).row(&packed_pixel, 1, pixel);
   EXPECT_TRUE(pixel[0] == 0x30 && pixel[1] == 0x20 && pixel[2] == 0x10 && pixel[3] == 255);
 }
 
-TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
+TEST(ScanOut, TileMatchesReferenceAndWritesNothingElse) {
   std::mt19937 random(4);
   TileMemory tile;
-  for (std::uint32_t& word : tile.words) word = static_cast<std::uint32_t>(random());
+  for (std::uint32_t& packed_pixel : tile.pixels) packed_pixel = static_cast<std::uint32_t>(random());
   const Source some[] = {{rgb_layout(24), {}},
                          {rgb_layout(16), {}},
                          {rgb_layout(2), {}},
@@ -95,33 +95,33 @@ TEST(ScanOut, TilesMatchReferenceBitForBitOnEveryIsaAndTouchNothingElse) {
             if (width > tile_size) continue;
             const bool upwards = missing % 2 == 0;
             const int height = tile_size - missing;
-            const std::size_t misplaced = static_cast<std::size_t>(width % 4);  // any alignment
+            const std::size_t misalignment = static_cast<std::size_t>(width % 4);
             const std::ptrdiff_t stride = 4 * width + 12;
-            std::vector<std::uint8_t> image(static_cast<std::size_t>(stride * height) + misplaced,
+            std::vector<std::uint8_t> image(static_cast<std::size_t>(stride * height) + misalignment,
                                             kUntouched);
             const PixelOrder order = upwards ? PixelOrder::bgra8 : PixelOrder::rgba8;
             const ScanOut scan_out(source.layout, &source.palette, order, isa);
-            std::uint8_t* first = image.data() + misplaced + (upwards ? (height - 1) * stride : 0);
-            scan_out.tile(tile.words, tile_size, width, height, first, upwards ? -stride : stride);
+            std::uint8_t* first = image.data() + misalignment + (upwards ? (height - 1) * stride : 0);
+            scan_out.tile(tile.pixels, tile_size, width, height, first, upwards ? -stride : stride);
             for (int y = 0; y < height; ++y) {
               const std::uint8_t* row = first + (upwards ? -y : y) * stride;
               for (int x = 0; x < width; ++x)
                 ASSERT_EQ(pixel_at(row + 4 * x),
                           scan_out_pixel_reference(source.layout, &source.palette, order,
-                                                   tile.words[tile_index(x, y, tile_size)]))
+                                                   tile.pixels[tile_index(x, y, tile_size)]))
                     << static_cast<int>(isa) << " " << tile_size << " " << x << "," << y;
               for (int i = 4 * width; i < stride; ++i) ASSERT_EQ(row[i], kUntouched);
             }
           }
 }
 
-TEST(ScanOut, AMovedOneStillFindsItsPalette) {
+TEST(ScanOut, MoveKeepsThePalette) {
   const Palette palette = default_palette_of(4);
   ScanOut first(index_layout(4), &palette, PixelOrder::rgba8, InstructionSet::scalar);
   const ScanOut second = std::move(first);
-  const std::uint32_t word = 6;
+  const std::uint32_t packed_pixel = 6;
   std::uint8_t pixel[4];
-  second.row(&word, 1, pixel);
+  second.row(&packed_pixel, 1, pixel);
   EXPECT_TRUE(pixel[0] == 170 && pixel[1] == 85 && pixel[2] == 0 && pixel[3] == 255);
 }
 

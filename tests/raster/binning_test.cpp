@@ -1,4 +1,4 @@
-// Binning alone: which triangles the tiles' bins hold, against the exact reference.
+// The triangles in the tiles' bins against the exact coverage reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ std::vector<std::uint32_t> triangles_of(const Bins& bins, int tile) {
   return triangles;
 }
 
-// Through single triangles binning is seen alone: each tile with a covered pixel has the triangle in its bin.
-TEST(Binning, LosesNoTileOfATriangle) {
+// Single triangles: the bin of every tile with a covered pixel must hold the triangle.
+TEST(Binning, BinsTriangleIntoEveryTileItCovers) {
   for (const int tile_size : kTileSizes) {
     RandomTriangles source(static_cast<std::uint32_t>(tile_size), 256);
     for (int i = 0; i < seeds(3000); ++i) {
@@ -57,15 +57,15 @@ TEST(Binning, LosesNoTileOfATriangle) {
   }
 }
 
-// Small triangles along borders of tiles and larger ones between them.
+// Small triangles along tile borders, with larger ones between them.
 std::vector<WindowVertex> triangles_along_borders(int count, int size, int tile_size) {
   RandomTriangles source(static_cast<std::uint32_t>(tile_size) + 1, size);
   std::vector<WindowVertex> vertices;
   for (int t = 0, start = 0, border = 0; t < count; ++t) {
     if (t % 20 == 0)
       start = source.between(0, size) * 256, border = source.between(1, size / tile_size) * tile_size * 256;
-    const int extent = (t % 11 == 0 ? source.between(20, 90) : source.between(2, 6)) * 256,
-              along = start + t % 20 * 700;
+    const int extent = (t % 11 == 0 ? source.between(20, 90) : source.between(2, 6)) * 256;
+    const int along = start + t % 20 * 700;
     const bool downwards = t % 40 < 20;
     const auto around = [&](int center) { return center + source.between(-extent / 2, extent / 2); };
     for (int k = 0; k < 3; ++k)
@@ -74,9 +74,9 @@ std::vector<WindowVertex> triangles_along_borders(int count, int size, int tile_
   return vertices;
 }
 
-// Each tile has them in their order, once, and none that is elsewhere; also where a rectangle cuts them, and
-// where tiles stand in one column.
-TEST(Binning, KeepsTheirOrderInEachTile) {
+// Each bin holds its triangles once, in submission order, and none whose bounds miss the tile. Includes
+// rectangles that cut triangles, and grids of one column.
+TEST(Binning, KeepsSubmissionOrderInEachTile) {
   constexpr int kSize = 256, kCount = 16 * 40 + 7;
   for (const int tile_size : kTileSizes) {
     const std::vector<WindowVertex> vertices = triangles_along_borders(kCount, kSize, tile_size);
@@ -107,36 +107,37 @@ TEST(Binning, KeepsTheirOrderInEachTile) {
               const PixelRect bounds =
                   intersect(part, {first_pixel(low_x - reach), first_pixel(low_y - reach),
                                    last_pixel(high_x + reach) + 1, last_pixel(high_y + reach) + 1});
-              bool seen = false;
+              bool covers = false;
               if (!bounds.empty())
                 reference_of({v[0], v[1], v[2]})
                     .for_each_covered(bounds.x0, bounds.y0, bounds.x1, bounds.y1,
-                                      [&](int, int) { seen = true; });
-              const bool is_there = std::binary_search(found.begin(), found.end(), t);
-              ASSERT_TRUE(is_there ? !bounds.empty() : !seen) << "triangle " << t;
+                                      [&](int, int) { covers = true; });
+              const bool is_binned = std::binary_search(found.begin(), found.end(), t);
+              ASSERT_TRUE(is_binned ? !bounds.empty() : !covers) << "triangle " << t;
             }
           }
         }
   }
 }
 
-// Up to three pixels wide, on centres and edges of pixels or anywhere, in rectangles that cut them: sixteen
-// at a time and one by one.
-TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
+// Triangles up to three pixels wide, with vertices on pixel centres, on pixel edges or anywhere, in
+// rectangles that cut them; in full groups of 16 and in partial ones.
+TEST(Binning, CullsTrianglesBetweenSamplePoints) {
   constexpr std::uint32_t kCount = 16 * 200 + 5;
   constexpr int kSize = 128;
   RandomTriangles source(5, kSize);
   std::vector<WindowVertex> vertices;
   std::vector<std::uint32_t> backwards;
   for (std::uint32_t t = 0; t < kCount; ++t) {
-    const int x = source.between(-2, kSize) * 256, y = source.between(-2, kSize) * 256,
-              extent = source.between(1, 3) * 256, step = 1 << source.between(0, 7);
+    const int x = source.between(-2, kSize) * 256, y = source.between(-2, kSize) * 256;
+    const int extent = source.between(1, 3) * 256;
+    const int step = 1 << source.between(0, 7);
     for (int k = 0; k < 3; ++k)
       vertices.push_back(
           {x + source.between(0, extent / step) * step, y + source.between(0, extent / step) * step, 0, 1});
   }
   for (std::uint32_t i = 3 * kCount; i-- > 0;) backwards.push_back(i);
-  std::size_t left_out = 0, kept = 0;
+  std::size_t culled = 0, kept = 0;
   for (const PixelRect& rect : {PixelRect{0, 0, kSize, kSize}, PixelRect{17, 40, 90, 41}})
     for (const bool indexed : {false, true})
       for (const int reach : {0, 128})
@@ -157,17 +158,16 @@ TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
             const TriangleReference reference = reference_of(triangle);
             const auto [low_x, high_x] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
             const auto [low_y, high_y] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
-            const int x0 = std::max(first_pixel(low_x - reach), rect.x0),
-                      x1 = std::min(last_pixel(high_x + reach), rect.x1 - 1);
-            const int y0 = std::max(first_pixel(low_y - reach), rect.y0),
-                      y1 = std::min(last_pixel(high_y + reach), rect.y1 - 1);
+            const int x0 = std::max(first_pixel(low_x - reach), rect.x0);
+            const int x1 = std::min(last_pixel(high_x + reach), rect.x1 - 1);
+            const int y0 = std::max(first_pixel(low_y - reach), rect.y0);
+            const int y1 = std::min(last_pixel(high_y + reach), rect.y1 - 1);
             bool expected = reference.area != 0 && x0 <= x1 && y0 <= y1;
-            const bool is_small =
-                high_x - low_x < 768 &&
-                high_y - low_y < 768;  // larger ones may have been cut by the rectangle: they are kept
-            if (expected && reach == 0 && x1 - x0 <= 1 && y1 - y0 <= 1 && is_small) {
-              // Of the 2x2 pixels, those that the rectangle cuts off included: it may keep one of the others
-              // for nothing.
+            // Larger triangles, cut by the rectangle, are not culled.
+            const bool is_small = high_x - low_x < 768 && high_y - low_y < 768;
+            const bool has_few_pixels = x1 - x0 <= 1 && y1 - y0 <= 1;
+            if (expected && reach == 0 && has_few_pixels && is_small) {
+              // All 2x2 pixels count, including those outside the rectangle: culling is conservative there.
               bool covers = false, covers_any = false;
               reference.for_each_covered(x0, y0, x0 + 2, y0 + 2, [&](int x, int y) {
                 covers |= x <= x1 && y <= y1;
@@ -175,18 +175,18 @@ TEST(Binning, LeavesOutWhatLiesBetweenTheCentresOfFewPixels) {
               });
               ASSERT_TRUE(covers_any || !covers);
               expected = covers_any;
-              ++(expected ? kept : left_out);
+              ++(expected ? kept : culled);
             }
             ASSERT_EQ(binned[t], expected)
                 << name_of(isa) << " reach " << reach << ": " << Describe{triangle};
           }
         }
-  EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(culled, 1000u);
   EXPECT_GT(kept, 1000u);
 }
 
-// Of large triangles, whose edges take more than 32 bits, a rectangle may leave as few pixels.
-TEST(Binning, LosesNoTriangleInARectangleOfFewPixels) {
+// Large triangles with 64-bit edges, cut to 2x2 pixels by the rectangle, must not be culled as small ones.
+TEST(Binning, KeepsLargeTrianglesInRectanglesOfFewPixels) {
   constexpr int kSize = 128;
   RandomTriangles source(9, kSize);
   std::size_t covered = 0;
@@ -210,9 +210,10 @@ TEST(Binning, LosesNoTriangleInARectangleOfFewPixels) {
   EXPECT_GT(covered, 1000u);
 }
 
-TEST(Binning, CullsTheFacesThatItIsAskedToAndCountsThem) {
+TEST(Binning, CullsAndCountsUnwantedFaces) {
+  // Counter-clockwise in the window.
   const Triangle counter_clockwise{WindowVertex{0, 2560, 0, 1}, WindowVertex{2560, 2560, 0, 1},
-                                   WindowVertex{0, 0, 0, 1}};  // seen in the window
+                                   WindowVertex{0, 0, 0, 1}};
   for (const bool clockwise_fronts : {false, true}) {
     for (const bool keep_front : {false, true}) {
       for (const bool keep_back : {false, true}) {

@@ -1,4 +1,4 @@
-// Bins that share a budget of memory, and batches of them.
+// Bins that share a memory budget, and batches of bins.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,14 +11,13 @@ namespace tessera::test {
 using namespace detail;
 namespace {
 
-TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
+TEST(Bins, StayWithinBudgetAndCountLostEntries) {
   std::mt19937 random(4);
   for (const std::size_t limit : {std::size_t{20000}, std::size_t{100000}, std::size_t{4} << 20}) {
     BinBudget budget(limit);
     std::vector<Bins> bins(3), unlimited(3);
-    for (int b = 0; b < 3; ++b)
-      bins[static_cast<std::size_t>(b)].reset(50, 100, &budget),
-          unlimited[static_cast<std::size_t>(b)].reset(50, 100);
+    for (Bins& each : bins) each.reset(50, 100, &budget);
+    for (Bins& each : unlimited) each.reset(50, 100);
     bool any_overflow = false;
     for (int i = 0; i < 60000; ++i) {
       const std::size_t b = random() % 3;
@@ -37,12 +36,12 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
       std::size_t bytes = 0;
       for (const Bins& each : bins) bytes += each.bytes();
       ASSERT_LE(bytes, limit + 3 * (sizeof(Bins::Block) + 256))
-          << "but for the block and the padding that are left after an overflow";
+          << "budget exceeded by more than the block and the padding that remain after an overflow";
     }
     std::size_t bytes = 0;
     for (const Bins& each : bins) bytes += each.bytes();
     EXPECT_TRUE(bytes >= limit || budget.take(limit - bytes))
-        << "memory that was grown out of was not given back";
+        << "replaced memory was not returned to the budget";
     for (std::size_t b = 0; b < 3; ++b) {
       any_overflow |= bins[b].overflowed();
       EXPECT_EQ(bins[b].counts.entries, unlimited[b].counts.entries);
@@ -61,10 +60,10 @@ TEST(Bins, StayWithinTheBudgetAndCountWhatTheyLose) {
   }
 }
 
-TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
+TEST(Bins, AreEmptyAfterResetAndReportTheirMemory) {
   std::mt19937 random(9);
   Bins bins;
-  int overflown = 0;
+  int overflow_count = 0;
   for (int round = 0; round < 60; ++round) {
     const int tiles = round % 5 == 4 ? 70 : 40, pushes = static_cast<int>(random() % 30000);
     const bool overflows = round % 3 == 2;
@@ -78,16 +77,14 @@ TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
     std::vector<std::uint32_t> expected(static_cast<std::size_t>(tiles));
     for (int i = 0; i < pushes; ++i) {
       const int span = 1 + round % tiles;
-      const auto tile =
-          static_cast<std::size_t>(overflows ? i * span / pushes
-                                             : static_cast<int>(random() % 1000) * span /
-                                                   1000);  // then some are first met after the overflow
-      bins.push(round + static_cast<int>(tile), 1,
-                static_cast<std::uint32_t>(i));  // the same draw in every round
+      // In overflow rounds tiles ascend, so that some get their first entry after the overflow.
+      const auto tile = static_cast<std::size_t>(overflows ? i * span / pushes
+                                                           : static_cast<int>(random() % 1000) * span / 1000);
+      bins.push(round + static_cast<int>(tile), 1, static_cast<std::uint32_t>(i));
       ++expected[tile];
     }
     ASSERT_EQ(bins.overflowed(), budget.refused());
-    if (bins.overflowed()) ++overflown;
+    if (bins.overflowed()) ++overflow_count;
     if (bins.overflowed()) continue;
     ASSERT_TRUE(std::equal(expected.begin(), expected.end(), bins.triangles_from(round)));
     for (int t = 0; t < tiles; ++t) {
@@ -97,13 +94,13 @@ TEST(Bins, AreEmptyAfterAResetAndTakeWhatTheySay) {
         ASSERT_EQ(bins.block(first).entries[0], kDrawMarker | 1);
       }
     }
-    EXPECT_TRUE(budget.take(limit - bins.bytes())) << "more was taken than there is";
-    EXPECT_FALSE(budget.take(1)) << "less";
+    EXPECT_TRUE(budget.take(limit - bins.bytes())) << "the budget was charged more than bytes()";
+    EXPECT_FALSE(budget.take(1)) << "the budget was charged less than bytes()";
   }
-  EXPECT_GT(overflown, 10);
+  EXPECT_GT(overflow_count, 10);
 }
 
-/// The batches that a tile reads.
+/// The batches that a reader of `tile` visits.
 std::vector<std::uint32_t> read_by(const BinBatches& batches, int tile) {
   std::vector<std::uint32_t> read;
   for (std::uint32_t b = batches.next(tile, 0); b < batches.count(); b = batches.next(tile, b + 1))
@@ -111,7 +108,7 @@ std::vector<std::uint32_t> read_by(const BinBatches& batches, int tile) {
   return read;
 }
 
-TEST(BinBatches, TilesReadThoseThatHoldSomethingOfThemInOrder) {
+TEST(BinBatches, TilesReadNonEmptyBatchesInOrder) {
   std::mt19937 random(5);
   constexpr int kFirst = 30, kTiles = 12;
   BinBatches batches;
@@ -144,17 +141,17 @@ TEST(BinBatches, TilesReadThoseThatHoldSomethingOfThemInOrder) {
   }
 }
 
-TEST(BinBatches, OneByOneAreAllRead) {
+TEST(BinBatches, StreamedBatchesAreAllRead) {
   Bins place;
   std::vector<std::uint32_t> filled;
   BinBatches batches;
   batches.set_streamed(place, 70, [&](std::uint32_t b) { filled.push_back(b); });
   batches.index_batches(7, 1);
   EXPECT_EQ(batches.triangles(7), 0);
-  EXPECT_FALSE(batches.known_empty(7)) << "nobody looked";
+  EXPECT_FALSE(batches.known_empty(7)) << "streamed batches are not indexed";
   const std::vector<std::uint32_t> read = read_by(batches, 7);
   ASSERT_EQ(read.size(), 70);
-  EXPECT_EQ(batches.peek(0), nullptr) << "it would take the place of the one before";
+  EXPECT_EQ(batches.peek(0), nullptr) << "it would replace the batch read before";
   for (std::uint32_t b = 0; b < 70; ++b) {
     EXPECT_EQ(read[b], b);
     EXPECT_EQ(&batches.read(b), &place);

@@ -1,4 +1,4 @@
-// Clipping in homogeneous space: what is left lies inside, neighbours stay neighbours, attributes stay
+// Clipping in homogeneous space: results lie inside the planes, shared edges stay shared, attributes stay
 // linear.
 #include "raster/clip.h"
 
@@ -44,14 +44,14 @@ std::uint8_t outcodes_of(const VertexTransform& t, const ClipVertex (&v)[3]) {
          compute_outcode(t, v[2].position);
 }
 double magnitude(const ClipVertex (&v)[3]) {
-  double most = 0;
+  double max = 0;
   for (const ClipVertex& c : v)
     for (const double x : {c.position.x, c.position.y, c.position.z, c.position.w})
-      most = std::max(most, std::abs(x));
-  return most;
+      max = std::max(max, std::abs(x));
+  return max;
 }
 
-TEST(Clip, LeavesWhatLiesInsideAndKeepsAttributesLinear) {
+TEST(Clip, ResultLiesInsidePlanesAndAttributesStayLinear) {
   for (const double scale : {1.0, 1e-30, 1e30}) {
     for (const bool reversed : {false, true}) {
       RandomClip random{std::mt19937(7)};
@@ -59,7 +59,7 @@ TEST(Clip, LeavesWhatLiesInsideAndKeepsAttributesLinear) {
       std::size_t kept = 0;
       for (int round = 0; round < (long_tests() ? 300000 : 20000); ++round) {
         ClipVertex v[3] = {random.vertex(scale), random.vertex(scale), random.vertex(scale)};
-        for (ClipVertex& c : v) {  // the position itself, and a constant
+        for (ClipVertex& c : v) {  // two coordinates and a constant
           c.attributes[0] = static_cast<float>(c.position.x);
           c.attributes[1] = static_cast<float>(c.position.w);
           c.attributes[2] = 0.1f;
@@ -78,7 +78,7 @@ TEST(Clip, LeavesWhatLiesInsideAndKeepsAttributesLinear) {
           ASSERT_NEAR(polygon.vertices[i].attributes[0], p.x, 1e-6 * size);
           ASSERT_NEAR(polygon.vertices[i].attributes[1], p.w, 1e-6 * size);
           ASSERT_EQ(polygon.vertices[i].attributes[2], 0.1f);
-          // What follows needs coordinates of 24 bits.
+          // Later stages need coordinates of 24 bits.
           const WindowVertex window = project(t, p);
           ASSERT_LE(std::abs(window.x - t.center_x), kGuardBandPixels * 256 + 1);
           ASSERT_LE(std::abs(window.y - t.center_y), kGuardBandPixels * 256 + 1);
@@ -91,15 +91,14 @@ TEST(Clip, LeavesWhatLiesInsideAndKeepsAttributesLinear) {
   }
 }
 
-// Two triangles with a common edge, drawn in opposite directions: the points where planes cut the edge are
-// the same numbers.
-TEST(Clip, CutsASharedEdgeAtTheVerySamePoints) {
+// Two triangles share an edge, in opposite directions: the cut points on it are bit-identical.
+TEST(Clip, CutsSharedEdgesAtIdenticalPoints) {
   RandomClip random{std::mt19937(8)};
   const VertexTransform t = identity(8191.5);
   std::size_t cuts = 0;
   for (int round = 0; round < (long_tests() ? 300000 : 30000); ++round) {
     ClipVertex a = random.vertex(1), b = random.vertex(1), c = random.vertex(1), d = random.vertex(1);
-    c.attributes[0] = d.attributes[0] = 1;  // 0 stays exactly 0 along the edge from a to b alone
+    c.attributes[0] = d.attributes[0] = 1;  // exactly 0 on the edge from a to b only
     const auto on_edge = [&](const ClipVertex& first, const ClipVertex& second, const ClipVertex& third) {
       const ClipVertex v[3] = {first, second, third};
       const ClippedPolygon polygon = clip_triangle(t, v, outcodes_of(t, v), 1);
@@ -109,33 +108,34 @@ TEST(Clip, CutsASharedEdgeAtTheVerySamePoints) {
         if (polygon.vertices[i].attributes[0] == 0) points.emplace_back(p.x, p.y, p.z, p.w);
       }
       std::sort(points.begin(), points.end());
-      points.erase(std::unique(points.begin(), points.end()),
-                   points.end());  // a vertex on a plane is also where its other edge is cut
+      // A vertex on a plane is also the cut point of its other edge.
+      points.erase(std::unique(points.begin(), points.end()), points.end());
       return std::pair(points, polygon.count);
     };
     const auto [one, one_count] = on_edge(a, b, c);
     const auto [other, other_count] = on_edge(b, a, d);
-    if (one_count == 0 || other_count == 0) continue;  // nothing of one is seen
-    if (one.size() < 2 || other.size() < 2) continue;  // touches in a point
+    if (one_count == 0 || other_count == 0) continue;  // one triangle is clipped away
+    if (one.size() < 2 || other.size() < 2) continue;  // the edge touches a plane in a point
     ASSERT_EQ(one, other) << "round " << round;
     cuts += one.size();
   }
   EXPECT_GT(cuts, 1000u);
 }
 
-// A plane through all six sides of the clip volume leaves a hexagon, a triangle cuts off three of its
+// A plane that meets all six sides of the clip volume cuts a hexagon; the triangle cuts off three of its
 // corners: nine vertices.
-TEST(Clip, KeepsAllNineVertices) {
+TEST(Clip, ProducesUpToNineVertices) {
   const VertexTransform t = identity(8191.5);  // the guard band is 2 w
-  // In the plane X + Y + Z = 0 of the cube [-1, 1]^3, with x = 2 X, y = 2 Y, z = Z: u points at a corner of
-  // the hexagon.
-  const double u[3] = {std::sqrt(0.5), -std::sqrt(0.5), 0},
-               v[3] = {std::sqrt(1 / 6.0), std::sqrt(1 / 6.0), -2 * std::sqrt(1 / 6.0)};
-  constexpr double kInradius = 1.35;  // between the hexagon's sides, 1.2247 away, and its corners, 1.4142
+  // The plane X + Y + Z = 0 of the cube [-1, 1]^3, with x = 2 X, y = 2 Y, z = Z. u points to a corner of the
+  // hexagon.
+  const double u[3] = {std::sqrt(0.5), -std::sqrt(0.5), 0};
+  const double v[3] = {std::sqrt(1 / 6.0), std::sqrt(1 / 6.0), -2 * std::sqrt(1 / 6.0)};
+  constexpr double kInradius =
+      1.35;  // between the distances of the hexagon's sides, 1.2247, and corners, 1.4142
   ClipVertex corners[3];
   for (int k = 0; k < 3; ++k) {
-    const double angle = 3.14159265358979 / 3 + k * 2 * 3.14159265358979 / 3,
-                 x = 2 * kInradius * std::cos(angle), y = 2 * kInradius * std::sin(angle);
+    const double angle = 3.14159265358979 / 3 + k * 2 * 3.14159265358979 / 3;
+    const double x = 2 * kInradius * std::cos(angle), y = 2 * kInradius * std::sin(angle);
     corners[k].position = {2 * (x * u[0] + y * v[0]), 2 * (x * u[1] + y * v[1]), x * u[2] + y * v[2], 1};
   }
   const ClippedPolygon polygon = clip_triangle(t, corners, outcodes_of(t, corners), 0);
@@ -150,7 +150,7 @@ TEST(Clip, KeepsAllNineVertices) {
   EXPECT_NEAR(std::abs(area), 3 * std::sqrt(3.0) - 3 * cut_height * cut_height * std::sqrt(3.0), 1e-6);
 }
 
-TEST(Clip, OfTrianglesBehindTheEyeLeavesNothing) {
+TEST(Clip, RemovesTrianglesBehindTheEye) {
   const VertexTransform t = identity(100);
   const ClipVertex behind[3] = {{{0, 0, 0, -1}, {}}, {{1, 0, 0, -2}, {}}, {{0, 1, 0, -1}, {}}};
   EXPECT_EQ(clip_triangle(t, behind, outcodes_of(t, behind), 0).count, 0);
@@ -160,9 +160,9 @@ TEST(Clip, OfTrianglesBehindTheEyeLeavesNothing) {
   EXPECT_EQ(clip_triangle(t, touching, outcodes_of(t, touching), 0).count, 0);
 }
 
-// Sizes from 2^-1000 to 2^1023 in one triangle, where a cut has no digit left of w: what is drawn of it, if
-// anything, is a triangle in the guard band all the same.
-TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
+// Coordinates from 2^-1000 to 2^1023 in one triangle: a cut can lose all digits of w. Vertices of the result
+// must lie in the guard band nevertheless.
+TEST(Clip, ResultLiesInGuardBandForExtremeCoordinates) {
   constexpr std::int64_t kFarthest = std::int64_t{kGuardBandPixels} * kSubpixelScale;
   RandomClip random{std::mt19937(11)};
   VertexTransform t = identity(24);
@@ -201,12 +201,13 @@ TEST(Clip, LeavesVerticesInTheGuardBandWhateverTheirSizes) {
   EXPECT_GT(kept, 10000u);
 }
 
-// From vertices to pixels: a pixel is painted where a ray through its centre hits the triangle between the
-// planes; or where one within 1/64 pixel does or does not: cut points are snapped.
-TEST(Clip, PaintsWhatARayHits) {
+// From vertices to pixels: a pixel is covered if a ray through its centre hits the triangle between the near
+// and far planes. Pixels whose ray changes its result within 1/64 pixel are exempt, because cut points are
+// snapped.
+TEST(Clip, CoversPixelsWhoseRayHitsTheTriangle) {
   constexpr int kSize = 64;
   RandomClip random{std::mt19937(9)};
-  std::size_t painted = 0;
+  std::size_t covered = 0;
   for (int round = 0; round < (long_tests() ? 20000 : 1500); ++round) {
     const VertexTransform t = identity(kSize / 2.0);
     const float scale = round % 10 == 0 ? 1e15f : 1;
@@ -219,8 +220,7 @@ TEST(Clip, PaintsWhatARayHits) {
       for (int j = 0; j < 4; ++j) positions[4 * k + j] = static_cast<float>(values[j]);
       v[k].position = {positions[4 * k], positions[4 * k + 1], positions[4 * k + 2], positions[4 * k + 3]};
     }
-    // Weights of the corners at a point of the window: the solution of [x y w] weights = (window x, window y,
-    // 1).
+    // Weights of the corners at a window position: the solution of [x y w] weights = (window x, window y, 1).
     const auto inside = [&](double px, double py) {
       const double x = (px - kSize / 2.0) / (kSize / 2.0), y = -(py - kSize / 2.0) / (kSize / 2.0);
       const auto det = [](const double* a, const double* b, const double* c) {
@@ -261,7 +261,7 @@ TEST(Clip, PaintsWhatARayHits) {
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const bool hit = inside(x + 0.5, y + 0.5);
-        painted += hit ? 1 : 0;
+        covered += hit ? 1 : 0;
         if ((stage.color(x, y) != 0) == hit) continue;
         bool border = false;
         for (int j = -32; j <= 32; ++j)
@@ -270,7 +270,7 @@ TEST(Clip, PaintsWhatARayHits) {
       }
     }
   }
-  EXPECT_GT(painted, 10000u);
+  EXPECT_GT(covered, 10000u);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Coverage of every sample is exact, by the same integers as that of pixel centres: a sample sees what a
-// centre sees of the triangle moved the other way. The positions are written down here once more, in 1/16
-// pixel as the standard has them.
+// Coverage of samples is exact: the coverage of a sample equals that of the pixel centre for the triangle
+// moved by the negative offset. The sample positions are repeated here, in 1/16 pixel as in the Direct3D 11
+// specification.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Triangle moved(Triangle triangle, Sixteenths by) {
 
 constexpr int kBits = 24;
 
-// Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
+// Triangles in one tile. Each is a separate draw that writes its own colour bit, so none hides another.
 void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds, bool with_operations) {
   RandomTriangles source(seed, tile_size);
   TileHarness stage(tile_size, tile_size, tile_size);
@@ -57,7 +57,7 @@ void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds,
         draw.ops = &operations;
         draw.id_output = TileDraw::IdOutput::draw;
       }
-      if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
+      if (reference_of(triangles[bit]).area == 0) continue;  // dropped by binning
       stage.push(0, bit, 0);
       for (int s = 0; s < samples; ++s)
         reference_of(moved(triangles[bit], (samples == 4 ? kFour : kEight)[s]))
@@ -82,15 +82,19 @@ void compare_by_bits(std::uint32_t seed, int samples, int tile_size, int rounds,
 
 int rounds_of_24(int normal) { return long_tests() ? normal * 33 : normal; }
 
-TEST(CoverageOfSamples, EqualsExactIntegersWithFour) { compare_by_bits(11, 4, 64, rounds_of_24(60), false); }
-TEST(CoverageOfSamples, EqualsExactIntegersWithEight) { compare_by_bits(12, 8, 64, rounds_of_24(40), false); }
-TEST(CoverageOfSamples, EqualsExactIntegersInTilesOf32) {
+TEST(CoverageOfSamples, FourSamplesMatchExactIntegers) {
+  compare_by_bits(11, 4, 64, rounds_of_24(60), false);
+}
+TEST(CoverageOfSamples, EightSamplesMatchExactIntegers) {
+  compare_by_bits(12, 8, 64, rounds_of_24(40), false);
+}
+TEST(CoverageOfSamples, MatchesExactIntegersInTilesOf32) {
   compare_by_bits(13, 8, 32, rounds_of_24(60), false);
 }
-TEST(CoverageOfSamples, EqualsExactIntegersInTilesOf128) {
+TEST(CoverageOfSamples, MatchesExactIntegersInTilesOf128) {
   compare_by_bits(14, 4, 128, rounds_of_24(15), false);
 }
-TEST(CoverageOfSamples, EqualsExactIntegersInDrawsWithOperations) {
+TEST(CoverageOfSamples, MatchesExactIntegersInDrawsWithFragmentOps) {
   compare_by_bits(15, 4, 64, rounds_of_24(50), true);
   compare_by_bits(16, 8, 32, rounds_of_24(50), true);
 }

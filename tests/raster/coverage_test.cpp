@@ -1,5 +1,5 @@
-// Coverage is exact: on every pixel of a tile, by every path and on every instruction set, what a tile covers
-// is what 128-bit integers say.
+// Coverage is exact: every pixel of a tile, on every path and instruction set, matches 128-bit integer
+// arithmetic.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 namespace tessera::test {
 namespace {
 
-// Depth words of triangles that each are nearer than those before: the depth test, which has ways of its own
-// to draw them, stops none. At most 120.
+// Sets the depth words of triangle i nearer than those of earlier triangles: all pass the depth test,
+// which selects other pixel paths. At most 120 triangles.
 void bring_nearer(DepthFormat kind, Triangle& triangle, std::uint32_t i) {
   for (WindowVertex& vertex : triangle) vertex.z = (120 - i) << (kind == DepthFormat::float32 ? 23 : 25);
 }
 constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
 
-// Triangles of one tile, each a draw of its own that writes a colour bit of its own: nothing hides anything.
+// Triangles in one tile. Each is a separate draw that writes its own colour bit, so none hides another.
 void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect rect,
                      DepthFormat depth = DepthFormat::none) {
   RandomTriangles source(seed, tile_size);
@@ -30,7 +30,7 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
   std::vector<WindowVertex> vertices(3 * 32);
   std::vector<Triangle> triangles(32);
   std::vector<std::uint32_t> expected(static_cast<std::size_t>(tile_size * tile_size));
-  std::array<int, static_cast<std::size_t>(Shape::kCount)> drawn{}, seen{};
+  std::array<int, static_cast<std::size_t>(Shape::kCount)> drawn{}, visible{};
   for (int round = 0; round < rounds; ++round) {
     stage.clear_draws();
     std::fill(expected.begin(), expected.end(), 0u);
@@ -44,15 +44,15 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
       draw.uses_depth = depth != DepthFormat::none;
       draw.packed_color = 0xffffffffu;
       draw.write_mask = 1u << bit;
-      if (reference_of(triangles[bit]).area == 0) continue;  // binning drops those
+      if (reference_of(triangles[bit]).area == 0) continue;  // dropped by binning
       stage.push(0, bit, 0);
-      bool visible = false;
+      bool is_visible = false;
       reference_of(triangles[bit]).for_each_covered(rect.x0, rect.y0, rect.x1, rect.y1, [&](int x, int y) {
         expected[static_cast<std::size_t>(y * tile_size + x)] |= 1u << bit;
-        visible = true;
+        is_visible = true;
       });
       ++drawn[shape];
-      seen[shape] += visible ? 1 : 0;
+      visible[shape] += is_visible ? 1 : 0;
     }
     for (const InstructionSet isa : available_isas()) {
       stage.render(isa, 0, 0, kFarthest);
@@ -69,24 +69,24 @@ void compare_by_bits(std::uint32_t seed, int tile_size, int rounds, PixelRect re
   }
   if (rect.x1 - rect.x0 < tile_size || rect.y1 - rect.y0 < tile_size) return;
   for (std::size_t shape = 0; shape < drawn.size(); ++shape)
-    EXPECT_GT(seen[shape], drawn[shape] / 50) << "a test of triangles that nobody sees, shape " << shape;
+    EXPECT_GT(visible[shape], drawn[shape] / 50) << "too few visible triangles of shape " << shape;
 }
 
 int rounds_of_32(int normal) { return long_tests() ? normal * 33 : normal; }
 
-TEST(Coverage, EqualsExactIntegersInTilesOf32) { compare_by_bits(1, 32, rounds_of_32(320), {0, 0, 32, 32}); }
-TEST(Coverage, EqualsExactIntegersInTilesOf64) { compare_by_bits(2, 64, rounds_of_32(320), {0, 0, 64, 64}); }
-TEST(Coverage, EqualsExactIntegersInTilesOf128) {
+TEST(Coverage, MatchesExactIntegersInTilesOf32) { compare_by_bits(1, 32, rounds_of_32(320), {0, 0, 32, 32}); }
+TEST(Coverage, MatchesExactIntegersInTilesOf64) { compare_by_bits(2, 64, rounds_of_32(320), {0, 0, 64, 64}); }
+TEST(Coverage, MatchesExactIntegersInTilesOf128) {
   compare_by_bits(3, 128, rounds_of_32(160), {0, 0, 128, 128});
 }
-TEST(Coverage, EqualsExactIntegersThroughTheDepthTest) {
+TEST(Coverage, MatchesExactIntegersWithDepthTest) {
   for (const DepthFormat depth :
        {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (const int size : {32, 64, 128})
       compare_by_bits(30 + static_cast<std::uint32_t>(size), size, rounds_of_32(size == 128 ? 20 : 40),
                       {0, 0, size, size}, depth);
 }
-TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
+TEST(Coverage, MatchesExactIntegersInRectanglesThatCutBlocks) {
   RandomTriangles source(4, 64);
   for (int i = 0; i < 40; ++i) {
     PixelRect rect{source.between(0, 40), source.between(0, 40), 0, 0};
@@ -97,12 +97,12 @@ TEST(Coverage, EqualsExactIntegersInRectanglesThatCutBlocks) {
   }
 }
 
-// Triangles of one draw share groups of 16; the last one that covers a pixel is seen.
-TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
+// Triangles of one draw share groups of 16; the last one that covers a pixel determines its colour.
+TEST(Coverage, GroupsOfTrianglesPaintInOrder) {
   constexpr int kTile = 64, kTriangles = 100;
   RandomTriangles source(5, kTile);
   std::vector<WindowVertex> vertices(3 * kTriangles);
-  std::vector<std::uint32_t> words(kTriangles), expected(kTile * kTile);
+  std::vector<std::uint32_t> packed_colors(kTriangles), expected(kTile * kTile);
   constexpr DepthFormat kDepths[] = {DepthFormat::none, DepthFormat::unorm24, DepthFormat::float32};
   for (int round = 0; round < (long_tests() ? 2000 : 90); ++round) {
     const DepthFormat depth = kDepths[round % 3];
@@ -110,13 +110,13 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
     TileDraw& draw = stage.add_draw(vertices.data());
     draw.uses_depth = depth != DepthFormat::none;
     draw.source = ColorSource::per_triangle_packed;
-    draw.packed_colors[0] = draw.packed_colors[1] = words.data();
+    draw.packed_colors[0] = draw.packed_colors[1] = packed_colors.data();
     std::fill(expected.begin(), expected.end(), 0u);
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       Triangle t = source.next(round % 4 == 0 ? Shape::tiny : source.any_shape());
       bring_nearer(depth, t, i);
       std::copy(t.begin(), t.end(), vertices.begin() + 3 * i);
-      words[i] = i + 1;
+      packed_colors[i] = i + 1;
       if (reference_of(t).area == 0) continue;
       stage.push(0, 0, i);
       reference_of(t).for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
@@ -133,8 +133,7 @@ TEST(Coverage, OfGroupsOfTrianglesPaintsInOrder) {
   }
 }
 
-// The twin's own two forms agree, and it knows the fill rule: left and top borders belong, right and bottom
-// ones do not.
+// The top-left rule: left and top borders belong to a triangle, right and bottom ones do not.
 TEST(CoverageReference, OwnsLeftAndTopBorders) {
   const Triangle upper{WindowVertex{128, 128, 0, 1}, WindowVertex{1152, 128, 0, 1},
                        WindowVertex{128, 1152, 0, 1}};
@@ -145,11 +144,11 @@ TEST(CoverageReference, OwnsLeftAndTopBorders) {
   EXPECT_TRUE(reference_of(upper).covers(0, 3)) << "left border";
   EXPECT_FALSE(reference_of(upper).covers(4, 0)) << "end of the top border, on a right border";
   EXPECT_FALSE(reference_of(upper).covers(2, 2)) << "right border";
-  EXPECT_TRUE(reference_of(lower).covers(2, 2)) << "the same border seen from the other side";
+  EXPECT_TRUE(reference_of(lower).covers(2, 2)) << "the same border, left border of this triangle";
   EXPECT_FALSE(reference_of(lower).covers(4, 2)) << "right border";
   EXPECT_FALSE(reference_of(lower).covers(2, 4)) << "bottom border";
 }
-TEST(CoverageReference, SteppingAndSinglePixelsAgree) {
+TEST(CoverageReference, SteppedAndSinglePixelsAgree) {
   RandomTriangles source(6, 32);
   for (int i = 0; i < 2000; ++i) {
     const Triangle t = source.next();

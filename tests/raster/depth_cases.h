@@ -1,4 +1,4 @@
-// Triangles with depths, and what their pixels' depths are: exact rational arithmetic from the vertices.
+// Triangles with depths, and the exact depths of their pixels in rational arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace tessera::test {
 using namespace detail;
 
-/// Depths are whole multiples of 2^-40, so that all that follows from them is exact.
+/// Depths are integer multiples of 2^-40, so that all derived values are exact.
 inline constexpr int kDepthFraction = 40;
 
 struct DepthTriangle {
@@ -24,7 +24,7 @@ struct DepthTriangle {
   }
 };
 
-/// A vertex's depth word as raster/fixed_point.h defines it.
+/// Depth word of a vertex (WindowVertex::z), with the fraction rounded down.
 inline std::uint32_t vertex_depth_word(DepthFormat kind, double z) {
   if (kind == DepthFormat::float32) return quantize_depth(kind, z);
   const int bits = depth_bits(kind);
@@ -53,16 +53,17 @@ inline DepthTriangle with_random_depths(RandomTriangles& source, const Triangle&
   return t;
 }
 
-/// Depth at a pixel's centre as a fraction; the denominator is area * 2^40.
+/// Numerator of the depth at a pixel's centre; the denominator is area * 2^40.
 inline Exact depth_numerator(const TriangleReference& reference, const DepthTriangle& t, int x, int y) {
   Exact sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += reference.edge[k].at(x, y) * t.z[k];
   return sum;
 }
-/// floor(z (2^b - 1) + 1/2), exactly.
+/// Stored level floor(z (2^b - 1) + 1/2), exactly.
 inline std::int64_t exact_level(const TriangleReference& reference, const DepthTriangle& t, DepthFormat kind,
                                 int x, int y) {
-  const Exact levels = (Exact{1} << depth_bits(kind)) - 1, denominator = reference.area << kDepthFraction;
+  const Exact levels = (Exact{1} << depth_bits(kind)) - 1;
+  const Exact denominator = reference.area << kDepthFraction;
   return static_cast<std::int64_t>((2 * depth_numerator(reference, t, x, y) * levels + denominator) /
                                    (2 * denominator));
 }
@@ -72,10 +73,12 @@ inline long double exact_depth(const TriangleReference& reference, const DepthTr
 }
 
 inline const char* name_of(DepthFormat kind) {
-  return kind == DepthFormat::unorm16   ? "unorm16"
-         : kind == DepthFormat::unorm24 ? "unorm24"
-         : kind == DepthFormat::unorm32 ? "unorm32"
-                                        : "float32";
+  switch (kind) {
+    case DepthFormat::unorm16: return "unorm16";
+    case DepthFormat::unorm24: return "unorm24";
+    case DepthFormat::unorm32: return "unorm32";
+    default: return "float32";
+  }
 }
 inline constexpr DepthFormat kUnormKinds[] = {DepthFormat::unorm16, DepthFormat::unorm24,
                                               DepthFormat::unorm32};

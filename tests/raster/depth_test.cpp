@@ -1,4 +1,4 @@
-// Stored depths against exact rational arithmetic, and all that depth tests must agree on with themselves.
+// Stored depths against exact rational arithmetic, and their consistency over paths and instruction sets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTile = 64;
 
-// A stage with one triangle that always passes and writes depth alone.
+// Renders one triangle that passes the depth test and writes depth only.
 struct DepthStage : TileHarness {
   explicit DepthStage(DepthFormat kind) : TileHarness(kTile, kTile, kTile, kind) {}
   TileDraw& set(const DepthTriangle& t, Compare test = Compare::always) {
@@ -37,8 +37,7 @@ float float_of(std::int32_t key) {
   return f;
 }
 
-// The promise of the specification, for every shape, steep or not: 1 level at 16 and 24 bits, 4 at 32; and
-// never a level outside of the vertices' own, give or take what rounding may do.
+// The specified accuracy, for every shape and slope: within 1 level at 16 and 24 bits, within 4 at 32 bits.
 void expect_levels(DepthFormat kind, Shape shape, std::uint32_t seed, int count) {
   const std::int64_t tolerance = kind == DepthFormat::unorm32 ? 4 : 1;
   RandomTriangles source(seed, kTile);
@@ -53,8 +52,8 @@ void expect_levels(DepthFormat kind, Shape shape, std::uint32_t seed, int count)
     for (const InstructionSet isa : available_isas()) {
       stage.render(isa, 0);
       reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-        const std::int64_t level = stored_depth_from_key(kind, stage.depth(x, y)),
-                           exact = exact_level(reference, t, kind, x, y);
+        const std::int64_t level = stored_depth_from_key(kind, stage.depth(x, y));
+        const std::int64_t exact = exact_level(reference, t, kind, x, y);
         worst = std::max(worst, std::abs(level - exact));
         ASSERT_LE(std::abs(level - exact), tolerance)
             << name_of(kind) << " " << name_of(isa) << ": level " << level << " for " << exact << " at " << x
@@ -67,52 +66,53 @@ void expect_levels(DepthFormat kind, Shape shape, std::uint32_t seed, int count)
   ::testing::Test::RecordProperty(name_of(kind), static_cast<int>(worst));
 }
 
-TEST(Depth, OfOrdinaryTrianglesIsWithinItsLevels) {
+TEST(RasterDepth, OrdinaryTrianglesAreWithinSpecifiedLevels) {
   for (const DepthFormat kind : kUnormKinds)
     for (const Shape shape : {Shape::tiny, Shape::medium, Shape::large, Shape::on_centers, Shape::on_borders,
                               Shape::axis_aligned})
       expect_levels(kind, shape, 11, rounds(300));
 }
-TEST(Depth, OfVeryLargeTrianglesIsWithinItsLevels) {
+TEST(RasterDepth, VeryLargeTrianglesAreWithinSpecifiedLevels) {
   for (const DepthFormat kind : kUnormKinds)
     for (const Shape shape : {Shape::widest_edges32, Shape::edges64})
       expect_levels(kind, shape, 12, rounds(100));
 }
-TEST(Depth, OfSliversIsWithinItsLevels) {
+TEST(RasterDepth, SliversAreWithinSpecifiedLevels) {
   for (const DepthFormat kind : kUnormKinds) expect_levels(kind, Shape::sliver, 13, rounds(20000));
 }
-TEST(Depth, OfNeedlesIsWithinItsLevels) {
+TEST(RasterDepth, NeedlesAreWithinSpecifiedLevels) {
   for (const DepthFormat kind : kUnormKinds) expect_levels(kind, Shape::needle, 14, rounds(20000));
 }
 
-// float32. The gradients are floats, each off by at most 2^-24 of itself (2^-52 of their terms come on top,
-// which only needles feel); the inner multiply-add rounds to 2^-24 of |z0 + gy Y|, the outer to 2^-24 of the
-// sum. So the error is at most 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|) and a hair, and never more than the
-// vertices' range, to which it is cut. X and Y count from the topmost vertex, the leftmost of those, whose
-// depth is z0.
-TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
+// Error bound of a float32 plane evaluated with float gradients gx, gy: each gradient has a relative error of
+// 2^-24 (plus 2^-52 of its terms, which matters for needles only); the inner multiply-add rounds to 2^-24 of
+// |z0 + gy Y|, the outer one to 2^-24 of the sum. Total: 2^-24 (2 |z0| + 2 |gx X| + 3 |gy Y|), and at most
+// the range of the vertices, to which depth is clamped. X and Y count from the anchor, the topmost and then
+// leftmost vertex, whose depth is z0. The plane is evaluated in double and rounded once, so it is well within
+// this bound.
+TEST(RasterDepth, Float32StaysWithinTheProvenBound) {
   for (int s = 0; s < static_cast<int>(Shape::kCount); ++s) {
     RandomTriangles source(static_cast<std::uint32_t>(100 + s), kTile);
     DepthStage stage(DepthFormat::float32);
     for (int i = 0; i < rounds(300); ++i) {
       DepthTriangle t = with_random_depths(source, source.next(static_cast<Shape>(s)));
-      for (std::int64_t& z : t.z) z &= ~((std::int64_t{1} << 20) - 1);  // what a float holds exactly
+      for (std::int64_t& z : t.z) z &= ~((std::int64_t{1} << 20) - 1);  // exact in a float
       set_words(t, DepthFormat::float32);
       const TriangleReference reference = reference_of(t.corners);
       if (reference.area == 0) continue;
       stage.set(t);
-      const double area = static_cast<double>(reference.area), dz1 = t.depth(1) - t.depth(0),
-                   dz2 = t.depth(2) - t.depth(0);
+      const double area = static_cast<double>(reference.area);
+      const double dz1 = t.depth(1) - t.depth(0), dz2 = t.depth(2) - t.depth(0);
       const auto gradient = [&](Exact e1, Exact e2) {
         return (static_cast<double>(e1) * dz1 + static_cast<double>(e2) * dz2) / area;
       };
       const auto terms = [&](Exact e1, Exact e2) {
         return (std::abs(static_cast<double>(e1) * dz1) + std::abs(static_cast<double>(e2) * dz2)) / area;
       };
-      const double gx = gradient(reference.edge[1].dx, reference.edge[2].dx),
-                   gy = gradient(reference.edge[1].dy, reference.edge[2].dy);
-      const double tx = terms(reference.edge[1].dx, reference.edge[2].dx),
-                   ty = terms(reference.edge[1].dy, reference.edge[2].dy);
+      const double gx = gradient(reference.edge[1].dx, reference.edge[2].dx);
+      const double gy = gradient(reference.edge[1].dy, reference.edge[2].dy);
+      const double tx = terms(reference.edge[1].dx, reference.edge[2].dx);
+      const double ty = terms(reference.edge[1].dy, reference.edge[2].dy);
       const auto [low, high] = std::minmax({t.depth(0), t.depth(1), t.depth(2)});
       const auto is_before = [](const WindowVertex& a, const WindowVertex& b) {
         return a.y < b.y || (a.y == b.y && a.x < b.x);
@@ -123,8 +123,8 @@ TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
       for (const InstructionSet isa : available_isas()) {
         stage.render(isa, 0);
         reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
-          const double stored = float_of(stage.depth(x, y)),
-                       exact = static_cast<double>(exact_depth(reference, t, x, y));
+          const double stored = float_of(stage.depth(x, y));
+          const double exact = static_cast<double>(exact_depth(reference, t, x, y));
           const double across = std::abs(x + 0.5 - at.x / 256.0), down = std::abs(y + 0.5 - at.y / 256.0);
           const double bound =
               1.01 * 0x1p-24 * (2 * t.depth(anchor) + 2 * std::abs(gx) * across + 3 * std::abs(gy) * down) +
@@ -139,7 +139,7 @@ TEST(Depth, OfFloat32StaysWithinTheProvenBound) {
   }
 }
 
-TEST(Depth, OfScreenParallelTrianglesIsExact) {
+TEST(RasterDepth, ScreenParallelTrianglesAreExact) {
   for (const DepthFormat kind : kDepthKinds) {
     RandomTriangles source(15, kTile);
     DepthStage stage(kind);
@@ -161,9 +161,9 @@ TEST(Depth, OfScreenParallelTrianglesIsExact) {
   }
 }
 
-// The same triangle again: equal passes on each of its pixels and less on none, although the second is cut
-// into other rectangles and so may go by other paths.
-TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
+// Redraws a triangle in small rectangles, which select other pixel paths: Compare::equal passes on each of
+// its pixels, less and greater on none.
+TEST(RasterDepth, RedrawnTriangleHasEqualDepthOnEveryPath) {
   for (const DepthFormat kind : kDepthKinds) {
     RandomTriangles source(16, kTile);
     TileHarness stage(kTile, kTile, kTile, kind);
@@ -173,16 +173,16 @@ TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
       const TriangleReference reference = reference_of(t.corners);
       if (reference.area == 0) continue;
       stage.clear_draws();
-      const auto add = [&](PixelRect rect, Compare test, std::uint32_t word) {
+      const auto add = [&](PixelRect rect, Compare test, std::uint32_t packed_color) {
         TileDraw& draw = stage.add_draw(t.corners.data());
         draw.rect = rect;
         draw.uses_depth = true;
         draw.depth_test = test;
-        draw.packed_color = word;
+        draw.packed_color = packed_color;
         stage.push(0, stage.draw_count() - 1, 0);
       };
       add({0, 0, kTile, kTile}, Compare::always, 1);
-      // Windows of 1 to 7 pixels: up to 4 the triangle is a small one.
+      // Rectangles of 1 to 7 pixels: up to 4, the triangle takes the path of small triangles.
       const int step = source.between(1, 7);
       for (int y = 0; y < kTile; y += step)
         for (int x = 0; x < kTile; x += step)
@@ -201,7 +201,7 @@ TEST(Depth, OfTheSameTriangleIsTheSameByEveryPath) {
   }
 }
 
-TEST(Depth, KeysAreTheSameOnEveryInstructionSet) {
+TEST(RasterDepth, KeysAreEqualOnEveryInstructionSet) {
   for (const DepthFormat kind : kDepthKinds) {
     RandomTriangles source(17, kTile);
     DepthStage stage(kind);
@@ -221,8 +221,8 @@ TEST(Depth, KeysAreTheSameOnEveryInstructionSet) {
   }
 }
 
-// All eight functions, on pixels that are nearer, the same and farther than what is stored.
-TEST(Depth, FunctionsPassWhatTheyName) {
+// All eight comparison functions with incoming depths that are nearer, equal and farther than the stored one.
+TEST(RasterDepth, ComparisonFunctionsPassAsNamed) {
   const std::uint32_t stored_words[] = {0, 1, 32768, 65534, 65535};
   for (const DepthFormat kind : kDepthKinds) {
     for (const std::uint32_t stored_16 : stored_words) {
@@ -230,11 +230,10 @@ TEST(Depth, FunctionsPassWhatTheyName) {
         const std::int32_t stored = depth_key_from_stored(kind, quantize_depth(kind, stored_16 / 65535.0));
         const double incoming = incoming_16 / 65535.0;
         for (int test = 0; test < 8; ++test) {
-          const int order = incoming_16 < stored_16    ? 1
-                            : incoming_16 == stored_16 ? 2
-                                                       : 4;  // bits of less, equal, greater
+          const int not_less = incoming_16 == stored_16 ? 2 : 4;
+          const int order = incoming_16 < stored_16 ? 1 : not_less;  // bits of less, equal, greater
           const bool passes = (test & order) != 0;
-          // A triangle over half of the tile, and one of 2x2 pixels, which goes by the other path.
+          // A triangle over half of the tile, and one of 2x2 pixels, which takes the path of small triangles.
           for (const std::int32_t size : {80 * 256, 3 * 256}) {
             Triangle t{WindowVertex{0, 0, 0, 1}, WindowVertex{size, 0, 0, 1}, WindowVertex{0, size, 0, 1}};
             for (WindowVertex& v : t) v.z = vertex_depth_word(kind, incoming);

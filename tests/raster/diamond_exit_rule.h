@@ -1,6 +1,6 @@
-// The diamond-exit rule as it is written [GL 2.1, 3.4.1]: for each pixel whether the perturbed segment meets
-// its open diamond and its end lies outside of it, in exact fractions whose numerators carry the move's e and
-// e^2.
+// Literal implementation of the diamond-exit rule [GL 2.1, 3.4.1]: tests for each pixel whether the perturbed
+// segment meets its open diamond and ends outside. In exact fractions whose numerators carry the e and e^2 of
+// the perturbation.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,16 @@ using namespace detail;
 
 __extension__ using Wide = __int128;
 
-// v[0] + v[1] e + v[2] e^2: e is smaller than every fraction.
+// v[0] + v[1] e + v[2] e^2 with an infinitesimal e > 0.
 struct Perturbed {
   std::array<Wide, 3> v{};
   Perturbed operator-(const Perturbed& o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
   Perturbed operator+(const Perturbed& o) const { return {{v[0] + o.v[0], v[1] + o.v[1], v[2] + o.v[2]}}; }
   Perturbed times(Wide k) const { return {{v[0] * k, v[1] * k, v[2] * k}}; }
-  bool negative() const { return v[0] != 0 ? v[0] < 0 : v[1] != 0 ? v[1] < 0 : v[2] < 0; }
+  bool negative() const {
+    if (v[0] != 0) return v[0] < 0;
+    return v[1] != 0 ? v[1] < 0 : v[2] < 0;
+  }
   friend bool operator<(const Perturbed& a, const Perturbed& b) { return (a - b).negative(); }
 };
 inline Perturbed whole(Wide n) { return {{n, 0, 0}}; }
@@ -31,13 +34,12 @@ inline Perturbed whole(Wide n) { return {{n, 0, 0}}; }
 struct PerturbedPoint {
   Perturbed x, y;
 };
-inline PerturbedPoint perturbed(LinePoint p) {
-  return {{{p.x, -1, 0}}, {{p.y, 0, 1}}};
-}  // (-e, -e^2) with y up
+// Moves a point by (-e, -e^2), y up.
+inline PerturbedPoint perturbed(LinePoint p) { return {{{p.x, -1, 0}}, {{p.y, 0, 1}}}; }
 
 inline constexpr int kSigns[4][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
-// How far a point lies from a pixel's centre in one of the four directions that bound a diamond.
+// Distance of a point from a pixel's centre along one of the four directions that bound a diamond.
 inline Perturbed towards(const PerturbedPoint& p, int x, int y, const int (&sign)[2]) {
   return (p.x - whole(256 * x + 128)).times(sign[0]) + (p.y - whole(256 * y + 128)).times(sign[1]);
 }
@@ -47,10 +49,10 @@ inline bool inside(const PerturbedPoint& p, int x, int y) {
   return true;
 }
 
-// Whether a + t (b - a) is inside for some t in 0..1.
+// True if a + t (b - a) is inside the diamond for some t in 0..1.
 inline bool meets(const LinePoint& a, const LinePoint& b, int x, int y) {
   const PerturbedPoint from = perturbed(a);
-  // t is above each of `above` and below each of `below`: numerators over positive denominators.
+  // Lower and upper bounds of t: numerators over positive denominators.
   struct Fraction {
     Perturbed numerator;
     Wide denominator;
@@ -77,7 +79,7 @@ inline bool meets(const LinePoint& a, const LinePoint& b, int x, int y) {
   return true;
 }
 
-/// Pixels in raster space, y down.
+/// Pixels of a line, in raster space, y down.
 inline std::set<std::pair<int, int>> diamond_exit_pixels(const LinePoint& a, const LinePoint& b) {
   std::set<std::pair<int, int>> pixels;
   for (int y = (std::min(a.y, b.y) >> 8) - 1; y <= (std::max(a.y, b.y) >> 8) + 1; ++y)

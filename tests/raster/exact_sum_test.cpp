@@ -1,5 +1,4 @@
-// What is added is there: taken away again in another order nothing is left, whatever was rounded off in
-// between.
+// Exact sums: terms that are added and then subtracted in another order cancel exactly.
 #include "raster/exact_sum.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +16,7 @@ namespace {
 struct Terms {
   std::mt19937 random;
   explicit Terms(unsigned seed) : random(seed) {}
-  // Few bits leave the parts of a sum far apart, so that it has many of them.
+  // Terms of few bits leave gaps between the parts of a sum, so that it has many parts.
   double term(int lowest, int highest, int bits) {
     const double mantissa = static_cast<double>(random() >> (32 - std::min(bits, 32))) +
                             (bits > 32 ? static_cast<double>(random() >> 12) * 0x1p-20 : 0);
@@ -27,7 +26,7 @@ struct Terms {
   }
 };
 
-TEST(ExactSum, LeavesNothingOfWhatIsTakenAwayAgain) {
+TEST(ExactSum, CancelsExactly) {
   for (unsigned round = 0; round < 2000; ++round) {
     Terms terms(round);
     const int reach = round % 3 == 0 ? 20 : 900, bits = round % 2 == 0 ? 1 : 52;
@@ -43,7 +42,7 @@ TEST(ExactSum, LeavesNothingOfWhatIsTakenAwayAgain) {
   }
 }
 
-TEST(ExactSum, OfProductsIsTheProductOfSums) {
+TEST(ExactSum, ProductOfSumsEqualsSumOfProducts) {
   for (unsigned round = 0; round < 2000; ++round) {
     Terms terms(round);
     const int reach = round % 2 == 0 ? 10 : 200;
@@ -65,7 +64,7 @@ TEST(ExactSum, OfProductsIsTheProductOfSums) {
   }
 }
 
-TEST(ExactSum, HasItsValueToTheLastBit) {
+TEST(ExactSum, ValueIsAccurateToTheLastBit) {
   for (unsigned round = 0; round < 20000; ++round) {
     Terms terms(round);
     ExactSum sum;
@@ -80,7 +79,7 @@ TEST(ExactSum, HasItsValueToTheLastBit) {
   }
 }
 
-TEST(ExactSum, OfProductsTimesPowersOfTwo) {
+TEST(ExactSum, ScaledProductsCancelExactly) {
   for (unsigned round = 0; round < 2000; ++round) {
     Terms terms(round);
     const double a = terms.term(-900, 900, 52);
@@ -93,8 +92,8 @@ TEST(ExactSum, OfProductsTimesPowersOfTwo) {
   }
 }
 
-// Whatever overflows, and however much is added to it.
-TEST(ExactSum, IsNoNumberOnceItOverflows) {
+// For every kind of overflow, and any number of later terms.
+TEST(ExactSum, StaysNanAfterOverflow) {
   for (const double large :
        {0x1p1023, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     ExactSum sum, product;

@@ -1,5 +1,4 @@
-// Numbers of packed lanes, for every set of lanes of every width: kernels of each instruction set look lanes
-// up by them.
+// Lane indices of compress_lanes() and expand_lanes(), for every mask at every vector width.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -10,7 +9,7 @@ namespace tessera::detail {
 namespace {
 
 template <int kLanes>
-void check_every_set() {
+void check_every_mask() {
   for (std::uint32_t bits = 0; bits < 1u << kLanes; ++bits) {
     std::vector<int> set;
     for (int l = 0; l < kLanes; ++l)
@@ -20,17 +19,17 @@ void check_every_set() {
       ASSERT_EQ(packing.byte[j], set[j]) << "lanes " << bits;
       ASSERT_EQ(unpacking.byte[set[j]], j) << "lanes " << bits;
     }
-    for (int l = 0; l < kLanes; ++l) {  // looked up, whether used or not
+    for (int l = 0; l < kLanes; ++l) {  // unused indices are looked up too and must be valid
       ASSERT_LT(packing.byte[l], 16) << "lanes " << bits;
       ASSERT_LT(unpacking.byte[l], 16) << "lanes " << bits;
     }
   }
 }
 
-TEST(LanePacking, NumbersOneLane) { check_every_set<1>(); }
-TEST(LanePacking, NumbersFourLanes) { check_every_set<4>(); }
-TEST(LanePacking, NumbersEightLanes) { check_every_set<8>(); }
-TEST(LanePacking, NumbersSixteenLanes) { check_every_set<16>(); }
+TEST(LanePacking, IndexesOneLane) { check_every_mask<1>(); }
+TEST(LanePacking, IndexesFourLanes) { check_every_mask<4>(); }
+TEST(LanePacking, IndexesEightLanes) { check_every_mask<8>(); }
+TEST(LanePacking, IndexesSixteenLanes) { check_every_mask<16>(); }
 
 }  // namespace
 }  // namespace tessera::detail

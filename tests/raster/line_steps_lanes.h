@@ -1,4 +1,4 @@
-// Pixels of lines as the kernels find them.
+// LineSteps as a plain function, compiled for every instruction set.
 #pragma once
 
 #include <utility>
@@ -11,7 +11,7 @@
 namespace tessera::test {
 using namespace detail;
 
-/// Appends to pixels[i] those of line i in `window`, in any order.
+/// Appends the pixels of line i in `window` to pixels[i], in any order.
 using PixelsOfLines = void(const TriangleGroup& lines, int width, const PixelRect& window,
                            std::vector<std::pair<int, int>> (&pixels)[kGroupSize]);
 PixelsOfLines* pixels_of_lines(InstructionSet isa);

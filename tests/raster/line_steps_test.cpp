@@ -1,4 +1,4 @@
-// Pixels of lines on every instruction set against the walk in exact integers.
+// LineSteps on every instruction set against LineWalk, its twin in exact integers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,9 +19,10 @@ using Pixels = std::vector<std::pair<int, int>>;
 
 struct Cases {
   const char* name;
-  int origin, reach;  // of first ends, and from those to the second ones, 1/256 pixel
-  int grid;           // ends lie on multiples of it
-  int most_wide;
+  int origin;     // range of the first ends, 1/256 pixel
+  int reach;      // range of the second ends relative to the first, 1/256 pixel
+  int grid;       // ends are multiples of it
+  int max_width;  // pixels
   PixelRect window;
 };
 constexpr PixelRect kTile{0, 0, 64, 64}, kFarTile{16256, 16320, 16384, 16384};
@@ -32,8 +33,8 @@ constexpr Cases kCases[] = {{"short", 20000, 3000, 1, 1, kTile},
                             {"wide", 20000, 5000, 1, 9, kTile},
                             {"wide on borders", 20000, 5000, 64, 200, kTile},
                             {"long", 4000000, 8000000, 1, 1, kTile},
-                            {"as long as can be", kFarthest, 2 * kFarthest, 1, 1, kFarTile},
-                            {"as wide as can be", kFarthest, 2 * kFarthest, 1, 65536, kFarTile}};
+                            {"longest", kFarthest, 2 * kFarthest, 1, 1, kFarTile},
+                            {"widest", kFarthest, 2 * kFarthest, 1, 65536, kFarTile}};
 
 void fill_lines(TriangleGroup& lines, const Cases& of, std::mt19937& bits) {
   const auto between = [&](int low, int high) {
@@ -41,9 +42,9 @@ void fill_lines(TriangleGroup& lines, const Cases& of, std::mt19937& bits) {
   };
   const auto within = [&](int v) { return std::clamp(v / of.grid * of.grid, -kFarthest, kFarthest); };
   for (int i = 0; i < kGroupSize; ++i) {
-    // Every fourth crosses the window: where it ends is mirrored there.
-    const int middle_x = between(of.window.x0, of.window.x1) * kSubpixelScale,
-              middle_y = between(of.window.y0, of.window.y1) * kSubpixelScale;
+    // Every fourth line crosses the window: its second end is mirrored at a point of the window.
+    const int middle_x = between(of.window.x0, of.window.x1) * kSubpixelScale;
+    const int middle_y = between(of.window.y0, of.window.y1) * kSubpixelScale;
     lines.x[0][i] = within(between(-of.origin, of.origin));
     lines.y[0][i] = within(between(-of.origin, of.origin));
     const bool through = i % 4 == 0;
@@ -58,8 +59,8 @@ void fill_lines(TriangleGroup& lines, const Cases& of, std::mt19937& bits) {
   }
 }
 
-void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, InstructionSet isa,
-                     std::size_t& seen) {
+void expect_pixels_of_walk(const Cases& of, int width, const TriangleGroup& lines, InstructionSet isa,
+                           std::size_t& pixel_count) {
   Pixels found[kGroupSize];
   pixels_of_lines(isa)(lines, width, of.window, found);
   for (int i = 0; i < kGroupSize; ++i) {
@@ -70,26 +71,27 @@ void expect_the_walk(const Cases& of, int width, const TriangleGroup& lines, Ins
     std::sort(found[i].begin(), found[i].end());
     ASSERT_EQ(found[i], expected) << of.name << ", width " << width << ", " << name_of(isa) << ": " << a.x
                                   << " " << a.y << " to " << b.x << " " << b.y;
-    seen += expected.size();
+    pixel_count += expected.size();
   }
 }
 
-TEST(LineSteps, AreThoseOfTheWalk) {
+TEST(LineSteps, MatchLineWalk) {
   for (const Cases& of : kCases)
     for (const InstructionSet isa : available_isas()) {
       const int groups =
-          (long_tests() ? 60000 : 600) / (of.most_wide > 1 ? 20 : 1);  // those have more pixels
+          (long_tests() ? 60000 : 600) / (of.max_width > 1 ? 20 : 1);  // wide lines: more pixels
       std::mt19937 bits(11);
-      std::size_t seen = 0;
+      std::size_t pixel_count = 0;
       for (int n = 0; n < groups; ++n) {
         TriangleGroup lines;
         lines.count = kGroupSize;
         fill_lines(lines, of, bits);
-        expect_the_walk(of, 1 + static_cast<int>(bits() % static_cast<unsigned>(of.most_wide)), lines, isa,
-                        seen);
+        const int width = 1 + static_cast<int>(bits() % static_cast<unsigned>(of.max_width));
+        expect_pixels_of_walk(of, width, lines, isa, pixel_count);
         if (HasFatalFailure()) return;
       }
-      EXPECT_GT(seen, static_cast<std::size_t>(groups)) << of.name << ": hardly a line meets the window";
+      EXPECT_GT(pixel_count, static_cast<std::size_t>(groups))
+          << of.name << ": too few lines meet the window";
     }
 }
 

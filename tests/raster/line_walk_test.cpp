@@ -1,4 +1,4 @@
-// Pixels of lines against the diamond-exit rule as it is written.
+// LineWalk against a literal implementation of the diamond-exit rule.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -33,51 +33,52 @@ std::string text(const LinePoint& a, const LinePoint& b) {
   return std::to_string(a.x) + " " + std::to_string(a.y) + " to " + std::to_string(b.x) + " " +
          std::to_string(b.y);
 }
-void expect_the_rule(const LinePoint& a, const LinePoint& b) {
+void expect_diamond_exit_pixels(const LinePoint& a, const LinePoint& b) {
   const Pixels found = walked(a, b);
-  const std::set<std::pair<int, int>> once(found.begin(), found.end());
-  ASSERT_EQ(once.size(), found.size()) << text(a, b) << ": a pixel twice";
-  ASSERT_EQ(once, diamond_exit_pixels(a, b)) << text(a, b);
+  const std::set<std::pair<int, int>> distinct(found.begin(), found.end());
+  ASSERT_EQ(distinct.size(), found.size()) << text(a, b) << ": a pixel occurs twice";
+  ASSERT_EQ(distinct, diamond_exit_pixels(a, b)) << text(a, b);
 }
 
-TEST(LineWalk, FollowsTheDiamondExitRuleAnywhere) {
+TEST(LineWalk, FollowsDiamondExitRuleAnywhere) {
   Random random(1);
   const int lines = long_tests() ? 1000000 : 30000;
   for (int i = 0; i < lines; ++i) {
-    const int reach = i % 3 == 0 ? 300 : i % 3 == 1 ? 1500 : 5000;
+    constexpr int kReaches[] = {300, 1500, 5000};
+    const int reach = kReaches[i % 3];
     const LinePoint a{random.between(-2000, 2000), random.between(-2000, 2000)};
-    expect_the_rule(a, {a.x + random.between(-reach, reach), a.y + random.between(-reach, reach)});
+    expect_diamond_exit_pixels(a, {a.x + random.between(-reach, reach), a.y + random.between(-reach, reach)});
     if (HasFatalFailure()) return;
   }
 }
 
-// Where borders meet: ends on multiples of an eighth of a pixel, so that corners, sides and centres of
-// diamonds are hit all the time.
-TEST(LineWalk, FollowsTheDiamondExitRuleOnBorders) {
+// Ends on multiples of an eighth, a quarter or half of a pixel, which hit corners, sides and centres of
+// diamonds.
+TEST(LineWalk, FollowsDiamondExitRuleOnBorders) {
   for (const int grid : {32, 64, 128}) {
     const int n = 256 / grid;
     for (int ay = 0; ay < n; ++ay)
       for (int ax = 0; ax < n; ++ax)
         for (int by = -n - 2; by <= 2 * n + 2; ++by)
           for (int bx = -n - 2; bx <= 2 * n + 2; ++bx) {
-            expect_the_rule({ax * grid, ay * grid}, {bx * grid, by * grid});
+            expect_diamond_exit_pixels({ax * grid, ay * grid}, {bx * grid, by * grid});
             if (HasFatalFailure()) return;
           }
   }
 }
 
-TEST(LineWalk, OfNoLengthIsEmpty) {
+TEST(LineWalk, ZeroLengthLineIsEmpty) {
   for (int y = 0; y < 256; y += 32)
     for (int x = 0; x < 256; x += 32) EXPECT_TRUE(walked({x, y}, {x, y}).empty());
 }
 
-TEST(LineWalk, GoesFromStartToEnd) {
+TEST(LineWalk, VisitsPixelsFromStartToEnd) {
   Random random(2);
   for (int i = 0; i < 3000; ++i) {
-    const LinePoint a{random.between(-5000, 5000), random.between(-5000, 5000)},
-        b{random.between(-5000, 5000), random.between(-5000, 5000)};
+    const LinePoint a{random.between(-5000, 5000), random.between(-5000, 5000)};
+    const LinePoint b{random.between(-5000, 5000), random.between(-5000, 5000)};
     const Pixels pixels = walked(a, b);
-    for (std::size_t k = 1; k < pixels.size(); ++k) {  // connected, each closer to the end
+    for (std::size_t k = 1; k < pixels.size(); ++k) {  // connected, and each pixel closer to the end
       ASSERT_LE(std::abs(pixels[k].first - pixels[k - 1].first), 1) << text(a, b);
       ASSERT_LE(std::abs(pixels[k].second - pixels[k - 1].second), 1) << text(a, b);
       const auto along = [&](const std::pair<int, int>& p) {
@@ -88,11 +89,11 @@ TEST(LineWalk, GoesFromStartToEnd) {
   }
 }
 
-TEST(LineWalk, IsTheSameInParts) {
+TEST(LineWalk, TilesReproduceTheWholeLine) {
   Random random(3);
   for (int i = 0; i < 3000; ++i) {
-    const LinePoint a{random.between(-20000, 20000), random.between(-20000, 20000)},
-        b{random.between(-20000, 20000), random.between(-20000, 20000)};
+    const LinePoint a{random.between(-20000, 20000), random.between(-20000, 20000)};
+    const LinePoint b{random.between(-20000, 20000), random.between(-20000, 20000)};
     const int width = i % 4 == 0 ? random.between(2, 9) : 1;
     std::set<std::pair<int, int>> whole_line, in_parts;
     for (const auto& p : walked(a, b, width)) whole_line.insert(p);
@@ -105,8 +106,8 @@ TEST(LineWalk, IsTheSameInParts) {
   }
 }
 
-// Strips whose joints go on in the same octant: never a gap, never a pixel twice.
-TEST(LineWalk, JoinsWithoutGapsAndDoubles) {
+// Strips whose segments stay in one octant have no gaps and no duplicate pixels.
+TEST(LineWalk, JointsInOneOctantHaveNoGapsOrDuplicates) {
   Random random(4);
   const int strips = long_tests() ? 200000 : 5000;
   for (int i = 0; i < strips; ++i) {
@@ -121,8 +122,8 @@ TEST(LineWalk, JoinsWithoutGapsAndDoubles) {
       at = next;
     }
     for (std::size_t k = 1; k < pixels.size(); ++k) {
-      const int dx = std::abs(pixels[k].first - pixels[k - 1].first),
-                dy = std::abs(pixels[k].second - pixels[k - 1].second);
+      const int dx = std::abs(pixels[k].first - pixels[k - 1].first);
+      const int dy = std::abs(pixels[k].second - pixels[k - 1].second);
       ASSERT_EQ(std::max(dx, dy), 1) << "octant " << octant << ", strip " << i << ": " << pixels[k - 1].first
                                      << " " << pixels[k - 1].second << " then " << pixels[k].first << " "
                                      << pixels[k].second;
@@ -130,18 +131,18 @@ TEST(LineWalk, JoinsWithoutGapsAndDoubles) {
   }
 }
 
-TEST(LineWalk, WideLinesRepeatTheirPixelsAcross) {
+TEST(LineWalk, WideLinesRepeatPixelsAlongMinorAxis) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
-    const LinePoint a{random.between(-4000, 4000), random.between(-4000, 4000)},
-        b{random.between(-4000, 4000), random.between(-4000, 4000)};
+    const LinePoint a{random.between(-4000, 4000), random.between(-4000, 4000)};
+    const LinePoint b{random.between(-4000, 4000), random.between(-4000, 4000)};
     const int width = random.between(2, 8);
     const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
-    // y up: the line is moved by -(w - 1) / 2 along its minor axis, and each fragment repeated w times from
-    // there on.
+    // The line is moved by -(w - 1) / 2 along its minor axis (y up), and each fragment is repeated w times
+    // from there.
     const int aside = 128 * (width - 1);
-    const LinePoint from{a.x - (x_major ? 0 : aside), a.y + (x_major ? aside : 0)},
-        to{b.x - (x_major ? 0 : aside), b.y + (x_major ? aside : 0)};
+    const LinePoint from{a.x - (x_major ? 0 : aside), a.y + (x_major ? aside : 0)};
+    const LinePoint to{b.x - (x_major ? 0 : aside), b.y + (x_major ? aside : 0)};
     std::set<std::pair<int, int>> expected;
     for (const auto& [x, y] : diamond_exit_pixels(from, to))
       for (int k = 0; k < width; ++k) expected.insert({x_major ? x : x + k, x_major ? y - k : y});

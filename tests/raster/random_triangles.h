@@ -1,4 +1,5 @@
-// Random triangles of all the kinds that a rasterizer gets wrong, near a tile whose first pixel is (0, 0).
+// Random triangles of the shapes that are difficult for a rasterizer, near a tile whose first pixel is (0,
+// 0).
 #pragma once
 
 #include <algorithm>
@@ -26,11 +27,11 @@ enum class Shape {
   medium,          // up to 30 pixels
   large,           // up to 300
   widest_edges32,  // as wide as the 32-bit path allows
-  edges64,         // up to the widest there is
+  edges64,         // up to the widest possible
   sliver,          // long, and a few 1/256 pixel thick
   needle,          // long, and thinner than 1/256 pixel
   on_centers,      // vertices on pixel centres
-  on_borders,      // vertices on and beside the tile's borders
+  on_borders,      // vertices on and next to the tile's borders
   axis_aligned,    // horizontal and vertical edges
   kCount
 };
@@ -68,22 +69,25 @@ class RandomTriangles {
     const double start = unit() * 6.283185307;
     Triangle t;
     for (int k = 0; k < 3; ++k) {
-      const double angle = start + (k + 0.9 * unit()) * 2.0943951,
-                   radius = 256 * (low_px + (high_px - low_px) * unit());
+      const double angle = start + (k + 0.9 * unit()) * 2.0943951;
+      const double radius = 256 * (low_px + (high_px - low_px) * unit());
       t[static_cast<std::size_t>(k)] = moved(c, radius * std::cos(angle), radius * std::sin(angle));
     }
     return t;
   }
   Triangle thin(double thickness) {
     const WindowVertex c = in_tile();
-    const double angle = unit() * 6.283185307, before = 256 * std::exp2(unit() * 13.9),
-                 after = 256 * std::exp2(unit() * 13.9);
-    const double x = std::cos(angle), y = std::sin(angle), off = thickness * (2 * unit() - 1), at = unit();
+    const double angle = unit() * 6.283185307;
+    const double before = 256 * std::exp2(unit() * 13.9);
+    const double after = 256 * std::exp2(unit() * 13.9);
+    const double x = std::cos(angle), y = std::sin(angle);
+    const double off = thickness * (2 * unit() - 1);
+    const double at = unit();
     const WindowVertex a = moved(c, -before * x, -before * y), b = moved(c, after * x, after * y);
     return {a, b, moved(a, at * (b.x - a.x) - off * y, at * (b.y - a.y) + off * x)};
   }
   // From a pixel's centre along a lattice vector b to the lattice points nearest to its line: the doubled
-  // area is a small number times gcd(b).
+  // area is a small multiple of gcd(b).
   Triangle needle() {
     const WindowVertex c{between(0, tile_size_ - 1) * 256 + 128, between(0, tile_size_ - 1) * 256 + 128, 0,
                          1};
@@ -100,9 +104,11 @@ class RandomTriangles {
     }
     const std::int64_t u = -t0, v = s0, times = between(0, 1) != 0 ? 1 : between(1, 4096);
     const std::int64_t longest = std::max<std::int64_t>({std::abs(bx), std::abs(by), 1});
-    const std::int64_t ux = times * u, uy = times * v,
-                       turns = std::abs(bx) > std::abs(by) ? ux / longest * (bx < 0 ? -1 : 1)
-                                                           : uy / longest * (by < 0 ? -1 : 1);
+    const std::int64_t ux = times * u;
+    const std::int64_t uy = times * v;
+    const bool is_x_longer = std::abs(bx) > std::abs(by);
+    const std::int64_t sign = (is_x_longer ? bx : by) < 0 ? -1 : 1;
+    const std::int64_t turns = (is_x_longer ? ux : uy) / longest * sign;
     const WindowVertex far{c.x + static_cast<std::int32_t>(bx), c.y + static_cast<std::int32_t>(by), 0, 1};
     const WindowVertex beside{c.x + static_cast<std::int32_t>(ux - turns * bx),
                               c.y + static_cast<std::int32_t>(uy - turns * by), 0, 1};
@@ -159,7 +165,7 @@ class RandomTriangles {
   int tile_size_;
 };
 
-/// More of everything, for a night.
+/// True if TESSERA_LONG requests long-running tests.
 inline bool long_tests() {
   const char* value = std::getenv("TESSERA_LONG");
   return value != nullptr && *value != '\0' && *value != '0';

@@ -1,5 +1,4 @@
-// greater_of() and lesser_of(), which only translation units for many targets can see, as plain functions
-// over arrays.
+// greater_of() and lesser_of() as plain functions over arrays, compiled for every instruction set.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +8,7 @@
 namespace tessera::test {
 using namespace detail;
 
-/// Of `count` pairs, a multiple of 16.
+/// Applies both to `count` pairs. @pre count is a multiple of 16
 using Select = void(const float* a, const float* b, float* greater, float* lesser, std::size_t count);
 Select* select(InstructionSet isa);
 

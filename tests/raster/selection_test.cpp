@@ -1,5 +1,4 @@
-// The greater and the lesser of two floats, with numbers that compare in no order: bit for bit what the
-// comparisons say.
+// greater_of() and lesser_of() against the scalar comparisons, bit for bit, including NaN and signed zeros.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -12,9 +11,9 @@
 namespace tessera::test {
 namespace {
 
-TEST(Selection, IsTheComparisonsOnEveryInstructionSet) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity(),
-                  kNan = std::numeric_limits<float>::quiet_NaN();
+TEST(MinMaxLanes, MatchScalarForNanAndSignedZero) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const float values[] = {
       0.0f,      -0.0f,      1.0f, -1.0f, 0x1p-149f, -0x1p-149f, 0x1p-126f, 0x1.fffffep127f, -0x1.fffffep127f,
       kInfinity, -kInfinity, kNan, -kNan, 2.5f,      0.5f,       1e30f};

@@ -1,9 +1,7 @@
-// Triangles that share edges cover every pixel exactly once, over all tiles: through binning and the tiles
-// themselves.
+// Triangles that share edges cover every pixel exactly once over all tiles, including binning.
 //
-// How 'exactly once' is seen: the tiles count the pixels that they shade. If that count is the number of
-// pixels that were painted, no pixel was painted twice; and the painted ones are those of the union, by the
-// exact reference.
+// Method: tiles count the pixels they shade. The painted pixels must be the union of the triangles by the
+// exact reference. If the count equals their number, no pixel was shaded twice.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,15 +26,16 @@ struct IndexedMesh {
   }
 };
 
-// A grid over [-margin, size + margin]; `jitter` moves the inner vertices by less than half a cell, so
-// nothing folds.
+// A grid over [-margin, size + margin]. `jitter` moves inner vertices by less than half a cell, so that no
+// cell folds.
 IndexedMesh jittered_grid(RandomTriangles& source, int width_px, int height_px, int columns, int rows,
                           double jitter) {
   IndexedMesh mesh;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
       const double cell_x = (width_px + 8.0) * 256 / columns, cell_y = (height_px + 8.0) * 256 / rows;
-      const bool inner_x = i > 0 && i<columns, inner_y = j> 0 && j < rows;
+      const bool inner_x = i > 0 && i < columns;
+      const bool inner_y = j > 0 && j < rows;
       mesh.vertices.push_back({static_cast<std::int32_t>(std::lround(
                                    cell_x * (i + (inner_x ? jitter * (source.unit() - 0.5) : 0)) - 1024)),
                                static_cast<std::int32_t>(std::lround(
@@ -47,17 +46,17 @@ IndexedMesh jittered_grid(RandomTriangles& source, int width_px, int height_px, 
   const auto at = [columns](int i, int j) { return static_cast<std::size_t>(j * (columns + 1) + i); };
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      // Either diagonal, either winding; a jittered cell may be concave, where only one diagonal lies inside.
+      // Random diagonal and winding. A jittered cell may be concave; then only one diagonal lies inside.
       const auto cross = [&](std::size_t o, std::size_t a, std::size_t b) {
         const WindowVertex &vo = mesh.vertices[o], &va = mesh.vertices[a], &vb = mesh.vertices[b];
         return static_cast<double>(va.x - vo.x) * (vb.y - vo.y) -
                static_cast<double>(vb.x - vo.x) * (va.y - vo.y);
       };
       const std::size_t p = at(i, j), q = at(i + 1, j), r = at(i + 1, j + 1), s = at(i, j + 1);
-      const bool first_inside = cross(p, q, r) >= 0 && cross(p, r, s) >= 0,
-                 second_inside = cross(q, r, s) >= 0 && cross(q, s, p) >= 0;
-      const bool turned = source.between(0, 1) != 0,
-                 first = first_inside && (!second_inside || source.between(0, 1) != 0);
+      const bool first_inside = cross(p, q, r) >= 0 && cross(p, r, s) >= 0;
+      const bool second_inside = cross(q, r, s) >= 0 && cross(q, s, p) >= 0;
+      const bool turned = source.between(0, 1) != 0;
+      const bool first = first_inside && (!second_inside || source.between(0, 1) != 0);
       mesh.add(first ? p : q, first ? q : r, first ? r : s, turned);
       mesh.add(first ? p : q, first ? r : s, first ? s : p, turned);
     }
@@ -65,15 +64,14 @@ IndexedMesh jittered_grid(RandomTriangles& source, int width_px, int height_px, 
   return mesh;
 }
 
-// A closed fan around `center`: points in order of their angle, less than half a turn apart even after
-// snapping.
+// A closed fan around `center`: points ordered by angle, less than half a turn apart even after snapping.
 IndexedMesh fan(RandomTriangles& source, WindowVertex center, int count, double radius_px) {
   for (;;) {
     IndexedMesh mesh;
     mesh.vertices.push_back(center);
     for (int i = 0; i < count; ++i) {
-      const double angle = (i + 0.8 * source.unit()) * 6.283185307179586 / count,
-                   radius = 256 * radius_px * (0.05 + source.unit());
+      const double angle = (i + 0.8 * source.unit()) * 6.283185307179586 / count;
+      const double radius = 256 * radius_px * (0.05 + source.unit());
       mesh.vertices.push_back({center.x + static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
                                center.y + static_cast<std::int32_t>(std::lround(radius * std::sin(angle))), 0,
                                1});
@@ -92,7 +90,7 @@ IndexedMesh fan(RandomTriangles& source, WindowVertex center, int count, double 
   }
 }
 
-// A convex polygon cut into triangles by random diagonals.
+// A convex polygon split into triangles by random diagonals.
 IndexedMesh polygon(RandomTriangles& source, int count, double width_px, double height_px) {
   IndexedMesh mesh;
   const double start = source.unit();
@@ -105,15 +103,15 @@ IndexedMesh polygon(RandomTriangles& source, int count, double width_px, double 
   std::vector<std::size_t> left(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
   while (left.size() > 2) {
-    const auto ear = static_cast<std::size_t>(source.between(0, static_cast<std::int32_t>(left.size()) - 1)),
-               n = left.size();
+    const auto ear = static_cast<std::size_t>(source.between(0, static_cast<std::int32_t>(left.size()) - 1));
+    const auto n = left.size();
     mesh.add(left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n], source.between(0, 1) != 0);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   return mesh;
 }
 
-// Draws the mesh on every instruction set; returns how many pixels it covers.
+// Draws the mesh on every instruction set; returns the number of covered pixels.
 std::size_t expect_each_pixel_once(const IndexedMesh& mesh, int width_px, int height_px, int tile_size) {
   std::vector<std::uint8_t> inside(static_cast<std::size_t>(width_px * height_px));
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -160,7 +158,7 @@ std::size_t expect_each_pixel_once(const IndexedMesh& mesh, int width_px, int he
 constexpr int kTileSizes[] = {32, 64, 128};
 int seeds(int normal) { return long_tests() ? normal * 20 : normal; }
 
-TEST(SharedEdges, OfGridsCoverTheWholeFrameOnce) {
+TEST(SharedEdges, GridsCoverTheFrameOnce) {
   for (int seed = 0; seed < seeds(20); ++seed) {
     RandomTriangles source(static_cast<std::uint32_t>(seed), 64);
     const int width = source.between(1, 300), height = source.between(1, 300);
@@ -174,27 +172,26 @@ TEST(SharedEdges, OfGridsCoverTheWholeFrameOnce) {
     }
   }
 }
-TEST(SharedEdges, OfGridsFinerThanPixelsCoverTheWholeFrameOnce) {
+TEST(SharedEdges, GridsFinerThanPixelsCoverTheFrameOnce) {
   for (int seed = 0; seed < seeds(4); ++seed) {
     RandomTriangles source(static_cast<std::uint32_t>(seed), 64);
     const IndexedMesh mesh = jittered_grid(source, 100, 70, 250, 190, 0.9);
     for (const int tile_size : kTileSizes) EXPECT_EQ(expect_each_pixel_once(mesh, 100, 70, tile_size), 7000u);
   }
 }
-TEST(SharedEdges, OfFansAroundAPixelCentreCoverItOnce) {
+TEST(SharedEdges, FansAroundPixelCentresCoverPixelsOnce) {
   for (int seed = 0; seed < seeds(60); ++seed) {
     RandomTriangles source(static_cast<std::uint32_t>(seed), 64);
-    // On a centre, on a corner of four tiles, or anywhere.
-    const WindowVertex center =
-        seed % 3 == 0   ? WindowVertex{70 * 256 + 128, 61 * 256 + 128, 0, 1}
-        : seed % 3 == 1 ? WindowVertex{64 * 256, 64 * 256, 0, 1}
-                        : WindowVertex{source.between(0, 128 * 256), source.between(0, 128 * 256), 0, 1};
+    // On a pixel centre, on a corner of four tiles, or anywhere.
+    WindowVertex center{70 * 256 + 128, 61 * 256 + 128, 0, 1};
+    if (seed % 3 == 1) center = {64 * 256, 64 * 256, 0, 1};
+    if (seed % 3 == 2) center = {source.between(0, 128 * 256), source.between(0, 128 * 256), 0, 1};
     const IndexedMesh mesh = fan(source, center, source.between(3, 40), std::exp2(1 + 6 * source.unit()));
     SCOPED_TRACE(seed);
     for (const int tile_size : kTileSizes) expect_each_pixel_once(mesh, 150, 140, tile_size);
   }
 }
-TEST(SharedEdges, OfPolygonsCutAtRandomCoverThemOnce) {
+TEST(SharedEdges, RandomlySplitPolygonsCoverPixelsOnce) {
   for (int seed = 0; seed < seeds(40); ++seed) {
     RandomTriangles source(static_cast<std::uint32_t>(seed), 64);
     const double width = 20 + 280 * source.unit(), height = seed % 4 == 0 ? 1.5 : 20 + 180 * source.unit();
@@ -203,8 +200,8 @@ TEST(SharedEdges, OfPolygonsCutAtRandomCoverThemOnce) {
     for (const int tile_size : kTileSizes) expect_each_pixel_once(mesh, 300, 200, tile_size);
   }
 }
-// Triangles too wide for 32-bit edges beside narrow ones: both paths draw the same border.
-TEST(SharedEdges, OfVeryLargeTrianglesCoverTheWholeFrameOnce) {
+// Triangles with 64-bit edges next to triangles with 32-bit edges: both paths agree on the shared edge.
+TEST(SharedEdges, VeryLargeTrianglesCoverTheFrameOnce) {
   for (int seed = 0; seed < seeds(30); ++seed) {
     RandomTriangles source(static_cast<std::uint32_t>(seed), 64);
     IndexedMesh mesh;
@@ -212,8 +209,8 @@ TEST(SharedEdges, OfVeryLargeTrianglesCoverTheWholeFrameOnce) {
     mesh.vertices.push_back(center);
     const int count = source.between(4, 12);
     for (int i = 0; i < count; ++i) {
-      const double angle = (i + 0.3 * source.unit()) * 6.283185307179586 / count,
-                   radius = 256 * (i % 2 == 0 ? 16000.0 : 1500.0);
+      const double angle = (i + 0.3 * source.unit()) * 6.283185307179586 / count;
+      const double radius = 256 * (i % 2 == 0 ? 16000.0 : 1500.0);
       mesh.vertices.push_back({center.x + static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
                                center.y + static_cast<std::int32_t>(std::lround(radius * std::sin(angle))), 0,
                                1});

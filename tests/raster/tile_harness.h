@@ -1,4 +1,4 @@
-// Tiles without an engine: draws and bins made by hand, one render_tile() at a time.
+// Renders single tiles without the engine: draws and bins are filled by the test.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace tessera::test {
 using namespace detail;
 
 inline std::string name_of(InstructionSet isa) {
-  return isa == InstructionSet::avx512 ? "avx512" : isa == InstructionSet::avx2 ? "avx2" : "scalar";
+  if (isa == InstructionSet::avx512) return "avx512";
+  return isa == InstructionSet::avx2 ? "avx2" : "scalar";
 }
 
 class TileHarness {
@@ -24,7 +25,7 @@ class TileHarness {
     bins_.reset(frame_.grid.count());
   }
 
-  /// A draw of the whole frame buffer in one colour, without depth, unless changed.
+  /// Adds a draw. Defaults: the whole frame buffer, one colour, no depth.
   TileDraw& add_draw(const WindowVertex* vertices) {
     TileDraw draw;
     draw.vertices = vertices;
@@ -36,7 +37,7 @@ class TileHarness {
     draws_.clear();
     bins_.reset(frame_.grid.count());
   }
-  /// Bins by hand: triangle `id` of a draw in a tile.
+  /// Adds triangle `id` of a draw to a tile's bin.
   void push(int tile, std::size_t draw, std::uint32_t id) {
     bins_.push(tile, static_cast<std::uint32_t>(draw), id);
   }
@@ -60,9 +61,9 @@ class TileHarness {
     return render_tile(isa)(frame_, tile, workspace_);
   }
   TileWorkspace& workspace() { return workspace_; }
-  /// Pixels of the tile rendered last.
+  /// Packed colour of a pixel of the tile rendered last.
   std::uint32_t color(int x, int y) { return workspace_.color()[tile_index(x, y, frame_.grid.tile_size)]; }
-  /// Of one sample. @pre several samples, and a triangle in the tile
+  /// Packed colour of one sample. @pre several samples, and a triangle in the tile
   std::uint32_t sample_color(int sample, int x, int y) const {
     return workspace_.sample_color(sample)[tile_index(x, y, frame_.grid.tile_size)];
   }

@@ -1,5 +1,5 @@
-// A picture that moves by whole pixels moves, and changes in nothing else: coverage, depths and colours,
-// however far from the origin and wherever the tiles' borders fall.
+// Moving a triangle by whole pixels moves its coverage, depths and colours and changes nothing else, at any
+// distance from the origin and for any position of tile borders.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kWindow = 64;  // pixels that are compared, to each side
+constexpr int kWindow = 64;  // width and height of the compared window, pixels
 
-struct Seen {
+struct WindowPixels {
   std::vector<std::uint32_t> colors;
   std::vector<std::int32_t> depths;
-  bool operator==(const Seen&) const = default;
+  bool operator==(const WindowPixels&) const = default;
 };
 
-// The window of kWindow^2 pixels whose first is (shift_x, shift_y), of a triangle moved along.
-Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthFormat kind,
-                InstructionSet isa, int tile_size, int shift_x, int shift_y) {
+// Draws the triangle moved by the shift; returns the window whose first pixel is (shift_x, shift_y).
+WindowPixels draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthFormat kind,
+                        InstructionSet isa, int tile_size, int shift_x, int shift_y) {
   TileHarness stage(shift_x + kWindow + 1, shift_y + kWindow + 1, tile_size, kind);
   Triangle moved = t.corners;
   for (WindowVertex& v : moved) v.x += shift_x * 256, v.y += shift_y * 256;
@@ -32,9 +32,9 @@ Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthF
   draw.attributes = colors.data();
   draw.attribute_stride = draw.attribute_count = 3;
   const TileGrid grid = stage.frame().grid;
-  Seen seen;
-  seen.colors.resize(kWindow * kWindow);
-  seen.depths.resize(kWindow * kWindow);
+  WindowPixels pixels;
+  pixels.colors.resize(kWindow * kWindow);
+  pixels.depths.resize(kWindow * kWindow);
   for (int tile_y = shift_y / tile_size; tile_y <= (shift_y + kWindow - 1) / tile_size; ++tile_y) {
     for (int tile_x = shift_x / tile_size; tile_x <= (shift_x + kWindow - 1) / tile_size; ++tile_x) {
       const int tile = tile_y * grid.columns() + tile_x;
@@ -43,17 +43,18 @@ Seen draw_moved(const DepthTriangle& t, const std::vector<float>& colors, DepthF
       for (int y = 0; y < tile_size; ++y) {
         for (int x = 0; x < tile_size; ++x) {
           const int in_x = tile_x * tile_size + x - shift_x, in_y = tile_y * tile_size + y - shift_y;
-          if (in_x < 0 || in_y < 0 || in_x >= kWindow || in_y >= kWindow) continue;
-          seen.colors[static_cast<std::size_t>(in_y * kWindow + in_x)] = stage.color(x, y);
-          seen.depths[static_cast<std::size_t>(in_y * kWindow + in_x)] = stage.depth(x, y);
+          const bool in_window = in_x >= 0 && in_y >= 0 && in_x < kWindow && in_y < kWindow;
+          if (!in_window) continue;
+          pixels.colors[static_cast<std::size_t>(in_y * kWindow + in_x)] = stage.color(x, y);
+          pixels.depths[static_cast<std::size_t>(in_y * kWindow + in_x)] = stage.depth(x, y);
         }
       }
     }
   }
-  return seen;
+  return pixels;
 }
 
-TEST(Translation, ByWholePixelsChangesNothing) {
+TEST(RasterTranslation, WholePixelMovesChangeNothing) {
   for (const DepthFormat kind : kDepthKinds) {
     RandomTriangles source(21, kWindow);
     for (int i = 0; i < (long_tests() ? 2000 : 100); ++i) {
@@ -65,7 +66,7 @@ TEST(Translation, ByWholePixelsChangesNothing) {
       std::vector<float> colors(9 + kAttributePadding);
       for (float& c : colors) c = 0.5f + 255 * static_cast<float>(source.unit());
       const InstructionSet isa = available_isas()[static_cast<std::size_t>(i) % available_isas().size()];
-      const Seen here = draw_moved(t, colors, kind, isa, 64, 0, 0);
+      const WindowPixels here = draw_moved(t, colors, kind, isa, 64, 0, 0);
       for (const int tile_size : {32, 64, 128}) {
         const int shift_x = source.between(0, 300), shift_y = source.between(0, 300);
         ASSERT_EQ(draw_moved(t, colors, kind, isa, tile_size, shift_x, shift_y), here)

@@ -1,5 +1,5 @@
-// The vertex stage: the kernel against its scalar twins bit for bit, both against long double, and the edges
-// of the clip outcodes.
+// The vertex transform: the kernel against its scalar twins bit for bit, both against long double, and the
+// limits of the outcodes.
 #include "raster/vertex_transform.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class RandomTransforms {
   VertexTransform next(int round) {
     VertexTransform t;
     const double near = 0.1, far = 50;
-    // A perspective after a random affine map; sometimes any matrix at all.
+    // A perspective projection after a random affine map; sometimes a random matrix.
     double affine[12];
     for (double& m : affine) m = in(-1, 1);
     for (int c = 0; c < 4; ++c) {
@@ -54,7 +54,7 @@ class RandomTransforms {
     t.set_error_bounds();
     return t;
   }
-  /// Of such rounds sums of large numbers are small ones, and 0.
+  /// Rounds in which sums of large numbers cancel to small ones or to 0.
   static bool is_cancelling(int round) { return round % 7 == 0; }
   float large_coordinate() {
     return std::ldexp(std::round(static_cast<float>(in(-3, 3))), one_in(2) ? 60 : 0);
@@ -72,14 +72,14 @@ class RandomTransforms {
   std::mt19937 random_;
 };
 
-TEST(VertexTransform, HasTheBitsOfItsTwins) {
+TEST(VertexTransform, MatchesScalarTwinsBitForBit) {
   RandomTransforms random(1);
   std::size_t usable = 0, coded = 0, odd = 0, inexact = 0, packed = 0;
   for (int round = 0; round < (long_tests() ? 60000 : 2000); ++round) {
     const VertexTransform t = random.next(round);
     const int components = 3 + round / kVertexBatch % 2;
     const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
-    packed += components == 3 && count == kVertexBatch ? 1 : 0;  // rows that are read in lanes
+    packed += components == 3 && count == kVertexBatch ? 1 : 0;  // rows that are loaded as vectors
     std::vector<float> positions(count * static_cast<std::size_t>(components));
     for (float& p : positions)
       p = random.is_cancelling(round) ? random.large_coordinate() : random.coordinate();
@@ -89,16 +89,16 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
       const std::uint8_t all =
           transform_vertices(isa)(t, {positions.data(), static_cast<std::size_t>(components)}, components,
                                   count, vertices.data(), outcodes.data());
-      std::uint8_t seen = 0;
+      std::uint8_t expected_all = 0;
       for (std::size_t i = 0; i < count; ++i) {
         const float* p = positions.data() + i * static_cast<std::size_t>(components);
         const auto [clip, outcode, needs_exact] =
             transform_vertex(t, {p[0], p[1], p[2], components == 4 ? p[3] : 1.0f});
         inexact += needs_exact ? 1 : 0;
-        seen |= outcodes[i];
+        expected_all |= outcodes[i];
         if ((outcode & kNonFinite) != 0) {
           ++odd;
-          ASSERT_NE(outcodes[i] & kNonFinite, 0);  // its other bits say nothing
+          ASSERT_NE(outcodes[i] & kNonFinite, 0);  // the other bits are unspecified
         } else {
           ASSERT_EQ(outcodes[i], outcode) << name_of(isa);
         }
@@ -116,7 +116,7 @@ TEST(VertexTransform, HasTheBitsOfItsTwins) {
         ASSERT_EQ(std::bit_cast<std::uint32_t>(vertices[i].rw), std::bit_cast<std::uint32_t>(v.rw))
             << name_of(isa);
       }
-      ASSERT_EQ(all, seen);
+      ASSERT_EQ(all, expected_all);
     }
   }
   EXPECT_GT(packed, 0u);
@@ -136,13 +136,13 @@ VertexTransform transform_of(const std::array<double, 16>& rows, bool reversed) 
   return t;
 }
 
-// Exact sums take far longer: what everybody draws is without them, also on a plane.
-TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
+// Exact sums are slow: ordinary scenes must not need them, even for vertices on a plane.
+TEST(VertexTransform, OrdinaryVerticesNeedNoExactSums) {
   struct Case {
     const char* what;
     std::array<double, 16> rows;
     bool reversed;
-    float at, spread, z;  // z: 1 for `at` as x and y have it
+    float at, spread, z;  // if `at` is 0, z is the depth of all vertices, else the centre of z
   };
   constexpr double kFar = 4e6;
   const Case cases[] = {
@@ -155,7 +155,7 @@ TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
        0,
        1,
        1},
-      // Turned by 0.6 and 0.8, away from 4 10^6 by as much again: sums of 10^7, of which some 1,000 are left.
+      // Rotated about an origin 4 * 10^6 away: terms of 10^7 cancel to about 1,000.
       {"a world far from its origin",
        {0.6, 0.8, 0, -1.4 * kFar, -0.48, 0.36, 0.8, -0.68 * kFar, 0, 0, 0, 0.1, -0.64, 0.48, -0.6,
         0.76 * kFar + 2000},
@@ -176,7 +176,7 @@ TEST(VertexTransform, OrdinaryVerticesAreNotRough) {
   }
 }
 
-// Where exact coordinates are not doubles, or their terms not, vertices are as the four roundings have them.
+// If exact coordinates or their terms leave the range of doubles, vertices keep the ordinary four roundings.
 TEST(VertexTransform, RoundsWhereDoublesEnd) {
   constexpr double kTiny = 0x1p-1000, kBig = 0x1p700, kLargest = std::numeric_limits<double>::max();
   struct Case {
@@ -205,10 +205,11 @@ TEST(VertexTransform, RoundsWhereDoublesEnd) {
       EXPECT_LE(std::abs(vertex.x), kGuardBandPixels * kSubpixelScale) << name_of(isa);
     }
   }
-  EXPECT_EQ(transform_vertex(transform_of(cases[3].rows, false), cases[3].object).outcode, 0);  // it is seen
+  // The last vertex is visible.
+  EXPECT_EQ(transform_vertex(transform_of(cases[3].rows, false), cases[3].object).outcode, 0);
 }
 
-// Small whole numbers beside others 2^58 times as large, of which often nothing is left but the small ones.
+// Small integers next to integers 2^58 times as large, which often cancel and leave only the small ones.
 TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
   __extension__ using Whole = __int128;
   std::mt19937 random(5);
@@ -220,7 +221,7 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
   for (int n = 0; n < 100000; ++n) {
     VertexTransform t;
     t.half_width = t.half_height = 32;
-    t.guard_x = t.guard_y = 512;  // whole, as the sums are
+    t.guard_x = t.guard_y = 512;  // an integer, like the sums
     t.reversed = n % 2 == 0;
     std::int64_t matrix[4][4], point[4];
     for (std::int64_t& p : point) p = small() * (random() % 2 == 0 ? std::int64_t{1} << 58 : 1);
@@ -228,8 +229,10 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
       for (std::size_t column = 0; column < 4; ++column)
         t.clip_from_object[4 * row + column] = static_cast<double>(matrix[row][column] = small());
     t.set_error_bounds();
-    const Whole x = sum(matrix[0], point), y = sum(matrix[1], point), z = sum(matrix[2], point),
-                w = sum(matrix[3], point);
+    const Whole x = sum(matrix[0], point);
+    const Whole y = sum(matrix[1], point);
+    const Whole z = sum(matrix[2], point);
+    const Whole w = sum(matrix[3], point);
     const auto bit = [](bool is_outside, Outcode outcode) { return is_outside ? int{outcode} : 0; };
     const int expected = bit(x + 512 * w < 0, kLeftOfGuardBand) | bit(512 * w - x < 0, kRightOfGuardBand) |
                          bit(y + 512 * w < 0, kBelowGuardBand) | bit(512 * w - y < 0, kAboveGuardBand) |
@@ -245,12 +248,12 @@ TEST(VertexTransform, CodesAreExactWhereLargeNumbersCancel) {
     }
     misjudged += compute_outcode(t, clip_position(t, p[0], p[1], p[2], p[3])) != expected ? 1 : 0;
   }
-  EXPECT_GT(misjudged, 100u);  // by roundings alone
+  EXPECT_GT(misjudged, 100u);  // outcodes from rounded coordinates
 }
 
-// Snapping is floor(256 x + 1/2) of the true position except where rounding in double crosses the border
-// between two steps; depth is then within one word at 32 bits.
-TEST(VertexTransform, IsWithinOneStepOfTheTruth) {
+// Snapping is floor(256 x + 1/2) of the true position unless rounding in double crosses the border between
+// two grid steps. Depth is within one level at 32 bits.
+TEST(VertexTransform, SnapsWithinOneStepOfTheTruePosition) {
   RandomTransforms random(2);
   std::size_t all = 0, moved = 0;
   for (int round = 0; round < 30000; ++round) {
@@ -286,8 +289,8 @@ TEST(VertexTransform, IsWithinOneStepOfTheTruth) {
   EXPECT_LT(moved, all / 1000);
 }
 
-// A vertex on a plane is inside, the next number beyond it is not.
-TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
+// A vertex on a plane is inside; the next float beyond it is outside.
+TEST(VertexTransform, OutcodesStartJustBeyondThePlanes) {
   VertexTransform t;
   for (int i = 0; i < 4; ++i) t.clip_from_object[5 * i] = 1;
   t.half_width = t.half_height = 8191.5;  // the guard band ends at 2 w
@@ -319,13 +322,13 @@ TEST(VertexTransform, CodesBeginJustBeyondThePlanes) {
       EXPECT_EQ(transform_vertices(isa)(t, {positions.data(), 4}, 4, 2, vertices, outcodes), edge.outcode);
       EXPECT_EQ(outcodes[0], 0) << name_of(isa) << ": on the plane " << int{edge.outcode};
       EXPECT_EQ(outcodes[1], edge.outcode) << name_of(isa) << ": beyond it";
-      // The guard band's end is the farthest that a vertex gets.
+      // No vertex lies beyond the guard band.
       EXPECT_LE(std::abs(vertices[0].x), kGuardBandPixels * 256);
       EXPECT_LE(std::abs(vertices[0].y), kGuardBandPixels * 256);
     }
   }
 }
-TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
+TEST(VertexTransform, NonPositiveWHasOutcode) {
   VertexTransform t;
   for (int i = 0; i < 4; ++i) t.clip_from_object[5 * i] = 1;
   t.half_width = t.half_height = 100;
@@ -341,7 +344,7 @@ TEST(VertexTransform, NothingBehindTheEyeIsUsable) {
   }
 }
 
-TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
+TEST(EyeTransform, LimitsNormalLengthsAndDividesByWOnEveryInstructionSet) {
   RandomTransforms random(3);
   for (int round = 0; round < 500; ++round) {
     EyeTransform t;
@@ -357,8 +360,8 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
     using Out = std::array<std::array<float, kVertexBatch>, 3>;
     const std::vector<InstructionSet> isas = available_isas();  // the last one is scalar
     std::vector<Out> normals(isas.size()), points(isas.size());
-    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch),
-               components = static_cast<std::size_t>(3 + round / kVertexBatch % 2);
+    const auto count = static_cast<std::size_t>(1 + round % kVertexBatch);
+    const auto components = static_cast<std::size_t>(3 + round / kVertexBatch % 2);
     for (std::size_t set = 0; set < isas.size(); ++set) {
       const InstructionSet isa = isas[set];
       Out &n = normals[set], &p = points[set];
@@ -377,10 +380,10 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
           for (std::size_t k = 0; k < 4; ++k)
             at[r] += t.eye_from_object[4 * r + k] * (k < components ? in[components * i + k] : 1.0f);
         }
-        const double w = at[3], whole = std::sqrt(squared),
-                     length = whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest,
-                                                             t.normal_lengths.longest)
-                                        : 1;
+        const double w = at[3];
+        const double whole = std::sqrt(squared);
+        const double length =
+            whole > 0 ? whole / std::clamp(whole, t.normal_lengths.shortest, t.normal_lengths.longest) : 1;
         for (std::size_t r = 0; r < 3; ++r) {
           ASSERT_NEAR(n[r][i], exact[r] / length, 1e-6 * std::max(1.0, whole / length));
           ASSERT_NEAR(p[r][i], at[r] / w, 1e-6 * (std::abs(at[r] / w) + 1e-3));
@@ -399,7 +402,7 @@ TEST(EyeTransform, KeepsLengthsAndDividesOnEveryInstructionSetAlike) {
         }
   }
 }
-TEST(EyeTransform, TakesNoWForOne) {
+TEST(EyeTransform, DividesByOneIfWIsZero) {
   EyeTransform t;
   for (std::size_t k = 0; k < 3; ++k) t.eye_from_object[5 * k] = 1;
   const float position[4] = {1, -2, 3, 0};

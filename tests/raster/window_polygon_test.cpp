@@ -1,5 +1,5 @@
-// Polygons that snapping has dented are cut into triangles that cover them exactly: compared with the
-// even-odd rule, and so without any triangles.
+// Polygons that snapping has made concave are split into triangles that cover them exactly. The reference is
+// the even-odd rule, which needs no triangles.
 #include "raster/window_polygon.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ VertexTransform window_transform() {
   return t;
 }
 
-// Corners in 1/256 pixel, y down, the centre 0.
+// Corners in 1/256 pixel relative to the window's centre, y down.
 struct Corner {
   std::int32_t x, y;
 };
@@ -35,8 +35,8 @@ ClippedPolygon clipped(const std::vector<Corner>& corners) {
   return polygon;
 }
 
-// A centre on an edge counts as if it lay a hair to the right, and a hair of that down: crossings are those
-// of a ray from there to the right.
+// Even-odd rule: crossings of a ray to the right. A centre on an edge is classified as if moved by (e, e^2)
+// with an infinitesimal e, y down.
 bool is_inside(const WindowPolygon& polygon, int x, int y) {
   const std::int64_t px = 256 * x + 128, py = 256 * y + 128;
   bool inside = false;
@@ -61,22 +61,22 @@ void expect_covered_once(const WindowPolygon& polygon, int round) {
     }
 }
 
-// Around a point, in order of their directions: edges never cross, dents are anywhere. Clipping makes dents
-// of 1/256 pixel; here they are as deep as they like.
+// Corners around a point, ordered by direction: edges never cross, and the polygon may be concave anywhere.
+// Snapping makes concavities of about 1/256 pixel; here they have any depth.
 std::vector<Corner> random_corners(RandomTriangles& source) {
   const int count = source.between(3, kMaxClippedVertices);
   const double start = 6.3 * source.unit();
   std::vector<Corner> corners;
   for (int i = 0; i < count; ++i) {
-    const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count,
-                 radius = 128 * kSide * (0.2 + source.unit());
+    const double angle = start + (i + 0.8 * source.unit()) * 6.283185307179586 / count;
+    const double radius = 128 * kSide * (0.2 + source.unit());
     corners.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
                        static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))});
   }
   if (source.between(0, 1) != 0) std::reverse(corners.begin(), corners.end());
   return corners;
 }
-bool is_dented(const WindowPolygon& polygon) {
+bool is_concave(const WindowPolygon& polygon) {
   const int n = polygon.clipped.count;
   for (int i = 0; i < n; ++i)
     if (doubled_area(polygon.window[i], polygon.window[(i + 1) % n], polygon.window[(i + 2) % n]) *
@@ -86,49 +86,49 @@ bool is_dented(const WindowPolygon& polygon) {
   return false;
 }
 
-TEST(WindowPolygon, IsCoveredOnceByItsTriangles) {
+TEST(WindowPolygon, TrianglesCoverPolygonOnce) {
   RandomTriangles source(41, kSide);
-  int dented = 0;
+  int concave = 0;
   for (int round = 0; round < (long_tests() ? 100000 : 5000); ++round) {
     const WindowPolygon polygon(window_transform(), clipped(random_corners(source)));
     for (const WindowPolygon::Corners& c : polygon.triangles())
       ASSERT_GT(doubled_area(polygon.window[c[0]], polygon.window[c[1]], polygon.window[c[2]]) * polygon.area,
                 0);
-    dented += is_dented(polygon);
+    concave += is_concave(polygon);
     expect_covered_once(polygon, round);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(dented, 500);
+  EXPECT_GT(concave, 500);
 }
 
-using Places = std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>>;
-Places places_of(const WindowPolygon& polygon) {
-  Places places;
+using SortedTriangles = std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>>;
+SortedTriangles sorted_triangles(const WindowPolygon& polygon) {
+  SortedTriangles triangles;
   for (const WindowPolygon::Corners& corners : polygon.triangles()) {
-    places.emplace_back();
-    for (const int c : corners) places.back().emplace_back(polygon.window[c].x, polygon.window[c].y);
-    std::sort(places.back().begin(), places.back().end());
+    triangles.emplace_back();
+    for (const int c : corners) triangles.back().emplace_back(polygon.window[c].x, polygon.window[c].y);
+    std::sort(triangles.back().begin(), triangles.back().end());
   }
-  std::sort(places.begin(), places.end());
-  return places;
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
 }
 
-TEST(WindowPolygon, HasTheSameTrianglesWhereverItBegins) {
+TEST(WindowPolygon, TrianglesDoNotDependOnFirstCornerOrDirection) {
   RandomTriangles source(42, kSide);
   for (int round = 0; round < 2000; ++round) {
     std::vector<Corner> corners = random_corners(source);
-    const Places first = places_of(WindowPolygon(window_transform(), clipped(corners)));
+    const SortedTriangles first = sorted_triangles(WindowPolygon(window_transform(), clipped(corners)));
     for (std::size_t turn = 0; turn < 2 * corners.size(); ++turn) {
       std::rotate(corners.begin(), corners.begin() + 1, corners.end());
       if (turn == corners.size()) std::reverse(corners.begin(), corners.end());
-      ASSERT_EQ(places_of(WindowPolygon(window_transform(), clipped(corners))), first) << "round " << round;
+      ASSERT_EQ(sorted_triangles(WindowPolygon(window_transform(), clipped(corners))), first)
+          << "round " << round;
     }
   }
 }
 
-// Two corners in one place, corners on a straight line, and a line there and back: none of it covers
-// anything.
-TEST(WindowPolygon, HasNoTrianglesWithoutArea) {
+// Coincident corners, collinear corners, and a line forth and back yield no triangles.
+TEST(WindowPolygon, OmitsTrianglesWithoutArea) {
   const WindowPolygon line(window_transform(), clipped({{0, 0}, {256, 256}, {512, 512}, {256, 256}}));
   EXPECT_TRUE(line.triangles().empty());
   const WindowPolygon square(
@@ -138,9 +138,9 @@ TEST(WindowPolygon, HasNoTrianglesWithoutArea) {
   expect_covered_once(square, 0);
 }
 
-// Thinner than a step of the grid, it may come out with edges that cross, and no area as a whole: it is drawn
-// nevertheless, or its neighbours would show a hole.
-TEST(WindowPolygon, WhoseEdgesCrossLeavesNoHole) {
+// Snapping may make the edges of a polygon thinner than a grid step cross, with a total area of 0. It is
+// drawn nevertheless; otherwise there would be a hole between its neighbours.
+TEST(WindowPolygon, CrossingEdgesLeaveNoHole) {
   const WindowPolygon crossed(window_transform(),
                               clipped({{-1024, -1024}, {1024, 1024}, {1024, -1024}, {-1024, 1024}}));
   EXPECT_EQ(crossed.area, 0);
